@@ -1,0 +1,367 @@
+//! Timers, limits and capabilities of a robot, and the inequalities that tie them together.
+
+use core::fmt;
+
+use crate::MAX_FOLLOWERS;
+use crate::id::{Heartbeat, RequestId};
+use crate::task::{FallbackPolicy, TaskSet, TaskType};
+use crate::time::Millis;
+
+/// The values that a robot is configured with. [`Config::new`] checks them.
+///
+/// The defaults are those of design section 4; `t_ack` covers the paper's measured negotiation
+/// times (74 ms ± 15 ms and 129 ms ± 102 ms) with four deviations to spare.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Settings {
+    /// Interval of RAM in a session; a leader bumps its heartbeat at the same pace.
+    pub ram_period: Millis,
+    /// How long a requester gathers offers, counted from the first, before it selects.
+    pub t_select: Millis,
+    /// How long a helper reserves itself for one requester.
+    pub t_offer: Millis,
+    /// How long a request for help stands.
+    pub t_help: Millis,
+    /// How long a leader waits for an acknowledgement before it repeats the command.
+    pub t_ack: Millis,
+    /// How often a leader repeats a command.
+    pub n_ack: u8,
+    /// How long a follower goes on without a newer heartbeat or command.
+    pub t_safety: Millis,
+    /// How long a leader's lease stands after it sent the newest echoed heartbeat.
+    pub t_lease: Millis,
+    /// How long a follower stays in the session after `t_safety` ran out.
+    pub t_leave: Millis,
+    /// How long a robot names a session as over.
+    pub t_farewell: Millis,
+    /// How long the identity may stay locked, farewells included.
+    pub t_lock: Millis,
+    /// `T_exec` by task type: how long a maneuver may run.
+    pub t_exec: [Millis; TaskType::COUNT],
+    /// Largest error of a robot's clock rate, in parts per million.
+    pub drift_ppm: u32,
+    /// Longest time by which the endpoint is late to tell the robot that time has passed.
+    pub delay_max: Millis,
+    /// The maneuvers that this robot can do.
+    pub capabilities: TaskSet,
+    /// The maneuvers under which a pedestrian may cross; the corridor opens only for these.
+    pub guarding: TaskSet,
+    /// Fallback policy by task type.
+    pub fallback: [FallbackPolicy; TaskType::COUNT],
+    /// First `requestID` of every follower in a session.
+    pub first_request: RequestId,
+    /// First heartbeat of a session.
+    pub first_heartbeat: Heartbeat,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let mut t_exec = [Millis(60_000); TaskType::COUNT];
+        t_exec[TaskType::INITIAL_POS.value() as usize] = Millis(5_000);
+        let mut fallback = [FallbackPolicy::StopInPlace; TaskType::COUNT];
+        fallback[TaskType::MOVE.value() as usize] = FallbackPolicy::GoToSafePosition;
+        fallback[TaskType::BLOCK.value() as usize] = FallbackPolicy::HoldUntilClear;
+        Self {
+            ram_period: Millis(100),
+            t_select: Millis(300),
+            t_offer: Millis(3_000),
+            t_help: Millis(10_000),
+            t_ack: Millis(600),
+            n_ack: 3,
+            t_safety: Millis(2_000),
+            t_lease: Millis(1_900),
+            t_leave: Millis(5_000),
+            t_farewell: Millis(1_000),
+            t_lock: Millis(300_000),
+            t_exec,
+            drift_ppm: 1_000,
+            delay_max: Millis(50),
+            capabilities: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK]),
+            guarding: TaskSet::of(&[TaskType::MOVE, TaskType::BLOCK]),
+            fallback,
+            first_request: RequestId(0),
+            first_heartbeat: Heartbeat(0),
+        }
+    }
+}
+
+/// Settings that satisfy every inequality; the default settings do.
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Settings", into = "Settings"))]
+pub struct Config(Settings);
+
+/// An inequality that settings must satisfy.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Inequality {
+    /// Every timer is at least 1 ms and at most one day.
+    TimerInRange,
+    /// `1 <= n_ack <= 15`.
+    RepeatsInRange,
+    /// `drift_ppm < 100000`.
+    DriftInRange,
+    /// `(t_lease + delay_max) * (1 + drift) < t_safety * (1 - drift)`: the lease ends before the
+    /// follower can have fallen back, whatever the two clocks do (property I10).
+    LeaseWithinSafety,
+    /// `3 * ram_period <= t_lease`: a lease survives two lost heartbeats.
+    HeartbeatsWithinLease,
+    /// `t_select < t_offer`: an offer is still reserved when the requester selects.
+    SelectionWithinOffer,
+    /// `t_offer <= t_help`: no helper waits longer than the request stands.
+    OfferWithinHelp,
+    /// `3 * ram_period <= t_farewell`: a farewell survives two lost RAM.
+    FarewellRepeated,
+    /// `t_help + t_farewell + t_exec < t_lock` for each task that the robot can do: the lock
+    /// outlasts the shortest useful session.
+    LockOutlastsTask,
+    /// `t_lock / ram_period < 32768`: two heartbeats of a session are less than half the number
+    /// space apart.
+    HeartbeatsInNumberSpace,
+}
+
+impl Inequality {
+    /// All inequalities, in the order in which they are checked.
+    pub const ALL: [Self; 10] = [
+        Self::TimerInRange,
+        Self::RepeatsInRange,
+        Self::DriftInRange,
+        Self::LeaseWithinSafety,
+        Self::HeartbeatsWithinLease,
+        Self::SelectionWithinOffer,
+        Self::OfferWithinHelp,
+        Self::FarewellRepeated,
+        Self::LockOutlastsTask,
+        Self::HeartbeatsInNumberSpace,
+    ];
+
+    /// The inequality's name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TimerInRange => "timer-in-range",
+            Self::RepeatsInRange => "repeats-in-range",
+            Self::DriftInRange => "drift-in-range",
+            Self::LeaseWithinSafety => "lease-within-safety",
+            Self::HeartbeatsWithinLease => "heartbeats-within-lease",
+            Self::SelectionWithinOffer => "selection-within-offer",
+            Self::OfferWithinHelp => "offer-within-help",
+            Self::FarewellRepeated => "farewell-repeated",
+            Self::LockOutlastsTask => "lock-outlasts-task",
+            Self::HeartbeatsInNumberSpace => "heartbeats-in-number-space",
+        }
+    }
+
+    /// The inequality as a formula.
+    #[must_use]
+    pub const fn formula(self) -> &'static str {
+        match self {
+            Self::TimerInRange => "1 ms <= every timer <= 86400000 ms",
+            Self::RepeatsInRange => "1 <= n_ack <= 15",
+            Self::DriftInRange => "drift_ppm < 100000",
+            Self::LeaseWithinSafety => {
+                "(t_lease + delay_max) * (1 + drift) < t_safety * (1 - drift)"
+            }
+            Self::HeartbeatsWithinLease => "3 * ram_period <= t_lease",
+            Self::SelectionWithinOffer => "t_select < t_offer",
+            Self::OfferWithinHelp => "t_offer <= t_help",
+            Self::FarewellRepeated => "3 * ram_period <= t_farewell",
+            Self::LockOutlastsTask => "t_help + t_farewell + t_exec < t_lock for every capability",
+            Self::HeartbeatsInNumberSpace => "t_lock / ram_period < 32768",
+        }
+    }
+
+    fn holds(self, s: &Settings) -> bool {
+        let thrice_period = s.ram_period.0.saturating_mul(3);
+        match self {
+            Self::TimerInRange => {
+                let named = [
+                    s.ram_period,
+                    s.t_select,
+                    s.t_offer,
+                    s.t_help,
+                    s.t_ack,
+                    s.t_safety,
+                    s.t_lease,
+                    s.t_leave,
+                    s.t_farewell,
+                    s.t_lock,
+                ];
+                let in_range = |t: &Millis| (Millis(1)..=Millis::MAX_TIMER).contains(t);
+                named.iter().all(in_range)
+                    && s.t_exec.iter().all(in_range)
+                    && s.delay_max <= Millis::MAX_TIMER
+            }
+            Self::RepeatsInRange => (1..=15).contains(&s.n_ack),
+            Self::DriftInRange => s.drift_ppm < 100_000,
+            Self::LeaseWithinSafety => {
+                let drift = u64::from(s.drift_ppm);
+                let lease = u64::from(s.t_lease.0) + u64::from(s.delay_max.0);
+                lease * (1_000_000 + drift) < u64::from(s.t_safety.0) * (1_000_000 - drift)
+            }
+            Self::HeartbeatsWithinLease => thrice_period <= s.t_lease.0,
+            Self::SelectionWithinOffer => s.t_select < s.t_offer,
+            Self::OfferWithinHelp => s.t_offer <= s.t_help,
+            Self::FarewellRepeated => thrice_period <= s.t_farewell.0,
+            Self::LockOutlastsTask => s.capabilities.iter().all(|task| {
+                let session = s.t_help.saturating_add(s.t_farewell);
+                session.saturating_add(s.t_exec[task.value() as usize]) < s.t_lock
+            }),
+            Self::HeartbeatsInNumberSpace => s.t_lock.0 / s.ram_period.0 < Heartbeat::HALF_SPACE,
+        }
+    }
+}
+
+/// Settings break an inequality.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct BrokenInequality(pub Inequality);
+
+impl fmt::Display for BrokenInequality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the settings break '{}': {}",
+            self.0.name(),
+            self.0.formula()
+        )
+    }
+}
+
+impl core::error::Error for BrokenInequality {}
+
+impl Config {
+    /// Checks `settings`.
+    ///
+    /// # Errors
+    /// The first inequality that does not hold.
+    pub fn new(settings: Settings) -> Result<Self, BrokenInequality> {
+        match Inequality::ALL
+            .into_iter()
+            .find(|inequality| !inequality.holds(&settings))
+        {
+            Some(broken) => Err(BrokenInequality(broken)),
+            None => Ok(Self(settings)),
+        }
+    }
+
+    /// The settings.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.0
+    }
+
+    /// `T_exec` of a task.
+    #[must_use]
+    pub const fn t_exec(&self, task: TaskType) -> Millis {
+        self.0.t_exec[task.value() as usize]
+    }
+
+    /// Fallback policy of a task.
+    #[must_use]
+    pub const fn fallback(&self, task: TaskType) -> FallbackPolicy {
+        self.0.fallback[task.value() as usize]
+    }
+
+    /// How long a leader keeps a follower whose lease has expired: by then a follower that is deaf
+    /// has left of its own accord.
+    #[must_use]
+    pub const fn t_lost(&self) -> Millis {
+        self.0.t_safety.saturating_add(self.0.t_leave)
+    }
+
+    /// How long the identity is locked before the session is ended in order, so that the farewell
+    /// is over when [`Settings::t_lock`] is reached.
+    #[must_use]
+    pub const fn t_lock_session(&self) -> Millis {
+        self.0.t_lock.saturating_sub(self.0.t_farewell)
+    }
+
+    /// Whether a request for this many followers can be met at all.
+    #[must_use]
+    pub(crate) const fn can_ask_for(followers: u8) -> bool {
+        followers >= 1 && followers as usize <= MAX_FOLLOWERS
+    }
+}
+
+impl TryFrom<Settings> for Config {
+    type Error = BrokenInequality;
+
+    fn try_from(settings: Settings) -> Result<Self, BrokenInequality> {
+        Self::new(settings)
+    }
+}
+
+impl From<Config> for Settings {
+    fn from(config: Config) -> Self {
+        config.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn broken(change: impl FnOnce(&mut Settings)) -> Option<Inequality> {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        Config::new(settings)
+            .err()
+            .map(|BrokenInequality(inequality)| inequality)
+    }
+
+    #[test]
+    fn the_defaults_hold() {
+        assert_eq!(broken(|_| ()), None);
+    }
+
+    #[test]
+    fn each_inequality_is_refused_by_its_name_and_at_its_edge() {
+        use Inequality as I;
+        type Case = (Option<Inequality>, fn(&mut Settings));
+        let cases: [Case; 24] = [
+            (Some(I::TimerInRange), |s| s.t_ack = Millis(0)),
+            (None, |s| s.t_ack = Millis(1)),
+            (Some(I::TimerInRange), |s| s.t_exec[7] = Millis(86_400_001)),
+            (Some(I::TimerInRange), |s| s.delay_max = Millis(86_400_001)),
+            (Some(I::RepeatsInRange), |s| s.n_ack = 0),
+            (None, |s| s.n_ack = 15),
+            (Some(I::RepeatsInRange), |s| s.n_ack = 16),
+            (Some(I::DriftInRange), |s| s.drift_ppm = 100_000),
+            // (t_lease + 50) * 1.001 < 2000 * 0.999 up to t_lease = 1946.
+            (None, |s| s.t_lease = Millis(1_946)),
+            (Some(I::LeaseWithinSafety), |s| s.t_lease = Millis(1_947)),
+            (Some(I::LeaseWithinSafety), |s| s.delay_max = Millis(97)),
+            (Some(I::LeaseWithinSafety), |s| s.drift_ppm = 20_000),
+            (None, |s| s.t_lease = Millis(300)),
+            (Some(I::HeartbeatsWithinLease), |s| s.t_lease = Millis(299)),
+            (None, |s| s.t_select = Millis(2_999)),
+            (Some(I::SelectionWithinOffer), |s| {
+                s.t_select = Millis(3_000);
+            }),
+            (None, |s| s.t_offer = Millis(10_000)),
+            (Some(I::OfferWithinHelp), |s| s.t_offer = Millis(10_001)),
+            (None, |s| s.t_farewell = Millis(300)),
+            (Some(I::FarewellRepeated), |s| s.t_farewell = Millis(299)),
+            (None, |s| s.t_lock = Millis(71_001)),
+            (Some(I::LockOutlastsTask), |s| s.t_lock = Millis(71_000)),
+            (None, |s| s.t_lock = Millis(3_276_799)),
+            (Some(I::HeartbeatsInNumberSpace), |s| {
+                s.t_lock = Millis(3_276_800);
+            }),
+        ];
+        for (i, (expected, change)) in cases.into_iter().enumerate() {
+            assert_eq!(broken(change), expected, "case {i}");
+        }
+    }
+
+    #[test]
+    fn only_the_tasks_that_the_robot_can_do_must_fit_under_the_lock() {
+        assert_eq!(broken(|s| s.t_exec[9] = Millis(86_400_000)), None);
+        assert_eq!(
+            broken(|s| s.t_exec[1] = Millis(86_400_000)),
+            Some(Inequality::LockOutlastsTask)
+        );
+    }
+}

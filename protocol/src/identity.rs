@@ -1,0 +1,39 @@
+//! The identity lock: station id, certificate and link address stay the same from joining a session
+//! until its farewell is over (design section 4, *Identity*; property I18).
+
+use crate::output::{EndReason, Output, ReleaseReason};
+use crate::robot::Step;
+use crate::state::{Identity, Phase, Robot};
+use crate::time::Countdown;
+
+impl Robot {
+    /// Locks and unlocks as the robot gets bound and free.
+    pub(crate) fn settle_identity(&mut self, step: &mut Step) {
+        match (self.identity, self.is_bound()) {
+            (Identity::Unlocked, true) => {
+                self.identity = Identity::Locked(Countdown::armed(step.config.t_lock_session()));
+                step.out.push(Output::LockIdentity);
+            }
+            (Identity::Locked(_) | Identity::Expiring, false) => {
+                self.identity = Identity::Unlocked;
+                step.out.push(Output::UnlockIdentity);
+            }
+            (Identity::Unlocked, false) | (Identity::Locked(_) | Identity::Expiring, true) => {}
+        }
+    }
+
+    /// The lock has lasted as long as it may: whatever the robot has a part in ends in order.
+    pub(crate) fn identity_lock_expired(&mut self, step: &mut Step) {
+        match self.phase {
+            // A farewell is all that is left, and it has had its time.
+            Phase::Idle => self.farewell = None,
+            Phase::Requesting(_) | Phase::Leading(_) => {
+                self.end_session(step, EndReason::IdentityLockLimit);
+            }
+            Phase::Offering(_) | Phase::Following(_) => {
+                self.leave(step, ReleaseReason::IdentityLockLimit);
+            }
+        }
+        self.identity = Identity::Expiring;
+    }
+}

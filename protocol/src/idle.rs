@@ -1,0 +1,102 @@
+//! Stage 1, Initialization: from `Idle` into a session of one's own, and availability.
+
+use crate::config::Config;
+use crate::id::{SessionNumber, StationId};
+use crate::list::List;
+use crate::message::{Failure, Progress};
+use crate::output::{EndReason, Ignored, Output, ReleaseReason, StopReason};
+use crate::robot::{Effect, Step};
+use crate::state::{Identity, Phase, Requesting, Robot};
+use crate::task::{Availability, HelpRequest, Unavailability};
+use crate::time::Countdown;
+
+impl Robot {
+    /// `PedestrianDetected` opens a session (design section 4, *Request and offer*).
+    pub(crate) fn detect_pedestrian(&mut self, step: &mut Step, request: HelpRequest) -> Effect {
+        if !Config::can_ask_for(request.followers) || request.tasks.is_empty() {
+            return Err(Ignored::ImpossibleRequest);
+        }
+        if !matches!(self.phase, Phase::Idle) {
+            return Err(Ignored::InSession);
+        }
+        self.may_join()?;
+        self.open_session(step, request)
+    }
+
+    /// Opens a session with a number that was never used before.
+    pub(crate) fn open_session(&mut self, step: &mut Step, request: HelpRequest) -> Effect {
+        let number = SessionNumber(self.issue_number()?);
+        self.phase = Phase::Requesting(Requesting {
+            number,
+            request,
+            offers: List::EMPTY,
+            help: Countdown::armed(step.config.settings().t_help),
+            selection: Countdown::OFF,
+        });
+        step.out.push(Output::SendRam);
+        Ok(())
+    }
+
+    /// Whether the robot itself stands in the way of taking part in a session.
+    pub(crate) fn may_join(&self) -> Effect {
+        if let Availability::Unavailable(reason) = self.availability {
+            return Err(Ignored::Unavailable(reason));
+        }
+        match self.identity {
+            Identity::Expiring => Err(Ignored::IdentityLockLimit),
+            Identity::Unlocked | Identity::Locked(_) => Ok(()),
+        }
+    }
+
+    /// Availability withdraws an offer, ends the session of a leader, and makes a follower fail or
+    /// leave (design section 4, *Availability*).
+    pub(crate) fn change_availability(
+        &mut self,
+        step: &mut Step,
+        availability: Availability,
+    ) -> Effect {
+        if self.availability == availability {
+            return Err(Ignored::NothingNew);
+        }
+        self.availability = availability;
+        // The status container of the RAM tells it.
+        step.out.push(Output::SendRam);
+        if let Availability::Unavailable(reason) = availability {
+            self.become_unavailable(step, reason);
+        }
+        Ok(())
+    }
+
+    fn become_unavailable(&mut self, step: &mut Step, reason: Unavailability) {
+        match &mut self.phase {
+            Phase::Idle => {}
+            Phase::Requesting(_) | Phase::Leading(_) => {
+                self.end_session(step, EndReason::Unavailable(reason));
+            }
+            Phase::Offering(_) => self.leave(step, ReleaseReason::Unavailable(reason)),
+            Phase::Following(following) => {
+                let failed = Progress::Failed(Failure::Unavailable(reason));
+                match following.finish(failed) {
+                    Some(maneuver) => {
+                        let why = StopReason::Unavailable(reason);
+                        step.out.push(Output::StopManeuver(maneuver, why));
+                    }
+                    None => self.leave(step, ReleaseReason::Unavailable(reason)),
+                }
+            }
+        }
+    }
+
+    /// The pseudonym changes together with everything that is tied to it, and only while no session
+    /// knows the robot by its old one.
+    pub(crate) fn change_identity(&mut self, station: StationId) -> Effect {
+        if self.identity != Identity::Unlocked {
+            return Err(Ignored::IdentityLocked);
+        }
+        if self.station == station {
+            return Err(Ignored::NothingNew);
+        }
+        self.station = station;
+        Ok(())
+    }
+}

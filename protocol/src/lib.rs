@@ -1,0 +1,95 @@
+//! The coordination state machine of Crossguard.
+//!
+//! Robots that act as crossing guards find each other, take the roles of leader and follower, and
+//! carry out maneuvers under a leader's commands, over a radio that loses, repeats, delays and
+//! reorders messages, while robots crash and come back. This crate is the protocol between them,
+//! after the paper *Multi-Robot Coordination in V2X Environments* (Arockiasamy, Vinel; ITSC 2026):
+//! one transition function, [`Robot::step`], that the model checker, the proofs, the simulator and
+//! the live endpoint all call.
+//!
+//! It is `no_std`, free of heap and of unsafe code, total, and reads no clock: time enters as an
+//! [`Input`]. What it decides comes out as [`Outputs`] for the endpoint to carry out in order.
+//!
+//! ```
+//! use crossguard_protocol::{
+//!     Config, Decimetres, Event, HelpRequest, Input, Millis, Output, Robot, State, StationId,
+//!     TaskSet, TaskType, Urgency,
+//! };
+//!
+//! let config = Config::default();
+//! let mut ari = Robot::new(StationId(1), 1); // station id, boot counter
+//! let mut go2 = Robot::new(StationId(2), 1);
+//!
+//! // ARI sees a pedestrian and asks for one robot that can go somewhere and escort.
+//! let tasks = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]);
+//! let request = HelpRequest { urgency: Urgency::Medium, followers: 1, tasks };
+//! let outputs = ari.step(&config, Input::Local(Event::PedestrianDetected(request)));
+//! assert!(outputs.iter().any(|output| *output == Output::SendRam));
+//!
+//! // Its RAM reaches Go2, which offers; Go2's RAM reaches ARI, which selects after a while.
+//! let distance = Decimetres(40);
+//! go2.step(&config, Input::Ram { ram: ari.ram(), distance });
+//! ari.step(&config, Input::Ram { ram: go2.ram(), distance });
+//! ari.step(&config, Input::Elapsed(Millis(300)));
+//! go2.step(&config, Input::Ram { ram: ari.ram(), distance });
+//! assert_eq!((ari.state(), go2.state()), (State::RoleEstablished, State::RoleEstablished));
+//! ```
+#![no_std]
+
+#[cfg(any(test, doctest))]
+extern crate std;
+
+mod config;
+mod corridor;
+mod display;
+mod help;
+mod id;
+mod identity;
+mod idle;
+mod input;
+mod list;
+mod maneuver;
+mod message;
+mod output;
+mod robot;
+mod roles;
+mod state;
+mod task;
+mod termination;
+mod time;
+mod timers;
+mod valid;
+
+pub use config::{BrokenInequality, Config, Inequality, Settings};
+pub use id::{
+    Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, SessionNumber, StationId,
+    UniqueNumber,
+};
+pub use input::{Decimetres, Event, Input, Timer};
+pub use list::{Full, List};
+pub use message::{
+    Answer, Command, Confirmation, Coordination, Failure, Farewell, Followers, Progress, Ram,
+    Rejection, Report, Rmcm, Verdict,
+};
+pub use output::{
+    CorridorClosure, Disengagement, EndReason, GoneReason, Ignored, Maneuver, Notice, Output,
+    Outputs, ReleaseReason, StopReason,
+};
+pub use state::{
+    Contact, Following, Identity, Job, Leading, Lease, Member, Offer, Offering, Order, Outstanding,
+    Phase, Refusal, Requesting, Robot, Role, StandingFarewell, State,
+};
+pub use task::{
+    Availability, FallbackPolicy, HelpRequest, NoSuchTask, TaskSet, TaskType, Unavailability,
+    Urgency,
+};
+pub use time::{Countdown, Millis};
+
+/// How many followers a leader can have.
+pub const MAX_FOLLOWERS: usize = 4;
+
+/// How many timers a robot can have armed at once.
+pub const MAX_TIMERS: usize = 3 * MAX_FOLLOWERS + 3;
+
+/// How many outputs one step can have.
+pub const MAX_OUTPUTS: usize = 24;

@@ -1,0 +1,176 @@
+//! A list with a capacity, without heap and without unsafe code.
+
+use core::fmt;
+
+/// Up to `N` items in order. Equal lists are equal bit for bit, so a state that holds one can be
+/// hashed and compared.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct List<T, const N: usize>([Option<T>; N]);
+
+/// The list is full; the item was not added.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Full;
+
+impl<T: Copy, const N: usize> List<T, N> {
+    /// The empty list.
+    pub const EMPTY: Self = Self([None; N]);
+
+    /// Appends `item`.
+    ///
+    /// # Errors
+    /// [`Full`] when the list already holds `N` items.
+    pub fn push(&mut self, item: T) -> Result<(), Full> {
+        let slot = self.0.iter_mut().find(|slot| slot.is_none()).ok_or(Full)?;
+        *slot = Some(item);
+        Ok(())
+    }
+
+    /// Inserts `item` before the first item for which `goes_before` says so. A full list drops its
+    /// last item, or `item` itself where that would be the last.
+    pub(crate) fn insert_ranked(&mut self, item: T, goes_before: impl Fn(&T, &T) -> bool) {
+        let mut carried = item;
+        for slot in &mut self.0 {
+            match slot {
+                Some(present) if !goes_before(&carried, present) => {}
+                Some(present) => core::mem::swap(present, &mut carried),
+                None => {
+                    *slot = Some(carried);
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Removes the first item that satisfies `condition` and closes the gap.
+    pub(crate) fn remove_first(&mut self, condition: impl Fn(&T) -> bool) -> Option<T> {
+        let index = self.iter().position(condition)?;
+        let removed = self.0[index].take();
+        for i in index + 1..N {
+            self.0.swap(i - 1, i);
+        }
+        removed
+    }
+
+    /// How many items the list holds.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.iter().count()
+    }
+
+    /// Whether the list holds nothing.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.iter().next().is_none()
+    }
+
+    /// The items in order.
+    pub fn iter(&self) -> impl Iterator<Item = &T> + Clone {
+        self.0.iter().map_while(Option::as_ref)
+    }
+
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.0.iter_mut().map_while(Option::as_mut)
+    }
+
+    /// Whether no item stands behind a gap; true for every list that this type's methods made.
+    pub(crate) fn is_dense(&self) -> bool {
+        self.0
+            .iter()
+            .skip_while(|slot| slot.is_some())
+            .all(Option::is_none)
+    }
+}
+
+impl<T: Copy, const N: usize> Default for List<T, N> {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl<T: Copy, const N: usize> FromIterator<T> for List<T, N> {
+    /// The first `N` items.
+    fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
+        let mut list = Self::EMPTY;
+        for (slot, item) in list.0.iter_mut().zip(items) {
+            *slot = Some(item);
+        }
+        list
+    }
+}
+
+impl<T: Copy + fmt::Debug, const N: usize> fmt::Debug for List<T, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+#[cfg(feature = "serde")]
+mod serialization {
+    use core::fmt;
+    use core::marker::PhantomData;
+
+    use serde::de::{Error, SeqAccess, Visitor};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::List;
+
+    impl<T: Copy + Serialize, const N: usize> Serialize for List<T, N> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            serializer.collect_seq(self.iter())
+        }
+    }
+
+    impl<'de, T: Copy + Deserialize<'de>, const N: usize> Deserialize<'de> for List<T, N> {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            deserializer.deserialize_seq(Items(PhantomData))
+        }
+    }
+
+    struct Items<T, const N: usize>(PhantomData<T>);
+
+    impl<'de, T: Copy + Deserialize<'de>, const N: usize> Visitor<'de> for Items<T, N> {
+        type Value = List<T, N>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            write!(f, "at most {N} items")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Self::Value, A::Error> {
+            let mut list = List::EMPTY;
+            while let Some(item) = items.next_element()? {
+                list.push(item)
+                    .map_err(|_| A::Error::invalid_length(N + 1, &self))?;
+            }
+            Ok(list)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_list_refuses_an_item_and_keeps_what_it_has() {
+        let mut list = List::<u8, 2>::from_iter([1, 2]);
+        assert_eq!(list.push(3), Err(Full));
+        assert!(list.iter().eq(&[1, 2]));
+    }
+
+    #[test]
+    fn removing_closes_the_gap() {
+        let mut list = List::<u8, 4>::from_iter([1, 2, 3]);
+        assert_eq!(list.remove_first(|&item| item == 1), Some(1));
+        assert!(list.iter().eq(&[2, 3]) && list.is_dense());
+        assert_eq!(list.remove_first(|&item| item == 9), None);
+    }
+
+    #[test]
+    fn ranked_insertion_keeps_the_best() {
+        let mut list = List::<u8, 3>::EMPTY;
+        for item in [5, 3, 4, 1, 9] {
+            list.insert_ranked(item, |a, b| a < b);
+        }
+        assert!(list.iter().eq(&[1, 3, 4]));
+    }
+}

@@ -1,0 +1,346 @@
+//! Stage 4, Maneuver execution: commands, acknowledgements, repetition, progress.
+
+use crate::id::{ManeuverId, RequestId, SessionId, StationId};
+use crate::message::{
+    Answer, Command, Failure, Farewell, Progress, Rejection, Report, Rmcm, Verdict,
+};
+use crate::output::{EndReason, GoneReason, Ignored, Maneuver, Notice, Output, StopReason};
+use crate::robot::{Effect, Step};
+use crate::state::{Following, Job, Member, Order, Outstanding, Phase, Refusal, Robot};
+use crate::task::{Availability, TaskType};
+use crate::time::Countdown;
+
+// The leader's side.
+
+impl Robot {
+    /// The application wants `follower` to do `task`.
+    pub(crate) fn command(
+        &mut self,
+        step: &mut Step,
+        follower: StationId,
+        task: TaskType,
+    ) -> Effect {
+        let Phase::Leading(leading) = &mut self.phase else {
+            return Err(Ignored::NotLeading);
+        };
+        let session = SessionId {
+            leader: self.station,
+            number: leading.number,
+        };
+        let request = leading.request;
+        let member = leading.member_mut(follower).ok_or(Ignored::NotAFollower)?;
+        if !member.has_joined() {
+            return Err(Ignored::NotJoined);
+        }
+        if member.outstanding.is_some() {
+            return Err(Ignored::CommandOutstanding);
+        }
+        let first = step.config.settings().first_request;
+        if member.next_request.distance_from(first) >= RequestId::MAX_PER_SESSION {
+            // A new session, and with it a new number space, before half of this one is used.
+            self.end_session(step, EndReason::Renewed);
+            return self.open_session(step, request);
+        }
+        let outstanding = Outstanding {
+            request: member.next_request,
+            task,
+            repeats: 0,
+            acknowledgement: Countdown::armed(step.config.settings().t_ack),
+        };
+        member.next_request = member.next_request.next();
+        member.outstanding = Some(outstanding);
+        step.out.push(outstanding.message(session, follower));
+        Ok(())
+    }
+
+    /// An acknowledgement or rejection. One that is not for the outstanding command changes nothing
+    /// (property I7).
+    pub(crate) fn hear_answer(&mut self, step: &mut Step, answer: Answer) -> Effect {
+        if answer.from == self.station {
+            return Err(Ignored::OwnStation);
+        }
+        if answer.session.leader != self.station {
+            return Err(Ignored::NotAddressed);
+        }
+        let Phase::Leading(leading) = &mut self.phase else {
+            return Err(Ignored::OtherSession);
+        };
+        if leading.number != answer.session.number {
+            return Err(Ignored::OtherSession);
+        }
+        let member = leading
+            .member_mut(answer.from)
+            .ok_or(Ignored::NotAFollower)?;
+        match answer.verdict {
+            Verdict::Accepted => member.acknowledge(step, answer.session, answer.request),
+            Verdict::Rejected(reason) => {
+                member.take_outstanding(answer.request)?;
+                let id = ManeuverId {
+                    session: answer.session,
+                    request: answer.request,
+                };
+                step.out
+                    .notify(Notice::CommandRejected(member.station, id, reason));
+                Ok(())
+            }
+        }
+    }
+
+    /// `T_ack` ran out: the same command again, or the follower is lost.
+    pub(crate) fn acknowledgement_expired(&mut self, step: &mut Step, station: StationId) {
+        let session = self.session();
+        let Phase::Leading(leading) = &mut self.phase else {
+            return;
+        };
+        let outstanding = leading
+            .member_mut(station)
+            .and_then(|m| m.outstanding.as_mut());
+        let (Some(session), Some(outstanding)) = (session, outstanding) else {
+            return;
+        };
+        let settings = step.config.settings();
+        if outstanding.repeats < settings.n_ack {
+            outstanding.repeats += 1;
+            outstanding.acknowledgement = Countdown::armed(settings.t_ack);
+            let message = outstanding.message(session, station);
+            step.out.push(message);
+        } else {
+            self.drop_follower(step, station, GoneReason::NoAcknowledgement);
+        }
+    }
+
+    /// `T_exec` ran out: the command counts as failed.
+    pub(crate) fn execution_expired(&mut self, step: &mut Step, station: StationId) {
+        let session = self.session();
+        let Phase::Leading(leading) = &mut self.phase else {
+            return;
+        };
+        let order = leading
+            .member_mut(station)
+            .and_then(|member| member.order.as_mut());
+        let (Some(session), Some(order)) = (session, order) else {
+            return;
+        };
+        order.progress = Some(Progress::Failed(Failure::ExecutionLimit));
+        order.execution = Countdown::OFF;
+        let id = ManeuverId {
+            session,
+            request: order.request,
+        };
+        step.out
+            .notify(Notice::ManeuverFailed(station, id, Failure::ExecutionLimit));
+    }
+}
+
+impl Outstanding {
+    fn message(self, session: SessionId, to: StationId) -> Output {
+        let command = Command {
+            session,
+            to,
+            request: self.request,
+            task: self.task,
+        };
+        Output::SendRmcm(Rmcm::Command(command))
+    }
+}
+
+impl Member {
+    fn take_outstanding(&mut self, request: RequestId) -> Result<Outstanding, Ignored> {
+        let outstanding = self
+            .outstanding
+            .filter(|outstanding| outstanding.request == request);
+        let outstanding = outstanding.ok_or(Ignored::NotOutstanding)?;
+        self.outstanding = None;
+        Ok(outstanding)
+    }
+
+    /// The follower takes the outstanding command on.
+    fn acknowledge(&mut self, step: &mut Step, session: SessionId, request: RequestId) -> Effect {
+        let Outstanding { task, .. } = self.take_outstanding(request)?;
+        let execution = Countdown::armed(step.config.t_exec(task));
+        self.order = Some(Order {
+            request,
+            task,
+            progress: None,
+            execution,
+        });
+        let id = ManeuverId { session, request };
+        step.out
+            .notify(Notice::CommandAcknowledged(self.station, id));
+        Ok(())
+    }
+
+    /// Progress as the follower's RAM tells it. It names its command, so a stale RAM cannot speak
+    /// for a newer one; and it proves that the command was accepted, so it also stands for an
+    /// acknowledgement that was lost.
+    pub(crate) fn hear_report(
+        &mut self,
+        step: &mut Step,
+        session: SessionId,
+        report: Report,
+    ) -> Effect {
+        let acknowledged = self.acknowledge(step, session, report.request);
+        let Some(order) = self.order.as_mut().filter(|order| {
+            // A final progress stays final, whatever a delayed RAM says.
+            order.request == report.request && order.is_running()
+        }) else {
+            return acknowledged.or(Err(Ignored::NothingNew));
+        };
+        if order.progress == Some(report.progress) {
+            return acknowledged.or(Err(Ignored::NothingNew));
+        }
+        order.progress = Some(report.progress);
+        if !report.progress.is_running() {
+            order.execution = Countdown::OFF;
+        }
+        let id = ManeuverId {
+            session,
+            request: report.request,
+        };
+        step.out.notify(match report.progress {
+            Progress::Executing => Notice::ManeuverReported(self.station, id),
+            Progress::Completed => Notice::ManeuverCompleted(self.station, id),
+            Progress::Failed(failure) => Notice::ManeuverFailed(self.station, id, failure),
+            Progress::SafeIdle => Notice::FollowerSafeIdle(self.station, id),
+        });
+        Ok(())
+    }
+}
+
+// The follower's side.
+
+impl Robot {
+    /// A command. The follower acknowledges it before it starts, acknowledges a repeated one again
+    /// without starting it again, and is not moved by an older one.
+    pub(crate) fn hear_command(&mut self, step: &mut Step, command: Command) -> Effect {
+        if command.session.leader == self.station {
+            return Err(Ignored::OwnStation);
+        }
+        if command.to != self.station {
+            return Err(Ignored::NotAddressed);
+        }
+        let (station, availability) = (self.station, self.availability);
+        match &mut self.phase {
+            Phase::Following(following) if following.session == command.session => {
+                following.take_command(step, station, availability, command)
+            }
+            // The confirmation is still under way; the leader will repeat the command.
+            Phase::Offering(offering) if offering.session == command.session => {
+                Err(Ignored::NotJoined)
+            }
+            _ => self.say_farewell(step, Farewell::Left(command.session)),
+        }
+    }
+
+    /// The application has finished the maneuver.
+    pub(crate) fn complete_maneuver(&mut self, step: &mut Step, id: ManeuverId) -> Effect {
+        self.finish_maneuver(step, id, Progress::Completed)
+    }
+
+    /// The application cannot finish the maneuver.
+    pub(crate) fn fail_maneuver(&mut self, step: &mut Step, id: ManeuverId) -> Effect {
+        self.finish_maneuver(step, id, Progress::Failed(Failure::Maneuver))
+    }
+
+    fn finish_maneuver(&mut self, step: &mut Step, id: ManeuverId, progress: Progress) -> Effect {
+        let Phase::Following(following) = &mut self.phase else {
+            return Err(Ignored::NotExecuting);
+        };
+        if following
+            .executing()
+            .is_none_or(|maneuver| maneuver.id != id)
+        {
+            return Err(Ignored::NotExecuting);
+        }
+        following.finish(progress);
+        step.out.push(Output::SendRam);
+        Ok(())
+    }
+}
+
+impl Following {
+    fn take_command(
+        &mut self,
+        step: &mut Step,
+        station: StationId,
+        availability: Availability,
+        command: Command,
+    ) -> Effect {
+        let answer = |verdict| {
+            let request = command.request;
+            let answer = Answer {
+                from: station,
+                session: command.session,
+                request,
+                verdict,
+            };
+            Output::SendRmcm(Rmcm::Answer(answer))
+        };
+        if let Some(refused) = self
+            .refused
+            .filter(|refused| refused.request == command.request)
+        {
+            step.out.push(answer(Verdict::Rejected(refused.reason)));
+            return Ok(());
+        }
+        if self.job.is_some_and(|job| job.request == command.request) {
+            step.out.push(answer(Verdict::Accepted));
+            return Ok(());
+        }
+        if self
+            .newest_request()
+            .is_some_and(|newest| !command.request.is_newer_than(newest))
+        {
+            return Err(Ignored::OldCommand);
+        }
+        self.renew_contact(step);
+        if let Some(reason) = rejection(step, availability, command.task) {
+            self.refused = Some(Refusal {
+                request: command.request,
+                reason,
+            });
+            step.out.push(answer(Verdict::Rejected(reason)));
+            return Ok(());
+        }
+        let superseded = self.executing();
+        let (request, task) = (command.request, command.task);
+        self.job = Some(Job {
+            request,
+            task,
+            progress: Progress::Executing,
+        });
+        self.refused = None;
+        step.out.push(answer(Verdict::Accepted));
+        if let Some(maneuver) = superseded {
+            step.out
+                .push(Output::StopManeuver(maneuver, StopReason::Superseded));
+        }
+        let id = ManeuverId {
+            session: self.session,
+            request,
+        };
+        step.out.push(Output::StartManeuver(Maneuver { id, task }));
+        step.out.push(Output::SendRam);
+        Ok(())
+    }
+
+    /// Ends the running maneuver with a final progress; the maneuver, if one ran.
+    pub(crate) fn finish(&mut self, progress: Progress) -> Option<Maneuver> {
+        let maneuver = self.executing()?;
+        if let Some(job) = &mut self.job {
+            job.progress = progress;
+        }
+        Some(maneuver)
+    }
+}
+
+/// Why a robot must reject a command for `task`.
+fn rejection(step: &Step, availability: Availability, task: TaskType) -> Option<Rejection> {
+    if let Availability::Unavailable(reason) = availability {
+        return Some(Rejection::Unavailable(reason));
+    }
+    if !step.config.settings().capabilities.contains(task) {
+        return Some(Rejection::UnsupportedTask);
+    }
+    None
+}

@@ -1,0 +1,195 @@
+//! The protocol's view of RAM and RMCM: what the transition function reads and writes.
+//!
+//! The codec maps these views to and from the complete messages. Sizes, positions and everything
+//! else that no rule of the protocol depends on stays there.
+
+use crate::MAX_FOLLOWERS;
+use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, SessionNumber, StationId};
+use crate::list::List;
+use crate::task::{HelpRequest, TaskSet, TaskType, Unavailability};
+
+/// What a Robot Awareness Message says about coordination.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Ram {
+    /// The station that sent it.
+    pub station: StationId,
+    /// Its part in a session.
+    pub coordination: Coordination,
+    /// A session that it names as over.
+    pub farewell: Option<Farewell>,
+}
+
+/// A robot's part in a session, as its RAM tells.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Coordination {
+    /// `helpStatus = none`: no part. It releases nobody from anything.
+    None,
+    /// `helpStatus = needHelp`: opens a session of its own and asks for followers.
+    NeedHelp {
+        /// Number of the session.
+        number: SessionNumber,
+        /// What it asks for.
+        request: HelpRequest,
+    },
+    /// `helpStatus = offerHelp`: reserved for one requester.
+    OfferHelp {
+        /// The session that the offer is for.
+        session: SessionId,
+        /// Number of the offer; the confirmation repeats it.
+        offer: OfferNumber,
+        /// The maneuvers that the helper can do.
+        capabilities: TaskSet,
+    },
+    /// `RoleConfirmed`: leads a session and names its followers.
+    Leader {
+        /// Number of the session.
+        number: SessionNumber,
+        /// Newest heartbeat.
+        heartbeat: Heartbeat,
+        /// The followers; whoever is not among them has no part in the session.
+        followers: Followers,
+    },
+    /// Follows the leader of `session`.
+    Follower {
+        /// The session it follows in.
+        session: SessionId,
+        /// Newest heartbeat that it heard.
+        echo: Heartbeat,
+        /// Newest command that it accepted, and how far it is.
+        last: Option<Report>,
+    },
+}
+
+/// The followers that a leader's RAM names.
+pub type Followers = List<Confirmation, MAX_FOLLOWERS>;
+
+/// A confirmed follower: its station id and the offer that is confirmed.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Confirmation {
+    /// The follower.
+    pub station: StationId,
+    /// The offer that is confirmed.
+    pub offer: OfferNumber,
+}
+
+/// How far a follower is with its newest accepted command.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Report {
+    /// The command.
+    pub request: RequestId,
+    /// How far it is.
+    pub progress: Progress,
+}
+
+/// Progress of an accepted command.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Progress {
+    /// The maneuver runs.
+    Executing,
+    /// It was finished.
+    Completed,
+    /// It ended without success.
+    Failed(Failure),
+    /// It was stopped by the fallback policy because contact with the leader was lost.
+    SafeIdle,
+}
+
+impl Progress {
+    /// Whether the maneuver runs; every other progress is final for its command.
+    #[must_use]
+    pub const fn is_running(self) -> bool {
+        matches!(self, Self::Executing)
+    }
+}
+
+/// Why a maneuver ended without success.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Failure {
+    /// The robot could not do it.
+    Maneuver,
+    /// The robot became unavailable while it ran.
+    Unavailable(Unavailability),
+    /// The leader's execution limit `T_exec` ran out. Never in a RAM.
+    ExecutionLimit,
+}
+
+/// A session that a RAM names as over. A bare `helpStatus = none` ends nothing.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Farewell {
+    /// The sender's own session of this number has ended.
+    Ended(SessionNumber),
+    /// The sender has no part in this session any more.
+    Left(SessionId),
+}
+
+/// What a Robot Maneuver Coordination Message says.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Rmcm {
+    /// `LeaderManeuverContainer`.
+    Command(Command),
+    /// `FollowerManeuverContainer`.
+    Answer(Answer),
+}
+
+/// A leader's command to one follower.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Command {
+    /// The session, and with it the leader that commands.
+    pub session: SessionId,
+    /// `targetFollowerStationID`.
+    pub to: StationId,
+    /// `requestID`.
+    pub request: RequestId,
+    /// `taskType`.
+    pub task: TaskType,
+}
+
+/// A follower's answer to one command.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Answer {
+    /// The follower.
+    pub from: StationId,
+    /// The session of the command.
+    pub session: SessionId,
+    /// `jobAdviceID`: the `requestID` that is answered.
+    pub request: RequestId,
+    /// What it says.
+    pub verdict: Verdict,
+}
+
+/// Acknowledgement or rejection of a command.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Verdict {
+    /// The follower takes the command on.
+    Accepted,
+    /// It does not.
+    Rejected(Rejection),
+}
+
+/// Why a follower rejects a command.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Rejection {
+    /// It cannot do such a task.
+    UnsupportedTask,
+    /// It is unavailable.
+    Unavailable(Unavailability),
+}

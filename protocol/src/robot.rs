@@ -1,0 +1,304 @@
+//! The transition function: [`Robot::step`] takes one input and hands it to the stage it concerns.
+//!
+//! ```text
+//!            Input                                            Outputs
+//!   Ram ───────────┐   ┌─ idle ────────── 1 Initialization ─┐
+//!   Rmcm ──────────┤   ├─ help ────────── 2 Help             │
+//!   Elapsed ───────┼──►├─ roles ───────── 3 Roles, leases    ├──► settle ──►
+//!   Expired ───────┤   ├─ maneuver ────── 4 Commands         │   corridor, identity lock,
+//!   Local ─────────┘   └─ termination ─── 5 Ends, farewells ─┘   RAM timer
+//! ```
+
+use crate::config::Config;
+use crate::id::{SessionId, SessionNumber, StationId, UniqueNumber};
+use crate::input::{Decimetres, Event, Input};
+use crate::message::{Confirmation, Coordination, Farewell, Ram, Report, Rmcm};
+use crate::output::{Ignored, Output, Outputs};
+use crate::state::{Identity, Phase, Robot, Role, State};
+use crate::task::Availability;
+use crate::time::{Countdown, Millis};
+
+/// What a stage needs for one step: the configuration to read, the outputs to add to.
+pub(crate) struct Step<'a> {
+    pub(crate) config: &'a Config,
+    pub(crate) out: &'a mut Outputs,
+}
+
+/// What came of an input: it had an effect, or it is ignored for a reason.
+pub(crate) type Effect = Result<(), Ignored>;
+
+impl Robot {
+    /// A robot that has just booted. `boot` is its boot counter, which must be larger than at any
+    /// boot before.
+    #[must_use]
+    pub const fn new(station: StationId, boot: u16) -> Self {
+        Self {
+            station,
+            boot,
+            next_count: 0,
+            availability: Availability::Available,
+            identity: Identity::Unlocked,
+            ram: Countdown::OFF,
+            farewell: None,
+            phase: Phase::Idle,
+        }
+    }
+
+    /// The transition function: takes `input` in and returns what is to be done, in order.
+    ///
+    /// It is total: every input in every state has a defined outcome, and one that changes nothing
+    /// yields [`Output::Ignored`]. It is deterministic: the state and the outputs depend on nothing
+    /// but the state before, `config` and `input`. It does not allocate and does not panic.
+    pub fn step(&mut self, config: &Config, input: Input) -> Outputs {
+        let mut out = Outputs::default();
+        let step = &mut Step {
+            config,
+            out: &mut out,
+        };
+        let effect = match input {
+            Input::Ram { ram, distance } => self.hear_ram(step, &ram, distance),
+            Input::Rmcm(Rmcm::Command(command)) => self.hear_command(step, command),
+            Input::Rmcm(Rmcm::Answer(answer)) => self.hear_answer(step, answer),
+            Input::Elapsed(elapsed) => {
+                self.elapse(step, elapsed);
+                Ok(())
+            }
+            Input::Expired(timer) => self.expire(step, timer),
+            Input::Local(event) => self.notice_event(step, event),
+        };
+        if let Err(reason) = effect {
+            step.out.push(Output::Ignored(reason));
+        }
+        self.settle(step);
+        out
+    }
+
+    fn hear_ram(&mut self, step: &mut Step, ram: &Ram, distance: Decimetres) -> Effect {
+        if ram.station == self.station {
+            return Err(Ignored::OwnStation);
+        }
+        let from = ram.station;
+        // A leader that ended one session may ask for help in the next with the same RAM, so the
+        // farewell comes first.
+        let farewell = ram
+            .farewell
+            .map(|farewell| self.hear_farewell(step, from, farewell));
+        let part = match ram.coordination {
+            Coordination::None => Err(Ignored::NothingNew),
+            Coordination::NeedHelp { number, request } => self.hear_request(
+                step,
+                SessionId {
+                    leader: from,
+                    number,
+                },
+                request,
+            ),
+            Coordination::OfferHelp {
+                session,
+                offer,
+                capabilities,
+            } => {
+                let offer = crate::state::Offer {
+                    station: from,
+                    number: offer,
+                    capabilities,
+                    distance,
+                };
+                self.hear_offer(step, session, offer)
+            }
+            Coordination::Leader {
+                number,
+                heartbeat,
+                followers,
+            } => self.hear_leader(
+                step,
+                SessionId {
+                    leader: from,
+                    number,
+                },
+                heartbeat,
+                &followers,
+            ),
+            Coordination::Follower {
+                session,
+                echo,
+                last,
+            } => self.hear_follower(step, from, session, echo, last),
+        };
+        part.or_else(|reason| farewell.unwrap_or(Err(reason)))
+    }
+
+    fn notice_event(&mut self, step: &mut Step, event: Event) -> Effect {
+        match event {
+            Event::PedestrianDetected(request) => self.detect_pedestrian(step, request),
+            Event::CommandManeuver { follower, task } => self.command(step, follower, task),
+            Event::ManeuverCompleted(id) => self.complete_maneuver(step, id),
+            Event::ManeuverFailed(id) => self.fail_maneuver(step, id),
+            Event::TaskCompleted => self.complete_task(step),
+            Event::LeaveRequested => self.leave_on_request(step),
+            Event::AvailabilityChanged(availability) => {
+                self.change_availability(step, availability)
+            }
+            Event::OpenCorridor => self.open_corridor(step),
+            Event::CloseCorridor => self.close_corridor(step),
+            Event::IdentityChanged(station) => self.change_identity(station),
+        }
+    }
+
+    /// Brings what depends on the whole state in line with it.
+    fn settle(&mut self, step: &mut Step) {
+        self.settle_corridor(step);
+        self.settle_identity(step);
+        if !self.is_bound() {
+            self.ram = Countdown::OFF;
+        } else if !self.ram.is_armed() {
+            self.ram = Countdown::armed(step.config.settings().ram_period);
+        }
+    }
+
+    /// Whether the robot has a part in a session or says farewell to one.
+    pub(crate) const fn is_bound(&self) -> bool {
+        !matches!(self.phase, Phase::Idle) || self.farewell.is_some()
+    }
+
+    /// A number that this robot has never given out before.
+    pub(crate) fn issue_number(&mut self) -> Result<UniqueNumber, Ignored> {
+        let count = self.next_count;
+        self.next_count = count.checked_add(1).ok_or(Ignored::NumbersExhausted)?;
+        Ok(UniqueNumber {
+            boot: self.boot,
+            count,
+        })
+    }
+
+    /// The robot's own session of this number.
+    pub(crate) const fn own_session(&self, number: SessionNumber) -> SessionId {
+        SessionId {
+            leader: self.station,
+            number,
+        }
+    }
+
+    /// The RAM that says what this state is. The endpoint adds the rest of the message.
+    #[must_use]
+    pub fn ram(&self) -> Ram {
+        let coordination = match &self.phase {
+            Phase::Idle => Coordination::None,
+            Phase::Requesting(requesting) => Coordination::NeedHelp {
+                number: requesting.number,
+                request: requesting.request,
+            },
+            Phase::Offering(offering) => Coordination::OfferHelp {
+                session: offering.session,
+                offer: offering.number,
+                capabilities: offering.capabilities,
+            },
+            Phase::Leading(leading) => Coordination::Leader {
+                number: leading.number,
+                heartbeat: leading.heartbeat,
+                followers: leading
+                    .members
+                    .iter()
+                    .map(|member| Confirmation {
+                        station: member.station,
+                        offer: member.offer,
+                    })
+                    .collect(),
+            },
+            Phase::Following(following) => Coordination::Follower {
+                session: following.session,
+                echo: following.heard,
+                last: following.job.map(|job| Report {
+                    request: job.request,
+                    progress: job.progress,
+                }),
+            },
+        };
+        let farewell = self.farewell.map(|standing| standing.farewell);
+        Ram {
+            station: self.station,
+            coordination,
+            farewell,
+        }
+    }
+
+    /// The state of the paper's finite-state model.
+    #[must_use]
+    pub fn state(&self) -> State {
+        match &self.phase {
+            Phase::Idle => State::Idle,
+            Phase::Requesting(_) | Phase::Offering(_) => State::HelpRequested,
+            Phase::Leading(leading) if leading.is_executing() => State::ManeuverExecuting,
+            Phase::Following(following) if following.executing().is_some() => {
+                State::ManeuverExecuting
+            }
+            Phase::Leading(_) | Phase::Following(_) => State::RoleEstablished,
+        }
+    }
+
+    /// The robot's role.
+    #[must_use]
+    pub const fn role(&self) -> Role {
+        match self.phase {
+            Phase::Idle => Role::None,
+            Phase::Requesting(_) => Role::Requester,
+            Phase::Offering(_) => Role::Helper,
+            Phase::Leading(_) => Role::Leader,
+            Phase::Following(_) => Role::Follower,
+        }
+    }
+
+    /// The session that the robot has a part in.
+    #[must_use]
+    pub const fn session(&self) -> Option<SessionId> {
+        match &self.phase {
+            Phase::Idle => None,
+            Phase::Requesting(requesting) => Some(self.own_session(requesting.number)),
+            Phase::Offering(offering) => Some(offering.session),
+            Phase::Leading(leading) => Some(self.own_session(leading.number)),
+            Phase::Following(following) => Some(following.session),
+        }
+    }
+
+    /// The robot's part in a session, in full.
+    #[must_use]
+    pub const fn phase(&self) -> &Phase {
+        &self.phase
+    }
+
+    /// The robot's station id.
+    #[must_use]
+    pub const fn station(&self) -> StationId {
+        self.station
+    }
+
+    /// The boot counter with which it was started.
+    #[must_use]
+    pub const fn boot(&self) -> u16 {
+        self.boot
+    }
+
+    /// Whether it takes part in coordination.
+    #[must_use]
+    pub const fn availability(&self) -> Availability {
+        self.availability
+    }
+
+    /// Whether its pseudonym may change.
+    #[must_use]
+    pub const fn identity(&self) -> Identity {
+        self.identity
+    }
+
+    /// The session that it names as over.
+    #[must_use]
+    pub fn farewell(&self) -> Option<Farewell> {
+        self.farewell.map(|standing| standing.farewell)
+    }
+
+    /// Time to the next periodic RAM; `None` where the endpoint's generation rules apply.
+    #[must_use]
+    pub const fn next_ram(&self) -> Option<Millis> {
+        self.ram.left()
+    }
+}

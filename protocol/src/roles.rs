@@ -1,0 +1,224 @@
+//! Stage 3, Role assignment: joining, heartbeats, leases, loss of contact.
+//!
+//! The lease theorem (property I10). A leader counts its lease on a follower from the moment at
+//! which it *sent* the newest heartbeat that the follower echoed. The follower restarts `T_safety`
+//! when it *hears* a newer heartbeat, which is never before it was sent. The lease is shorter than
+//! `T_safety` by more than two clocks can drift apart
+//! ([`Inequality::LeaseWithinSafety`](crate::Inequality::LeaseWithinSafety)). So while the lease
+//! stands, the follower cannot have fallen back for lack of contact, however messages are delayed.
+
+use crate::config::Config;
+use crate::id::{Heartbeat, SessionId, StationId};
+use crate::message::{Farewell, Followers, Progress, Report};
+use crate::output::{EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason};
+use crate::robot::{Effect, Step};
+use crate::state::{Contact, Following, Leading, Lease, Member, Phase, Robot};
+use crate::time::{Countdown, Millis};
+
+impl Robot {
+    /// The RAM of a leader: it confirms, keeps alive, or leaves out.
+    pub(crate) fn hear_leader(
+        &mut self,
+        step: &mut Step,
+        session: SessionId,
+        heartbeat: Heartbeat,
+        followers: &Followers,
+    ) -> Effect {
+        let listed = followers
+            .iter()
+            .find(|f| f.station == self.station)
+            .map(|f| f.offer);
+        match &mut self.phase {
+            Phase::Offering(offering) if offering.session == session => {
+                if listed == Some(offering.number) {
+                    let offer = offering.number;
+                    self.join(step, Following::new(step.config, session, offer, heartbeat));
+                    return Ok(());
+                }
+            }
+            Phase::Following(following) if following.session == session => {
+                if listed == Some(following.offer) {
+                    return following.hear_heartbeat(step, heartbeat);
+                }
+            }
+            _ => {
+                // Listed for an offer that has expired, or that an earlier life of this robot made.
+                return match listed {
+                    Some(_) => self.say_farewell(step, Farewell::Left(session)),
+                    None => Err(Ignored::NotAddressed),
+                };
+            }
+        }
+        self.release(step, ReleaseReason::NotListed);
+        if listed.is_some() {
+            // The leader believes that an earlier offer of this robot still stands.
+            let _ = self.say_farewell(step, Farewell::Left(session));
+        }
+        Ok(())
+    }
+
+    fn join(&mut self, step: &mut Step, following: Following) {
+        step.out.notify(Notice::Joined(following.session));
+        self.phase = Phase::Following(following);
+        step.out.push(Output::SendRam);
+    }
+
+    /// The RAM of a follower: it has joined, echoes a heartbeat, reports progress.
+    pub(crate) fn hear_follower(
+        &mut self,
+        step: &mut Step,
+        from: StationId,
+        session: SessionId,
+        echo: Heartbeat,
+        last: Option<Report>,
+    ) -> Effect {
+        if session.leader != self.station {
+            return Err(Ignored::NotAddressed);
+        }
+        let next_ram = self.ram.left().unwrap_or(Millis::ZERO);
+        match &mut self.phase {
+            Phase::Leading(leading) if leading.number == session.number => {
+                if echo.is_newer_than(leading.heartbeat) {
+                    return Err(Ignored::EchoFromFuture);
+                }
+                let age = leading.age_of(step.config, echo, next_ram);
+                let member = leading.member_mut(from).ok_or(Ignored::NotAFollower)?;
+                let echoed = member.hear_echo(step, echo, age);
+                let Some(report) = last else { return echoed };
+                let reported = member.hear_report(step, session, report);
+                echoed.or(reported)
+            }
+            _ => self.answer_stale_session(step, session),
+        }
+    }
+
+    /// `T_safety` ran out: the maneuver is stopped by its task's policy (design section 4,
+    /// *Fallback*).
+    pub(crate) fn safety_expired(&mut self, step: &mut Step) {
+        let Phase::Following(following) = &mut self.phase else {
+            return;
+        };
+        following.contact = Contact::Lost(Countdown::armed(step.config.settings().t_leave));
+        if let Some(maneuver) = following.finish(Progress::SafeIdle) {
+            step.out.push(Output::FallBack(
+                maneuver,
+                step.config.fallback(maneuver.task),
+            ));
+            step.out.push(Output::SendRam);
+        }
+        step.out.notify(Notice::ContactLost(following.session));
+    }
+
+    /// `T_leave` ran out as well.
+    pub(crate) fn leave_expired(&mut self, step: &mut Step) {
+        self.leave(step, ReleaseReason::ContactLost);
+    }
+
+    /// The lease on a follower ran out.
+    pub(crate) fn lease_expired(&mut self, step: &mut Step, station: StationId) {
+        let Phase::Leading(leading) = &mut self.phase else {
+            return;
+        };
+        let Some(member) = leading.member_mut(station) else {
+            return;
+        };
+        member.lease = Lease::Expired(Countdown::armed(step.config.t_lost()));
+        step.out.notify(Notice::LeaseExpired(station));
+    }
+
+    /// A follower has been without a lease for so long that it must have left.
+    pub(crate) fn lost_expired(&mut self, step: &mut Step, station: StationId) {
+        self.drop_follower(step, station, GoneReason::NoContact);
+    }
+
+    /// Removes one follower; the records of the others stay as they are (property I17).
+    pub(crate) fn drop_follower(&mut self, step: &mut Step, station: StationId, why: GoneReason) {
+        let Phase::Leading(leading) = &mut self.phase else {
+            return;
+        };
+        if leading
+            .members
+            .remove_first(|member| member.station == station)
+            .is_none()
+        {
+            return;
+        }
+        let nobody_left = leading.members.is_empty();
+        step.out.notify(Notice::FollowerGone(station, why));
+        // The new list tells the follower, should it still be there.
+        step.out.push(Output::SendRam);
+        if nobody_left {
+            self.end_session(step, EndReason::NoFollowers);
+        }
+    }
+}
+
+impl Leading {
+    /// How long ago `heartbeat` can have been sent at the earliest, where the next RAM is due in
+    /// `next_ram`. Heartbeats count periods, so this is never less than the true age.
+    #[must_use]
+    pub fn age_of(&self, config: &Config, heartbeat: Heartbeat, next_ram: Millis) -> Millis {
+        let period = config.settings().ram_period;
+        let periods = u32::from(self.heartbeat.distance_from(heartbeat));
+        let in_this_period = period.saturating_sub(next_ram);
+        Millis(periods.saturating_mul(period.0)).saturating_add(in_this_period)
+    }
+}
+
+impl Member {
+    /// An echo of a heartbeat that was sent `age` ago.
+    fn hear_echo(&mut self, step: &mut Step, echo: Heartbeat, age: Millis) -> Effect {
+        match self.echoed {
+            Some(newest) if !echo.is_newer_than(newest) => return Err(Ignored::OldHeartbeat),
+            Some(_) => {}
+            None => step.out.notify(Notice::FollowerJoined(self.station)),
+        }
+        self.echoed = Some(echo);
+        let left = step.config.settings().t_lease.saturating_sub(age);
+        if left > Millis::ZERO {
+            if !self.lease.stands() {
+                step.out.notify(Notice::LeaseGranted(self.station));
+            }
+            self.lease = Lease::Stands(Countdown::armed(left));
+        }
+        Ok(())
+    }
+}
+
+impl Following {
+    fn new(
+        config: &Config,
+        session: SessionId,
+        offer: crate::id::OfferNumber,
+        heard: Heartbeat,
+    ) -> Self {
+        let contact = Contact::Fresh(Countdown::armed(config.settings().t_safety));
+        Self {
+            session,
+            offer,
+            heard,
+            contact,
+            job: None,
+            refused: None,
+        }
+    }
+
+    /// Only a *newer* heartbeat restarts `T_safety`: a delayed or repeated RAM proves nothing about
+    /// the leader's present.
+    fn hear_heartbeat(&mut self, step: &mut Step, heartbeat: Heartbeat) -> Effect {
+        if !heartbeat.is_newer_than(self.heard) {
+            return Err(Ignored::OldHeartbeat);
+        }
+        self.heard = heartbeat;
+        self.renew_contact(step);
+        Ok(())
+    }
+
+    /// Restarts `T_safety`.
+    pub(crate) fn renew_contact(&mut self, step: &mut Step) {
+        if self.contact.is_lost() {
+            step.out.notify(Notice::ContactRegained(self.session));
+        }
+        self.contact = Contact::Fresh(Countdown::armed(step.config.settings().t_safety));
+    }
+}

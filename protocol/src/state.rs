@@ -1,0 +1,365 @@
+//! The state of a robot.
+//!
+//! ```text
+//!                       PedestrianDetected                    enough offers
+//!             ┌────────────────────────────► Requesting ─────────────────────► Leading
+//!             │                               │      ▲                            │
+//!             │           a request goes before own  │ renewed session            │ ended
+//!   Idle ─────┤                               ▼      └────────────────────────────┤
+//!     ▲       │      needHelp heard                      listed by the leader     │
+//!     │       └────────────────────────────► Offering ─────────────────────► Following
+//!     │                                       │                                   │
+//!     └───────────────────────────────────────┴───────────────────────────────────┘
+//!                        ended, left, not listed, or out of time
+//! ```
+//!
+//! `Requesting` and `Offering` are the paper's *help requested*; `Leading` and `Following` are its
+//! *role established* and, while a maneuver runs, its *maneuver executing*. Each state owns its
+//! timers: leaving the state drops them.
+
+use crate::MAX_FOLLOWERS;
+use crate::id::{
+    Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, SessionNumber, StationId,
+};
+use crate::input::Decimetres;
+use crate::list::List;
+use crate::message::{Farewell, Progress, Rejection};
+use crate::output::Maneuver;
+use crate::task::{Availability, HelpRequest, TaskSet, TaskType};
+use crate::time::Countdown;
+
+/// The state of one robot; the transition function is [`Robot::step`].
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Robot {
+    pub(crate) station: StationId,
+    pub(crate) boot: u16,
+    /// Count of the next session or offer number; `u16::MAX` is never given out.
+    pub(crate) next_count: u16,
+    pub(crate) availability: Availability,
+    pub(crate) identity: Identity,
+    /// Time to the next periodic RAM; armed in a session and while a farewell stands.
+    pub(crate) ram: Countdown,
+    pub(crate) farewell: Option<StandingFarewell>,
+    pub(crate) phase: Phase,
+}
+
+/// A robot's part in a session.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Phase {
+    /// None.
+    Idle,
+    /// Has opened a session and asks for help.
+    Requesting(Requesting),
+    /// Is reserved for a requester.
+    Offering(Offering),
+    /// Leads a session.
+    Leading(Leading),
+    /// Follows in a session.
+    Following(Following),
+}
+
+/// The state of the paper's finite-state model.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum State {
+    /// Stages 1 and 5: no part in a session.
+    Idle,
+    /// Stage 2: asks for help, or offers it.
+    HelpRequested,
+    /// Stage 3: has a role; nothing is executed.
+    RoleEstablished,
+    /// Stage 4: a maneuver is executed.
+    ManeuverExecuting,
+}
+
+/// A robot's role in a session.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Role {
+    /// No part in a session.
+    None,
+    /// Asks for help.
+    Requester,
+    /// Offers help.
+    Helper,
+    /// Leads.
+    Leader,
+    /// Follows.
+    Follower,
+}
+
+/// Whether the pseudonym may change.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Identity {
+    /// It may.
+    Unlocked,
+    /// It may not: the robot has a part in a session or says farewell to one.
+    Locked(Countdown),
+    /// The lock has lasted as long as it may. The robot still says farewell, and takes part in no
+    /// session before the identity has been unlocked.
+    Expiring,
+}
+
+/// A farewell that is announced for a while.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StandingFarewell {
+    /// What the RAM says.
+    pub farewell: Farewell,
+    /// For how long yet.
+    pub left: Countdown,
+}
+
+/// A requester's state.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Requesting {
+    /// Number of the session.
+    pub number: SessionNumber,
+    /// What it asks for.
+    pub request: HelpRequest,
+    /// The offers it has heard, best first.
+    pub offers: List<Offer, MAX_FOLLOWERS>,
+    /// `T_help`.
+    pub help: Countdown,
+    /// Time left to gather offers; armed from the first offer on.
+    pub selection: Countdown,
+}
+
+/// An offer as a requester has heard it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Offer {
+    /// The helper.
+    pub station: StationId,
+    /// Number of the offer.
+    pub number: OfferNumber,
+    /// What the helper can do.
+    pub capabilities: TaskSet,
+    /// How far away the helper is.
+    pub distance: Decimetres,
+}
+
+/// A helper's state.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Offering {
+    /// The session it offers to.
+    pub session: SessionId,
+    /// Number of the offer.
+    pub number: OfferNumber,
+    /// What it can do of what is asked for.
+    pub capabilities: TaskSet,
+    /// `T_offer`.
+    pub reservation: Countdown,
+}
+
+/// A leader's state.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Leading {
+    /// Number of the session.
+    pub number: SessionNumber,
+    /// What was asked for.
+    pub request: HelpRequest,
+    /// Newest heartbeat.
+    pub heartbeat: Heartbeat,
+    /// The followers.
+    pub members: List<Member, MAX_FOLLOWERS>,
+    /// Whether the pedestrian may cross.
+    pub corridor_open: bool,
+}
+
+/// A leader's record of one follower.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Member {
+    /// The follower.
+    pub station: StationId,
+    /// The offer that was confirmed.
+    pub offer: OfferNumber,
+    /// Newest heartbeat that it echoed; `None` until it has taken its role.
+    pub echoed: Option<Heartbeat>,
+    /// The lease on it.
+    pub lease: Lease,
+    /// Number of the next command.
+    pub next_request: RequestId,
+    /// The command that it has not acknowledged yet.
+    pub outstanding: Option<Outstanding>,
+    /// The newest command that it acknowledged.
+    pub order: Option<Order>,
+}
+
+/// A leader's lease on a follower.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Lease {
+    /// It stands for this long: until then the follower cannot have fallen back.
+    Stands(Countdown),
+    /// There is none; the follower is kept for this long.
+    Expired(Countdown),
+}
+
+/// A command that is not acknowledged yet.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Outstanding {
+    /// Its number.
+    pub request: RequestId,
+    /// Its task.
+    pub task: TaskType,
+    /// How often it was repeated.
+    pub repeats: u8,
+    /// `T_ack`.
+    pub acknowledgement: Countdown,
+}
+
+/// A command that is acknowledged.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Order {
+    /// Its number.
+    pub request: RequestId,
+    /// Its task.
+    pub task: TaskType,
+    /// What the follower reported; `None` before its first report.
+    pub progress: Option<Progress>,
+    /// `T_exec`; armed until the progress is final.
+    pub execution: Countdown,
+}
+
+/// A follower's state.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Following {
+    /// The session.
+    pub session: SessionId,
+    /// The offer that was confirmed.
+    pub offer: OfferNumber,
+    /// Newest heartbeat that it heard.
+    pub heard: Heartbeat,
+    /// Contact with the leader.
+    pub contact: Contact,
+    /// Newest command that it accepted.
+    pub job: Option<Job>,
+    /// Newest command that it rejected, where that is newer than the job.
+    pub refused: Option<Refusal>,
+}
+
+/// A follower's contact with its leader.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Contact {
+    /// `T_safety` runs.
+    Fresh(Countdown),
+    /// `T_safety` ran out; `T_leave` runs.
+    Lost(Countdown),
+}
+
+/// A command that a follower accepted.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Job {
+    /// Its number.
+    pub request: RequestId,
+    /// Its task.
+    pub task: TaskType,
+    /// How far it is.
+    pub progress: Progress,
+}
+
+/// A command that a follower rejected.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Refusal {
+    /// Its number.
+    pub request: RequestId,
+    /// Why.
+    pub reason: Rejection,
+}
+
+impl Leading {
+    /// The record of `station`, if it is a follower in this session.
+    #[must_use]
+    pub fn member(&self, station: StationId) -> Option<&Member> {
+        self.members.iter().find(|member| member.station == station)
+    }
+
+    pub(crate) fn member_mut(&mut self, station: StationId) -> Option<&mut Member> {
+        self.members
+            .iter_mut()
+            .find(|member| member.station == station)
+    }
+
+    /// Whether a follower executes an acknowledged command.
+    #[must_use]
+    pub fn is_executing(&self) -> bool {
+        self.members
+            .iter()
+            .any(|member| member.order.is_some_and(Order::is_running))
+    }
+}
+
+impl Member {
+    /// Whether the follower has taken its role.
+    #[must_use]
+    pub const fn has_joined(&self) -> bool {
+        self.echoed.is_some()
+    }
+}
+
+impl Lease {
+    /// Whether the lease stands.
+    #[must_use]
+    pub const fn stands(self) -> bool {
+        matches!(self, Self::Stands(_))
+    }
+}
+
+impl Order {
+    /// Whether the command is acknowledged and not finished.
+    #[must_use]
+    pub const fn is_running(self) -> bool {
+        match self.progress {
+            None => true,
+            Some(progress) => progress.is_running(),
+        }
+    }
+}
+
+impl Following {
+    /// The maneuver that runs.
+    #[must_use]
+    pub fn executing(&self) -> Option<Maneuver> {
+        let job = self.job.filter(|job| job.progress.is_running())?;
+        let id = ManeuverId {
+            session: self.session,
+            request: job.request,
+        };
+        Some(Maneuver { id, task: job.task })
+    }
+
+    /// The newest command that was answered, accepted or not.
+    #[must_use]
+    pub fn newest_request(&self) -> Option<RequestId> {
+        self.refused
+            .map(|refused| refused.request)
+            .or(self.job.map(|job| job.request))
+    }
+}
+
+impl Contact {
+    /// Whether `T_safety` has run out without a newer heartbeat or command.
+    #[must_use]
+    pub const fn is_lost(self) -> bool {
+        matches!(self, Self::Lost(_))
+    }
+}

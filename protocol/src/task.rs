@@ -1,0 +1,232 @@
+//! Maneuvers, what a leader asks for, and what a robot is able and willing to do.
+
+use core::fmt;
+
+/// The kind of a maneuver, `taskType` of the paper (0..15 on the wire).
+///
+/// Three kinds have names here; a robot may give meaning to the others in its configuration.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "u8", into = "u8"))]
+pub struct TaskType(u8);
+
+impl TaskType {
+    /// Number of task types that the wire can carry.
+    pub const COUNT: usize = 16;
+    /// Go to the place where the maneuver starts.
+    pub const INITIAL_POS: Self = Self(0);
+    /// Escort: move along with the pedestrian.
+    pub const MOVE: Self = Self(1);
+    /// Hold back one direction of traffic.
+    pub const BLOCK: Self = Self(2);
+
+    /// The task type with this value, `None` above 15.
+    #[must_use]
+    pub const fn new(value: u8) -> Option<Self> {
+        if (value as usize) < Self::COUNT {
+            Some(Self(value))
+        } else {
+            None
+        }
+    }
+
+    /// The value on the wire.
+    #[must_use]
+    pub const fn value(self) -> u8 {
+        self.0
+    }
+
+    /// The paper's name, where it has one.
+    #[must_use]
+    pub const fn name(self) -> Option<&'static str> {
+        match self {
+            Self::INITIAL_POS => Some("initialPos"),
+            Self::MOVE => Some("move"),
+            Self::BLOCK => Some("block"),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for TaskType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => f.pad(name),
+            None => write!(f, "task{}", self.0),
+        }
+    }
+}
+
+impl From<TaskType> for u8 {
+    fn from(task: TaskType) -> Self {
+        task.0
+    }
+}
+
+/// A value that is no task type: it is above 15.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct NoSuchTask(pub u8);
+
+impl fmt::Display for NoSuchTask {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "task type {} does not exist, the largest is {}",
+            self.0,
+            TaskType::COUNT - 1
+        )
+    }
+}
+
+impl core::error::Error for NoSuchTask {}
+
+impl TryFrom<u8> for TaskType {
+    type Error = NoSuchTask;
+
+    fn try_from(value: u8) -> Result<Self, NoSuchTask> {
+        Self::new(value).ok_or(NoSuchTask(value))
+    }
+}
+
+/// A set of task types: bit *n* stands for task type *n*.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
+pub struct TaskSet(pub u16);
+
+impl TaskSet {
+    /// No task at all.
+    pub const EMPTY: Self = Self(0);
+
+    /// The set of the given task types.
+    #[must_use]
+    pub const fn of(tasks: &[TaskType]) -> Self {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < tasks.len() {
+            bits |= 1 << tasks[i].0;
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether `task` is in the set.
+    #[must_use]
+    pub const fn contains(self, task: TaskType) -> bool {
+        self.0 >> task.0 & 1 == 1
+    }
+
+    /// The task types in both sets.
+    #[must_use]
+    pub const fn intersection(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Whether the set is empty.
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// How many task types the set holds.
+    #[must_use]
+    pub const fn len(self) -> u32 {
+        self.0.count_ones()
+    }
+
+    /// The task types of the set, in order.
+    pub fn iter(self) -> impl Iterator<Item = TaskType> {
+        (0..16)
+            .map(TaskType)
+            .filter(move |&task| self.contains(task))
+    }
+}
+
+/// How urgent a request for help is, lowest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Urgency {
+    /// Nobody waits at the kerb yet.
+    Low,
+    /// A pedestrian waits.
+    #[default]
+    Medium,
+    /// A pedestrian who needs more help than others waits.
+    High,
+    /// A pedestrian is on the road.
+    Emergency,
+}
+
+/// What a leader asks for when it has detected a pedestrian.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct HelpRequest {
+    /// How urgent it is; the first key in the order of requests.
+    pub urgency: Urgency,
+    /// How many followers the task needs, 1..=[`MAX_FOLLOWERS`](crate::MAX_FOLLOWERS).
+    pub followers: u8,
+    /// The maneuvers that the followers will be asked for.
+    pub tasks: TaskSet,
+}
+
+/// Whether the robot takes part in coordination.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Availability {
+    /// It does.
+    #[default]
+    Available,
+    /// It does not, for this reason.
+    Unavailable(Unavailability),
+}
+
+/// Why a robot takes no part in coordination.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Unavailability {
+    /// The battery is below the robot's limit.
+    LowBattery,
+    /// A person steers the robot.
+    Teleoperated,
+    /// The emergency stop is engaged.
+    EmergencyStop,
+    /// A fault of the robot.
+    LocalFault,
+    /// The application holds it unsafe to act.
+    NotSafe,
+}
+
+/// What a follower does with a running maneuver when it loses contact with its leader.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum FallbackPolicy {
+    /// Stop where it stands.
+    StopInPlace,
+    /// Leave the carriageway for the safe position that the application knows.
+    GoToSafePosition,
+    /// Hold the position and the traffic until the carriageway is clear, then stop.
+    HoldUntilClear,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_holds_what_it_was_made_of() {
+        let set = TaskSet::of(&[TaskType::MOVE, TaskType::BLOCK]);
+        assert!(set.iter().eq([TaskType::MOVE, TaskType::BLOCK]));
+        assert!(!set.contains(TaskType::INITIAL_POS));
+        assert_eq!(set.len(), 2);
+    }
+
+    #[test]
+    fn a_value_above_fifteen_is_no_task() {
+        assert_eq!(TaskType::new(15).map(TaskType::value), Some(15));
+        assert_eq!(TaskType::try_from(16), Err(NoSuchTask(16)));
+    }
+}

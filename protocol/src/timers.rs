@@ -1,0 +1,218 @@
+//! The timers: which are armed, which is due, what each does.
+
+use crate::config::Config;
+use crate::id::Heartbeat;
+use crate::input::Timer;
+use crate::list::List;
+use crate::output::{Ignored, Output};
+use crate::robot::{Effect, Step};
+use crate::state::{Contact, Identity, Lease, Member, Phase, Robot};
+use crate::time::{Countdown, Millis};
+use crate::{MAX_FOLLOWERS, MAX_TIMERS};
+
+/// Visits every countdown of a robot, with its timer, in the order in which due timers fire: what
+/// keeps people safe first, the RAM that tells of it last. Works on `&Robot` and `&mut Robot`.
+macro_rules! visit_countdowns {
+    ($robot:expr, $iter:ident, ($($mutability:tt)?), $visit:expr) => {{
+        let robot = $robot;
+        #[allow(unused_mut, reason = "not every visitor has a state to change")]
+        let mut visit = $visit;
+        match &$($mutability)? robot.phase {
+            Phase::Idle => {}
+            Phase::Requesting(requesting) => {
+                visit(Timer::Help, &$($mutability)? requesting.help);
+                visit(Timer::Selection, &$($mutability)? requesting.selection);
+            }
+            Phase::Offering(offering) => {
+                visit(Timer::Reservation, &$($mutability)? offering.reservation);
+            }
+            Phase::Leading(leading) => {
+                for member in leading.members.$iter() {
+                    let station = member.station;
+                    match &$($mutability)? member.lease {
+                        Lease::Stands(left) => visit(Timer::Lease(station), left),
+                        Lease::Expired(left) => visit(Timer::Lost(station), left),
+                    }
+                    if let Some(order) = &$($mutability)? member.order {
+                        visit(Timer::Execution(station), &$($mutability)? order.execution);
+                    }
+                    if let Some(outstanding) = &$($mutability)? member.outstanding {
+                        let left = &$($mutability)? outstanding.acknowledgement;
+                        visit(Timer::Acknowledgement(station), left);
+                    }
+                }
+            }
+            Phase::Following(following) => match &$($mutability)? following.contact {
+                Contact::Fresh(left) => visit(Timer::Safety, left),
+                Contact::Lost(left) => visit(Timer::Leave, left),
+            },
+        }
+        if let Identity::Locked(left) = &$($mutability)? robot.identity {
+            visit(Timer::IdentityLock, left);
+        }
+        if let Some(standing) = &$($mutability)? robot.farewell {
+            visit(Timer::Farewell, &$($mutability)? standing.left);
+        }
+        visit(Timer::Ram, &$($mutability)? robot.ram);
+    }};
+}
+
+impl Robot {
+    /// The armed timers with the time they have left, in the order in which they would fire if all
+    /// were due.
+    #[must_use]
+    pub fn timers(&self) -> List<(Timer, Millis), MAX_TIMERS> {
+        let mut timers = List::EMPTY;
+        visit_countdowns!(self, iter, (), |timer, countdown: &Countdown| {
+            if let Some(left) = countdown.left() {
+                let pushed = timers.push((timer, left));
+                debug_assert!(pushed.is_ok(), "more than {MAX_TIMERS} timers");
+            }
+        });
+        timers
+    }
+
+    /// The time until the next timer fires, `None` when no timer is armed.
+    #[must_use]
+    pub fn next_due(&self) -> Option<Millis> {
+        self.timers().iter().map(|&(_, left)| left).min()
+    }
+
+    fn first_due(&self) -> Option<Timer> {
+        let mut due = None;
+        visit_countdowns!(self, iter, (), |timer, countdown: &Countdown| {
+            if due.is_none() && countdown.is_due() {
+                due = Some(timer);
+            }
+        });
+        due
+    }
+
+    /// Lets time pass. What is due fires, each timer once: a robot that was told late does what it
+    /// missed now, not several times over.
+    pub(crate) fn elapse(&mut self, step: &mut Step, elapsed: Millis) {
+        let late = match self.ram.left() {
+            Some(left) => elapsed.saturating_sub(left),
+            None => Millis::ZERO,
+        };
+        visit_countdowns!(&mut *self, iter_mut, (mut), |_, countdown: &mut Countdown| {
+            countdown.elapse(elapsed);
+        });
+        // Every timer that fires is dropped or armed anew with at least 1 ms, so this ends.
+        while let Some(timer) = self.first_due() {
+            self.fire(step, timer, late);
+        }
+    }
+
+    /// One timer expires, whatever time it has left.
+    pub(crate) fn expire(&mut self, step: &mut Step, timer: Timer) -> Effect {
+        let mut armed = false;
+        visit_countdowns!(&*self, iter, (), |other, countdown: &Countdown| {
+            armed |= other == timer && countdown.is_armed();
+        });
+        if !armed {
+            return Err(Ignored::TimerNotArmed);
+        }
+        self.fire(step, timer, Millis::ZERO);
+        Ok(())
+    }
+
+    fn fire(&mut self, step: &mut Step, timer: Timer, late: Millis) {
+        match timer {
+            Timer::Safety => self.safety_expired(step),
+            Timer::Leave => self.leave_expired(step),
+            Timer::Lease(station) => self.lease_expired(step, station),
+            Timer::Lost(station) => self.lost_expired(step, station),
+            Timer::Execution(station) => self.execution_expired(step, station),
+            Timer::Acknowledgement(station) => self.acknowledgement_expired(step, station),
+            Timer::Help => self.help_expired(step),
+            Timer::Selection => self.selection_expired(step),
+            Timer::Reservation => self.reservation_expired(step),
+            Timer::IdentityLock => self.identity_lock_expired(step),
+            Timer::Farewell => self.farewell_expired(),
+            Timer::Ram => self.ram_expired(step, late),
+        }
+    }
+
+    /// A RAM period is over, `late` milliseconds ago.
+    fn ram_expired(&mut self, step: &mut Step, late: Millis) {
+        let period = step.config.settings().ram_period;
+        self.ram = Countdown::armed(Millis(period.0 - late.0 % period.0));
+        if let Phase::Leading(leading) = &mut self.phase {
+            // A session ends with the identity lock, long before its periods exceed 16 bits.
+            let periods = u16::try_from(1 + late.0 / period.0).unwrap_or(u16::MAX);
+            leading.heartbeat = leading.heartbeat.after(periods);
+        }
+        step.out.push(Output::SendRam);
+    }
+
+    /// Replaces the time that every armed timer has left, and every heartbeat number, by what the
+    /// two functions say.
+    ///
+    /// For tools that compare states up to such a renaming. A renaming that keeps the order of
+    /// heartbeats and no timer due keeps the state valid.
+    #[must_use]
+    pub fn renamed(
+        &self,
+        mut countdown: impl FnMut(Timer, Millis) -> Millis,
+        mut heartbeat: impl FnMut(Heartbeat) -> Heartbeat,
+    ) -> Self {
+        let mut robot = self.clone();
+        visit_countdowns!(&mut robot, iter_mut, (mut), |timer, left: &mut Countdown| {
+            if let Some(time) = left.left() {
+                *left = Countdown::armed(countdown(timer, time));
+            }
+        });
+        match &mut robot.phase {
+            Phase::Leading(leading) => {
+                leading.heartbeat = heartbeat(leading.heartbeat);
+                for member in leading.members.iter_mut() {
+                    member.echoed = member.echoed.map(&mut heartbeat);
+                }
+            }
+            Phase::Following(following) => following.heard = heartbeat(following.heard),
+            Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => {}
+        }
+        robot
+    }
+
+    /// Whether every armed timer has at most the time it was started with, and at least 1 ms.
+    pub(crate) fn timers_within_limits(&self, config: &Config) -> bool {
+        let mut within = true;
+        visit_countdowns!(self, iter, (), |timer, countdown: &Countdown| {
+            let limit = self.timer_limit(config, timer);
+            within &= countdown.is_within(limit) && !countdown.is_due();
+        });
+        within
+    }
+
+    /// The longest time that `timer` can have left.
+    fn timer_limit(&self, config: &Config, timer: Timer) -> Millis {
+        let settings = config.settings();
+        match timer {
+            Timer::Safety => settings.t_safety,
+            Timer::Leave => settings.t_leave,
+            Timer::Lease(_) => settings.t_lease,
+            Timer::Lost(_) => config.t_lost(),
+            Timer::Execution(station) => {
+                let Phase::Leading(leading) = &self.phase else {
+                    return Millis::ZERO;
+                };
+                let order = leading
+                    .member(station)
+                    .and_then(|member: &Member| member.order);
+                order.map_or(Millis::ZERO, |order| config.t_exec(order.task))
+            }
+            Timer::Acknowledgement(_) => settings.t_ack,
+            Timer::Help => settings.t_help,
+            Timer::Selection => settings.t_select,
+            Timer::Reservation => settings.t_offer,
+            Timer::IdentityLock => config.t_lock_session(),
+            Timer::Farewell => settings.t_farewell,
+            Timer::Ram => settings.ram_period,
+        }
+    }
+}
+
+/// Three timers for each follower, and identity lock, farewell and RAM.
+const _: () = assert!(MAX_TIMERS == 3 * MAX_FOLLOWERS + 3);

@@ -1,0 +1,148 @@
+//! What is true of every reachable state.
+//!
+//! [`Robot::is_valid`] holds in the initial state and is kept by every input (property I13): it is
+//! inductive, so it holds after runs of any length. The local parts of other properties are among
+//! its clauses. `model-check` checks it on every step of every scenario and for one robot against
+//! every possible message.
+
+use crate::config::Config;
+use crate::help::all_distinct;
+use crate::id::RequestId;
+use crate::message::Farewell;
+use crate::state::{Following, Identity, Leading, Member, Phase, Requesting, Robot};
+use crate::task::Availability;
+
+impl Robot {
+    /// Whether the state is one that [`Robot::step`] can produce under `config`.
+    #[must_use]
+    pub fn is_valid(&self, config: &Config) -> bool {
+        // I16: every timer is within its limit; none is left due.
+        self.timers_within_limits(config)
+            // The RAM timer runs exactly while there is something to tell of a session.
+            && self.ram.is_armed() == self.is_bound()
+            && self.farewell.is_none_or(|standing| standing.left.is_armed())
+            // I18: the identity is locked while the robot is bound.
+            && (self.identity != Identity::Unlocked) == self.is_bound()
+            && (self.identity != Identity::Expiring || matches!(self.phase, Phase::Idle))
+            && self.farewell_contradicts_nothing()
+            && self.phase_is_valid(config)
+    }
+
+    /// I14 and I1 hold by the shape of [`Phase`]: one part in one session at a time, and no maneuver
+    /// without being a follower.
+    fn phase_is_valid(&self, config: &Config) -> bool {
+        match &self.phase {
+            Phase::Idle => true,
+            Phase::Requesting(requesting) => {
+                self.has_issued(requesting.number.0.boot, requesting.number.0.count)
+                    && self.availability == Availability::Available
+                    && requesting.is_valid()
+                    && requesting
+                        .offers
+                        .iter()
+                        .all(|offer| offer.station != self.station)
+            }
+            Phase::Offering(offering) => {
+                self.has_issued(offering.number.0.boot, offering.number.0.count)
+                    && self.availability == Availability::Available
+                    && offering.session.leader != self.station
+                    && offering.reservation.is_armed()
+                    && !offering.capabilities.is_empty()
+            }
+            Phase::Leading(leading) => {
+                self.has_issued(leading.number.0.boot, leading.number.0.count)
+                    && self.availability == Availability::Available
+                    && leading.is_valid(config)
+                    && leading
+                        .members
+                        .iter()
+                        .all(|member| member.station != self.station)
+            }
+            Phase::Following(following) => {
+                self.has_issued(following.offer.0.boot, following.offer.0.count)
+                    && following.session.leader != self.station
+                    && following.is_valid(self.availability)
+            }
+        }
+    }
+
+    /// I15: what the robot takes part in began in this life.
+    fn has_issued(&self, boot: u16, count: u16) -> bool {
+        boot == self.boot && count < self.next_count
+    }
+
+    /// The RAM never names the session as over that it takes part in.
+    fn farewell_contradicts_nothing(&self) -> bool {
+        let farewell = match self.farewell() {
+            None => None,
+            Some(Farewell::Ended(number)) => Some(self.own_session(number)),
+            Some(Farewell::Left(session)) => Some(session),
+        };
+        farewell.is_none() || farewell != self.session()
+    }
+}
+
+impl Requesting {
+    fn is_valid(&self) -> bool {
+        Config::can_ask_for(self.request.followers)
+            && !self.request.tasks.is_empty()
+            && self.help.is_armed()
+            && (self.selection.is_armed() || self.offers.is_empty())
+            && self.offers_are_ranked()
+    }
+}
+
+impl Leading {
+    fn is_valid(&self, config: &Config) -> bool {
+        let at_most = usize::from(self.request.followers);
+        Config::can_ask_for(self.request.followers)
+            && self.members.is_dense()
+            && (1..=at_most).contains(&self.members.len())
+            // I18: no two followers with the same station id.
+            && all_distinct(&self.members, |member| member.station)
+            && self.members.iter().all(|member| member.is_valid(config, self))
+            // I11: the corridor is open only while every required follower is engaged.
+            && (!self.corridor_open || self.corridor_obstacle(config).is_none())
+    }
+}
+
+impl Member {
+    fn is_valid(&self, config: &Config, leading: &Leading) -> bool {
+        let issued = |request: RequestId| {
+            let first = config.settings().first_request;
+            request.distance_from(first) < self.next_request.distance_from(first)
+        };
+        let first = config.settings().first_request;
+        self.next_request.distance_from(first) <= RequestId::MAX_PER_SESSION
+            && self.echoed.is_none_or(|echoed| !echoed.is_newer_than(leading.heartbeat))
+            // Commands are given only to those who have taken their role, and so is the lease.
+            && (self.has_joined()
+                || (self.outstanding.is_none() && self.order.is_none() && !self.lease.stands()))
+            && self.outstanding.is_none_or(|outstanding| {
+                issued(outstanding.request)
+                    && outstanding.acknowledgement.is_armed()
+                    // I16: no more repeats than allowed.
+                    && outstanding.repeats <= config.settings().n_ack
+                    // One command is outstanding, and it is the newest.
+                    && outstanding.request.next() == self.next_request
+                    && self.order.is_none_or(|o| outstanding.request.is_newer_than(o.request))
+            })
+            && self.order.is_none_or(|order| {
+                issued(order.request) && order.execution.is_armed() == order.is_running()
+            })
+    }
+}
+
+impl Following {
+    fn is_valid(&self, availability: Availability) -> bool {
+        // An unavailable robot executes nothing.
+        (availability == Availability::Available || self.executing().is_none())
+            // I9: once contact is lost, nothing runs until a newer command comes.
+            && (!self.contact.is_lost() || self.executing().is_none())
+            // I5: what was refused is newer than what was accepted.
+            && match (self.refused, self.job) {
+                (Some(refused), Some(job)) => refused.request.is_newer_than(job.request),
+                _ => true,
+            }
+    }
+}

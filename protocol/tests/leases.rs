@@ -1,0 +1,326 @@
+//! Keep-alive: only newer heartbeats count, and a lease ends before its follower can fall back.
+
+mod script;
+
+use crossguard_protocol::*;
+use script::*;
+
+fn lease_left(street: &Street) -> Option<u32> {
+    match street.leading(ARI).member(GO2).unwrap().lease {
+        Lease::Stands(left) => left.left().map(|left| left.0),
+        Lease::Expired(_) => None,
+    }
+}
+
+fn safety_left(street: &Street) -> Option<u32> {
+    match street.following(GO2).contact {
+        Contact::Fresh(left) => left.left().map(|left| left.0),
+        Contact::Lost(_) => None,
+    }
+}
+
+fn leader_ram(street: &Street, heartbeat: u16) -> Ram {
+    let Coordination::Leader {
+        number, followers, ..
+    } = street[ARI].ram().coordination
+    else {
+        panic!("no leader")
+    };
+    let heartbeat = Heartbeat(heartbeat);
+    let coordination = Coordination::Leader {
+        number,
+        heartbeat,
+        followers,
+    };
+    Ram {
+        station: ARI,
+        coordination,
+        farewell: None,
+    }
+}
+
+fn echo(street: &Street, heartbeat: u16) -> Ram {
+    let session = street.session_of(ARI);
+    let coordination = Coordination::Follower {
+        session,
+        echo: Heartbeat(heartbeat),
+        last: None,
+    };
+    Ram {
+        station: GO2,
+        coordination,
+        farewell: None,
+    }
+}
+
+/// Roles at heartbeat 1, then silence between the two.
+fn apart() -> Street {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(1));
+    street.part(ARI, GO2);
+    street
+}
+
+#[test]
+fn a_leader_bumps_its_heartbeat_once_per_ram_period() {
+    let mut street = apart();
+    street.pass(1_000);
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(11));
+    assert_eq!(street.count(ARI, sends_ram), 10);
+}
+
+#[test]
+fn a_leader_that_is_told_late_counts_the_periods_it_missed() {
+    let mut street = apart();
+    street.step(ARI, Input::Elapsed(Millis(1_050)));
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(11));
+    assert_eq!(street[ARI].next_ram(), Some(Millis(50)));
+    assert_eq!(
+        street.count(ARI, sends_ram),
+        1,
+        "one RAM, not one per period"
+    );
+}
+
+#[test]
+fn a_newer_heartbeat_restarts_the_safety_timer_and_no_other() {
+    let mut street = apart();
+    street.pass(500);
+    assert_eq!(safety_left(&street), Some(1_500));
+    let same = street.following(GO2).heard.0;
+    for heartbeat in [same, same.wrapping_sub(1), same.wrapping_sub(30_000)] {
+        let ram = leader_ram(&street, heartbeat);
+        assert_eq!(
+            street.hears_ram(GO2, ram).ignored(),
+            Some(Ignored::OldHeartbeat)
+        );
+        assert_eq!(safety_left(&street), Some(1_500));
+    }
+    let newer = leader_ram(&street, same + 1);
+    assert_eq!(street.hears_ram(GO2, newer).ignored(), None);
+    assert_eq!(safety_left(&street), Some(2_000));
+    assert_eq!(street.following(GO2).heard, Heartbeat(same + 1));
+}
+
+#[test]
+fn a_newer_command_restarts_the_safety_timer_and_a_repeated_one_does_not() {
+    let mut street = apart();
+    let session = street.session_of(ARI);
+    let (request, task) = (RequestId(0), TaskType::MOVE);
+    let command = Rmcm::Command(Command {
+        session,
+        to: GO2,
+        request,
+        task,
+    });
+    street.pass(500);
+    street.hears_rmcm(GO2, command);
+    assert_eq!(safety_left(&street), Some(2_000));
+    street.pass(500);
+    street.hears_rmcm(GO2, command);
+    assert_eq!(safety_left(&street), Some(1_500));
+}
+
+#[test]
+fn a_long_maneuver_needs_no_repeated_command() {
+    let mut street = Street::executing(TaskType::MOVE);
+    street.pass(21_600);
+    assert_eq!(
+        (street[ARI].state(), street[GO2].state()),
+        (State::ManeuverExecuting, State::ManeuverExecuting)
+    );
+    assert_eq!(street.count(ARI, sends_rmcm), 0);
+    assert!(lease_left(&street).is_some());
+}
+
+#[test]
+fn the_lease_counts_from_when_the_echoed_heartbeat_was_sent() {
+    let mut street = apart();
+    street.pass(400);
+    // Heartbeat 5 has just been sent; its echo comes 70 ms later.
+    street.pass(70);
+    let ram = echo(&street, 5);
+    street.hears_ram(ARI, ram);
+    assert_eq!(lease_left(&street), Some(1_900 - 70));
+    // An echo of heartbeat 5 that comes when 8 is the newest is 370 ms old; but it is not newer.
+    street.pass(300);
+    let ram = echo(&street, 5);
+    assert_eq!(
+        street.hears_ram(ARI, ram).ignored(),
+        Some(Ignored::OldHeartbeat)
+    );
+    assert_eq!(lease_left(&street), Some(1_900 - 370));
+    let ram = echo(&street, 7);
+    street.hears_ram(ARI, ram);
+    assert_eq!(lease_left(&street), Some(1_900 - 170));
+}
+
+#[test]
+fn an_echo_that_is_older_than_a_lease_grants_none() {
+    let mut street = apart();
+    street.pass(2_000);
+    assert_eq!(lease_left(&street), None);
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(21));
+    let ram = echo(&street, 2);
+    street.hears_ram(ARI, ram);
+    assert_eq!(lease_left(&street), None, "sent 1900 ms ago");
+    let ram = echo(&street, 3);
+    street.hears_ram(ARI, ram);
+    assert_eq!(lease_left(&street), Some(100), "sent 1800 ms ago");
+    let granted = Notice::LeaseGranted(GO2);
+    assert!(street.has_put_out(ARI, Output::Notify(granted)));
+}
+
+#[test]
+fn an_echo_of_a_heartbeat_that_was_never_sent_is_ignored() {
+    let mut street = apart();
+    let ram = echo(&street, 2);
+    assert_eq!(
+        street.hears_ram(ARI, ram).ignored(),
+        Some(Ignored::EchoFromFuture)
+    );
+}
+
+#[test]
+fn the_lease_runs_out_before_the_follower_falls_back() {
+    let mut street = apart();
+    let expired = Output::Notify(Notice::LeaseExpired(GO2));
+    while !street.has_put_out(ARI, expired) {
+        assert!(!street.following(GO2).contact.is_lost());
+        street.pass(1);
+    }
+    assert!(!street.following(GO2).contact.is_lost());
+    // And the follower falls back on time.
+    street.pass(100);
+    assert!(street.following(GO2).contact.is_lost());
+}
+
+#[test]
+fn a_follower_is_kept_without_a_lease_until_it_must_have_left() {
+    let mut street = apart();
+    let session = street.session_of(ARI);
+    street.pass(1_900);
+    assert!(street.has_put_out(ARI, Output::Notify(Notice::LeaseExpired(GO2))));
+    street.pass(6_999);
+    assert!(street.leading(ARI).member(GO2).is_some());
+    street.pass(1);
+    let gone = Notice::FollowerGone(GO2, GoneReason::NoContact);
+    assert!(street.has_put_out(ARI, Output::Notify(gone)));
+    let ended = Notice::SessionEnded(session, EndReason::NoFollowers);
+    assert!(street.has_put_out(ARI, Output::Notify(ended)));
+    assert_eq!(street[GO2].role(), Role::None);
+}
+
+#[test]
+fn a_follower_that_never_takes_its_role_is_dropped() {
+    let mut street = Street::new(&[ARI, GO2]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    street.remove(GO2);
+    street.pass(300);
+    assert_eq!(street[ARI].role(), Role::Leader);
+    street.pass(6_999);
+    assert_eq!(street[ARI].role(), Role::Leader);
+    street.pass(1);
+    assert_eq!(street[ARI].role(), Role::None);
+}
+
+#[test]
+fn contact_that_comes_back_grants_a_new_lease() {
+    let mut street = apart();
+    street.pass(2_500);
+    assert!(street.following(GO2).contact.is_lost());
+    street.forget();
+    street.heal();
+    street.pass(200);
+    assert!(!street.following(GO2).contact.is_lost());
+    assert!(street.has_put_out(
+        GO2,
+        Output::Notify(Notice::ContactRegained(street.session_of(GO2)))
+    ));
+    assert!(street.has_put_out(ARI, Output::Notify(Notice::LeaseGranted(GO2))));
+}
+
+#[test]
+fn heartbeats_wrap_without_confusion() {
+    let settings = Settings {
+        first_heartbeat: Heartbeat(65_534),
+        ..Settings::default()
+    };
+    let mut street = Street::with_roles_and_settings(&[ARI, GO2], settings);
+    street.pass(1_000);
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(9));
+    assert_eq!(street.following(GO2).heard, Heartbeat(9));
+    assert!(lease_left(&street).is_some());
+}
+
+#[test]
+fn a_follower_that_the_leader_no_longer_lists_is_released() {
+    let mut street = Street::executing(TaskType::MOVE);
+    let Coordination::Leader {
+        number, heartbeat, ..
+    } = street[ARI].ram().coordination
+    else {
+        panic!("no leader")
+    };
+    let other = Confirmation {
+        station: SPOT,
+        offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
+    };
+    let coordination = Coordination::Leader {
+        number,
+        heartbeat,
+        followers: [other].into_iter().collect(),
+    };
+    let maneuver = street.following(GO2).executing().unwrap();
+    let outputs = street.hears_ram(
+        GO2,
+        Ram {
+            station: ARI,
+            coordination,
+            farewell: None,
+        },
+    );
+    let stop = StopReason::Released(ReleaseReason::NotListed);
+    assert!(
+        outputs
+            .iter()
+            .any(|o| *o == Output::StopManeuver(maneuver, stop))
+    );
+    assert_eq!(street[GO2].role(), Role::None);
+    assert_eq!(street[GO2].farewell(), None, "the leader knows already");
+}
+
+#[test]
+fn being_listed_for_another_offer_is_not_being_listed() {
+    let mut street = Street::executing(TaskType::MOVE);
+    let session = street.session_of(GO2);
+    let Coordination::Leader {
+        number, heartbeat, ..
+    } = street[ARI].ram().coordination
+    else {
+        panic!("no leader")
+    };
+    let offer = OfferNumber(UniqueNumber { boot: 0, count: 7 });
+    let followers = [Confirmation {
+        station: GO2,
+        offer,
+    }]
+    .into_iter()
+    .collect();
+    let coordination = Coordination::Leader {
+        number,
+        heartbeat,
+        followers,
+    };
+    street.part(ARI, GO2);
+    street.hears_ram(
+        GO2,
+        Ram {
+            station: ARI,
+            coordination,
+            farewell: None,
+        },
+    );
+    assert_eq!(street[GO2].role(), Role::None);
+    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+}

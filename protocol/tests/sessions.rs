@@ -1,0 +1,347 @@
+//! Sessions: a message of another session never changes a role, and only naming ends one.
+
+mod script;
+
+use crossguard_protocol::*;
+use script::*;
+
+/// A session of `leader` that is not the present one.
+fn other_session(leader: StationId) -> SessionId {
+    SessionId {
+        leader,
+        number: SessionNumber(UniqueNumber { boot: 0, count: 9 }),
+    }
+}
+
+fn following_state(street: &Street) -> Following {
+    street.following(GO2).clone()
+}
+
+#[test]
+fn a_rebooted_leader_never_reuses_a_session_number() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    let before = street.session_of(ARI);
+    street.reboot(ARI);
+    street.cut(ARI, GO2);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let after = street.session_of(ARI);
+    assert_ne!(after, before);
+    assert!(after.number > before.number);
+}
+
+#[test]
+fn each_session_and_each_offer_of_one_boot_has_its_own_number() {
+    let mut street = Street::new(&[ARI, GO2]);
+    let mut seen = Vec::new();
+    for _ in 0..3 {
+        street.tell(ARI, Event::PedestrianDetected(escort(1)));
+        let Coordination::OfferHelp { offer, .. } = street[GO2].ram().coordination else {
+            panic!()
+        };
+        assert!(!seen.contains(&offer));
+        seen.push(offer);
+        street.tell(ARI, Event::TaskCompleted);
+        street.pass(1_000);
+    }
+}
+
+#[test]
+fn a_leader_that_lists_nobody_in_another_session_moves_no_follower() {
+    let mut street = Street::executing(TaskType::MOVE);
+    let before = following_state(&street);
+    let stale = Ram {
+        station: ARI,
+        coordination: Coordination::Leader {
+            number: other_session(ARI).number,
+            heartbeat: Heartbeat(500),
+            followers: Followers::EMPTY,
+        },
+        farewell: None,
+    };
+    assert_eq!(
+        street.hears_ram(GO2, stale).ignored(),
+        Some(Ignored::NotAddressed)
+    );
+    assert_eq!(following_state(&street), before);
+}
+
+#[test]
+fn a_bare_none_releases_nobody() {
+    let mut street = Street::executing(TaskType::MOVE);
+    let bare = Ram {
+        station: ARI,
+        coordination: Coordination::None,
+        farewell: None,
+    };
+    assert_eq!(
+        street.hears_ram(GO2, bare).ignored(),
+        Some(Ignored::NothingNew)
+    );
+    assert_eq!(street[GO2].state(), State::ManeuverExecuting);
+    let bare = Ram {
+        station: GO2,
+        coordination: Coordination::None,
+        farewell: None,
+    };
+    assert_eq!(
+        street.hears_ram(ARI, bare).ignored(),
+        Some(Ignored::NothingNew)
+    );
+    assert_eq!(street[ARI].state(), State::ManeuverExecuting);
+}
+
+#[test]
+fn only_the_end_of_the_own_session_releases() {
+    let mut street = Street::executing(TaskType::MOVE);
+    let session = street.session_of(GO2);
+    let ended = |station, number| Ram {
+        station,
+        coordination: Coordination::None,
+        farewell: Some(Farewell::Ended(number)),
+    };
+    let of_another_number = ended(ARI, other_session(ARI).number);
+    assert_eq!(
+        street.hears_ram(GO2, of_another_number).ignored(),
+        Some(Ignored::OtherSession)
+    );
+    let of_another_leader = ended(SPOT, session.number);
+    assert_eq!(
+        street.hears_ram(GO2, of_another_leader).ignored(),
+        Some(Ignored::OtherSession)
+    );
+    assert_eq!(street[GO2].state(), State::ManeuverExecuting);
+
+    let maneuver = street.following(GO2).executing().unwrap();
+    let outputs = street.hears_ram(GO2, ended(ARI, session.number));
+    let stop = StopReason::Released(ReleaseReason::SessionEnded);
+    assert!(
+        outputs
+            .iter()
+            .any(|o| *o == Output::StopManeuver(maneuver, stop))
+    );
+    assert_eq!(street[GO2].state(), State::Idle);
+}
+
+#[test]
+fn the_end_frees_a_helper_that_was_not_confirmed_yet() {
+    let mut street = Street::new(&[ARI, GO2]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    assert_eq!(street[GO2].role(), Role::Helper);
+    street.tell(ARI, Event::LeaveRequested);
+    assert_eq!(street[GO2].role(), Role::None);
+}
+
+#[test]
+fn a_command_of_another_session_is_not_executed() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    for leader in [ARI, SPOT] {
+        let before = following_state(&street);
+        let command = Command {
+            session: other_session(leader),
+            to: GO2,
+            request: RequestId(77),
+            task: TaskType::MOVE,
+        };
+        let outputs = street.hears_rmcm(GO2, Rmcm::Command(command));
+        assert!(!outputs.iter().any(starts) && !outputs.iter().any(sends_rmcm));
+        assert_eq!(following_state(&street), before);
+        // Who commands in a session that this robot has no part in is told so.
+        let left = Some(Farewell::Left(other_session(leader)));
+        assert_eq!(street[GO2].farewell(), left);
+        assert!(outputs.iter().any(sends_ram));
+        assert_eq!(
+            street.hears_rmcm(GO2, Rmcm::Command(command)).ignored(),
+            Some(Ignored::NothingNew),
+            "told once, not once per command"
+        );
+    }
+}
+
+#[test]
+fn an_answer_of_another_session_changes_nothing() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    street.cut(GO2, ARI);
+    street.tell(
+        ARI,
+        Event::CommandManeuver {
+            follower: GO2,
+            task: TaskType::MOVE,
+        },
+    );
+    let answer = |session| {
+        Rmcm::Answer(Answer {
+            from: GO2,
+            session,
+            request: RequestId(0),
+            verdict: Verdict::Accepted,
+        })
+    };
+    let other = street.hears_rmcm(ARI, answer(other_session(ARI)));
+    assert_eq!(other.ignored(), Some(Ignored::OtherSession));
+    let foreign = street.hears_rmcm(ARI, answer(other_session(SPOT)));
+    assert_eq!(foreign.ignored(), Some(Ignored::NotAddressed));
+    assert!(
+        street
+            .leading(ARI)
+            .member(GO2)
+            .unwrap()
+            .outstanding
+            .is_some()
+    );
+    let own = answer(street.session_of(ARI));
+    assert_eq!(street.hears_rmcm(ARI, own).ignored(), None);
+}
+
+#[test]
+fn whoever_follows_in_a_session_that_is_over_is_told_so() {
+    let mut street = Street::executing(TaskType::MOVE);
+    let session = street.session_of(GO2);
+    street.reboot(ARI);
+    // The follower's next RAM names a session that the rebooted leader does not know.
+    street.pass(100);
+    assert_eq!(
+        street[ARI].farewell(),
+        Some(Farewell::Ended(session.number))
+    );
+    assert_eq!(street[GO2].state(), State::Idle);
+    // It stands for a while and is not started anew by every RAM.
+    let stale = Ram {
+        station: GO2,
+        coordination: Coordination::Follower {
+            session,
+            echo: Heartbeat(0),
+            last: None,
+        },
+        farewell: None,
+    };
+    assert_eq!(
+        street.hears_ram(ARI, stale).ignored(),
+        Some(Ignored::NothingNew)
+    );
+}
+
+#[test]
+fn whoever_offers_to_a_session_that_is_over_is_told_so() {
+    let mut street = Street::new(&[ARI, GO2]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    street.reboot(ARI);
+    street.pass(100);
+    assert_eq!(street[GO2].role(), Role::None);
+}
+
+#[test]
+fn a_rebooted_follower_is_not_drawn_back_by_a_late_confirmation() {
+    let mut street = Street::new(&[ARI, GO2]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let need_help = street[ARI].ram();
+    street.pass(400);
+    let confirmation = street[ARI].ram();
+    let session = street.session_of(GO2);
+
+    // GO2 loses its memory, then hears the old request and after it the old confirmation.
+    street.reboot(GO2);
+    street.part(ARI, GO2);
+    street.hears_ram(GO2, need_help);
+    assert_eq!(street[GO2].role(), Role::Helper);
+    let outputs = street.hears_ram(GO2, confirmation);
+    let released = Notice::Released(session, ReleaseReason::NotListed);
+    assert!(outputs.notices().any(|notice| notice == released));
+    assert_eq!(street[GO2].role(), Role::None);
+    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+
+    // The leader learns it.
+    street.heal();
+    street.pass(100);
+    assert_eq!(street[ARI].role(), Role::None);
+}
+
+#[test]
+fn a_rebooted_follower_that_is_still_listed_says_that_it_left() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    let session = street.session_of(ARI);
+    street.reboot(GO2);
+    street.pass(100);
+    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    let gone = Notice::FollowerGone(GO2, GoneReason::Left);
+    assert!(street.has_put_out(ARI, Output::Notify(gone)));
+    let ended = Notice::SessionEnded(session, EndReason::NoFollowers);
+    assert!(street.has_put_out(ARI, Output::Notify(ended)));
+}
+
+#[test]
+fn a_robot_has_one_part_in_one_session_at_a_time() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    for who in [ARI, GO2] {
+        let detected = street.tell(who, Event::PedestrianDetected(escort(1)));
+        assert_eq!(detected.ignored(), Some(Ignored::InSession));
+        let other = Ram {
+            station: SPOT,
+            coordination: Coordination::NeedHelp {
+                number: other_session(SPOT).number,
+                request: HelpRequest {
+                    urgency: Urgency::Emergency,
+                    ..escort(1)
+                },
+            },
+            farewell: None,
+        };
+        assert_eq!(
+            street.hears_ram(who, other).ignored(),
+            Some(Ignored::InSession)
+        );
+    }
+}
+
+#[test]
+fn messages_with_the_own_station_id_are_ignored() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    for who in [ARI, GO2] {
+        let own = street[who].ram();
+        assert_eq!(
+            street.hears_ram(who, own).ignored(),
+            Some(Ignored::OwnStation)
+        );
+    }
+    let session = street.session_of(ARI);
+    let (request, task) = (RequestId(0), TaskType::MOVE);
+    let command = Rmcm::Command(Command {
+        session,
+        to: GO2,
+        request,
+        task,
+    });
+    assert_eq!(
+        street.hears_rmcm(ARI, command).ignored(),
+        Some(Ignored::OwnStation)
+    );
+    let answer = Answer {
+        from: ARI,
+        session,
+        request,
+        verdict: Verdict::Accepted,
+    };
+    let outputs = street.hears_rmcm(ARI, Rmcm::Answer(answer));
+    assert_eq!(outputs.ignored(), Some(Ignored::OwnStation));
+}
+
+#[test]
+fn a_boot_whose_numbers_are_used_up_opens_no_session_and_makes_no_offer() {
+    let mut street = Street::new(&[ARI]);
+    let need_help = |count| Ram {
+        station: SPOT,
+        coordination: Coordination::NeedHelp {
+            number: SessionNumber(UniqueNumber { boot: 1, count }),
+            request: escort(1),
+        },
+        farewell: None,
+    };
+    for count in 0..u16::MAX {
+        assert_eq!(street.hears_ram(ARI, need_help(count)).ignored(), None);
+        street.tell(ARI, Event::LeaveRequested);
+        street.forget();
+    }
+    let exhausted = Some(Ignored::NumbersExhausted);
+    assert_eq!(street.hears_ram(ARI, need_help(0)).ignored(), exhausted);
+    let detected = street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    assert_eq!(detected.ignored(), exhausted);
+}
