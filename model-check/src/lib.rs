@@ -1,1 +1,32 @@
-//! stub
+//! Exhaustive checks of the Crossguard coordination protocol.
+//!
+//! ```text
+//!   scenarios/*.toml ──► scenario ──► model ◄── crossguard_protocol::Robot::step
+//!                                       │
+//!                        ┌──────────────┴──────────────┐
+//!                    stateright                      graph
+//!               properties of states           facts about all runs
+//!                and of single steps             (reset is reachable)
+//!                        └──────────────┬──────────────┘
+//!                                     check ──► report
+//! ```
+//!
+//! The model calls the protocol's transition function and has no rule of its own. What surrounds the
+//! robots is in the model: a channel that loses, delays, repeats and reorders, applications that do
+//! anything they may, timers that expire at any moment, crashes. Scenarios bound how often some of
+//! this happens, and each verdict says under which bounds it was found.
+
+mod canonical;
+pub mod check;
+pub mod fsm;
+mod graph;
+pub mod history;
+mod intern;
+pub mod model;
+pub mod network;
+pub mod node;
+pub mod properties;
+pub mod report;
+pub mod scenario;
+mod steps;
+pub mod universe;

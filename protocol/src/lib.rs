@@ -51,6 +51,7 @@ mod list;
 mod maneuver;
 mod message;
 mod output;
+mod rename;
 mod robot;
 mod roles;
 mod state;
@@ -75,6 +76,7 @@ pub use output::{
     CorridorClosure, Disengagement, EndReason, GoneReason, Ignored, Maneuver, Notice, Output,
     Outputs, ReleaseReason, StopReason,
 };
+pub use rename::Renaming;
 pub use state::{
     Contact, Following, Identity, Job, Leading, Lease, Member, Offer, Offering, Order, Outstanding,
     Phase, Refusal, Requesting, Robot, Role, StandingFarewell, State,

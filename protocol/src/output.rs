@@ -261,6 +261,13 @@ pub enum Ignored {
 #[cfg_attr(feature = "serde", serde(transparent))]
 pub struct Outputs(List<Output, MAX_OUTPUTS>);
 
+impl FromIterator<Output> for Outputs {
+    /// The first [`MAX_OUTPUTS`] outputs.
+    fn from_iter<I: IntoIterator<Item = Output>>(outputs: I) -> Self {
+        Self(outputs.into_iter().collect())
+    }
+}
+
 impl Outputs {
     /// Adds `output`. A second [`Output::SendRam`] would say the same and is left out.
     ///

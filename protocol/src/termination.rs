@@ -147,6 +147,10 @@ impl Robot {
     /// Somebody still takes part in a session of this robot that is over, perhaps one of an earlier
     /// life: name it as ended once more.
     pub(crate) fn answer_stale_session(&mut self, step: &mut Step, session: SessionId) -> Effect {
+        if self.session() == Some(session) {
+            // It is not over; the sender claims a part in it that nobody gave it.
+            return Err(Ignored::NotAFollower);
+        }
         self.say_farewell(step, Farewell::Ended(session.number))
     }
 

@@ -1,7 +1,6 @@
 //! The timers: which are armed, which is due, what each does.
 
 use crate::config::Config;
-use crate::id::Heartbeat;
 use crate::input::Timer;
 use crate::list::List;
 use crate::output::{Ignored, Output};
@@ -146,34 +145,13 @@ impl Robot {
         step.out.push(Output::SendRam);
     }
 
-    /// Replaces the time that every armed timer has left, and every heartbeat number, by what the
-    /// two functions say.
-    ///
-    /// For tools that compare states up to such a renaming. A renaming that keeps the order of
-    /// heartbeats and no timer due keeps the state valid.
-    #[must_use]
-    pub fn renamed(
-        &self,
-        mut countdown: impl FnMut(Timer, Millis) -> Millis,
-        mut heartbeat: impl FnMut(Heartbeat) -> Heartbeat,
-    ) -> Self {
-        let mut robot = self.clone();
-        visit_countdowns!(&mut robot, iter_mut, (mut), |timer, left: &mut Countdown| {
-            if let Some(time) = left.left() {
-                *left = Countdown::armed(countdown(timer, time));
+    /// Replaces the time that every armed timer has left.
+    pub(crate) fn rename_countdowns(&mut self, mut left: impl FnMut(Timer, Millis) -> Millis) {
+        visit_countdowns!(self, iter_mut, (mut), |timer, countdown: &mut Countdown| {
+            if let Some(time) = countdown.left() {
+                *countdown = Countdown::armed(left(timer, time));
             }
         });
-        match &mut robot.phase {
-            Phase::Leading(leading) => {
-                leading.heartbeat = heartbeat(leading.heartbeat);
-                for member in leading.members.iter_mut() {
-                    member.echoed = member.echoed.map(&mut heartbeat);
-                }
-            }
-            Phase::Following(following) => following.heard = heartbeat(following.heard),
-            Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => {}
-        }
-        robot
     }
 
     /// Whether every armed timer has at most the time it was started with, and at least 1 ms.

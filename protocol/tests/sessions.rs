@@ -230,6 +230,27 @@ fn whoever_offers_to_a_session_that_is_over_is_told_so() {
 }
 
 #[test]
+fn whoever_claims_a_part_that_nobody_gave_it_does_not_end_the_session() {
+    let mut street = Street::new(&[ARI]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let session = street.session_of(ARI);
+    let claim = Ram {
+        station: GO2,
+        coordination: Coordination::Follower {
+            session,
+            echo: Heartbeat(0),
+            last: None,
+        },
+        farewell: None,
+    };
+    assert_eq!(
+        street.hears_ram(ARI, claim).ignored(),
+        Some(Ignored::NotAFollower)
+    );
+    assert_eq!(street[ARI].role(), Role::Requester);
+}
+
+#[test]
 fn a_rebooted_follower_is_not_drawn_back_by_a_late_confirmation() {
     let mut street = Street::new(&[ARI, GO2]);
     street.tell(ARI, Event::PedestrianDetected(escort(1)));

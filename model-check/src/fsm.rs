@@ -1,0 +1,128 @@
+//! The state diagram of the protocol, drawn from what the transition function does.
+//!
+//! Nothing here knows the rules: the edges are those that [`universe`](crate::universe) has seen one
+//! robot take among peers that say anything.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+use crossguard_protocol::{Role, State};
+
+use crate::universe::{Mode, Universe};
+
+/// The form of a diagram.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Format {
+    /// A `stateDiagram-v2` of Mermaid.
+    Mermaid,
+    /// A digraph of Graphviz.
+    Dot,
+}
+
+/// The diagram of what a robot has been seen to do.
+#[must_use]
+pub fn diagram(universe: &Universe, format: Format) -> String {
+    let modes: BTreeSet<Mode> = universe
+        .edges
+        .keys()
+        .flat_map(|&(from, to)| [from, to])
+        .collect();
+    let edges: BTreeMap<(Mode, Mode), Vec<String>> = universe
+        .edges
+        .iter()
+        .map(|(way, labels)| (*way, condense(labels)))
+        .collect();
+    match format {
+        Format::Mermaid => mermaid(&modes, &edges),
+        Format::Dot => dot(&modes, &edges),
+    }
+}
+
+/// Labels of one kind in one line: `timer Help, Lock` rather than `timer Help`, `timer Lock`.
+fn condense(labels: &BTreeSet<String>) -> Vec<String> {
+    let mut kinds: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for label in labels {
+        match label.split_once(' ') {
+            Some((kind @ ("RAM" | "timer"), rest)) => kinds.entry(kind).or_default().push(rest),
+            _ => kinds.entry("").or_default().push(label),
+        }
+    }
+    kinds
+        .iter()
+        .map(|(kind, rest)| format!("{kind} {}", rest.join(", ")).trim().to_owned())
+        .collect()
+}
+
+/// The mode's name: the paper's state, and the role that tells its two sides apart.
+fn name((role, state): Mode) -> (&'static str, &'static str) {
+    let side = match role {
+        Role::None => "",
+        Role::Requester => "requester",
+        Role::Helper => "helper",
+        Role::Leader => "leader",
+        Role::Follower => "follower",
+    };
+    let state = match state {
+        State::Idle => "Idle",
+        State::HelpRequested => "HelpRequested",
+        State::RoleEstablished => "RoleEstablished",
+        State::ManeuverExecuting => "ManeuverExecuting",
+    };
+    (state, side)
+}
+
+fn id(mode: Mode) -> String {
+    let (state, side) = name(mode);
+    if side.is_empty() {
+        state.to_owned()
+    } else {
+        format!("{state}_{side}")
+    }
+}
+
+fn mermaid(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> String {
+    let mut text = String::from("stateDiagram-v2\n    direction LR\n    [*] --> Idle\n");
+    for &mode in modes {
+        let (state, side) = name(mode);
+        if !side.is_empty() {
+            let _ = writeln!(text, "    state \"{state} ({side})\" as {}", id(mode));
+        }
+    }
+    for ((from, to), labels) in edges {
+        let _ = writeln!(
+            text,
+            "    {} --> {}: {}",
+            id(*from),
+            id(*to),
+            labels.join("<br>")
+        );
+    }
+    text
+}
+
+fn dot(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> String {
+    let mut text = String::from(
+        "digraph fsm {\n    rankdir=LR;\n    node [shape=box, style=rounded, fontname=sans];\n    \
+         edge [fontname=sans, fontsize=9];\n",
+    );
+    for &mode in modes {
+        let (state, side) = name(mode);
+        let label = if side.is_empty() {
+            state.to_owned()
+        } else {
+            format!("{state}\\n{side}")
+        };
+        let _ = writeln!(text, "    {} [label=\"{label}\"];", id(mode));
+    }
+    for ((from, to), labels) in edges {
+        let label = labels.join("\\n");
+        let _ = writeln!(
+            text,
+            "    {} -> {} [label=\"{label}\"];",
+            id(*from),
+            id(*to)
+        );
+    }
+    text.push_str("}\n");
+    text
+}

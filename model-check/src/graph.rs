@@ -1,0 +1,190 @@
+//! The whole state graph, for facts about runs that stateright's exploration does not establish.
+
+use std::collections::HashMap;
+use std::time::{Duration, Instant};
+
+use rustc_hash::FxBuildHasher;
+
+use crate::model::{Action, Model, State};
+use crate::report::CutOff;
+
+/// How far a graph may grow.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limit {
+    pub(crate) states: Option<usize>,
+    pub(crate) time: Option<Duration>,
+}
+
+impl Limit {
+    fn reached(&self, states: usize, time: Duration) -> Option<CutOff> {
+        if self.states.is_some_and(|max| states >= max) {
+            Some(CutOff::StateLimit)
+        } else if self.time.is_some_and(|max| time >= max) {
+            Some(CutOff::TimeLimit)
+        } else {
+            None
+        }
+    }
+}
+
+/// Every reachable state and every transition between them.
+pub(crate) struct Graph {
+    states: Vec<State>,
+    /// For each state the first one through which it was reached; the initial state names itself.
+    parents: Vec<u32>,
+    /// Successors of all states, one after the other.
+    targets: Vec<u32>,
+    /// Where the successors of each state begin, and after the last where they end.
+    starts: Vec<usize>,
+    /// Whether each state can reach one in which all robots are idle.
+    resettable: Vec<bool>,
+    depth: usize,
+    cut_off: Option<CutOff>,
+}
+
+impl Graph {
+    /// Explores `model` from its initial state, breadth first. `watch` is told states and depth, and
+    /// says whether to stop.
+    pub(crate) fn build(
+        model: &Model,
+        limit: Limit,
+        watch: &mut dyn FnMut(usize, usize) -> bool,
+    ) -> Self {
+        let start = Instant::now();
+        let initial = model.initial();
+        let mut numbers: HashMap<State, u32, FxBuildHasher> = HashMap::default();
+        numbers.insert(initial.clone(), 0);
+        let mut graph = Self {
+            states: vec![initial],
+            parents: vec![0],
+            targets: Vec::new(),
+            starts: vec![0],
+            resettable: Vec::new(),
+            depth: 0,
+            cut_off: None,
+        };
+        let mut level_ends = 1;
+        let mut actions = Vec::new();
+        let mut at = 0;
+        while at < graph.states.len() {
+            if at == level_ends {
+                (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
+            }
+            if at % 16_384 == 0 {
+                graph.cut_off = if watch(graph.states.len(), graph.depth) {
+                    Some(CutOff::FoundBroken)
+                } else {
+                    limit.reached(graph.states.len(), start.elapsed())
+                };
+                if graph.cut_off.is_some() {
+                    return graph;
+                }
+            }
+            let state = graph.states[at].clone();
+            actions.clear();
+            model.actions_in(&state, &mut actions);
+            let from = graph.targets.len();
+            for &action in &actions {
+                let Some((next, _)) = model.successor(&state, action) else {
+                    continue;
+                };
+                let fresh = u32::try_from(graph.states.len()).expect("fewer than 2^32 states");
+                let number = *numbers.entry(next).or_insert_with_key(|next| {
+                    graph.states.push(next.clone());
+                    graph
+                        .parents
+                        .push(u32::try_from(at).expect("fewer than 2^32 states"));
+                    fresh
+                });
+                if !graph.targets[from..].contains(&number) {
+                    graph.targets.push(number);
+                }
+            }
+            graph.starts.push(graph.targets.len());
+            at += 1;
+        }
+        drop(numbers);
+        graph.resettable =
+            graph.can_reach(|state| model.nodes(state).all(crate::node::Node::is_idle));
+        graph
+    }
+
+    pub(crate) fn states(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Steps from the initial state to the farthest state.
+    pub(crate) const fn depth(&self) -> usize {
+        self.depth
+    }
+
+    pub(crate) fn transitions(&self) -> usize {
+        self.targets.len()
+    }
+
+    pub(crate) const fn cut_off(&self) -> Option<CutOff> {
+        self.cut_off
+    }
+
+    /// For each state, whether it can reach one that satisfies `goal`.
+    fn can_reach(&self, goal: impl Fn(&State) -> bool) -> Vec<bool> {
+        let states = self.states.len();
+        let mut starts = vec![0_usize; states + 1];
+        for &target in &self.targets {
+            starts[target as usize + 1] += 1;
+        }
+        for i in 0..states {
+            starts[i + 1] += starts[i];
+        }
+        let mut sources = vec![0_u32; self.targets.len()];
+        let mut fill = starts.clone();
+        for (from, range) in self.starts.windows(2).enumerate() {
+            for &target in &self.targets[range[0]..range[1]] {
+                sources[fill[target as usize]] = u32::try_from(from).expect("fewer than 2^32");
+                fill[target as usize] += 1;
+            }
+        }
+        let mut reached: Vec<bool> = self.states.iter().map(&goal).collect();
+        let mut todo: Vec<usize> = (0..states).filter(|&i| reached[i]).collect();
+        while let Some(state) = todo.pop() {
+            for &source in &sources[starts[state]..starts[state + 1]] {
+                if !reached[source as usize] {
+                    reached[source as usize] = true;
+                    todo.push(source as usize);
+                }
+            }
+        }
+        reached
+    }
+
+    /// A shortest run into a state from which the robots cannot all get idle any more.
+    pub(crate) fn stuck(&self, model: &Model) -> Option<Vec<(State, Option<Action>)>> {
+        let stuck = self.resettable.iter().position(|&resettable| !resettable)?;
+        let mut path = vec![stuck];
+        while path[path.len() - 1] != 0 {
+            path.push(self.parents[path[path.len() - 1]] as usize);
+        }
+        path.reverse();
+        let states = path.iter().map(|&state| &self.states[state]);
+        let nexts = states.clone().skip(1).map(Some).chain([None]);
+        let with_action = |(state, next): (&State, Option<&State>)| {
+            (
+                state.clone(),
+                next.and_then(|next| action_between(model, state, next)),
+            )
+        };
+        Some(states.zip(nexts).map(with_action).collect())
+    }
+}
+
+/// An action that leads from one state to the other.
+fn action_between(model: &Model, from: &State, to: &State) -> Option<Action> {
+    let mut actions = Vec::new();
+    model.actions_in(from, &mut actions);
+    let leads_there = |&action: &Action| {
+        model
+            .successor(from, action)
+            .is_some_and(|(next, _)| next == *to)
+    };
+    actions.into_iter().find(leads_there)
+}

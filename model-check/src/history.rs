@@ -1,0 +1,207 @@
+//! What has happened, as far as a property needs it and no robot's state tells.
+
+use crossguard_protocol::{
+    Answer, Command, Confirmation, ManeuverId, Output, Outputs, Phase, Renaming, RequestId, Rmcm,
+    Robot, SessionId, StationId, TaskType, Verdict,
+};
+
+use crate::canonical::Renamable;
+
+/// The history of a run. Sorted, so that the order of unrelated events does not tell states apart.
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+pub struct History {
+    commands: Vec<CommandRecord>,
+    confirmed: Vec<(SessionId, Confirmation)>,
+    before_crash: Vec<(StationId, SessionId)>,
+}
+
+/// What became of one command.
+#[expect(clippy::struct_excessive_bools, reason = "each is an independent fact")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct CommandRecord {
+    /// The follower that it was sent to.
+    pub to: StationId,
+    /// Session and request number.
+    pub id: ManeuverId,
+    /// What was commanded.
+    pub task: TaskType,
+    /// The follower has acknowledged it.
+    pub accepted: bool,
+    /// The follower has started it.
+    pub started: bool,
+    /// The follower's application has finished it.
+    pub finished: bool,
+    /// The follower has fallen back from it.
+    pub fell_back: bool,
+}
+
+impl History {
+    /// The record of a command, if it was ever sent.
+    #[must_use] 
+    pub fn command(&self, to: StationId, id: ManeuverId) -> Option<&CommandRecord> {
+        self.commands
+            .iter()
+            .find(|record| record.to == to && record.id == id)
+    }
+
+    /// The newest command of `session` that `to` has started.
+    #[must_use] 
+    pub fn newest_started(&self, to: StationId, session: SessionId) -> Option<RequestId> {
+        let started = |r: &&CommandRecord| r.to == to && r.id.session == session && r.started;
+        let requests = self
+            .commands
+            .iter()
+            .filter(started)
+            .map(|record| record.id.request);
+        requests.reduce(|a, b| if b.is_newer_than(a) { b } else { a })
+    }
+
+    /// Whether the leader of `session` has confirmed this follower with this offer.
+    #[must_use] 
+    pub fn is_confirmed(&self, session: SessionId, follower: Confirmation) -> bool {
+        self.confirmed.contains(&(session, follower))
+    }
+
+    /// Whether `station` had a role in `session` when it crashed.
+    #[must_use] 
+    pub fn had_role_before_crash(&self, station: StationId, session: SessionId) -> bool {
+        self.before_crash.contains(&(station, session))
+    }
+
+    /// Whether `station` ever had a role when it crashed.
+    #[must_use] 
+    pub fn crashed_in_role(&self, station: StationId) -> bool {
+        self.before_crash
+            .iter()
+            .any(|&(crashed, _)| crashed == station)
+    }
+
+    /// Whether any follower has fallen back.
+    #[must_use] 
+    pub fn has_fallback(&self) -> bool {
+        self.commands.iter().any(|command| command.fell_back)
+    }
+
+    /// Records what one step of a robot did.
+    pub(crate) fn record_step(
+        &mut self,
+        before: &Robot,
+        after: &Robot,
+        finished: Option<ManeuverId>,
+        outputs: &Outputs,
+    ) {
+        let station = after.station();
+        if let Some(id) = finished {
+            self.update(station, id, |record| record.finished = true);
+        }
+        for output in outputs.iter() {
+            match *output {
+                Output::SendRmcm(Rmcm::Command(command)) => self.record_command(command),
+                Output::SendRmcm(Rmcm::Answer(Answer {
+                    session,
+                    request,
+                    verdict: Verdict::Accepted,
+                    ..
+                })) => {
+                    let id = ManeuverId { session, request };
+                    self.update(station, id, |record| record.accepted = true);
+                }
+                Output::StartManeuver(maneuver) => {
+                    self.update(station, maneuver.id, |record| record.started = true);
+                }
+                Output::FallBack(maneuver, _) => {
+                    self.update(station, maneuver.id, |record| record.fell_back = true);
+                }
+                _ => {}
+            }
+        }
+        if let (Phase::Requesting(_), Phase::Leading(leading)) = (before.phase(), after.phase()) {
+            let session = SessionId {
+                leader: station,
+                number: leading.number,
+            };
+            for member in leading.members.iter() {
+                let follower = Confirmation {
+                    station: member.station,
+                    offer: member.offer,
+                };
+                insert_sorted(
+                    &mut self.confirmed,
+                    (session, follower),
+                    |(session, follower)| (*session, follower.station, follower.offer),
+                );
+            }
+        }
+    }
+
+    /// Records that a robot crashes.
+    pub(crate) fn record_crash(&mut self, robot: &Robot) {
+        if let (Some(session), Phase::Leading(_) | Phase::Following(_)) =
+            (robot.session(), robot.phase())
+        {
+            insert_sorted(
+                &mut self.before_crash,
+                (robot.station(), session),
+                |entry| *entry,
+            );
+        }
+    }
+
+    fn record_command(
+        &mut self,
+        Command {
+            session,
+            to,
+            request,
+            task,
+        }: Command,
+    ) {
+        let id = ManeuverId { session, request };
+        if self.command(to, id).is_some() {
+            return;
+        }
+        let record = CommandRecord {
+            to,
+            id,
+            task,
+            accepted: false,
+            started: false,
+            finished: false,
+            fell_back: false,
+        };
+        insert_sorted(&mut self.commands, record, |r| {
+            (r.to, r.id.session, r.id.request.0)
+        });
+    }
+
+    fn update(&mut self, to: StationId, id: ManeuverId, change: impl FnOnce(&mut CommandRecord)) {
+        if let Some(record) = self.commands.iter_mut().find(|r| r.to == to && r.id == id) {
+            change(record);
+        }
+    }
+}
+
+impl Renamable for History {
+    fn renamed(&self, to: &mut impl Renaming) -> Self {
+        let mut history = self.clone();
+        for record in &mut history.commands {
+            record.id.session = record.id.session.renamed(to);
+        }
+        for (session, follower) in &mut history.confirmed {
+            *session = session.renamed(to);
+            *follower = follower.renamed(to);
+        }
+        for (_, session) in &mut history.before_crash {
+            *session = session.renamed(to);
+        }
+        history
+    }
+}
+
+fn insert_sorted<T: PartialEq, K: Ord>(list: &mut Vec<T>, item: T, key: impl Fn(&T) -> K) {
+    if list.contains(&item) {
+        return;
+    }
+    let at = list.partition_point(|present| key(present) < key(&item));
+    list.insert(at, item);
+}

@@ -1,0 +1,59 @@
+//! Values that many states share are stored once and named by a small number.
+//!
+//! A global state holds robots, messages and a history; each of them takes few distinct values over
+//! a whole exploration. A state that holds their numbers is small, and comparing and hashing it is
+//! cheap. Numbers are given in the order of first use, so they may differ between runs with several
+//! threads; the states they make up do not.
+
+use std::hash::Hash;
+
+use dashmap::DashMap;
+use dashmap::mapref::entry::Entry;
+use rustc_hash::FxBuildHasher;
+
+use crate::canonical::{Names, Renamable};
+
+/// A growing set of values, each with a number and the names that occur in it.
+pub(crate) struct Interner<T> {
+    values: boxcar::Vec<(T, Names)>,
+    numbers: DashMap<T, u32, FxBuildHasher>,
+}
+
+impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
+    pub(crate) fn new() -> Self {
+        Self {
+            values: boxcar::Vec::new(),
+            numbers: DashMap::default(),
+        }
+    }
+
+    /// The number of `value`, a new one if it was not seen before.
+    ///
+    /// # Panics
+    /// When 2^32 values are exceeded, far beyond what fits in memory.
+    pub(crate) fn number(&self, value: T) -> u32 {
+        if let Some(number) = self.numbers.get(&value) {
+            return *number;
+        }
+        let names = Names::of(&value);
+        match self.numbers.entry(value) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(vacant) => {
+                let index = self.values.push((vacant.key().clone(), names));
+                let number = u32::try_from(index).expect("fewer than 2^32 distinct values");
+                vacant.insert(number);
+                number
+            }
+        }
+    }
+
+    /// The value of a number that [`Interner::number`] gave out.
+    pub(crate) fn value(&self, number: u32) -> &T {
+        &self.values[number as usize].0
+    }
+
+    /// The names that occur in it.
+    pub(crate) fn names(&self, number: u32) -> &Names {
+        &self.values[number as usize].1
+    }
+}

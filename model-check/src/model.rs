@@ -1,0 +1,537 @@
+//! The model: robots that run the transition function, joined by a radio channel.
+//!
+//! Untimed: any armed timer may expire at any moment, so what holds here holds for all timer
+//! settings. Nothing of the protocol is written here a second time; a robot's part of a step is one
+//! call of [`Robot::step`](crossguard_protocol::Robot::step).
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use crossguard_protocol::{
+    Availability, Coordination, Event, Farewell, Input, Outputs, Phase, Ram, Rmcm, Robot,
+    StationId, Timer, Unavailability,
+};
+
+use crate::canonical::{Ranks, Renamable};
+use crate::history::History;
+use crate::intern::Interner;
+use crate::network::{Message, Network, Transmission};
+use crate::node::{Node, Protocol, Rules};
+use crate::properties::{PropertyId, StepView, View};
+use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
+use crate::steps::{Cause, Step, Steps, judge_historic};
+
+/// A global state: numbers of interned parts, and what may still happen.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct State {
+    nodes: [u32; MAX_ROBOTS],
+    history: u32,
+    /// One bit per step property that the step into this state broke.
+    broken: u32,
+    left: Bounds,
+    network: Network,
+}
+
+impl State {
+    /// How often what may still happen.
+    #[must_use]
+    pub const fn left(&self) -> Bounds {
+        self.left
+    }
+}
+
+/// One thing that can happen.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Action {
+    /// A message arrives.
+    Deliver {
+        /// The message and its way.
+        transmission: Transmission,
+        /// When, and whether it stays on its way.
+        how: Delivery,
+    },
+    /// A message gets lost on its way to one receiver.
+    Lose(Transmission),
+    /// A message is delayed.
+    Delay(Transmission),
+    /// A timer expires.
+    Expire(u8, Timer),
+    /// A robot's application does something.
+    Local(u8, Event),
+    /// A robot loses its volatile state.
+    Crash(u8),
+    /// A robot boots again.
+    Restart(u8),
+}
+
+/// How a message arrives.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Delivery {
+    /// At once.
+    AtOnce,
+    /// Late.
+    Late,
+    /// Late, and it will arrive once more or get lost.
+    LateAndAgain,
+}
+
+/// The model of one scenario. Clones share what has been found out.
+#[derive(Clone)]
+pub struct Model(Arc<Shared>);
+
+struct Shared {
+    scenario: Scenario,
+    steps: Steps,
+    histories: Interner<History>,
+    /// One bit per property whose premise has been met.
+    premises_met: AtomicU32,
+}
+
+/// A step of one robot.
+#[derive(Clone, Copy)]
+pub struct RobotStep<'a> {
+    /// Its place in the scenario.
+    pub robot: usize,
+    step: &'a Step,
+}
+
+impl RobotStep<'_> {
+    /// What the robot took in.
+    #[must_use]
+    pub const fn input(&self) -> Input {
+        self.step.input
+    }
+
+    /// What the robot put out.
+    #[must_use]
+    pub const fn outputs(&self) -> &Outputs {
+        &self.step.outputs
+    }
+}
+
+impl Model {
+    /// The model of `scenario`.
+    #[must_use]
+    pub fn new(scenario: Scenario) -> Self {
+        Self::with_rules(scenario, Protocol)
+    }
+
+    /// The model of `scenario` with another transition function in place of the kit's.
+    #[must_use]
+    pub fn with_rules(scenario: Scenario, rules: impl Rules + 'static) -> Self {
+        Self(Arc::new(Shared {
+            scenario,
+            steps: Steps::new(Box::new(rules)),
+            histories: Interner::new(),
+            premises_met: AtomicU32::new(0),
+        }))
+    }
+
+    /// The scenario.
+    #[must_use]
+    pub fn scenario(&self) -> &Scenario {
+        &self.0.scenario
+    }
+
+    /// The state in which every run begins: all robots idle, nothing in flight.
+    #[must_use]
+    pub fn initial(&self) -> State {
+        let mut nodes = [0; MAX_ROBOTS];
+        for (node, setup) in nodes.iter_mut().zip(&self.0.scenario.robots) {
+            *node = self.0.steps.nodes.number(Node::first_boot(setup.station));
+        }
+        State {
+            nodes,
+            history: self.0.histories.number(History::default()),
+            broken: 0,
+            left: self.0.scenario.bounds,
+            network: Network::EMPTY,
+        }
+    }
+
+    /// The robots of a state.
+    pub fn nodes<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a Node> + Clone {
+        let robots = self.0.scenario.robots.len();
+        state.nodes[..robots]
+            .iter()
+            .map(|&number| self.0.steps.nodes.value(number))
+    }
+
+    /// The history of a state.
+    #[must_use]
+    pub fn history(&self, state: &State) -> &History {
+        self.0.histories.value(state.history)
+    }
+
+    /// An interned message.
+    #[must_use]
+    pub fn message(&self, number: u16) -> &Message {
+        self.0.steps.messages.value(number.into())
+    }
+
+    /// Whether the step into this state broke a step property.
+    #[must_use]
+    pub fn is_broken(state: &State, property: PropertyId) -> bool {
+        state.broken & property.bit() != 0
+    }
+
+    /// Whether a state keeps a property; true where the property is one of steps.
+    #[must_use]
+    pub fn state_rule_holds(&self, state: &State, property: PropertyId) -> bool {
+        let Some(rule) = property.state_rule() else {
+            return true;
+        };
+        let view = View { model: self, state };
+        if !self.premise_met(property) && (rule.premise)(&view) {
+            self.note_premises(property.bit());
+        }
+        (rule.holds)(&view)
+    }
+
+    /// Whether some message or timer changes the state, without any application's help.
+    #[must_use]
+    pub fn can_progress(&self, state: &State) -> bool {
+        let Shared {
+            scenario, steps, ..
+        } = &*self.0;
+        let effective = |i: usize, cause| {
+            let step = steps.step(
+                &scenario.config,
+                &scenario.properties,
+                state.nodes[i],
+                cause,
+            );
+            step.is_some_and(|step| step.after != state.nodes[i] || !step.sends.is_empty())
+        };
+        let by_timer = self.nodes(state).enumerate().any(|(i, node)| {
+            node.robot.as_ref().is_some_and(|robot| {
+                robot
+                    .timers()
+                    .iter()
+                    .any(|(timer, _)| effective(i, Cause::Timer(*timer)))
+            })
+        });
+        by_timer
+            || state
+                .network
+                .next_on_air()
+                .into_iter()
+                .chain(state.network.delayed())
+                .any(|t| effective(t.to.into(), Cause::Message(t.message)))
+    }
+
+    /// Whether the premise of a property has been met so far.
+    #[must_use]
+    pub fn premise_met(&self, property: PropertyId) -> bool {
+        self.0.premises_met.load(Ordering::Relaxed) & property.bit() != 0
+    }
+
+    /// Everything that may happen in `state`. An application's event may turn out to be ignored.
+    pub fn actions_in(&self, state: &State, actions: &mut Vec<Action>) {
+        if state.broken != 0 {
+            return;
+        }
+        if let Some(transmission) = state.network.next_on_air() {
+            self.fates(state, transmission, actions);
+            return;
+        }
+        for transmission in state.network.delayed() {
+            for how in [Delivery::Late, Delivery::LateAndAgain] {
+                actions.push(Action::Deliver { transmission, how });
+            }
+            actions.push(Action::Lose(transmission));
+        }
+        for (i, node) in (0..).zip(self.nodes(state)) {
+            match &node.robot {
+                Some(robot) => {
+                    for (timer, _) in robot.timers().iter() {
+                        actions.push(Action::Expire(i, *timer));
+                    }
+                    self.local_events(state, i, robot, actions);
+                    if state.left.crashes > 0 {
+                        actions.push(Action::Crash(i));
+                    }
+                }
+                None if state.left.restarts > 0 => actions.push(Action::Restart(i)),
+                None => {}
+            }
+        }
+    }
+
+    /// What may become of a message on air.
+    fn fates(&self, state: &State, transmission: Transmission, actions: &mut Vec<Action>) {
+        let channel = self.0.scenario.channel;
+        actions.push(Action::Deliver {
+            transmission,
+            how: Delivery::AtOnce,
+        });
+        if channel.loss {
+            actions.push(Action::Lose(transmission));
+        }
+        if state
+            .network
+            .can_delay(transmission, usize::from(channel.delayed))
+        {
+            actions.push(Action::Delay(transmission));
+        }
+    }
+
+    /// Every event that the application of a robot could come up with.
+    fn local_events(&self, state: &State, i: u8, robot: &Robot, actions: &mut Vec<Action>) {
+        let mut push = |event| actions.push(Action::Local(i, event));
+        let (scenario, left) = (&self.0.scenario, &state.left);
+        if left.detections > 0 && scenario.robots[usize::from(i)].detects {
+            push(Event::PedestrianDetected(scenario.request));
+        }
+        if left.disturbances > 0 {
+            let reason = Unavailability::LocalFault;
+            push(Event::AvailabilityChanged(Availability::Unavailable(
+                reason,
+            )));
+        }
+        if robot.availability() != Availability::Available {
+            push(Event::AvailabilityChanged(Availability::Available));
+        }
+        if left.disturbances > 0 {
+            push(Event::IdentityChanged(StationId(robot.station().0 + 100)));
+        }
+        match robot.phase() {
+            Phase::Idle => {}
+            Phase::Leading(leading) => {
+                push(Event::TaskCompleted);
+                if left.commands > 0 {
+                    for member in leading.members.iter() {
+                        for task in scenario.request.tasks.iter() {
+                            push(Event::CommandManeuver {
+                                follower: member.station,
+                                task,
+                            });
+                        }
+                    }
+                }
+                if scenario.corridor {
+                    push(Event::OpenCorridor);
+                    push(Event::CloseCorridor);
+                }
+            }
+            Phase::Requesting(_) | Phase::Offering(_) | Phase::Following(_) => {
+                if let Phase::Following(following) = robot.phase()
+                    && let Some(maneuver) = following.executing()
+                {
+                    push(Event::ManeuverCompleted(maneuver.id));
+                    if left.disturbances > 0 {
+                        push(Event::ManeuverFailed(maneuver.id));
+                    }
+                }
+                if left.disturbances > 0 {
+                    push(Event::LeaveRequested);
+                }
+            }
+        }
+    }
+
+    /// What comes of `action` in `state`, with the robot's step if one takes a step; `None` if the
+    /// action changes nothing.
+    #[must_use]
+    pub fn successor(
+        &self,
+        state: &State,
+        action: Action,
+    ) -> Option<(State, Option<RobotStep<'_>>)> {
+        let mut next = state.clone();
+        let step = match action {
+            Action::Deliver { transmission, how } => {
+                match how {
+                    Delivery::AtOnce => next.network.take_off_air(),
+                    Delivery::Late => next.network.forget(transmission),
+                    Delivery::LateAndAgain => {}
+                }
+                let cause = Cause::Message(transmission.message);
+                let step = self.robot_step(&mut next, transmission.to.into(), cause)?;
+                if how == Delivery::LateAndAgain && step.step.is_ignored {
+                    return None;
+                }
+                Some(step)
+            }
+            Action::Lose(transmission) if next.network.next_on_air() == Some(transmission) => {
+                next.network.take_off_air();
+                None
+            }
+            Action::Lose(transmission) => {
+                next.network.forget(transmission);
+                None
+            }
+            Action::Delay(transmission) => {
+                next.network.take_off_air();
+                next.network.delay(transmission);
+                None
+            }
+            Action::Expire(i, timer) => {
+                Some(self.robot_step(&mut next, i.into(), Cause::Timer(timer))?)
+            }
+            Action::Local(i, event) => {
+                spend(&mut next.left, event);
+                let step = self.robot_step(&mut next, i.into(), Cause::Event(event))?;
+                if step.step.is_ignored {
+                    return None;
+                }
+                Some(step)
+            }
+            Action::Crash(i) => {
+                next.left.crashes -= 1;
+                self.crash(&mut next, i.into());
+                None
+            }
+            Action::Restart(i) => {
+                next.left.restarts -= 1;
+                let node = self
+                    .0
+                    .steps
+                    .nodes
+                    .value(next.nodes[usize::from(i)])
+                    .restarted();
+                next.nodes[usize::from(i)] = self.0.steps.nodes.number(node);
+                None
+            }
+        };
+        self.canonicalize(&mut next);
+        Some((next, step))
+    }
+
+    fn crash(&self, next: &mut State, i: usize) {
+        let node = self.0.steps.nodes.value(next.nodes[i]);
+        if let Some(robot) = &node.robot {
+            let mut history = self.history(next).clone();
+            history.record_crash(robot);
+            next.history = self.0.histories.number(history);
+        }
+        next.nodes[i] = self.0.steps.nodes.number(node.crashed());
+    }
+
+    fn robot_step(&self, next: &mut State, i: usize, cause: Cause) -> Option<RobotStep<'_>> {
+        let Shared {
+            scenario, steps, ..
+        } = &*self.0;
+        let before = next.nodes[i];
+        let step = steps.step(&scenario.config, &scenario.properties, before, cause)?;
+        let (mut premises, mut broken) = (step.premises, step.broken);
+        if step.is_historic {
+            let view = StepView {
+                config: &scenario.config,
+                history: self.0.histories.value(next.history),
+                before: steps.nodes.value(before),
+                after: steps.nodes.value(step.after),
+                input: step.input,
+                outputs: &step.outputs,
+            };
+            let historic = judge_historic(&scenario.properties, &view);
+            premises |= historic.0;
+            broken |= historic.1;
+            next.history = self.0.histories.number(view.history_after());
+        }
+        next.broken |= broken;
+        self.note_premises(premises);
+        self.transmit(next, i, step);
+        next.nodes[i] = step.after;
+        Some(RobotStep { robot: i, step })
+    }
+
+    fn note_premises(&self, met: u32) {
+        if met & !self.0.premises_met.load(Ordering::Relaxed) != 0 {
+            self.0.premises_met.fetch_or(met, Ordering::Relaxed);
+        }
+    }
+
+    fn transmit(&self, next: &mut State, from: usize, step: &Step) {
+        for &number in &step.sends {
+            let message = self.message(number);
+            for to in (0..self.0.scenario.robots.len()).filter(|&to| to != from) {
+                let receiver = self.0.steps.nodes.value(next.nodes[to]);
+                if receiver.robot.is_some() && concerns(message, receiver.persisted.station) {
+                    let place = |i: usize| u8::try_from(i).expect("at most MAX_ROBOTS");
+                    let (from, to) = (place(from), place(to));
+                    next.network.send(Transmission {
+                        from,
+                        to,
+                        message: number,
+                    });
+                }
+            }
+        }
+    }
+
+    fn canonicalize(&self, state: &mut State) {
+        let robots = self.0.scenario.robots.len();
+        let mut ranks = Ranks::default();
+        for &node in &state.nodes[..robots] {
+            ranks.add(self.0.steps.nodes.names(node));
+        }
+        for message in state.network.messages() {
+            ranks.add(self.0.steps.messages.names(message.into()));
+        }
+        ranks.add(self.0.histories.names(state.history));
+        if !ranks.rank() {
+            return;
+        }
+        for node in &mut state.nodes[..robots] {
+            *node = self
+                .0
+                .steps
+                .nodes
+                .number(self.0.steps.nodes.value(*node).renamed(&mut ranks));
+        }
+        state.network = state.network.map(|message| {
+            self.0
+                .steps
+                .message_number(self.message(message).renamed(&mut ranks))
+        });
+        let history = self.0.histories.value(state.history).renamed(&mut ranks);
+        state.history = self.0.histories.number(history);
+    }
+}
+
+/// Whether a message can have any effect on the receiver, whatever its state. Every robot within
+/// reach hears every message; those that are ignored in every state are left out of the model. That
+/// they are ignored is checked in [`universe`](crate::universe).
+pub(crate) fn concerns(message: &Message, receiver: StationId) -> bool {
+    match message {
+        Message::Rmcm(Rmcm::Command(command)) => command.to == receiver,
+        Message::Rmcm(Rmcm::Answer(answer)) => answer.session.leader == receiver,
+        Message::Ram(Ram {
+            coordination,
+            farewell,
+            ..
+        }) => {
+            let by_farewell = match farewell {
+                None => false,
+                Some(Farewell::Ended(_)) => true,
+                Some(Farewell::Left(session)) => session.leader == receiver,
+            };
+            let by_coordination = match coordination {
+                Coordination::None => false,
+                Coordination::NeedHelp { .. } | Coordination::Leader { .. } => true,
+                Coordination::OfferHelp { session, .. }
+                | Coordination::Follower { session, .. } => session.leader == receiver,
+            };
+            by_farewell || by_coordination
+        }
+    }
+}
+
+/// Takes an event off what may still happen.
+fn spend(left: &mut Bounds, event: Event) {
+    let bound = match event {
+        Event::PedestrianDetected(_) => &mut left.detections,
+        Event::CommandManeuver { .. } => &mut left.commands,
+        Event::ManeuverFailed(_)
+        | Event::LeaveRequested
+        | Event::AvailabilityChanged(Availability::Unavailable(_))
+        | Event::IdentityChanged(_) => &mut left.disturbances,
+        Event::ManeuverCompleted(_)
+        | Event::TaskCompleted
+        | Event::AvailabilityChanged(Availability::Available)
+        | Event::OpenCorridor
+        | Event::CloseCorridor => return,
+    };
+    *bound -= 1;
+}

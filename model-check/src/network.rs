@@ -1,0 +1,225 @@
+//! The radio channel.
+//!
+//! A broadcast is one message per receiver, so it can get lost on the way to one and reach another.
+//! Each message either arrives at once, or gets lost, or is *delayed*: then it arrives at any later
+//! moment, after any message that was sent later, as often as the channel likes, or never. A
+//! scenario bounds how many messages are delayed at a time, not for how long.
+//!
+//! Messages that were just sent are *on air*. What becomes of them is decided one after the other
+//! before anything else happens; that leaves out nothing, because whatever might happen in between
+//! can as well happen before or after to a delayed message.
+
+use crossguard_protocol::{Decimetres, Input, Ram, Renaming, Rmcm};
+
+use crate::canonical::Renamable;
+
+/// How many messages may be delayed at a time.
+pub const MAX_DELAYED: usize = 4;
+
+/// How many messages may be on air at a time.
+const MAX_ON_AIR: usize = 12;
+
+/// A message.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Message {
+    /// A RAM.
+    Ram(Ram),
+    /// An RMCM.
+    Rmcm(Rmcm),
+}
+
+impl Message {
+    /// What the receiver's transition function takes in. All robots are equally far apart.
+    #[must_use]
+    pub fn input(&self) -> Input {
+        match *self {
+            Self::Ram(ram) => Input::Ram {
+                ram,
+                distance: Decimetres(0),
+            },
+            Self::Rmcm(rmcm) => Input::Rmcm(rmcm),
+        }
+    }
+}
+
+impl Renamable for Message {
+    fn renamed(&self, to: &mut impl Renaming) -> Self {
+        match self {
+            Self::Ram(ram) => Self::Ram(ram.renamed(to)),
+            Self::Rmcm(rmcm) => Self::Rmcm(rmcm.renamed(to)),
+        }
+    }
+}
+
+/// One message on its way to one receiver.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Transmission {
+    /// The sender's place in the scenario.
+    pub from: u8,
+    /// The receiver's.
+    pub to: u8,
+    /// Number of the interned message.
+    pub message: u16,
+}
+
+/// A transmission in four bytes, or none. States are compared and hashed by the million.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+struct Slot(u32);
+
+impl Slot {
+    const EMPTY: Self = Self(0);
+
+    const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    const fn of(Transmission { from, to, message }: Transmission) -> Self {
+        Self(1 << 24 | (from as u32) << 20 | (to as u32) << 16 | message as u32)
+    }
+
+    const fn transmission(self) -> Option<Transmission> {
+        if self.is_empty() {
+            return None;
+        }
+        let [_, from_to, high, low] = self.0.to_be_bytes();
+        let message = u16::from_be_bytes([high, low]);
+        Some(Transmission {
+            from: from_to >> 4,
+            to: from_to & 0xf,
+            message,
+        })
+    }
+}
+
+/// All messages on their way.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct Network {
+    /// Just sent, in the order of sending, then empty.
+    on_air: [Slot; MAX_ON_AIR],
+    /// Delayed, as a sorted set.
+    delayed: [Slot; MAX_DELAYED],
+}
+
+impl Network {
+    pub(crate) const EMPTY: Self = Self {
+        on_air: [Slot::EMPTY; MAX_ON_AIR],
+        delayed: [Slot::EMPTY; MAX_DELAYED],
+    };
+
+    /// Puts a message on air.
+    ///
+    /// # Panics
+    /// When more messages are on air than one step and what it sets off can send.
+    pub(crate) fn send(&mut self, transmission: Transmission) {
+        let free = self.on_air.iter_mut().find(|slot| slot.is_empty());
+        *free.expect("room for what one step sends") = Slot::of(transmission);
+    }
+
+    /// The message whose fate is decided next.
+    pub(crate) const fn next_on_air(&self) -> Option<Transmission> {
+        self.on_air[0].transmission()
+    }
+
+    /// Takes the next message off air.
+    pub(crate) fn take_off_air(&mut self) {
+        self.on_air[0] = Slot::EMPTY;
+        self.on_air.rotate_left(1);
+    }
+
+    /// Whether one more message can be delayed, where at most `limit` may be.
+    pub(crate) fn can_delay(&self, transmission: Transmission, limit: usize) -> bool {
+        self.delayed().count() < limit && !self.delayed.contains(&Slot::of(transmission))
+    }
+
+    /// Delays a message, if there is room.
+    pub(crate) fn delay(&mut self, transmission: Transmission) {
+        if let Some(free) = self.delayed.iter_mut().find(|slot| slot.is_empty()) {
+            *free = Slot::of(transmission);
+        }
+        self.sort();
+    }
+
+    /// Takes a delayed message out of the channel.
+    pub(crate) fn forget(&mut self, transmission: Transmission) {
+        for slot in &mut self.delayed {
+            if *slot == Slot::of(transmission) {
+                *slot = Slot::EMPTY;
+            }
+        }
+        self.sort();
+    }
+
+    /// The delayed messages.
+    pub(crate) fn delayed(&self) -> impl Iterator<Item = Transmission> {
+        self.delayed.iter().filter_map(|slot| slot.transmission())
+    }
+
+    /// All messages.
+    pub(crate) fn messages(&self) -> impl Iterator<Item = u16> {
+        let all = self.on_air.iter().chain(&self.delayed);
+        all.filter_map(|slot| slot.transmission())
+            .map(|transmission| transmission.message)
+    }
+
+    /// The network with every message replaced.
+    pub(crate) fn map(&self, mut replace: impl FnMut(u16) -> u16) -> Self {
+        let mut network = *self;
+        for slot in network.on_air.iter_mut().chain(&mut network.delayed) {
+            if let Some(transmission) = slot.transmission() {
+                let message = replace(transmission.message);
+                *slot = Slot::of(Transmission {
+                    message,
+                    ..transmission
+                });
+            }
+        }
+        network.sort();
+        network
+    }
+
+    fn sort(&mut self) {
+        self.delayed.sort_unstable();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn transmission(message: u16) -> Transmission {
+        Transmission {
+            from: 0,
+            to: 1,
+            message,
+        }
+    }
+
+    #[test]
+    fn messages_go_off_air_in_the_order_of_sending() {
+        let mut network = Network::EMPTY;
+        for message in [5, 3, 4] {
+            network.send(transmission(message));
+        }
+        for message in [5, 3, 4] {
+            assert_eq!(network.next_on_air(), Some(transmission(message)));
+            network.take_off_air();
+        }
+        assert_eq!(network, Network::EMPTY);
+    }
+
+    #[test]
+    fn delayed_messages_are_a_set_with_a_limit() {
+        let mut network = Network::EMPTY;
+        network.delay(transmission(7));
+        assert!(!network.can_delay(transmission(7), 2));
+        assert!(network.can_delay(transmission(3), 2));
+        let mut other_order = Network::EMPTY;
+        other_order.delay(transmission(3));
+        other_order.delay(transmission(7));
+        network.delay(transmission(3));
+        assert_eq!(network, other_order);
+        assert!(!network.can_delay(transmission(9), 2));
+        network.forget(transmission(3));
+        assert!(network.delayed().eq([transmission(7)]));
+    }
+}

@@ -1,0 +1,202 @@
+//! A robot in the model: its protocol state, and what its body has been told to do.
+
+use crossguard_protocol::{
+    Config, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming, Robot,
+    StationId, Timer,
+};
+
+use crate::canonical::Renamable;
+
+/// A transition function. The kit has one, [`Protocol`]; to put another in its place shows what a
+/// rule is good for.
+pub trait Rules: Send + Sync {
+    /// Takes one input in; the outputs in order.
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs;
+}
+
+/// The transition function of the kit, [`Robot::step`].
+#[derive(Clone, Copy, Debug)]
+pub struct Protocol;
+
+impl Rules for Protocol {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        robot.step(config, input)
+    }
+}
+
+/// A robot in the model.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct Node {
+    /// The protocol state; `None` while the robot is down.
+    pub robot: Option<Robot>,
+    /// The station id that it had when it went down, and its boot counter, which it has persisted.
+    pub persisted: Persisted,
+    /// What the outputs so far have told the body to do.
+    pub actuation: Actuation,
+}
+
+/// What survives a crash: the boot counter by the protocol's own rule, the station id because the
+/// model's robots keep theirs.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Persisted {
+    /// The station id.
+    pub station: StationId,
+    /// The boot counter.
+    pub boot: u16,
+}
+
+/// What the outputs of a robot have told its body and its application, followed from the outputs
+/// alone. The properties compare it with the protocol state.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Actuation {
+    /// The maneuver that runs.
+    pub running: Option<ManeuverId>,
+    /// Whether the pedestrian is let across.
+    pub corridor_open: bool,
+    /// Whether the pseudonym is held.
+    pub identity_locked: bool,
+}
+
+impl Node {
+    /// A robot at its first boot.
+    #[must_use] 
+    pub fn first_boot(station: StationId) -> Self {
+        Self {
+            robot: Some(Robot::new(station, 1)),
+            persisted: Persisted { station, boot: 1 },
+            actuation: Actuation::default(),
+        }
+    }
+
+    /// The robot after a crash. Its motors stop, it shows nobody anything.
+    #[must_use]
+    pub fn crashed(&self) -> Self {
+        Self {
+            robot: None,
+            persisted: self.persisted,
+            actuation: Actuation::default(),
+        }
+    }
+
+    /// The robot after it has booted again, with the next boot counter.
+    #[must_use]
+    pub fn restarted(&self) -> Self {
+        let Persisted { station, boot } = self.persisted;
+        let boot = boot + 1;
+        Self {
+            robot: Some(Robot::new(station, boot)),
+            persisted: Persisted { station, boot },
+            actuation: Actuation::default(),
+        }
+    }
+
+    /// One step of the transition function, and what it tells the body. `None` when the robot is
+    /// down.
+    pub fn step(
+        &self,
+        rules: &dyn Rules,
+        config: &Config,
+        input: Input,
+    ) -> Option<(Self, Outputs)> {
+        let mut next = self.clone();
+        let robot = next.robot.as_mut()?;
+        let outputs = rules.step(robot, config, input);
+        next.persisted.station = robot.station();
+        next.actuation.finish(input, &outputs);
+        for output in outputs.iter() {
+            next.actuation.follow(output);
+        }
+        Some((next, outputs))
+    }
+
+    /// Whether the robot is up and has a part in no session.
+    #[must_use] 
+    pub fn is_idle(&self) -> bool {
+        self.robot
+            .as_ref()
+            .is_none_or(|robot| matches!(robot.phase(), Phase::Idle))
+    }
+
+    /// Whether what the body does is what the protocol state says.
+    #[must_use] 
+    pub fn actuation_agrees(&self) -> bool {
+        let expected = match &self.robot {
+            None => Actuation::default(),
+            Some(robot) => Actuation {
+                running: match robot.phase() {
+                    Phase::Following(following) => following.executing().map(|m| m.id),
+                    _ => None,
+                },
+                corridor_open: match robot.phase() {
+                    Phase::Leading(leading) => leading.corridor_open,
+                    _ => false,
+                },
+                identity_locked: robot.identity() != Identity::Unlocked,
+            },
+        };
+        self.actuation == expected
+    }
+
+    /// The node without its durations: every armed timer has 1 ms left. Which timers are armed
+    /// stays.
+    #[must_use]
+    pub fn untimed(&self) -> Self {
+        self.renamed(&mut ForgetDurations)
+    }
+}
+
+impl Renamable for Node {
+    fn renamed(&self, to: &mut impl Renaming) -> Self {
+        let running = self.actuation.running.map(|id| ManeuverId {
+            session: id.session.renamed(to),
+            ..id
+        });
+        Self {
+            robot: self.robot.as_ref().map(|robot| robot.renamed(to)),
+            persisted: self.persisted,
+            actuation: Actuation {
+                running,
+                ..self.actuation
+            },
+        }
+    }
+}
+
+struct ForgetDurations;
+
+impl Renaming for ForgetDurations {
+    fn countdown(&mut self, _timer: Timer, _left: Millis) -> Millis {
+        Millis(1)
+    }
+}
+
+impl Actuation {
+    /// The application says itself that a maneuver is over.
+    fn finish(&mut self, input: Input, outputs: &Outputs) {
+        use crossguard_protocol::Event::{ManeuverCompleted, ManeuverFailed};
+        if outputs.ignored().is_some() {
+            return;
+        }
+        if let Input::Local(ManeuverCompleted(id) | ManeuverFailed(id)) = input
+            && self.running == Some(id)
+        {
+            self.running = None;
+        }
+    }
+
+    fn follow(&mut self, output: &Output) {
+        match output {
+            Output::StartManeuver(maneuver) => self.running = Some(maneuver.id),
+            Output::StopManeuver(maneuver, _) | Output::FallBack(maneuver, _) => {
+                if self.running == Some(maneuver.id) {
+                    self.running = None;
+                }
+            }
+            Output::CorridorOpened => self.corridor_open = true,
+            Output::CorridorClosed(_) => self.corridor_open = false,
+            Output::LockIdentity => self.identity_locked = true,
+            Output::UnlockIdentity => self.identity_locked = false,
+            Output::SendRam | Output::SendRmcm(_) | Output::Notify(_) | Output::Ignored(_) => {}
+        }
+    }
+}

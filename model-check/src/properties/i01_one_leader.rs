@@ -1,0 +1,24 @@
+//! I1: nobody is leader and follower at once; a follower has one leader; a session has one leader.
+//!
+//! That a robot has one part in one session is the shape of its state. What is left to check is that
+//! no two robots lead the same session, and that nobody follows itself.
+
+use super::{StateRule, View};
+
+pub(super) const RULE: StateRule = StateRule { holds, premise };
+
+fn holds(view: &View) -> bool {
+    let mut leaders = view.leaders().map(|(session, _)| session);
+    let one_each = {
+        let all = leaders.clone();
+        leaders.all(|session| all.clone().filter(|&other| other == session).count() == 1)
+    };
+    one_each
+        && view
+            .followers()
+            .all(|(robot, following)| following.session.leader != robot.station())
+}
+
+fn premise(view: &View) -> bool {
+    view.leaders().next().is_some() && view.followers().next().is_some()
+}

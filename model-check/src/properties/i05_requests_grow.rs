@@ -1,0 +1,26 @@
+//! I5: the executed requestID only grows within a session.
+
+use super::{StepRule, StepView};
+
+pub(super) const RULE: StepRule = StepRule {
+    holds,
+    premise,
+    looks_back: true,
+};
+
+fn newest_before(step: &StepView) -> Option<crossguard_protocol::RequestId> {
+    let session = step.started()?.id.session;
+    step.history
+        .newest_started(step.after.persisted.station, session)
+}
+
+fn holds(step: &StepView) -> bool {
+    match (step.started(), newest_before(step)) {
+        (Some(maneuver), Some(newest)) => maneuver.id.request.is_newer_than(newest),
+        _ => true,
+    }
+}
+
+fn premise(step: &StepView) -> bool {
+    newest_before(step).is_some()
+}

@@ -1,0 +1,32 @@
+//! I7: an acknowledgement that is not the outstanding one changes nothing.
+
+use crossguard_protocol::{Answer, Input, Rmcm};
+
+use super::{StepRule, StepView, leading_of};
+
+pub(super) const RULE: StepRule = StepRule {
+    holds,
+    premise,
+    looks_back: false,
+};
+
+fn holds(step: &StepView) -> bool {
+    !premise(step) || (step.after == step.before && step.outputs.ignored().is_some())
+}
+
+fn premise(step: &StepView) -> bool {
+    let Input::Rmcm(Rmcm::Answer(answer)) = step.input else {
+        return false;
+    };
+    !is_outstanding(step, answer)
+}
+
+fn is_outstanding(step: &StepView, answer: Answer) -> bool {
+    leading_of(step.before).is_some_and(|leading| {
+        let outstanding = leading
+            .member(answer.from)
+            .and_then(|member| member.outstanding);
+        leading.number == answer.session.number
+            && outstanding.is_some_and(|outstanding| outstanding.request == answer.request)
+    })
+}

@@ -1,0 +1,18 @@
+//! I9: after fallback of `(s,q)` that command is never executed again.
+
+use super::{StateRule, View};
+
+pub(super) const RULE: StateRule = StateRule { holds, premise };
+
+fn holds(view: &View) -> bool {
+    view.nodes().all(|node| {
+        node.actuation.running.is_none_or(|id| {
+            let command = view.history().command(node.persisted.station, id);
+            command.is_none_or(|command| !command.fell_back)
+        })
+    })
+}
+
+fn premise(view: &View) -> bool {
+    view.history().has_fallback()
+}

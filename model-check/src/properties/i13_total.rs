@@ -1,0 +1,24 @@
+//! I13: every input in every state yields a valid state, and an ignored input changes nothing.
+
+use super::{StepRule, StepView};
+
+pub(super) const RULE: StepRule = StepRule {
+    holds,
+    premise,
+    looks_back: false,
+};
+
+fn holds(step: &StepView) -> bool {
+    let valid = step
+        .after
+        .robot
+        .as_ref()
+        .is_none_or(|robot| robot.is_valid(step.config));
+    let ignored_in_silence =
+        step.outputs.ignored().is_none() || (step.outputs.len() == 1 && step.after == step.before);
+    valid && ignored_in_silence
+}
+
+fn premise(_: &StepView) -> bool {
+    true
+}

@@ -1,0 +1,341 @@
+//! The properties, one file each, under the ids of design section 5.
+//!
+//! A property counts only when its premise is reachable: a state rule or step rule says what must
+//! hold, and its premise says when the rule says anything at all.
+
+mod i01_one_leader;
+mod i02_confirmed;
+mod i03_commanded;
+mod i04_started_once;
+mod i05_requests_grow;
+mod i06_acknowledged;
+mod i07_stray_answer;
+mod i08_completed;
+mod i09_fallback_is_final;
+mod i11_corridor;
+mod i12_no_deadlock;
+mod i13_total;
+mod i14_idle_is_idle;
+mod i15_reboot;
+mod i16_limits;
+mod i17_independent_followers;
+mod i18_identity;
+
+use std::fmt;
+use std::str::FromStr;
+
+use crossguard_protocol::{
+    Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Robot,
+    SessionId,
+};
+use serde::Serialize;
+
+use crate::history::History;
+use crate::model::{Model, State};
+use crate::node::Node;
+
+/// A property's id.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+#[allow(missing_docs, reason = "the ids are those of the table in `statement`")]
+pub enum PropertyId {
+    I1,
+    I2,
+    I3,
+    I4,
+    I5,
+    I6,
+    I7,
+    I8,
+    I9,
+    I11,
+    I12,
+    I13,
+    I14,
+    I15,
+    I16,
+    I17,
+    I18,
+    L7,
+}
+
+/// What a property speaks about.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize)]
+pub enum Kind {
+    /// Safety: of every reachable state.
+    S,
+    /// Of every transition.
+    T,
+}
+
+/// Something that holds of every reachable state that meets its premise.
+#[derive(Clone, Copy)]
+pub(crate) struct StateRule {
+    pub(crate) holds: fn(&View) -> bool,
+    pub(crate) premise: fn(&View) -> bool,
+}
+
+/// Something that holds of every robot's step that meets its premise.
+#[derive(Clone, Copy)]
+pub(crate) struct StepRule {
+    pub(crate) holds: fn(&StepView) -> bool,
+    pub(crate) premise: fn(&StepView) -> bool,
+    /// Whether the two look at the history.
+    pub(crate) looks_back: bool,
+}
+
+impl PropertyId {
+    /// All properties, in order.
+    pub const ALL: [Self; 18] = [
+        Self::I1,
+        Self::I2,
+        Self::I3,
+        Self::I4,
+        Self::I5,
+        Self::I6,
+        Self::I7,
+        Self::I8,
+        Self::I9,
+        Self::I11,
+        Self::I12,
+        Self::I13,
+        Self::I14,
+        Self::I15,
+        Self::I16,
+        Self::I17,
+        Self::I18,
+        Self::L7,
+    ];
+
+    /// What the property speaks about.
+    #[must_use]
+    pub const fn kind(self) -> Kind {
+        match self {
+            Self::I5 | Self::I7 | Self::I17 => Kind::T,
+            _ => Kind::S,
+        }
+    }
+
+    /// What the property says.
+    #[must_use]
+    pub const fn statement(self) -> &'static str {
+        match self {
+            Self::I1 => "nobody is leader and follower at once; a session has one leader",
+            Self::I2 => "a follower in a session was confirmed by its leader",
+            Self::I3 => "a follower starts only what its leader commanded it",
+            Self::I4 => "a command is started at most once",
+            Self::I5 => "the started requestID only grows within a session",
+            Self::I6 => "what a leader counts as acknowledged, the follower accepted",
+            Self::I7 => "an answer that is not for the outstanding command changes nothing",
+            Self::I8 => "what a leader counts as completed, the follower finished",
+            Self::I9 => "after fallback a command is never executed again",
+            Self::I11 => "the corridor is open only while every required follower is engaged",
+            Self::I12 => "whoever has a part in a session can make progress",
+            Self::I13 => "every input in every state yields a valid state",
+            Self::I14 => "a released or idle robot executes nothing",
+            Self::I15 => "a rebooted robot takes part in no session from before",
+            Self::I16 => "commands are repeated at most N_ack times",
+            Self::I17 => "dropping one follower leaves the others' records unchanged",
+            Self::I18 => "members of a session differ in station id; the identity is locked",
+            Self::L7 => "from every state, all robots idle can be reached",
+        }
+    }
+
+    /// When the property says anything at all; `None` for one that speaks about every state.
+    #[must_use]
+    pub const fn premise(self) -> Option<&'static str> {
+        Some(match self {
+            Self::I1 | Self::I18 => "one robot leads and another follows",
+            Self::I2 => "a robot follows",
+            Self::I3 | Self::I4 => "a follower starts a maneuver",
+            Self::I5 => "a follower starts a second maneuver in the same session",
+            Self::I6 => "a leader counts a command as acknowledged",
+            Self::I7 => "an answer arrives that is not for the outstanding command",
+            Self::I8 => "a leader counts a command as completed",
+            Self::I9 => "a follower has fallen back",
+            Self::I11 => "the corridor is open",
+            Self::I12 => "a robot has a part in a session",
+            Self::I13 | Self::L7 => return None,
+            Self::I14 => "a maneuver runs",
+            Self::I15 => "a robot that crashed in a role has a role again",
+            Self::I16 => "a command has been repeated N_ack times",
+            Self::I17 => "a follower is dropped while another one stays",
+        })
+    }
+
+    pub(crate) const fn state_rule(self) -> Option<StateRule> {
+        match self {
+            Self::I1 => Some(i01_one_leader::RULE),
+            Self::I2 => Some(i02_confirmed::RULE),
+            Self::I6 => Some(i06_acknowledged::RULE),
+            Self::I8 => Some(i08_completed::RULE),
+            Self::I9 => Some(i09_fallback_is_final::RULE),
+            Self::I11 => Some(i11_corridor::RULE),
+            Self::I12 => Some(i12_no_deadlock::RULE),
+            Self::I14 => Some(i14_idle_is_idle::RULE),
+            Self::I15 => Some(i15_reboot::RULE),
+            Self::I16 => Some(i16_limits::RULE),
+            Self::I18 => Some(i18_identity::RULE),
+            Self::I3 | Self::I4 | Self::I5 | Self::I7 | Self::I13 | Self::I17 | Self::L7 => None,
+        }
+    }
+
+    pub(crate) const fn step_rule(self) -> Option<StepRule> {
+        match self {
+            Self::I3 => Some(i03_commanded::RULE),
+            Self::I4 => Some(i04_started_once::RULE),
+            Self::I5 => Some(i05_requests_grow::RULE),
+            Self::I7 => Some(i07_stray_answer::RULE),
+            Self::I13 => Some(i13_total::RULE),
+            Self::I17 => Some(i17_independent_followers::RULE),
+            _ => None,
+        }
+    }
+
+    pub(crate) const fn bit(self) -> u32 {
+        1 << self as u32
+    }
+
+    /// All ids, for a message.
+    #[must_use]
+    pub fn list() -> String {
+        Self::ALL.map(|id| id.to_string()).join(", ")
+    }
+}
+
+impl fmt::Display for PropertyId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::I1 => "I1",
+            Self::I2 => "I2",
+            Self::I3 => "I3",
+            Self::I4 => "I4",
+            Self::I5 => "I5",
+            Self::I6 => "I6",
+            Self::I7 => "I7",
+            Self::I8 => "I8",
+            Self::I9 => "I9",
+            Self::I11 => "I11",
+            Self::I12 => "I12",
+            Self::I13 => "I13",
+            Self::I14 => "I14",
+            Self::I15 => "I15",
+            Self::I16 => "I16",
+            Self::I17 => "I17",
+            Self::I18 => "I18",
+            Self::L7 => "L7",
+        })
+    }
+}
+
+impl FromStr for PropertyId {
+    type Err = ();
+
+    fn from_str(name: &str) -> Result<Self, ()> {
+        Self::ALL
+            .into_iter()
+            .find(|id| id.to_string() == name)
+            .ok_or(())
+    }
+}
+
+/// A state as the state rules see it.
+#[derive(Clone, Copy)]
+pub struct View<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) state: &'a State,
+}
+
+impl<'a> View<'a> {
+    fn nodes(&self) -> impl Iterator<Item = &'a Node> + Clone + use<'a> {
+        self.model.nodes(self.state)
+    }
+
+    /// The robots that are up.
+    fn robots(&self) -> impl Iterator<Item = &'a Robot> + Clone + use<'a> {
+        self.nodes().filter_map(|node| node.robot.as_ref())
+    }
+
+    /// The robots that lead, with their sessions.
+    fn leaders(&self) -> impl Iterator<Item = (SessionId, &'a Leading)> + Clone + use<'a> {
+        self.robots().filter_map(|robot| match robot.phase() {
+            Phase::Leading(leading) => Some((robot.session()?, leading)),
+            _ => None,
+        })
+    }
+
+    /// The robots that follow.
+    fn followers(&self) -> impl Iterator<Item = (&'a Robot, &'a Following)> + Clone + use<'a> {
+        self.robots().filter_map(|robot| match robot.phase() {
+            Phase::Following(following) => Some((robot, following)),
+            _ => None,
+        })
+    }
+
+    fn history(&self) -> &'a History {
+        self.model.history(self.state)
+    }
+
+    fn config(&self) -> &'a Config {
+        &self.model.scenario().config
+    }
+}
+
+/// A robot's step as the step rules see it.
+pub(crate) struct StepView<'a> {
+    pub(crate) config: &'a Config,
+    /// The history before the step.
+    pub(crate) history: &'a History,
+    pub(crate) before: &'a Node,
+    pub(crate) after: &'a Node,
+    pub(crate) input: Input,
+    pub(crate) outputs: &'a Outputs,
+}
+
+impl<'a> StepView<'a> {
+    /// The maneuver that the step starts.
+    fn started(&self) -> Option<Maneuver> {
+        self.outputs.iter().find_map(|output| match output {
+            Output::StartManeuver(maneuver) => Some(*maneuver),
+            _ => None,
+        })
+    }
+
+    /// Whether the step is one that the history records, or that a rule may look back from.
+    pub(crate) fn is_historic(&self) -> bool {
+        let finishes = matches!(self.input, Input::Local(Event::ManeuverCompleted(_)));
+        finishes
+            || self.outputs.iter().any(|output| {
+                matches!(
+                    output,
+                    Output::SendRmcm(_)
+                        | Output::StartManeuver(_)
+                        | Output::FallBack(..)
+                        | Output::Notify(Notice::RolesEstablished(_))
+                )
+            })
+    }
+
+    /// The history after the step.
+    pub(crate) fn history_after(&self) -> History {
+        let mut history = self.history.clone();
+        let finished = match self.input {
+            Input::Local(Event::ManeuverCompleted(id)) => Some(id),
+            _ => None,
+        };
+        if let (Some(before), Some(after)) = (&self.before.robot, &self.after.robot) {
+            history.record_step(before, after, finished, self.outputs);
+        }
+        history
+    }
+
+    fn notices(&self) -> impl Iterator<Item = Notice> + use<'_, 'a> {
+        self.outputs.notices()
+    }
+}
+
+fn leading_of(node: &Node) -> Option<&Leading> {
+    match node.robot.as_ref()?.phase() {
+        Phase::Leading(leading) => Some(leading),
+        _ => None,
+    }
+}

@@ -1,0 +1,117 @@
+//! What a check found, for people and for machines.
+
+use serde::Serialize;
+
+/// What came of checking one scenario.
+#[derive(Clone, Debug, Serialize)]
+pub struct ScenarioReport {
+    /// The scenario's name.
+    pub name: String,
+    /// What it is about.
+    pub summary: String,
+    /// Distinct states, up to renaming of numbers.
+    pub unique_states: usize,
+    /// Transitions between distinct states.
+    pub transitions: usize,
+    /// Steps from the initial state to the farthest state.
+    pub depth: usize,
+    /// Time for both explorations.
+    pub seconds: f64,
+    /// Whether every reachable state was visited, by stateright and by the kit's own exploration,
+    /// and both found the same number.
+    pub exhaustive: bool,
+    /// Why it was not, where it was not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cut_off: Option<CutOff>,
+    /// Whether the state space has the size that the scenario's file expects, where it says one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_as_expected: Option<bool>,
+    /// What was found about each property and each premise.
+    pub properties: Vec<PropertyReport>,
+    /// What the verdicts assume.
+    pub assumptions: Vec<String>,
+}
+
+/// What cut an exploration off.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CutOff {
+    /// The limit on states.
+    StateLimit,
+    /// The limit on time.
+    TimeLimit,
+    /// All properties that were to be found broken were.
+    FoundBroken,
+    /// stateright and the kit's own exploration found different numbers of states.
+    CountsDiffer,
+}
+
+/// What was found about one property, or about its premise.
+#[derive(Clone, Debug, Serialize)]
+pub struct PropertyReport {
+    /// The property's id; a premise has `-premise` behind it.
+    pub id: String,
+    /// `S`, `T`, `L`, or `premise`.
+    pub kind: String,
+    /// What was found.
+    pub verdict: Verdict,
+    /// What it says.
+    pub statement: String,
+    /// A run that breaks the property.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub counterexample: Vec<ChartStep>,
+}
+
+/// What was found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The property holds of everything reachable.
+    Holds,
+    /// The premise is met somewhere.
+    Reachable,
+    /// The property is broken somewhere.
+    Violated,
+    /// The premise is met nowhere: the property says nothing in this scenario.
+    Unreachable,
+    /// The exploration was cut off before it could tell.
+    Incomplete,
+}
+
+/// One step of a counterexample.
+#[derive(Clone, Debug, Serialize)]
+pub struct ChartStep {
+    /// What happened.
+    pub action: String,
+    /// What the robot that took the step put out.
+    pub outputs: Vec<String>,
+}
+
+impl ScenarioReport {
+    /// Whether something was found that is wrong: a property is broken, a premise is met nowhere, or
+    /// the state space has another size than the scenario's file expects.
+    #[must_use]
+    pub fn failed(&self) -> bool {
+        let wrong =
+            |p: &PropertyReport| matches!(p.verdict, Verdict::Violated | Verdict::Unreachable);
+        self.properties.iter().any(wrong) || self.size_as_expected == Some(false)
+    }
+
+    /// The verdict on a property or premise.
+    #[must_use]
+    pub fn verdict(&self, id: &str) -> Option<Verdict> {
+        self.properties
+            .iter()
+            .find(|property| property.id == id)
+            .map(|property| property.verdict)
+    }
+
+    /// The ids of the properties that are broken.
+    pub fn violated(&self) -> impl Iterator<Item = &str> {
+        let violated = |p: &&PropertyReport| p.verdict == Verdict::Violated;
+        self.properties
+            .iter()
+            .filter(violated)
+            .map(|property| property.id.as_str())
+    }
+}

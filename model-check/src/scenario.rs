@@ -1,0 +1,410 @@
+//! Scenarios: which robots, which faults, how often what may happen, what must hold.
+//!
+//! A scenario is a TOML file. The shipped ones are in `scenarios/`; a user can write another without
+//! touching code. An unknown key, an impossible bound or an unknown property is an error that names
+//! the line.
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::path::{Path, PathBuf};
+
+use crossguard_protocol::{
+    BrokenInequality, Config, HelpRequest, Inequality, MAX_FOLLOWERS, Settings, StationId, TaskSet,
+    TaskType, Urgency,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::network::MAX_DELAYED;
+use crate::properties::PropertyId;
+
+/// How many robots a scenario may have.
+pub const MAX_ROBOTS: usize = 4;
+
+/// A scenario, checked.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Its name.
+    pub name: String,
+    /// What it is about, in one line.
+    pub summary: String,
+    /// The robots, in the order of the file.
+    pub robots: Vec<RobotSetup>,
+    /// What a robot that detects a pedestrian asks for.
+    pub request: HelpRequest,
+    /// How often what may happen in one run.
+    pub bounds: Bounds,
+    /// Whether a leader's application opens and closes the corridor, as often as it likes.
+    pub corridor: bool,
+    /// What the radio channel does.
+    pub channel: Channel,
+    /// The configuration of every robot.
+    pub config: Config,
+    /// The properties to check.
+    pub properties: Vec<PropertyId>,
+    /// What an exploration must find, where the file says so.
+    pub expected: Option<Size>,
+}
+
+/// The size of a state space.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Size {
+    /// Distinct states.
+    pub unique_states: usize,
+    /// Steps from the initial state to the farthest state.
+    pub depth: usize,
+}
+
+/// One robot of a scenario.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotSetup {
+    /// Its station id.
+    pub station: StationId,
+    /// Whether it may detect a pedestrian.
+    #[serde(default)]
+    pub detects: bool,
+}
+
+/// How often each kind of event may happen in one run, over all robots together.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bounds {
+    /// A pedestrian is detected.
+    pub detections: u8,
+    /// A leader's application gives a command.
+    pub commands: u8,
+    /// An application's disturbance: a maneuver fails, a robot that does not lead leaves, a robot
+    /// becomes unavailable, or a robot changes its pseudonym. To become available again costs nothing.
+    pub disturbances: u8,
+    /// A robot crashes.
+    pub crashes: u8,
+    /// A crashed robot boots again.
+    pub restarts: u8,
+}
+
+/// What the radio channel does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Channel {
+    /// How many messages may be delayed at a time; each may arrive late, in any order, more than
+    /// once, or never.
+    pub delayed: u8,
+    /// Whether a message may get lost on its way to one receiver and reach another.
+    pub loss: bool,
+}
+
+/// The file's form of a scenario.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    name: String,
+    summary: String,
+    robots: Vec<RobotSetup>,
+    request: Request,
+    bounds: Bounds,
+    #[serde(default)]
+    corridor: bool,
+    channel: Channel,
+    #[serde(default)]
+    protocol: Settings,
+    properties: Vec<toml::Spanned<String>>,
+    expected: Option<Size>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Request {
+    #[serde(default)]
+    urgency: Urgency,
+    followers: toml::Spanned<u8>,
+    tasks: Vec<toml::Spanned<String>>,
+}
+
+/// Why a scenario cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum ScenarioError {
+    /// There is neither a shipped scenario nor a file of that name.
+    #[error(
+        "no scenario '{name}': the shipped ones are {shipped}, anything else is read as a file"
+    )]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The names of those that are shipped.
+        shipped: String,
+    },
+    /// The file cannot be read.
+    #[error("{}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// The text is no scenario.
+    #[error("{file}: {cause}")]
+    Syntax {
+        /// The file or shipped scenario.
+        file: String,
+        /// What and where.
+        cause: toml::de::Error,
+    },
+    /// The text is a scenario that makes no sense.
+    #[error("{file}:{line}: {cause}")]
+    Impossible {
+        /// The file or shipped scenario.
+        file: String,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong.
+        cause: Impossibility,
+    },
+}
+
+/// What is wrong with a scenario.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Impossibility {
+    /// Too few or too many robots.
+    #[error("{0} robots: between 2 and {MAX_ROBOTS} are possible")]
+    Robots(usize),
+    /// Two robots with the same station id.
+    #[error("two robots have station id {0}")]
+    SameStation(StationId),
+    /// Nobody can start.
+    #[error("no robot has 'detects = true', so nothing would ever happen")]
+    NobodyDetects,
+    /// The request cannot be met.
+    #[error("a request for {0} followers: between 1 and {MAX_FOLLOWERS} are possible")]
+    Followers(u8),
+    /// An unknown task.
+    #[error("no task '{0}': initialPos, move, block, or task3 to task15")]
+    Task(String),
+    /// Too many messages delayed.
+    #[error("{0} messages delayed at a time: at most {MAX_DELAYED} are possible")]
+    Delayed(u8),
+    /// An unknown property.
+    #[error("no property '{0}': {list}", list = PropertyId::list())]
+    Property(String),
+    /// The protocol's settings contradict each other.
+    #[error(transparent)]
+    Settings(#[from] BrokenInequality),
+}
+
+/// The scenarios that come with the kit.
+const SHIPPED: [(&str, &str); 4] = [
+    ("pair", include_str!("../scenarios/pair.toml")),
+    ("contention", include_str!("../scenarios/contention.toml")),
+    ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
+    ("trio", include_str!("../scenarios/trio.toml")),
+];
+
+impl Scenario {
+    /// The names of the shipped scenarios.
+    pub fn shipped() -> impl Iterator<Item = &'static str> {
+        SHIPPED.iter().map(|(name, _)| *name)
+    }
+
+    /// The shipped scenario of this name, or the scenario in the file of this name.
+    ///
+    /// # Errors
+    /// Every way in which there is no usable scenario of that name.
+    pub fn load(name: &str) -> Result<Self, ScenarioError> {
+        if let Some((_, text)) = SHIPPED.iter().find(|(shipped, _)| *shipped == name) {
+            return Self::parse(name, text);
+        }
+        let path = Path::new(name);
+        if !path.exists() && path.extension().is_none() {
+            let shipped = Self::shipped().collect::<Vec<_>>().join(", ");
+            return Err(ScenarioError::Unknown {
+                name: name.to_owned(),
+                shipped,
+            });
+        }
+        let text = std::fs::read_to_string(path).map_err(|cause| ScenarioError::Unreadable {
+            path: path.to_owned(),
+            cause,
+        })?;
+        Self::parse(name, &text)
+    }
+
+    /// Reads a scenario from its text; `file` is what errors call it.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its line.
+    pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
+        let parsed: File = toml::from_str(text).map_err(|cause| ScenarioError::Syntax {
+            file: file.to_owned(),
+            cause,
+        })?;
+        parsed
+            .check()
+            .map_err(|Located { at, cause }| ScenarioError::Impossible {
+                file: file.to_owned(),
+                line: at.line_in(text),
+                cause,
+            })
+    }
+}
+
+/// Where in a file something is wrong.
+enum Place {
+    Offset(usize),
+    Key(&'static str),
+}
+
+impl Place {
+    /// The line, counted from 1.
+    fn line_in(&self, text: &str) -> usize {
+        let offset = match self {
+            Self::Offset(offset) => *offset,
+            Self::Key(key) => text
+                .lines()
+                .scan(0, |start, line| {
+                    let this = *start;
+                    *start += line.len() + 1;
+                    Some((this, line))
+                })
+                .find(|(_, line)| line.trim_start().trim_start_matches('[').starts_with(key))
+                .map_or(0, |(start, _)| start),
+        };
+        text[..offset.min(text.len())].matches('\n').count() + 1
+    }
+}
+
+struct Located {
+    at: Place,
+    cause: Impossibility,
+}
+
+fn at(at: Place, cause: impl Into<Impossibility>) -> Located {
+    Located {
+        at,
+        cause: cause.into(),
+    }
+}
+
+impl File {
+    fn check(self) -> Result<Scenario, Located> {
+        use Impossibility as I;
+        let robots = self.robots.len();
+        if !(2..=MAX_ROBOTS).contains(&robots) {
+            return Err(at(Place::Key("robots"), I::Robots(robots)));
+        }
+        for (i, robot) in self.robots.iter().enumerate() {
+            if self.robots[..i]
+                .iter()
+                .any(|other| other.station == robot.station)
+            {
+                return Err(at(Place::Key("robots"), I::SameStation(robot.station)));
+            }
+        }
+        if !self.robots.iter().any(|robot| robot.detects) {
+            return Err(at(Place::Key("robots"), I::NobodyDetects));
+        }
+        let delayed = self.channel.delayed;
+        if usize::from(delayed) > MAX_DELAYED {
+            return Err(at(Place::Key("delayed"), I::Delayed(delayed)));
+        }
+        let request = self.request.check()?;
+        let config = Config::new(self.protocol)
+            .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
+        let mut properties = Vec::new();
+        for name in self.properties {
+            let place = Place::Offset(name.span().start);
+            let name = name.into_inner();
+            match name.parse() {
+                Ok(property) => properties.push(property),
+                Err(()) => return Err(at(place, I::Property(name))),
+            }
+        }
+        Ok(Scenario {
+            name: self.name,
+            summary: self.summary,
+            robots: self.robots,
+            request,
+            bounds: self.bounds,
+            corridor: self.corridor,
+            channel: self.channel,
+            config,
+            properties,
+            expected: self.expected,
+        })
+    }
+}
+
+/// The key whose line a broken inequality is reported at: the first timer in its formula.
+const fn key_of(inequality: Inequality) -> &'static str {
+    match inequality {
+        Inequality::RepeatsInRange => "n_ack",
+        Inequality::DriftInRange => "drift_ppm",
+        Inequality::LeaseWithinSafety | Inequality::HeartbeatsWithinLease => "t_lease",
+        Inequality::SelectionWithinOffer => "t_select",
+        Inequality::OfferWithinHelp => "t_offer",
+        Inequality::FarewellRepeated => "t_farewell",
+        Inequality::LockOutlastsTask | Inequality::HeartbeatsInNumberSpace => "t_lock",
+        Inequality::TimerInRange => "protocol",
+    }
+}
+
+impl Request {
+    fn check(self) -> Result<HelpRequest, Located> {
+        let place = Place::Offset(self.followers.span().start);
+        let followers = self.followers.into_inner();
+        if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
+            return Err(at(place, Impossibility::Followers(followers)));
+        }
+        let mut tasks = Vec::new();
+        for name in self.tasks {
+            let place = Place::Offset(name.span().start);
+            let name = name.into_inner();
+            match task_of(&name) {
+                Some(task) => tasks.push(task),
+                None => return Err(at(place, Impossibility::Task(name))),
+            }
+        }
+        Ok(HelpRequest {
+            urgency: self.urgency,
+            followers,
+            tasks: TaskSet::of(&tasks),
+        })
+    }
+}
+
+fn task_of(name: &str) -> Option<TaskType> {
+    TaskSet(u16::MAX)
+        .iter()
+        .find(|task| task.to_string() == name)
+}
+
+impl Hash for Bounds {
+    /// All bounds at once: states are hashed by the million.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let Self {
+            detections,
+            commands,
+            disturbances,
+            crashes,
+            restarts,
+        } = *self;
+        state.write(&[detections, commands, disturbances, crashes, restarts]);
+    }
+}
+
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bounds = [
+            ("detections", self.detections),
+            ("commands", self.commands),
+            ("disturbances", self.disturbances),
+            ("crashes", self.crashes),
+            ("restarts", self.restarts),
+        ];
+        let allowed: Vec<_> = bounds
+            .iter()
+            .filter(|(_, bound)| *bound > 0)
+            .map(|(name, bound)| format!("{name} <= {bound}"))
+            .collect();
+        f.write_str(&allowed.join(", "))
+    }
+}

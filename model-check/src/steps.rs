@@ -1,0 +1,175 @@
+//! The steps of single robots, each computed once.
+//!
+//! What a robot does depends on its own state and input alone, and few such pairs occur over a whole
+//! exploration. So each pair is put through the transition function once, judged once, and looked up
+//! from then on.
+
+use crossguard_protocol::{Config, Event, Input, Output, Outputs, Timer};
+use dashmap::DashMap;
+use rustc_hash::FxBuildHasher;
+use smallvec::SmallVec;
+
+use crate::history::History;
+use crate::intern::Interner;
+use crate::network::Message;
+use crate::node::{Node, Rules};
+use crate::properties::{PropertyId, StepView};
+
+/// What a robot takes in, by number where it is a message.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Cause {
+    Message(u16),
+    Timer(Timer),
+    Event(Event),
+}
+
+/// What comes of a robot's step, whatever has happened elsewhere.
+pub(crate) struct Step {
+    /// What it took in.
+    pub(crate) input: Input,
+    /// What it put out.
+    pub(crate) outputs: Outputs,
+    /// The node after the step, without durations.
+    pub(crate) after: u32,
+    /// The messages that it sends.
+    pub(crate) sends: SmallVec<[u16; 2]>,
+    /// Whether it changed nothing.
+    pub(crate) is_ignored: bool,
+    /// Whether what it means depends on the history, or changes it.
+    pub(crate) is_historic: bool,
+    /// One bit for each step property whose premise it meets, as far as it depends on no history.
+    pub(crate) premises: u32,
+    /// One bit for each step property that it breaks, as far as it depends on no history.
+    pub(crate) broken: u32,
+}
+
+/// All nodes, messages and steps that have occurred.
+pub(crate) struct Steps {
+    rules: Box<dyn Rules>,
+    pub(crate) nodes: Interner<Node>,
+    pub(crate) messages: Interner<Message>,
+    steps: boxcar::Vec<Step>,
+    numbers: DashMap<(u32, Cause), u32, FxBuildHasher>,
+}
+
+impl Steps {
+    pub(crate) fn new(rules: Box<dyn Rules>) -> Self {
+        Self {
+            rules,
+            nodes: Interner::new(),
+            messages: Interner::new(),
+            steps: boxcar::Vec::new(),
+            numbers: DashMap::default(),
+        }
+    }
+
+    /// The step that a node takes; `None` when the robot is down.
+    pub(crate) fn step(
+        &self,
+        config: &Config,
+        properties: &[PropertyId],
+        node: u32,
+        cause: Cause,
+    ) -> Option<&Step> {
+        if let Some(number) = self.numbers.get(&(node, cause)) {
+            return Some(&self.steps[*number as usize]);
+        }
+        let step = self.compute(config, properties, node, cause)?;
+        let number = self.steps.push(step);
+        let number = u32::try_from(number).expect("fewer than 2^32 steps");
+        self.numbers.insert((node, cause), number);
+        Some(&self.steps[number as usize])
+    }
+
+    fn compute(
+        &self,
+        config: &Config,
+        properties: &[PropertyId],
+        node: u32,
+        cause: Cause,
+    ) -> Option<Step> {
+        let input = match cause {
+            Cause::Message(number) => self.messages.value(number.into()).input(),
+            Cause::Timer(timer) => Input::Expired(timer),
+            Cause::Event(event) => Input::Local(event),
+        };
+        let before = self.nodes.value(node);
+        let (after, outputs) = before.step(&*self.rules, config, input)?;
+        let history = History::default();
+        let view = StepView {
+            config,
+            history: &history,
+            before,
+            after: &after,
+            input,
+            outputs: &outputs,
+        };
+        let is_historic = view.is_historic();
+        let (premises, broken) = judge(properties, &view, is_historic);
+        Some(Step {
+            input,
+            outputs,
+            sends: self.sends(&after, &outputs),
+            is_ignored: outputs.ignored().is_some(),
+            is_historic,
+            premises,
+            broken,
+            after: self.nodes.number(after.untimed()),
+        })
+    }
+
+    fn sends(&self, sender: &Node, outputs: &Outputs) -> SmallVec<[u16; 2]> {
+        let Some(robot) = &sender.robot else {
+            return SmallVec::new();
+        };
+        outputs
+            .iter()
+            .filter_map(|output| match *output {
+                Output::SendRam => Some(Message::Ram(robot.ram())),
+                Output::SendRmcm(rmcm) => Some(Message::Rmcm(rmcm)),
+                _ => None,
+            })
+            .map(|message| self.message_number(message))
+            .collect()
+    }
+
+    /// The number of a message.
+    ///
+    /// # Panics
+    /// When there are more than 65,536 distinct messages.
+    pub(crate) fn message_number(&self, message: Message) -> u16 {
+        let number = self.messages.number(message);
+        u16::try_from(number).expect("fewer than 65,536 distinct messages")
+    }
+}
+
+/// Which step rules the step meets the premise of, and which of these it breaks. Rules that look at
+/// the history are left to [`judge_historic`] where the step is historic; otherwise they say nothing.
+fn judge(properties: &[PropertyId], view: &StepView, is_historic: bool) -> (u32, u32) {
+    let (mut premises, mut broken) = (0, 0);
+    for &property in properties {
+        let Some(rule) = property.step_rule() else {
+            continue;
+        };
+        if is_historic && rule.looks_back {
+            continue;
+        }
+        if (rule.premise)(view) {
+            premises |= property.bit();
+            if !(rule.holds)(view) {
+                broken |= property.bit();
+            }
+        }
+    }
+    (premises, broken)
+}
+
+/// The same for the rules that look at the history, in a step that is historic.
+pub(crate) fn judge_historic(properties: &[PropertyId], view: &StepView) -> (u32, u32) {
+    let looking_back: SmallVec<[PropertyId; 8]> = properties
+        .iter()
+        .copied()
+        .filter(|property| property.step_rule().is_some_and(|rule| rule.looks_back))
+        .collect();
+    judge(&looking_back, view, false)
+}

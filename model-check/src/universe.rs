@@ -1,0 +1,514 @@
+//! One robot against everything: every state that it can be brought into by any messages, events and
+//! timers, and what every input does there.
+//!
+//! The scenarios show how robots behave together; this shows that a single robot is safe against
+//! peers that say anything at all. Inputs are representatives: of the numbers that a message can
+//! carry the robot only asks whether they are its own, known, newer or older, so one of each kind
+//! stands for all.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+use crossguard_protocol::{
+    Answer, Availability, Command, Config, Confirmation, Coordination, Decimetres, Event, Failure,
+    Farewell, Followers, Heartbeat, HelpRequest, Input, OfferNumber, Phase, Progress, Ram,
+    Rejection, Report, RequestId, Rmcm, Robot, Role, SessionId, SessionNumber, Settings, State,
+    StationId, TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
+};
+
+use crate::canonical::{Names, Ranks, Renamable};
+use crate::model::concerns;
+use crate::network::Message;
+use crate::node::{Node, Protocol};
+
+/// The robot, its two peers, and a station that is none of them.
+const ME: StationId = StationId(2);
+const PEERS: [StationId; 2] = [StationId(1), StationId(3)];
+const STRANGER: StationId = StationId(9);
+
+/// What a robot is doing: its role and the state of the paper's model.
+pub type Mode = (Role, State);
+
+/// What was found out about one robot among any others.
+#[derive(Clone, Debug, Default)]
+pub struct Universe {
+    /// Distinct states.
+    pub states: usize,
+    /// Steps: every input in every state.
+    pub steps: usize,
+    /// Which inputs lead from one mode to another.
+    pub edges: BTreeMap<(Mode, Mode), BTreeSet<String>>,
+    /// Steps after which the state was not valid, or that were ignored and changed something.
+    pub invalid: Vec<String>,
+    /// Messages that the model leaves out because they concern nobody, and that had an effect.
+    pub wrongly_left_out: Vec<String>,
+}
+
+/// The configuration under which the universe is explored: the defaults, with one repeat, so that
+/// the last one is near.
+///
+/// # Panics
+/// Never: the settings are valid.
+#[must_use]
+pub fn config() -> Config {
+    Config::new(Settings {
+        n_ack: 1,
+        ..Settings::default()
+    })
+    .expect("valid settings")
+}
+
+/// Explores all states of one robot.
+#[must_use]
+pub fn explore(config: &Config) -> Universe {
+    let mut universe = Universe::default();
+    let mut todo = vec![Node::first_boot(ME), out_of_requests(config)];
+    let mut seen: HashSet<Node> = todo.iter().cloned().collect();
+    while let Some(node) = todo.pop() {
+        let Some(robot) = &node.robot else { continue };
+        for input in inputs(robot) {
+            universe.steps += 1;
+            let Some((after, outputs)) = node.step(&Protocol, config, input) else {
+                continue;
+            };
+            universe.judge(config, &node, input, &after, outputs.ignored().is_some());
+            let next = canonical(&after);
+            if seen.insert(next.clone()) {
+                todo.push(next);
+            }
+        }
+    }
+    universe.states = seen.len();
+    universe
+}
+
+/// A leader that has used up the request numbers of its only follower; the next command renews the
+/// session.
+fn out_of_requests(config: &Config) -> Node {
+    let mut node = Node::first_boot(ME);
+    let mut take = |input| {
+        let (after, outputs) = node
+            .step(&Protocol, config, input)
+            .expect("the robot is up");
+        assert_eq!(outputs.ignored(), None, "{input}");
+        node = after;
+        node.robot.clone().expect("the robot is up")
+    };
+    let robot = take(Input::Local(Event::PedestrianDetected(request(
+        1,
+        Urgency::Medium,
+    ))));
+    let session = robot.session().expect("it leads one");
+    let (station, offer) = (PEERS[0], OfferNumber(number(1, 0)));
+    let capabilities = TaskSet::of(&[TaskType::MOVE]);
+    take(ram(
+        station,
+        Coordination::OfferHelp {
+            session,
+            offer,
+            capabilities,
+        },
+        None,
+    ));
+    take(Input::Expired(Timer::Selection));
+    let echo = config.settings().first_heartbeat;
+    take(ram(
+        station,
+        Coordination::Follower {
+            session,
+            echo,
+            last: None,
+        },
+        None,
+    ));
+    let mut request = config.settings().first_request;
+    for _ in 0..RequestId::MAX_PER_SESSION {
+        take(Input::Local(Event::CommandManeuver {
+            follower: station,
+            task: TaskType::MOVE,
+        }));
+        let verdict = Verdict::Accepted;
+        take(Input::Rmcm(Rmcm::Answer(Answer {
+            from: station,
+            session,
+            request,
+            verdict,
+        })));
+        request = request.next();
+    }
+    canonical(&node)
+}
+
+fn canonical(node: &Node) -> Node {
+    let node = node.untimed();
+    let mut ranks = Ranks::default();
+    ranks.add(&Names::of(&node));
+    if ranks.rank() {
+        node.renamed(&mut ranks)
+    } else {
+        node
+    }
+}
+
+fn mode(node: &Node) -> Mode {
+    node.robot
+        .as_ref()
+        .map_or((Role::None, State::Idle), |robot| {
+            (robot.role(), robot.state())
+        })
+}
+
+impl Universe {
+    fn judge(&mut self, config: &Config, before: &Node, input: Input, after: &Node, ignored: bool) {
+        let valid = after
+            .robot
+            .as_ref()
+            .is_some_and(|robot| robot.is_valid(config));
+        if !valid || !after.actuation_agrees() || (ignored && before != after) {
+            self.invalid.push(format!("{input} in {before:?}"));
+        }
+        let message = match input {
+            Input::Ram { ram, .. } => Some(Message::Ram(ram)),
+            Input::Rmcm(rmcm) => Some(Message::Rmcm(rmcm)),
+            _ => None,
+        };
+        if message.is_some_and(|message| !concerns(&message, ME)) && !ignored {
+            self.wrongly_left_out.push(format!("{input} in {before:?}"));
+        }
+        let (from, to) = (mode(before), mode(after));
+        if from != to
+            && let Some(label) = label(input)
+        {
+            self.edges.entry((from, to)).or_default().insert(label);
+        }
+    }
+}
+
+/// A transition's label: the kind of its input. `None` for a RAM with a farewell and more, which does
+/// two things one after the other.
+fn label(input: Input) -> Option<String> {
+    let name = |debug: String| {
+        debug
+            .split(['(', ' '])
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    Some(match input {
+        Input::Ram { ram, .. } => match (ram.coordination, ram.farewell) {
+            (part, None) => format!("RAM {}", part_name(part)),
+            (Coordination::None, Some(Farewell::Ended(_))) => "RAM ended".to_owned(),
+            (Coordination::None, Some(Farewell::Left(_))) => "RAM left".to_owned(),
+            (_, Some(_)) => return None,
+        },
+        Input::Rmcm(Rmcm::Command(_)) => "RMCM command".to_owned(),
+        Input::Rmcm(Rmcm::Answer(_)) => "RMCM acknowledgement".to_owned(),
+        Input::Elapsed(_) => "time".to_owned(),
+        Input::Expired(timer) => format!("timer {}", name(format!("{timer:?}"))),
+        Input::Local(Event::AvailabilityChanged(_)) => "unavailable".to_owned(),
+        Input::Local(event) => name(format!("{event:?}")),
+    })
+}
+
+fn part_name(coordination: Coordination) -> &'static str {
+    match coordination {
+        Coordination::None => "none",
+        Coordination::NeedHelp { .. } => "needHelp",
+        Coordination::OfferHelp { .. } => "offerHelp",
+        Coordination::Leader { .. } => "leader",
+        Coordination::Follower { last, .. } => match last.map(|last| last.progress) {
+            None => "follower",
+            Some(Progress::Executing) => "executing",
+            Some(Progress::Completed) => "completed",
+            Some(Progress::Failed(_)) => "failed",
+            Some(Progress::SafeIdle) => "safeIdle",
+        },
+    }
+}
+
+// Representatives of all inputs.
+
+fn number(boot: u16, count: u16) -> UniqueNumber {
+    UniqueNumber { boot, count }
+}
+
+fn inputs(robot: &Robot) -> Vec<Input> {
+    let mut inputs = Vec::new();
+    inputs.extend(
+        robot
+            .timers()
+            .iter()
+            .map(|(timer, _)| Input::Expired(*timer)),
+    );
+    inputs.extend(events(robot).into_iter().map(Input::Local));
+    for station in [ME, PEERS[0], PEERS[1]] {
+        for coordination in coordinations(robot, station) {
+            inputs.push(ram(station, coordination, None));
+        }
+        for farewell in farewells(robot, station) {
+            // A farewell alone, and together with the request for the next session.
+            let number = SessionNumber(number(1, 8));
+            let next = Coordination::NeedHelp {
+                number,
+                request: request(1, Urgency::High),
+            };
+            for coordination in [Coordination::None, next] {
+                inputs.push(ram(station, coordination, Some(farewell)));
+            }
+        }
+    }
+    inputs.extend(
+        commands(robot)
+            .into_iter()
+            .map(|c| Input::Rmcm(Rmcm::Command(c))),
+    );
+    inputs.extend(
+        answers(robot)
+            .into_iter()
+            .map(|a| Input::Rmcm(Rmcm::Answer(a))),
+    );
+    inputs
+}
+
+fn ram(station: StationId, coordination: Coordination, farewell: Option<Farewell>) -> Input {
+    Input::Ram {
+        ram: Ram {
+            station,
+            coordination,
+            farewell,
+        },
+        distance: Decimetres(0),
+    }
+}
+
+fn request(followers: u8, urgency: Urgency) -> HelpRequest {
+    HelpRequest {
+        urgency,
+        followers,
+        tasks: TaskSet::of(&[TaskType::MOVE]),
+    }
+}
+
+fn events(robot: &Robot) -> Vec<Event> {
+    let mut events = vec![
+        Event::PedestrianDetected(request(1, Urgency::Medium)),
+        Event::PedestrianDetected(request(0, Urgency::Medium)),
+        Event::TaskCompleted,
+        Event::LeaveRequested,
+        Event::AvailabilityChanged(Availability::Available),
+        Event::AvailabilityChanged(Availability::Unavailable(Unavailability::LocalFault)),
+        Event::OpenCorridor,
+        Event::CloseCorridor,
+        Event::IdentityChanged(ME),
+    ];
+    for follower in [PEERS[0], PEERS[1], STRANGER] {
+        // Three commands show everything that more would, up to the last one.
+        let used = requests(robot).last().map_or(0, |request| request.0);
+        if (3..RequestId::MAX_PER_SESSION).contains(&used) {
+            continue;
+        }
+        events.push(Event::CommandManeuver {
+            follower,
+            task: TaskType::MOVE,
+        });
+    }
+    for session in sessions(robot) {
+        for request in requests(robot) {
+            let id = crossguard_protocol::ManeuverId { session, request };
+            events.extend([Event::ManeuverCompleted(id), Event::ManeuverFailed(id)]);
+        }
+    }
+    events
+}
+
+/// The session that the robot is in, one of its own that is over, and one of each peer.
+fn sessions(robot: &Robot) -> Vec<SessionId> {
+    let of = |leader, boot, count| SessionId {
+        leader,
+        number: SessionNumber(number(boot, count)),
+    };
+    let mut sessions = vec![of(ME, 0, 7), of(PEERS[0], 1, 7), of(PEERS[1], 1, 7)];
+    sessions.extend(
+        robot
+            .session()
+            .filter(|session| !sessions.contains(session)),
+    );
+    sessions
+}
+
+/// Offer numbers of `station`: the one that the robot knows of, and another.
+fn offers(robot: &Robot, station: StationId) -> Vec<OfferNumber> {
+    let known = match robot.phase() {
+        Phase::Offering(offering) if station == ME => Some(offering.number),
+        Phase::Following(following) if station == ME => Some(following.offer),
+        _ => None,
+    };
+    let mut offers = vec![OfferNumber(number(0, 5))];
+    offers.extend(known);
+    offers
+}
+
+/// Heartbeats around the newest that the robot knows of.
+fn heartbeats(robot: &Robot) -> Vec<Heartbeat> {
+    let newest = match robot.phase() {
+        Phase::Leading(leading) => leading.heartbeat,
+        Phase::Following(following) => following.heard,
+        _ => Heartbeat(1),
+    };
+    // Ranks start at 0, so there is an older one only above it.
+    let older = newest.0.checked_sub(1).map(Heartbeat);
+    [older, Some(newest), Some(newest.after(1))]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Request numbers around the newest that the robot knows of.
+fn requests(robot: &Robot) -> Vec<RequestId> {
+    let known = match robot.phase() {
+        Phase::Following(following) => following.newest_request(),
+        Phase::Leading(leading) => leading
+            .members
+            .iter()
+            .next()
+            .map(|member| member.next_request),
+        _ => None,
+    };
+    let newest = known.unwrap_or(RequestId(0));
+    let newer = if newest.0 < 2 {
+        Some(newest.next())
+    } else {
+        None
+    };
+    let older = newest.0.checked_sub(1).map(RequestId);
+    [older, Some(newest), newer].into_iter().flatten().collect()
+}
+
+fn coordinations(robot: &Robot, station: StationId) -> Vec<Coordination> {
+    let mut all = vec![Coordination::None];
+    let numbers = sessions(robot)
+        .into_iter()
+        .filter(|s| s.leader == station)
+        .map(|s| s.number);
+    for number in numbers {
+        for urgency in [Urgency::Low, Urgency::Medium, Urgency::High] {
+            all.push(Coordination::NeedHelp {
+                number,
+                request: request(1, urgency),
+            });
+        }
+        let lists = offers(robot, ME)
+            .into_iter()
+            .map(|offer| [Confirmation { station: ME, offer }].into_iter().collect())
+            .chain([Followers::EMPTY]);
+        for followers in lists {
+            for heartbeat in heartbeats(robot) {
+                all.push(Coordination::Leader {
+                    number,
+                    heartbeat,
+                    followers,
+                });
+            }
+        }
+    }
+    for session in sessions(robot)
+        .into_iter()
+        .filter(|session| session.leader != station)
+    {
+        let capabilities = TaskSet::of(&[TaskType::MOVE]);
+        for offer in offers(robot, station) {
+            all.push(Coordination::OfferHelp {
+                session,
+                offer,
+                capabilities,
+            });
+        }
+        for echo in heartbeats(robot) {
+            all.push(Coordination::Follower {
+                session,
+                echo,
+                last: None,
+            });
+            for request in requests(robot) {
+                for progress in [
+                    Progress::Executing,
+                    Progress::Completed,
+                    Progress::Failed(Failure::Maneuver),
+                    Progress::SafeIdle,
+                ] {
+                    let last = Some(Report { request, progress });
+                    all.push(Coordination::Follower {
+                        session,
+                        echo,
+                        last,
+                    });
+                }
+            }
+        }
+    }
+    all
+}
+
+fn farewells(robot: &Robot, station: StationId) -> Vec<Farewell> {
+    sessions(robot)
+        .into_iter()
+        .map(|session| {
+            if session.leader == station {
+                Farewell::Ended(session.number)
+            } else {
+                Farewell::Left(session)
+            }
+        })
+        .collect()
+}
+
+fn commands(robot: &Robot) -> Vec<Command> {
+    let mut commands = Vec::new();
+    for session in sessions(robot) {
+        for to in [ME, STRANGER] {
+            for request in requests(robot) {
+                for task in [TaskType::MOVE, TaskType::new(9).unwrap_or(TaskType::BLOCK)] {
+                    commands.push(Command {
+                        session,
+                        to,
+                        request,
+                        task,
+                    });
+                }
+            }
+        }
+    }
+    commands
+}
+
+fn answers(robot: &Robot) -> Vec<Answer> {
+    let mut answers = Vec::new();
+    for session in sessions(robot) {
+        for from in [ME, PEERS[0], PEERS[1], STRANGER] {
+            for request in requests(robot) {
+                let rejected = Verdict::Rejected(Rejection::UnsupportedTask);
+                for verdict in [Verdict::Accepted, rejected] {
+                    answers.push(Answer {
+                        from,
+                        session,
+                        request,
+                        verdict,
+                    });
+                }
+            }
+        }
+    }
+    answers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whatever_peers_say_every_step_of_a_robot_is_valid() {
+        let universe = explore(&config());
+        assert_eq!(universe.invalid, Vec::<String>::new());
+        assert_eq!(universe.wrongly_left_out, Vec::<String>::new());
+        assert!(universe.states > 1_000, "{} states", universe.states);
+    }
+}

@@ -1,0 +1,106 @@
+//! Scenario files: what is wrong with one is said with its line.
+
+use crossguard_model_check::scenario::{Scenario, ScenarioError};
+
+const PAIR: &str = include_str!("../scenarios/pair.toml");
+
+/// The error that the pair scenario gives when one of its lines is replaced.
+fn error(from: &str, to: &str) -> String {
+    assert!(PAIR.contains(from), "no line '{from}'");
+    Scenario::parse("my.toml", &PAIR.replacen(from, to, 1))
+        .unwrap_err()
+        .to_string()
+}
+
+fn line_of(text: &str) -> usize {
+    PAIR.lines().position(|line| line.contains(text)).unwrap() + 1
+}
+
+#[test]
+fn the_shipped_scenarios_load_by_name() {
+    for name in Scenario::shipped() {
+        assert_eq!(Scenario::load(name).unwrap().name, name);
+    }
+}
+
+#[test]
+fn an_unknown_key_is_named_with_its_line() {
+    let error = error("commands = 2", "comands = 2");
+    assert!(error.contains("unknown field `comands`"), "{error}");
+    assert!(
+        error.contains(&format!("line {}", line_of("commands = 2"))),
+        "{error}"
+    );
+}
+
+#[test]
+fn impossible_values_are_named_with_their_line() {
+    let cases = [
+        (
+            "delayed = 1",
+            "delayed = 9",
+            "9 messages delayed at a time: at most 4 are possible",
+        ),
+        (
+            "followers = 1",
+            "followers = 5",
+            "a request for 5 followers: between 1 and 4",
+        ),
+        (
+            "tasks = [\"move\"]",
+            "tasks = [\"fly\"]",
+            "no task 'fly': initialPos, move, block",
+        ),
+        (
+            "n_ack = 1",
+            "n_ack = 0",
+            "the settings break 'repeats-in-range': 1 <= n_ack <= 15",
+        ),
+        (
+            "n_ack = 1",
+            "t_lease = 1990",
+            "the settings break 'lease-within-safety'",
+        ),
+        (
+            "detects = true",
+            "detects = false",
+            "nothing would ever happen",
+        ),
+        ("station = 2", "station = 1", "two robots have station id 1"),
+    ];
+    for (from, to, message) in cases {
+        let error = error(from, to);
+        assert!(error.contains(message), "{error}");
+        let line = if message.contains("station") || message.contains("nothing") {
+            line_of("[[robots]]")
+        } else {
+            line_of(from)
+        };
+        assert!(
+            error.starts_with(&format!("my.toml:{line}: ")),
+            "line {line}: {error}"
+        );
+    }
+}
+
+#[test]
+fn an_unknown_property_is_named_with_its_line_and_those_there_are() {
+    let error = error("\"I14\"", "\"I99\"");
+    assert!(error.contains("no property 'I99': I1, I2"), "{error}");
+    let line = line_of("\"I14\"");
+    assert!(error.starts_with(&format!("my.toml:{line}: ")), "{error}");
+}
+
+#[test]
+fn a_scenario_that_is_neither_shipped_nor_a_file_is_told_apart() {
+    let unknown = Scenario::load("quartet").unwrap_err();
+    assert!(
+        unknown.to_string().contains("the shipped ones are pair,"),
+        "{unknown}"
+    );
+    let missing = Scenario::load("no/such/file.toml").unwrap_err();
+    assert!(
+        matches!(missing, ScenarioError::Unreadable { .. }),
+        "{missing}"
+    );
+}

@@ -1,0 +1,83 @@
+//! The shipped scenarios: every property holds, every premise is reachable, nothing was cut off, and
+//! the state spaces have the sizes that their files name.
+
+use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::model::Model;
+use crossguard_model_check::report::{CutOff, Verdict};
+use crossguard_model_check::scenario::Scenario;
+
+fn assert_verified(name: &str) {
+    let model = Model::new(Scenario::load(name).unwrap());
+    let report = check(&model, &Options::default(), &mut |_| ());
+    assert!(report.exhaustive, "{name}: {:?}", report.cut_off);
+    for property in &report.properties {
+        let fine = matches!(property.verdict, Verdict::Holds | Verdict::Reachable);
+        assert!(fine, "{name}: {property:#?}");
+    }
+    let found = (report.unique_states, report.depth);
+    assert_eq!(
+        report.size_as_expected,
+        Some(true),
+        "{name}: found {found:?}"
+    );
+}
+
+#[test]
+fn pair() {
+    assert_verified("pair");
+}
+
+#[test]
+fn pair_reboot() {
+    assert_verified("pair-reboot");
+}
+
+#[test]
+fn contention() {
+    assert_verified("contention");
+}
+
+#[test]
+fn trio() {
+    assert_verified("trio");
+}
+
+#[test]
+fn together_the_scenarios_check_every_property() {
+    let mut checked: Vec<_> = Scenario::shipped()
+        .flat_map(|name| Scenario::load(name).unwrap().properties)
+        .collect();
+    checked.sort_unstable();
+    checked.dedup();
+    assert_eq!(checked, crossguard_model_check::properties::PropertyId::ALL);
+}
+
+#[test]
+fn an_exploration_that_was_cut_off_proves_nothing() {
+    let model = Model::new(Scenario::load("pair").unwrap());
+    let options = Options {
+        states_max: Some(5_000),
+        ..Options::default()
+    };
+    let report = check(&model, &options, &mut |_| ());
+    assert!(!report.exhaustive);
+    assert_eq!(report.cut_off, Some(CutOff::StateLimit));
+    assert!(
+        !report
+            .properties
+            .iter()
+            .any(|p| p.verdict == Verdict::Holds)
+    );
+    assert_eq!(report.size_as_expected, None);
+}
+
+#[test]
+fn a_premise_that_is_met_nowhere_is_a_failure() {
+    let text = include_str!("../scenarios/pair.toml")
+        .replace("commands = 2", "commands = 0")
+        .replace("delayed = 1", "delayed = 0");
+    let model = Model::new(Scenario::parse("no commands", &text).unwrap());
+    let report = check(&model, &Options::default(), &mut |_| ());
+    assert_eq!(report.verdict("I4-premise"), Some(Verdict::Unreachable));
+    assert!(report.failed());
+}

@@ -1,0 +1,285 @@
+//! What each rule is good for: a transition function without it breaks the property that the rule is
+//! there to keep.
+
+use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::model::Model;
+use crossguard_model_check::node::Rules;
+use crossguard_model_check::properties::PropertyId::{self, *};
+use crossguard_model_check::report::Verdict;
+use crossguard_model_check::scenario::Scenario;
+use crossguard_protocol::*;
+
+/// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
+fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
+    let model = Model::with_rules(Scenario::load(scenario).unwrap(), rules);
+    let options = Options {
+        until_broken: properties.to_vec(),
+        ..Options::default()
+    };
+    let report = check(&model, &options, &mut |_| ());
+    for id in properties {
+        let property = report
+            .properties
+            .iter()
+            .find(|p| p.id == id.to_string())
+            .unwrap();
+        assert_eq!(property.verdict, Verdict::Violated, "{property:#?}");
+        assert!(
+            !property.counterexample.is_empty(),
+            "{id} without a counterexample"
+        );
+    }
+}
+
+/// Whatever leader lists the robot, for whatever offer, has confirmed it.
+struct ConfirmsByStationAlone;
+
+impl Rules for ConfirmsByStationAlone {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        let mine = match robot.phase() {
+            Phase::Offering(offering) => Some(offering.number),
+            Phase::Following(following) => Some(following.offer),
+            _ => None,
+        };
+        if let (Some(mine), Input::Ram { ram, .. }) = (mine, &mut input)
+            && let Coordination::Leader { followers, .. } = &mut ram.coordination
+        {
+            let offer = |c: &Confirmation| {
+                if c.station == robot.station() {
+                    mine
+                } else {
+                    c.offer
+                }
+            };
+            *followers = followers
+                .iter()
+                .map(|c| Confirmation {
+                    offer: offer(c),
+                    ..*c
+                })
+                .collect();
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn without_offer_numbers_a_rebooted_follower_is_drawn_back() {
+    // And then it executes a command a second time.
+    assert_breaks("pair-reboot", ConfirmsByStationAlone, &[I2, I4, I15]);
+}
+
+/// A request for help counts as a confirmation.
+struct NeedsNoConfirmation;
+
+impl Rules for NeedsNoConfirmation {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Offering(offering), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
+            && let Coordination::NeedHelp { number, .. } = ram.coordination
+        {
+            let me = Confirmation {
+                station: robot.station(),
+                offer: offering.number,
+            };
+            let (heartbeat, followers) = (Heartbeat(0), [me].into_iter().collect());
+            ram.coordination = Coordination::Leader {
+                number,
+                heartbeat,
+                followers,
+            };
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn without_confirmation_a_robot_follows_whom_it_should_not() {
+    assert_breaks("pair", NeedsNoConfirmation, &[I2]);
+}
+
+/// The session that a command names is not looked at.
+struct ObeysCommandsOfAnySession;
+
+impl Rules for ObeysCommandsOfAnySession {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Following(following), Input::Rmcm(Rmcm::Command(command))) =
+            (robot.phase(), &mut input)
+        {
+            command.session = following.session;
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn without_sessions_a_stale_command_is_executed() {
+    assert_breaks("pair-reboot", ObeysCommandsOfAnySession, &[I3]);
+}
+
+/// A repeated command is started like a new one.
+struct StartsRepeatedCommands;
+
+impl Rules for StartsRepeatedCommands {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let job = match robot.phase() {
+            Phase::Following(following) => following.job,
+            _ => None,
+        };
+        let outputs = robot.step(config, input);
+        match (input, job) {
+            (Input::Rmcm(Rmcm::Command(command)), Some(job))
+                if job.request == command.request && outputs.ignored().is_none() =>
+            {
+                let id = ManeuverId {
+                    session: command.session,
+                    request: command.request,
+                };
+                let start = Output::StartManeuver(Maneuver {
+                    id,
+                    task: command.task,
+                });
+                outputs.iter().copied().chain([start]).collect()
+            }
+            _ => outputs,
+        }
+    }
+}
+
+#[test]
+fn without_memory_of_requests_a_command_is_executed_twice_and_after_fallback() {
+    assert_breaks("pair", StartsRepeatedCommands, &[I4, I9]);
+}
+
+/// Any acknowledgement is taken for that of the outstanding command.
+struct TakesAnyAcknowledgement;
+
+impl Rules for TakesAnyAcknowledgement {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Leading(leading), Input::Rmcm(Rmcm::Answer(answer))) =
+            (robot.phase(), &mut input)
+            && let Some(outstanding) = leading.member(answer.from).and_then(|m| m.outstanding)
+        {
+            answer.request = outstanding.request;
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn without_request_numbers_a_late_acknowledgement_counts_for_a_newer_command() {
+    assert_breaks("pair", TakesAnyAcknowledgement, &[I6, I7]);
+}
+
+/// Progress in a RAM is taken for that of the newest command, as in the paper.
+struct TakesAnyProgress;
+
+impl Rules for TakesAnyProgress {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Leading(leading), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
+            && let Coordination::Follower {
+                last: Some(report), ..
+            } = &mut ram.coordination
+            && let Some(order) = leading.member(ram.station).and_then(|member| member.order)
+        {
+            report.request = order.request;
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn without_request_numbers_in_ram_a_stale_one_completes_a_newer_command() {
+    assert_breaks("pair", TakesAnyProgress, &[I8]);
+}
+
+/// Outputs of one kind never reach the robot.
+struct Drops(fn(&Output) -> bool);
+
+impl Rules for Drops {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        outputs
+            .iter()
+            .copied()
+            .filter(|output| !(self.0)(output))
+            .collect()
+    }
+}
+
+#[test]
+fn a_corridor_that_is_not_closed_stays_open_over_nobody() {
+    assert_breaks(
+        "pair",
+        Drops(|output| matches!(output, Output::CorridorClosed(_))),
+        &[I11],
+    );
+}
+
+#[test]
+fn a_released_robot_that_is_not_stopped_goes_on() {
+    assert_breaks(
+        "pair",
+        Drops(|output| matches!(output, Output::StopManeuver(..))),
+        &[I14],
+    );
+}
+
+#[test]
+fn an_identity_that_is_not_locked_may_change_in_a_session() {
+    assert_breaks(
+        "trio",
+        Drops(|output| matches!(output, Output::LockIdentity)),
+        &[I18],
+    );
+}
+
+/// A follower has no timers.
+struct FollowersWaitForEver;
+
+impl Rules for FollowersWaitForEver {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let (Phase::Following(_), Input::Expired(_)) = (robot.phase(), input) {
+            return [Output::Ignored(Ignored::TimerNotArmed)]
+                .into_iter()
+                .collect();
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn without_timers_a_follower_of_a_crashed_leader_is_stuck() {
+    let text = include_str!("../scenarios/pair-reboot.toml").replace("restarts = 1", "");
+    let text = text.split("[expected]").next().unwrap();
+    let scenario = Scenario::parse("leader crashes for good", text).unwrap();
+    let report = check(
+        &Model::with_rules(scenario, FollowersWaitForEver),
+        &Options::default(),
+        &mut |_| (),
+    );
+    let violated: Vec<_> = report.violated().collect();
+    for property in ["I12", "L7"] {
+        assert!(
+            violated.contains(&property),
+            "{property} should break, not {violated:?}"
+        );
+    }
+}
+
+/// A requester never gives up, and commands are repeated without end.
+struct RepeatsWithoutEnd;
+
+impl Rules for RepeatsWithoutEnd {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let patient = Settings {
+            n_ack: config.settings().n_ack + 1,
+            ..config.settings().clone()
+        };
+        robot.step(&Config::new(patient).unwrap(), input)
+    }
+}
+
+#[test]
+fn one_repeat_too_many_is_noticed() {
+    assert_breaks("pair", RepeatsWithoutEnd, &[I16]);
+}

@@ -1,0 +1,227 @@
+//! States and messages up to renaming, for tools that compare them.
+//!
+//! The transition function compares numbers and never looks at their absolute values: of two
+//! heartbeats it asks which is newer, of two session or offer numbers whether they are the same. So
+//! two states that differ in such a renaming alone behave alike, and a model checker need visit only
+//! one of them. That keeps a model with unbounded counters finite without bounding the counters.
+
+use crate::id::{Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
+use crate::input::Timer;
+use crate::message::{Answer, Command, Confirmation, Coordination, Farewell, Ram, Rmcm};
+use crate::state::{Leading, Member, Offer, Offering, Phase, Requesting, Robot};
+use crate::time::Millis;
+
+/// A renaming of what states and messages hold. What a method is not given stays as it is.
+///
+/// The renamed state is a valid one if the renaming keeps the order of the heartbeats of each
+/// session, is injective on the numbers of each station and boot, maps
+/// [`Robot::next_number`] above all of them, and makes no timer due.
+pub trait Renaming {
+    /// The time that an armed timer has left.
+    fn countdown(&mut self, _timer: Timer, left: Millis) -> Millis {
+        left
+    }
+
+    /// A heartbeat of `session`, which is given by its old name.
+    fn heartbeat(&mut self, _session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
+        heartbeat
+    }
+
+    /// A session or offer number that `owner` gave out, or will give out next.
+    fn number(&mut self, _owner: StationId, number: UniqueNumber) -> UniqueNumber {
+        number
+    }
+}
+
+fn session_number(
+    to: &mut impl Renaming,
+    owner: StationId,
+    number: SessionNumber,
+) -> SessionNumber {
+    SessionNumber(to.number(owner, number.0))
+}
+
+fn offer_number(to: &mut impl Renaming, owner: StationId, number: OfferNumber) -> OfferNumber {
+    OfferNumber(to.number(owner, number.0))
+}
+
+impl SessionId {
+    /// The session under another name.
+    #[must_use]
+    pub fn renamed(self, to: &mut impl Renaming) -> Self {
+        Self {
+            number: session_number(to, self.leader, self.number),
+            ..self
+        }
+    }
+}
+
+impl Farewell {
+    fn renamed(self, to: &mut impl Renaming, from: StationId) -> Self {
+        match self {
+            Self::Ended(number) => Self::Ended(session_number(to, from, number)),
+            Self::Left(session) => Self::Left(session.renamed(to)),
+        }
+    }
+}
+
+impl Confirmation {
+    /// The confirmation under another name of its offer.
+    #[must_use]
+    pub fn renamed(self, to: &mut impl Renaming) -> Self {
+        Self {
+            offer: offer_number(to, self.station, self.offer),
+            ..self
+        }
+    }
+}
+
+impl Ram {
+    /// The message under other names.
+    #[must_use]
+    pub fn renamed(&self, to: &mut impl Renaming) -> Self {
+        let station = self.station;
+        let coordination = match self.coordination {
+            Coordination::None => Coordination::None,
+            Coordination::NeedHelp { number, request } => Coordination::NeedHelp {
+                number: session_number(to, station, number),
+                request,
+            },
+            Coordination::OfferHelp {
+                session,
+                offer,
+                capabilities,
+            } => Coordination::OfferHelp {
+                session: session.renamed(to),
+                offer: offer_number(to, station, offer),
+                capabilities,
+            },
+            Coordination::Leader {
+                number,
+                heartbeat,
+                followers,
+            } => Coordination::Leader {
+                number: session_number(to, station, number),
+                heartbeat: to.heartbeat(
+                    SessionId {
+                        leader: station,
+                        number,
+                    },
+                    heartbeat,
+                ),
+                followers: followers
+                    .iter()
+                    .map(|follower| follower.renamed(to))
+                    .collect(),
+            },
+            Coordination::Follower {
+                session,
+                echo,
+                last,
+            } => Coordination::Follower {
+                session: session.renamed(to),
+                echo: to.heartbeat(session, echo),
+                last,
+            },
+        };
+        let farewell = self.farewell.map(|farewell| farewell.renamed(to, station));
+        Self {
+            station,
+            coordination,
+            farewell,
+        }
+    }
+}
+
+impl Rmcm {
+    /// The message under other names.
+    #[must_use]
+    pub fn renamed(&self, to: &mut impl Renaming) -> Self {
+        match *self {
+            Self::Command(command) => Self::Command(Command {
+                session: command.session.renamed(to),
+                ..command
+            }),
+            Self::Answer(answer) => Self::Answer(Answer {
+                session: answer.session.renamed(to),
+                ..answer
+            }),
+        }
+    }
+}
+
+impl Robot {
+    /// The number that the robot will give out next.
+    #[must_use]
+    pub const fn next_number(&self) -> UniqueNumber {
+        UniqueNumber {
+            boot: self.boot,
+            count: self.next_count,
+        }
+    }
+
+    /// The state under other names.
+    #[must_use]
+    pub fn renamed(&self, to: &mut impl Renaming) -> Self {
+        let mut robot = self.clone();
+        let station = self.station;
+        robot.next_count = to.number(station, self.next_number()).count;
+        if let Some(standing) = &mut robot.farewell {
+            standing.farewell = standing.farewell.renamed(to, station);
+        }
+        match &mut robot.phase {
+            Phase::Idle => {}
+            Phase::Requesting(requesting) => requesting.rename(to, station),
+            Phase::Offering(offering) => offering.rename(to, station),
+            Phase::Leading(leading) => leading.rename(to, station),
+            Phase::Following(following) => {
+                let session = following.session;
+                following.session = session.renamed(to);
+                following.offer = offer_number(to, station, following.offer);
+                following.heard = to.heartbeat(session, following.heard);
+            }
+        }
+        robot.rename_countdowns(|timer, left| to.countdown(timer, left));
+        robot
+    }
+}
+
+impl Requesting {
+    fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
+        self.number = session_number(to, station, self.number);
+        for Offer {
+            station, number, ..
+        } in self.offers.iter_mut()
+        {
+            *number = offer_number(to, *station, *number);
+        }
+    }
+}
+
+impl Offering {
+    fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
+        self.session = self.session.renamed(to);
+        self.number = offer_number(to, station, self.number);
+    }
+}
+
+impl Leading {
+    fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
+        let session = SessionId {
+            leader: station,
+            number: self.number,
+        };
+        self.number = session_number(to, station, self.number);
+        self.heartbeat = to.heartbeat(session, self.heartbeat);
+        for Member {
+            station,
+            offer,
+            echoed,
+            ..
+        } in self.members.iter_mut()
+        {
+            *offer = offer_number(to, *station, *offer);
+            *echoed = echoed.map(|echoed| to.heartbeat(session, echoed));
+        }
+    }
+}
