@@ -1,1 +1,79 @@
-//! stub
+//! RAM and RMCM on the wire.
+//!
+//! The messages of Crossguard, from what the protocol and the application say to octets and back:
+//!
+//! ```text
+//!  crossguard_protocol::Ram ─┐                ┌─ asn1 ─┐              ┌─ uper ─┐
+//!  RobotState (SI units) ────┼── view, state ─┤  RAM   ├── message ───┤ octets │
+//!  TaskParameters ───────────┘   by si        │  RMCM  │  header,     └────────┘
+//!  crossguard_protocol::Rmcm                  └────────┘  rules
+//! ```
+//!
+//! - `asn1/*.asn` in this crate are the messages, as ASN.1 modules that any compiler takes; [`asn1`]
+//!   holds the types that follow from them.
+//! - [`encode`] and [`decode`] are strict: exactly the canonical unaligned PER encodings of valid
+//!   messages are accepted, extension additions of newer senders are skipped, and everything else is
+//!   an error that names the field.
+//! - [`si`] converts physical quantities, and saturates.
+//! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
+//!   map to and from the protocol's view.
+//! - [`Identifiers`] holds what no standard has assigned.
+//!
+//! ```
+//! use crossguard_codec::{
+//!     Identifiers, Message, Position, RobotState, decode, distance, encode, ram_from, state_of,
+//!     view_of_ram,
+//! };
+//! use crossguard_codec::asn1::ram::RAM;
+//! use crossguard_protocol::{Availability, Decimetres, Robot, StationId};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let identifiers = Identifiers::default();
+//! let robot = Robot::new(StationId(7), 1);
+//! let state = RobotState {
+//!     position: Position::at(48.765_432_1, 9.123_456_7),
+//!     speed: Some(1.2.into()),
+//!     ..RobotState::default()
+//! };
+//! let ram = ram_from(&identifiers, &state, &robot.ram(), Availability::Available, 12_345, false)?;
+//! let octets = encode(&identifiers, &ram)?;
+//!
+//! let received = decode::<RAM>(&identifiers, &octets)?.message;
+//! assert_eq!(view_of_ram(&received)?, robot.ram());
+//! let here = Position::at(48.765_432_1, 9.123_500_0);
+//! assert_eq!(distance(&here, &state_of(&received).position), Decimetres(32));
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod asn1;
+mod containers;
+mod distance;
+mod error;
+mod identifiers;
+mod message;
+mod rules;
+pub mod si;
+mod size;
+mod state;
+mod uper;
+mod view;
+mod wire;
+
+pub use containers::position_of;
+pub use distance::distance;
+pub use error::{BrokenRule, DecodeError, EncodeError, Fault, FieldPath, ViewError};
+pub use identifiers::{IdentifierClash, Identifiers, MessageIdentifiers};
+pub use message::{Message, Pdu, Received, decode, encode};
+pub use rules::{PATH_HISTORY_MAX, PATH_PREDICTION_MAX};
+pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
+pub use state::{
+    Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, JobRole,
+    Lights, Measurement, PastPosition, Position, PublicSignal, RobotCategory, RobotState,
+    SignalMeans, SignalsShown, SlowState, TaskProgression,
+};
+pub use view::{
+    ExecutionStatus, MapPlace, Target, TaskParameters, availability_of, execution_of, map_place_of,
+    ram_from, rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of, view_of_ram,
+    views_of_rmcm,
+};

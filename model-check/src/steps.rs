@@ -48,7 +48,7 @@ pub(crate) struct Steps {
     rules: Box<dyn Rules>,
     pub(crate) nodes: Interner<Node>,
     pub(crate) messages: Interner<Message>,
-    steps: boxcar::Vec<Step>,
+    computed: boxcar::Vec<Step>,
     numbers: DashMap<(u32, Cause), u32, FxBuildHasher>,
 }
 
@@ -58,7 +58,7 @@ impl Steps {
             rules,
             nodes: Interner::new(),
             messages: Interner::new(),
-            steps: boxcar::Vec::new(),
+            computed: boxcar::Vec::new(),
             numbers: DashMap::default(),
         }
     }
@@ -72,13 +72,13 @@ impl Steps {
         cause: Cause,
     ) -> Option<&Step> {
         if let Some(number) = self.numbers.get(&(node, cause)) {
-            return Some(&self.steps[*number as usize]);
+            return Some(&self.computed[*number as usize]);
         }
         let step = self.compute(config, properties, node, cause)?;
-        let number = self.steps.push(step);
+        let number = self.computed.push(step);
         let number = u32::try_from(number).expect("fewer than 2^32 steps");
         self.numbers.insert((node, cause), number);
-        Some(&self.steps[number as usize])
+        Some(&self.computed[number as usize])
     }
 
     fn compute(
