@@ -1,0 +1,26 @@
+//! The rasn types of the ASN.1 modules in `asn1/*.asn`.
+//!
+//! The modules are the source of truth and part of the product; a robot in C++ can feed them to its
+//! own compiler. `generated.rs` follows from them by rasn-compiler and is never edited; a test
+//! compares the two. What is generated keeps the names of ASN.1, in Rust's spelling for fields and
+//! in its own for types and alternatives, and its serde view has the names of ASN.1 throughout.
+//!
+//! The types hold any number that fits their Rust type. Whether a value is within its ASN.1 range is
+//! checked where a message is [encoded](crate::encode) or [decoded](crate::decode), and by the
+//! conversions of [`si`](crate::si), which produce nothing else.
+
+#[rustfmt::skip]
+#[allow(
+    missing_docs,
+    rustdoc::all,
+    clippy::all,
+    clippy::pedantic,
+    reason = "generated from the ASN.1 modules, which are documented themselves"
+)]
+mod generated;
+mod view;
+
+pub use generated::{
+    crossguard_cdd as cdd, crossguard_common as common, crossguard_ram as ram,
+    crossguard_rmcm as rmcm, crossguard_vam as vam,
+};

@@ -1,0 +1,128 @@
+//! Serde views of types that rasn gives none: bit strings as hexadecimal text, as in the JSON encoding
+//! rules (ITU-T X.697), and extensible integers as numbers.
+
+use std::fmt::Write as _;
+
+use serde::de::Error;
+
+/// The octets of `bits`, first bit first, padded with zero bits.
+fn to_hex(bits: impl Iterator<Item = bool>) -> String {
+    let mut text = String::new();
+    let (mut octet, mut count) = (0_u8, 0);
+    for bit in bits {
+        octet = octet << 1 | u8::from(bit);
+        count += 1;
+        if count == 8 {
+            let _ = write!(text, "{octet:02x}");
+            (octet, count) = (0, 0);
+        }
+    }
+    if count > 0 {
+        let _ = write!(text, "{:02x}", octet << (8 - count));
+    }
+    text
+}
+
+/// The `length` bits that `text` stands for.
+fn from_hex<E: Error>(text: &str, length: usize) -> Result<impl Iterator<Item = bool>, E> {
+    let digits: Option<Vec<u32>> = text.chars().map(|digit| digit.to_digit(16)).collect();
+    let digits = digits.ok_or_else(|| E::custom("a bit string has hexadecimal digits only"))?;
+    if digits.len() != length.div_ceil(8) * 2 {
+        return Err(E::custom(format_args!(
+            "a bit string of {length} bits is expected"
+        )));
+    }
+    let bits = digits
+        .into_iter()
+        .flat_map(|digit| (0..4).rev().map(move |bit| digit >> bit & 1 == 1));
+    if bits.clone().skip(length).any(|bit| bit) {
+        return Err(E::custom("the padding of a bit string is zero"));
+    }
+    Ok(bits.take(length))
+}
+
+/// A bit string of fixed size: `"80"`.
+pub(super) mod fixed_bits {
+    use rasn::types::FixedBitString;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(in crate::asn1) fn serialize<S: Serializer, const N: usize>(
+        bits: &FixedBitString<N>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        super::to_hex(bits.iter().by_vals().take(N)).serialize(serializer)
+    }
+
+    pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>, const N: usize>(
+        deserializer: D,
+    ) -> Result<FixedBitString<N>, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let mut bits = FixedBitString::ZERO;
+        for (index, bit) in super::from_hex(&text, N)?.enumerate() {
+            bits.set(index, bit);
+        }
+        Ok(bits)
+    }
+}
+
+/// A bit string of any size: `{"value": "80", "length": 1}`.
+pub(super) mod bits {
+    use rasn::types::BitString;
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    /// No bit string of these modules is longer.
+    const LENGTH_MAX: usize = 1024;
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Sized {
+        value: String,
+        length: usize,
+    }
+
+    pub(in crate::asn1) fn serialize<S: Serializer>(
+        bits: &BitString,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let value = super::to_hex(bits.iter().by_vals());
+        Sized {
+            value,
+            length: bits.len(),
+        }
+        .serialize(serializer)
+    }
+
+    pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<BitString, D::Error> {
+        let Sized { value, length } = Sized::deserialize(deserializer)?;
+        if length > LENGTH_MAX {
+            return Err(D::Error::custom("the bit string is too long"));
+        }
+        Ok(super::from_hex(&value, length)?.collect())
+    }
+}
+
+/// An integer without bounds of its own, as far as the modules use it.
+pub(super) mod integer {
+    use rasn::types::Integer;
+    use serde::ser::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(in crate::asn1) fn serialize<S: Serializer>(
+        integer: &Integer,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let number = i64::try_from(integer);
+        number
+            .map_err(|_| S::Error::custom("the integer is too large"))?
+            .serialize(serializer)
+    }
+
+    pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Integer, D::Error> {
+        i64::deserialize(deserializer).map(Integer::from)
+    }
+}

@@ -1,0 +1,281 @@
+//! What can be wrong with a message, for people to act on.
+
+use std::fmt;
+
+use crossguard_protocol::{MAX_FOLLOWERS, SessionId, StationId};
+use thiserror::Error;
+
+use crate::asn1::ram::HelpStatus;
+use crate::state::TaskProgression;
+
+/// Why octets are not a message.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[non_exhaustive]
+pub enum DecodeError {
+    /// Not even a header.
+    #[error("{length} octets are too few for the header of a message, which has 6")]
+    TooShort {
+        /// How many octets there are.
+        length: usize,
+    },
+    /// More than any packet carries.
+    #[error("{length} octets are too many for a message, the limit is {max}")]
+    TooLong {
+        /// How many octets there are.
+        length: usize,
+        /// How many there may be.
+        max: usize,
+    },
+    /// The header names a message that is not expected.
+    #[error("messageId {found} is not that of {expected}")]
+    MessageId {
+        /// The value in the header.
+        found: u8,
+        /// The message that is expected.
+        expected: &'static str,
+    },
+    /// The header names a version of the message that this crate does not know.
+    #[error("protocolVersion {found} of {message} is unknown, {known} is known")]
+    ProtocolVersion {
+        /// The message that the header names.
+        message: &'static str,
+        /// The value in the header.
+        found: u8,
+        /// The value that is known.
+        known: u8,
+    },
+    /// The bits of one field are wrong.
+    #[error("{field}: {fault} (bit {bit})")]
+    Malformed {
+        /// The field.
+        field: FieldPath,
+        /// Where its bits are, counted from the start of the message.
+        bit: usize,
+        /// What is wrong with them.
+        fault: Fault,
+    },
+    /// There is more behind the message.
+    #[error("{count} octets follow the end of the message")]
+    TrailingOctets {
+        /// How many octets.
+        count: usize,
+    },
+    /// The octets decode to a value whose encoding is another: a component that equals its DEFAULT
+    /// is spelled out.
+    #[error("not the canonical encoding of its value, which differs from bit {bit} on")]
+    NotCanonical {
+        /// The first bit that differs, counted without unknown extension additions.
+        bit: usize,
+    },
+    /// The message breaks a rule that its encoding does not show.
+    #[error(transparent)]
+    Rule(#[from] BrokenRule),
+}
+
+/// What is wrong with the bits of a field.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The message ends too early.
+    #[error("the message ends within it")]
+    Truncated,
+    /// A number that the type does not have.
+    #[error("{number} is not within {min}..{max}")]
+    Value {
+        /// The number.
+        number: i128,
+        /// The smallest one of the type.
+        min: i128,
+        /// The largest one of the type.
+        max: i128,
+    },
+    /// A list or string of a size that the type does not have.
+    #[error("its size is not within {min}..{max}")]
+    Size {
+        /// The smallest size of the type.
+        min: usize,
+        /// The largest size of the type.
+        max: usize,
+    },
+    /// A size or number behind an extension marker; this crate uses only those before it.
+    #[error("its size or value is behind an extension marker, which is not supported")]
+    BeyondRoot,
+    /// An alternative of a CHOICE or ENUMERATED that this crate does not know; a newer one may.
+    #[error("its alternative is unknown")]
+    UnknownAlternative,
+    /// A length that is zero, has a shorter form, or does not fit what it is the length of.
+    #[error("its length determinant is wrong")]
+    Length,
+    /// The extension bit is set, and no extension addition is present.
+    #[error("it announces extension additions and has none")]
+    NoAddition,
+    /// More than 64 extension additions.
+    #[error("it has more than 64 extension additions, which is not supported")]
+    TooManyAdditions,
+    /// Padding that is not zero.
+    #[error("its padding is not zero")]
+    Padding,
+    /// A kind of type that no module of this crate uses.
+    #[error("its type is not supported")]
+    Unsupported,
+}
+
+/// A rule that holds for a message beyond what its encoding shows. Fields are in the spelling of
+/// ASN.1.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+#[non_exhaustive]
+pub enum BrokenRule {
+    /// A list is too long.
+    #[error("{field} has {found} items, {max} are allowed")]
+    TooMany {
+        /// The list.
+        field: &'static str,
+        /// How many items it has.
+        found: usize,
+        /// How many it may have.
+        max: usize,
+    },
+    /// A size or number is behind an extension marker.
+    #[error("the size or value of {field} is behind an extension marker, which is not supported")]
+    BeyondRoot {
+        /// The field.
+        field: &'static str,
+    },
+    /// A cluster is bounded by another shape than the dictionary allows.
+    #[error("clusterBoundingBoxShape is neither a rectangle nor a circle nor a polygon")]
+    ClusterShape,
+}
+
+/// Why a message cannot be encoded.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[non_exhaustive]
+pub enum EncodeError {
+    /// A number is not one of its type. The conversions of [`si`](crate::si) never produce such a
+    /// number.
+    #[error("{number} is not a value of its type, which is {allowed}")]
+    Value {
+        /// The number.
+        number: i64,
+        /// The numbers of the type.
+        allowed: String,
+    },
+    /// A list has a size that is not one of its type.
+    #[error("{size} is not a size of its type, which is {allowed}")]
+    Size {
+        /// The size.
+        size: usize,
+        /// The sizes of the type.
+        allowed: String,
+    },
+    /// Another reason of rasn.
+    #[error("not encodable: {0}")]
+    Other(String),
+    /// The header is not the one of this message.
+    #[error("the header of {message} has {field} {found} instead of {expected}")]
+    Header {
+        /// The message.
+        message: &'static str,
+        /// The field of the header.
+        field: &'static str,
+        /// Its value.
+        found: u8,
+        /// The configured value.
+        expected: u8,
+    },
+    /// The message breaks a rule that its encoding does not show.
+    #[error(transparent)]
+    Rule(#[from] BrokenRule),
+}
+
+/// Why a message contradicts itself or says what no message can.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// A requester, a leader or a command names a session that its sender does not lead.
+    #[error("station {sender} speaks as the leader of session {session}")]
+    NotOwnSession {
+        /// The sender.
+        sender: StationId,
+        /// The session.
+        session: SessionId,
+    },
+    /// A helper, a follower or an answer names a session that its sender leads, or a sender has left
+    /// its own session instead of ending it.
+    #[error("station {0} speaks as a follower in its own session")]
+    OwnSession(StationId),
+    /// `helpStatus` is not the one that goes with the role.
+    #[error("helpStatus is {found:?}, and its role goes with {expected:?}")]
+    HelpStatus {
+        /// The status.
+        found: HelpStatus,
+        /// The one that goes with the role.
+        expected: HelpStatus,
+    },
+    /// `taskProgression` is not the one that goes with the progress of the last command.
+    #[error("taskProgression is {found:?}, and its command is {expected:?}")]
+    TaskProgression {
+        /// What the status says.
+        found: TaskProgression,
+        /// What the report says.
+        expected: TaskProgression,
+    },
+    /// A number of followers that cannot be asked for.
+    #[error("{0} followers are asked for, and 1 to {MAX_FOLLOWERS} can be")]
+    FollowerCount(u8),
+    /// A leader without followers.
+    #[error("a leader names no follower")]
+    NoFollowers,
+    /// A leader with more followers than a session has; no decoded message has as many.
+    #[error("a leader names {0} followers, and {MAX_FOLLOWERS} can be")]
+    TooManyFollowers(usize),
+    /// A leader names this follower twice, or a message commands it twice.
+    #[error("station {0} is named twice")]
+    NamedTwice(StationId),
+    /// A leader follows itself or commands itself.
+    #[error("leader {0} is its own follower")]
+    OwnFollower(StationId),
+    /// The session that is named as over is the one that the sender takes part in.
+    #[error("session {0} is over, and its sender takes part in it")]
+    FarewellToPresent(SessionId),
+    /// A report says that the leader's execution limit ran out, which only the leader can know.
+    #[error("a follower's report cannot say that the leader's execution limit ran out")]
+    ExecutionLimit,
+    /// A message commands nobody, or more followers than a session has.
+    #[error("{0} commands are in one message, and 1 to {MAX_FOLLOWERS} can be")]
+    CommandCount(usize),
+    /// The commands of one message belong to different sessions.
+    #[error("commands of sessions {0} and {1} are in one message")]
+    SessionsDiffer(SessionId, SessionId),
+    /// A task type that does not exist; no decoded message has it.
+    #[error("task type {0} does not exist")]
+    TaskType(u8),
+    /// The target of a command is not a place, or too far away.
+    #[error("the target of the command for station {0} cannot be expressed")]
+    Target(StationId),
+}
+
+/// The way from a message to one of its fields, in Rust's spelling.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct FieldPath(Vec<&'static str>);
+
+impl FieldPath {
+    /// Goes one step further, to the field that rasn names with its type, as `Type.field`.
+    pub(crate) fn push(&mut self, qualified_name: &'static str) {
+        let name = qualified_name.rsplit('.').next().unwrap_or(qualified_name);
+        self.0.push(name);
+    }
+
+    /// The names of the fields, outermost first.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.0.iter().copied()
+    }
+}
+
+impl fmt::Display for FieldPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() {
+            return f.write_str("message");
+        }
+        f.write_str(&self.0.join("."))
+    }
+}

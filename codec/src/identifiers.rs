@@ -1,0 +1,152 @@
+//! Identifiers that no standard has assigned, in one place.
+//!
+//! RAM and RMCM have no messageId, BTP port or ITS-AID of their own, and the common data dictionary
+//! has no station type for robots. The defaults are experimental: message identifiers without a name
+//! in TS 102 894-2 v2.4.1, ports that TS 103 248 v2.4.1 does not assign, ITS-AIDs from the testing
+//! range of TS 102 965. Whoever shares a channel agrees on them; whoever changes them changes this
+//! one value.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// The identifiers of RAM and RMCM.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Identifiers {
+    /// Those of the robot awareness message.
+    pub ram: MessageIdentifiers,
+    /// Those of the robot maneuver coordination message.
+    pub rmcm: MessageIdentifiers,
+    /// Station type of a robot in the basic container; 12, `lightVruVehicle`, by default: the
+    /// nearest that receivers know.
+    pub robot_station_type: u8,
+}
+
+/// The identifiers of one message.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MessageIdentifiers {
+    /// `protocolVersion` of the header: the version of the message's format.
+    pub protocol_version: u8,
+    /// `messageId` of the header.
+    pub message_id: u8,
+    /// Destination port of BTP.
+    pub btp_port: u16,
+    /// ITS-AID (PSID) that its certificates are for.
+    pub its_aid: u32,
+}
+
+/// The largest messageId that TS 102 894-2 v2.4.1 assigns.
+const ASSIGNED_MESSAGE_ID_MAX: u8 = 21;
+/// The largest port that TS 103 248 v2.4.1 assigns.
+const ASSIGNED_PORT_MAX: u16 = 2026;
+
+impl Default for Identifiers {
+    fn default() -> Self {
+        Self {
+            ram: MessageIdentifiers {
+                protocol_version: 1,
+                message_id: 240,
+                btp_port: 2998,
+                its_aid: 16_480,
+            },
+            rmcm: MessageIdentifiers {
+                protocol_version: 1,
+                message_id: 241,
+                btp_port: 2999,
+                its_aid: 16_481,
+            },
+            robot_station_type: 12,
+        }
+    }
+}
+
+/// Identifiers that cannot be told from others.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+pub enum IdentifierClash {
+    /// Both messages have this messageId.
+    #[error("RAM and RMCM have the same messageId {0}")]
+    SameMessageId(u8),
+    /// Both messages have this port.
+    #[error("RAM and RMCM have the same BTP port {0}")]
+    SamePort(u16),
+    /// Another message of ETSI has this messageId.
+    #[error(
+        "messageId {0} is assigned to another message, use one above {ASSIGNED_MESSAGE_ID_MAX}"
+    )]
+    AssignedMessageId(u8),
+    /// Another service of ETSI has this port.
+    #[error("BTP port {0} is assigned to another service, use one above {ASSIGNED_PORT_MAX}")]
+    AssignedPort(u16),
+}
+
+impl Identifiers {
+    /// Checks that RAM and RMCM can be told from each other and from the messages of ETSI. Whoever
+    /// reads a configuration calls it once.
+    ///
+    /// # Errors
+    /// The first clash.
+    pub fn check(&self) -> Result<(), IdentifierClash> {
+        if self.ram.message_id == self.rmcm.message_id {
+            return Err(IdentifierClash::SameMessageId(self.ram.message_id));
+        }
+        if self.ram.btp_port == self.rmcm.btp_port {
+            return Err(IdentifierClash::SamePort(self.ram.btp_port));
+        }
+        for message in [&self.ram, &self.rmcm] {
+            if message.message_id <= ASSIGNED_MESSAGE_ID_MAX {
+                return Err(IdentifierClash::AssignedMessageId(message.message_id));
+            }
+            if message.btp_port <= ASSIGNED_PORT_MAX {
+                return Err(IdentifierClash::AssignedPort(message.btp_port));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_clash_with_nothing() {
+        assert_eq!(Identifiers::default().check(), Ok(()));
+    }
+
+    #[test]
+    fn identifiers_that_cannot_be_told_apart_are_refused() {
+        let mut identifiers = Identifiers::default();
+        identifiers.ram.message_id = identifiers.rmcm.message_id;
+        assert_eq!(
+            identifiers.check(),
+            Err(IdentifierClash::SameMessageId(241))
+        );
+        identifiers.ram.message_id = 2; // CAM
+        assert_eq!(
+            identifiers.check(),
+            Err(IdentifierClash::AssignedMessageId(2))
+        );
+        identifiers = Identifiers::default();
+        identifiers.rmcm.btp_port = 2001; // CAM
+        assert_eq!(
+            identifiers.check(),
+            Err(IdentifierClash::AssignedPort(2001))
+        );
+        identifiers.ram.btp_port = 2001;
+        assert_eq!(identifiers.check(), Err(IdentifierClash::SamePort(2001)));
+    }
+
+    #[test]
+    fn a_configuration_names_only_what_it_changes() {
+        let json = r#"{"robot_station_type": 10}"#;
+        let identifiers: Identifiers = serde_json::from_str(json).unwrap();
+        assert_eq!(
+            identifiers,
+            Identifiers {
+                robot_station_type: 10,
+                ..Identifiers::default()
+            }
+        );
+    }
+}

@@ -1,0 +1,126 @@
+//! Limits of RAM, RMCM and VAM that their encodings do not show, for senders and receivers alike.
+//!
+//! - Sizes and values behind an extension marker are not used: a list of the common data dictionary
+//!   has no more items than its root allows, so a message has a largest size. The decoder refuses
+//!   them at the bit where they begin; here they are refused before they are encoded.
+//! - The motion prediction of a RAM has at most 10 points of path history and 10 of path prediction.
+//!   40 and 16, as in a VAM, would make it twice as large, and the low-frequency container has the
+//!   path history as well.
+//! - The bounding box of a cluster is a rectangle, a circle or a polygon (TS 102 894-2,
+//!   `VruClusterInformation`; an inner subtype constraint, which PER does not see).
+
+use rasn::types::BitString;
+
+use crate::asn1::cdd::{PathHistory, PathPoint, Shape, VruClusterInformation};
+use crate::asn1::ram::RAM;
+use crate::asn1::vam::{VAM, VruMotionPredictionContainer};
+use crate::error::BrokenRule;
+
+/// How many points the path history in the motion prediction of a RAM has at most.
+pub const PATH_HISTORY_MAX: usize = 10;
+
+/// How many points the path prediction of a RAM has at most.
+pub const PATH_PREDICTION_MAX: usize = 10;
+
+type Checked = Result<(), BrokenRule>;
+
+fn at_most(field: &'static str, found: usize, max: usize) -> Checked {
+    if found > max {
+        return Err(BrokenRule::TooMany { field, found, max });
+    }
+    Ok(())
+}
+
+/// Checks a RAM.
+pub(crate) fn check_ram(ram: &RAM) -> Checked {
+    let parameters = &ram.ram.ram_parameters;
+    if let Some(slow) = &parameters.robot_low_frequency_container {
+        check_path_points(&slow.path_history)?;
+    }
+    if let Some(cluster) = &parameters.vru_cluster_information_container {
+        check_cluster(&cluster.vru_cluster_information)?;
+    }
+    let Some(prediction) = &parameters.vru_motion_prediction_container else {
+        return Ok(());
+    };
+    if let Some(PathHistory(points)) = &prediction.path_history {
+        at_most("pathHistory", points.len(), PATH_HISTORY_MAX)?;
+    }
+    if let Some(points) = &prediction.path_prediction {
+        at_most("pathPrediction", points.0.len(), PATH_PREDICTION_MAX)?;
+    }
+    check_prediction(prediction)
+}
+
+/// Checks a VAM.
+pub(crate) fn check_vam(vam: &VAM) -> Checked {
+    let parameters = &vam.vam.vam_parameters;
+    if let Some(lane) = &parameters.vru_high_frequency_container.vru_lane_position {
+        let information = &lane.confidence;
+        bits(
+            "usedDetectionInformation",
+            &information.used_detection_information.0,
+            16,
+        )?;
+        bits(
+            "usedStoredInformation",
+            &information.used_stored_information.0,
+            8,
+        )?;
+    }
+    if let Some(cluster) = &parameters.vru_cluster_information_container {
+        check_cluster(&cluster.vru_cluster_information)?;
+    }
+    match &parameters.vru_motion_prediction_container {
+        Some(prediction) => check_prediction(prediction),
+        None => Ok(()),
+    }
+}
+
+fn bits(field: &'static str, bits: &BitString, size: usize) -> Checked {
+    if bits.len() != size {
+        return Err(BrokenRule::BeyondRoot { field });
+    }
+    Ok(())
+}
+
+fn check_prediction(prediction: &VruMotionPredictionContainer) -> Checked {
+    if let Some(PathHistory(points)) = &prediction.path_history {
+        check_path_points(points)?;
+    }
+    if let Some(points) = &prediction.path_prediction {
+        at_most("pathPrediction", points.0.len(), 16)?;
+    }
+    if let Some(distances) = &prediction.safe_distance {
+        at_most("safeDistance", distances.0.len(), 8)?;
+    }
+    if let Some(interceptions) = &prediction.trajectory_interception_indication {
+        at_most("trajectoryInterceptionIndication", interceptions.0.len(), 8)?;
+    }
+    Ok(())
+}
+
+fn check_path_points(points: &[PathPoint]) -> Checked {
+    let times = points
+        .iter()
+        .filter_map(|point| point.path_delta_time.as_ref());
+    for time in times {
+        if !u16::try_from(&time.0).is_ok_and(|time| time > 0) {
+            return Err(BrokenRule::BeyondRoot {
+                field: "pathDeltaTime",
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_cluster(cluster: &VruClusterInformation) -> Checked {
+    match &cluster.cluster_bounding_box_shape {
+        None | Some(Shape::rectangular(_) | Shape::circular(_)) => Ok(()),
+        Some(Shape::polygonal(shape)) if shape.polygon.len() < 3 => {
+            Err(BrokenRule::BeyondRoot { field: "polygon" })
+        }
+        Some(Shape::polygonal(shape)) => at_most("polygon", shape.polygon.len(), 16),
+        Some(_) => Err(BrokenRule::ClusterShape),
+    }
+}

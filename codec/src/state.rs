@@ -1,0 +1,334 @@
+//! What a robot says of itself in its RAM, in SI units.
+//!
+//! Plain values for the application: nothing here depends on the wire. [`ram_from`](crate::ram_from)
+//! and [`state_of`](crate::state_of) convert by the tables of [`si`](crate::si).
+
+use crossguard_protocol::TaskSet;
+use serde::{Deserialize, Serialize};
+
+use crate::asn1::{cdd, common, ram};
+use crate::wire::{bit_set, wire_enum};
+
+/// The state of a robot. What is `None` is unavailable.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RobotState {
+    /// Where it is.
+    pub position: Position,
+    /// Direction of motion, in degrees clockwise from north.
+    pub heading: Option<Measurement>,
+    /// Speed over ground in m/s, not negative.
+    pub speed: Option<Measurement>,
+    /// Whether it moves forward or backward.
+    pub drive_direction: DriveDirection,
+    /// In m/s², speeding up positive.
+    pub longitudinal_acceleration: Option<Measurement>,
+    /// In m/s², to the left positive.
+    pub lateral_acceleration: Option<Measurement>,
+    /// In m/s², upwards positive.
+    pub vertical_acceleration: Option<Measurement>,
+    /// In 1/m, to the left positive.
+    pub curvature: Option<Measurement>,
+    /// In degrees/s, to the left positive.
+    pub yaw_rate: Option<Measurement>,
+    /// Direction of the body in degrees clockwise from north, where it is not that of the motion.
+    pub orientation: Option<Measurement>,
+    /// The box around the robot and what it carries.
+    pub dimensions: Dimensions,
+    /// Its build.
+    pub category: RobotCategory,
+    /// The job that it is there for.
+    pub job_role: JobRole,
+    /// How far it is with its task. In the RAM of a follower that has accepted a command, the
+    /// progress of the command stands here instead.
+    pub task_progression: TaskProgression,
+    /// Its battery.
+    pub battery: Battery,
+    /// Who or what steers it.
+    pub control_mode: ControlMode,
+    /// What changes slowly; absent from a RAM without low-frequency container.
+    pub slow: Option<SlowState>,
+}
+
+/// A quantity and the half width of its 95 % interval, in the same unit.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Measurement {
+    /// The quantity.
+    pub value: f64,
+    /// Half width of its 95 % interval; infinite where a RAM says that it is out of range, and then
+    /// the quantity is not to be relied on.
+    #[serde(default)]
+    pub confidence: Option<f64>,
+}
+
+impl From<f64> for Measurement {
+    /// A quantity of unknown confidence.
+    fn from(value: f64) -> Self {
+        Self {
+            value,
+            confidence: None,
+        }
+    }
+}
+
+/// A position with its confidence.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Position {
+    /// In degrees, north positive.
+    pub latitude: Option<f64>,
+    /// In degrees, east positive.
+    pub longitude: Option<f64>,
+    /// In metres above the WGS84 ellipsoid.
+    pub altitude: Option<f64>,
+    /// Horizontal confidence.
+    pub ellipse: Option<ConfidenceEllipse>,
+    /// Half width of the altitude's 95 % interval, in metres.
+    pub altitude_confidence: Option<f64>,
+}
+
+impl Position {
+    /// A horizontal position of unknown confidence, in degrees.
+    #[must_use]
+    pub fn at(latitude: f64, longitude: f64) -> Self {
+        Self {
+            latitude: Some(latitude),
+            longitude: Some(longitude),
+            ..Self::default()
+        }
+    }
+}
+
+/// The ellipse that holds a position with a confidence of 95 %.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct ConfidenceEllipse {
+    /// Larger half axis, in metres.
+    pub semi_major: f64,
+    /// Smaller half axis, in metres.
+    pub semi_minor: f64,
+    /// Direction of the larger axis, in degrees clockwise from north.
+    pub orientation: f64,
+}
+
+/// The box around a robot, in metres.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Dimensions {
+    /// Along its body.
+    pub length: Option<f64>,
+    /// Across its body.
+    pub width: Option<f64>,
+    /// Above ground.
+    pub height: Option<f64>,
+}
+
+/// The battery of a robot.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Battery {
+    /// Percent of the usable capacity, 0..100.
+    pub state_of_charge: Option<f64>,
+    /// Whether it is being charged.
+    pub charging: bool,
+}
+
+/// What changes slowly.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SlowState {
+    /// What the robot can do besides maneuvers.
+    pub capabilities: Capabilities,
+    /// The maneuvers that it can do at all.
+    pub supported_tasks: TaskSet,
+    /// Where it came from, newest first. A RAM takes the first 23 points, and ends at the first one
+    /// that is more than 0.0131071 degrees from the one before it.
+    pub path: Vec<PastPosition>,
+    /// Lights that are on; `None` for a robot without lights.
+    pub lights: Option<Lights>,
+    /// What it shows to people; `None` for a robot that cannot show anything.
+    pub signals: Option<SignalsShown>,
+}
+
+/// A position that a robot came from.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct PastPosition {
+    /// In degrees, north positive.
+    pub latitude: f64,
+    /// In degrees, east positive.
+    pub longitude: f64,
+    /// In metres above the WGS84 ellipsoid.
+    #[serde(default)]
+    pub altitude: Option<f64>,
+    /// Seconds from there to the newer position before it in the list.
+    #[serde(default)]
+    pub duration: Option<f64>,
+}
+
+/// What a robot shows to people.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+pub struct SignalsShown {
+    /// To those who drive.
+    pub to_vehicles: PublicSignal,
+    /// To those who walk.
+    pub to_pedestrians: PublicSignal,
+    /// By which means.
+    pub means: SignalMeans,
+}
+
+wire_enum! {
+    /// Whether a robot moves forward or backward.
+    DriveDirection as cdd::DriveDirection {
+        /// Forward.
+        Forward = forward,
+        /// Backward.
+        Backward = backward,
+        /// Unavailable.
+        #[default]
+        Unavailable = unavailable,
+    }
+}
+
+wire_enum! {
+    /// Build of a robot.
+    RobotCategory as ram::RobotCategory {
+        /// Not known.
+        #[default]
+        Unknown = unknown,
+        /// Two legs, two arms.
+        Humanoid = humanoid,
+        /// Four legs.
+        Quadruped = quadruped,
+        /// Wheels.
+        Wheeled = wheeled,
+        /// Tracks.
+        Tracked = tracked,
+        /// Flies.
+        Aerial = aerial,
+        /// Anything else.
+        Other = other,
+    }
+}
+
+wire_enum! {
+    /// Job that a robot is there for.
+    JobRole as ram::OperationalJobRole {
+        /// None.
+        #[default]
+        None = none,
+        /// Holds traffic back.
+        TrafficGuard = trafficGuard,
+        /// Walks along with pedestrians.
+        Escort = escort,
+        /// Walks its rounds.
+        Patrol = patrol,
+        /// Carries goods.
+        Delivery = delivery,
+        /// Works on the street or its equipment.
+        Maintenance = maintenance,
+        /// Anything else.
+        Other = other,
+    }
+}
+
+wire_enum! {
+    /// How far a robot is with its task.
+    TaskProgression as common::TaskProgression {
+        /// It has none.
+        #[default]
+        Idle = idle,
+        /// It is at it.
+        Executing = executing,
+        /// It has finished it.
+        Completed = completed,
+        /// It could not do it.
+        Failed = failed,
+        /// It has stopped because it lost contact with its leader.
+        SafeIdle = safeIdle,
+    }
+}
+
+wire_enum! {
+    /// Who or what steers a robot.
+    ControlMode as ram::ControlMode {
+        /// The robot itself.
+        Autonomous = autonomous,
+        /// A person.
+        Teleoperated = teleoperated,
+        /// Nobody; the emergency stop is engaged.
+        EmergencyStop = emergencyStop,
+        /// Nobody; the robot has a fault.
+        Fault = fault,
+        /// Unavailable.
+        #[default]
+        Unavailable = unavailable,
+    }
+}
+
+wire_enum! {
+    /// A signal that people understand.
+    PublicSignal as ram::PublicSignal {
+        /// None.
+        #[default]
+        None = none,
+        /// Stop.
+        Stop = stop,
+        /// Go.
+        Go = go,
+        /// Take care.
+        Caution = caution,
+    }
+}
+
+bit_set! {
+    /// What a robot can do besides maneuvers.
+    Capabilities {
+        /// Detects pedestrians who need help.
+        PEDESTRIAN_DETECTION = 0,
+        /// Leads a session.
+        LEADING = 1,
+        /// Follows in a session.
+        FOLLOWING = 2,
+        /// Shows signals by gestures.
+        GESTURES = 3,
+        /// Shows signals on a display.
+        DISPLAY = 4,
+        /// Speaks.
+        SPEECH = 5,
+    }
+}
+
+bit_set! {
+    /// Lights that are on (TS 102 894-2, `ExteriorLights`).
+    Lights {
+        /// Low beam.
+        LOW_BEAM = 0,
+        /// High beam.
+        HIGH_BEAM = 1,
+        /// Left turn signal.
+        LEFT_TURN_SIGNAL = 2,
+        /// Right turn signal.
+        RIGHT_TURN_SIGNAL = 3,
+        /// Daytime running lights.
+        DAYTIME_RUNNING = 4,
+        /// Reverse light.
+        REVERSE = 5,
+        /// Fog light.
+        FOG = 6,
+        /// Parking lights.
+        PARKING = 7,
+    }
+}
+
+bit_set! {
+    /// How a signal is shown.
+    SignalMeans {
+        /// By a gesture.
+        GESTURE = 0,
+        /// On a display.
+        DISPLAY = 1,
+        /// By lights.
+        LIGHTS = 2,
+        /// By voice.
+        SPEECH = 3,
+    }
+}

@@ -1,0 +1,119 @@
+//! Canonical unaligned PER (ITU-T X.691): encoding by rasn, decoding by a strict decoder of our own.
+//!
+//! rasn's decoder is lenient where a receiver has to be strict: it takes padding that is not zero and
+//! components that spell out their DEFAULT, and does not say where unknown extension additions were.
+//! [`decode`] accepts exactly the canonical encodings, skips unknown extension additions, and names
+//! the field that is wrong. What it has decoded is encoded again and compared, so the claim does not
+//! rest on the decoder alone.
+//!
+//! ```text
+//! octets ──► decoder (rasn's Decode, our bits) ──► value ──► rasn's encoder ─┐
+//!    │                    └─► where additions were skipped                   ├─► equal?
+//!    └──────────────────────────► octets without these additions ───────────┘
+//! ```
+
+mod decoder;
+mod source;
+
+use rasn::error::{DecodeErrorKind, EncodeErrorKind};
+use rasn::types::BitString;
+
+use crate::error::{DecodeError, EncodeError, Fault, FieldPath};
+use decoder::Decoder;
+use source::{Rejected, Skipped, Source};
+
+/// A decoded value, and how many SEQUENCEs in it had unknown extension additions.
+pub(crate) struct Decoded<T> {
+    pub(crate) value: T,
+    pub(crate) extended: usize,
+}
+
+/// The canonical encoding of `value`, padded to whole octets.
+pub(crate) fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError> {
+    rasn::uper::encode(value).map_err(|error| match &*error.kind {
+        EncodeErrorKind::ValueConstraintNotSatisfied { value, expected } => EncodeError::Value {
+            number: i64::try_from(value).unwrap_or(i64::MAX),
+            allowed: expected.to_string(),
+        },
+        EncodeErrorKind::SizeConstraintNotSatisfied { size, expected }
+        | EncodeErrorKind::InvalidLength {
+            length: size,
+            expected,
+        } => EncodeError::Size {
+            size: *size,
+            allowed: expected.to_string(),
+        },
+        other => EncodeError::Other(other.to_string()),
+    })
+}
+
+/// The value whose canonical encoding `octets` are, but for unknown extension additions.
+pub(crate) fn decode<T>(octets: &[u8]) -> Result<Decoded<T>, DecodeError>
+where
+    T: rasn::Decode + rasn::Encode,
+{
+    let source = Source::new(octets);
+    let decoded = T::decode(&mut Decoder::new(&source)).and_then(|value| {
+        let bits = source.position();
+        source.padding(0)?;
+        Ok((value, bits))
+    });
+    let (value, bits) = decoded.map_err(|rejected| malformed(&source, &rejected))?;
+    if source.left() > 0 {
+        return Err(DecodeError::TrailingOctets {
+            count: source.left() / 8,
+        });
+    }
+    let skipped = source.into_skipped();
+    if skipped.is_empty() {
+        check_canonical(octets, &value)?;
+    } else {
+        check_canonical(&without_additions(octets, bits, &skipped), &value)?;
+    }
+    Ok(Decoded {
+        value,
+        extended: skipped.len(),
+    })
+}
+
+/// What is wrong with the octets, and in which field.
+fn malformed(source: &Source<'_>, rejected: &Rejected) -> DecodeError {
+    let mut field = FieldPath::default();
+    let mut kind = &*rejected.kind;
+    while let DecodeErrorKind::FieldError { name, nested } = kind {
+        field.push(name);
+        kind = &*nested.kind;
+    }
+    // Whatever rasn itself might reject is something that the modules do not use.
+    let unsupported = (source.position(), Fault::Unsupported);
+    let (bit, fault) = source.fault().unwrap_or(unsupported);
+    DecodeError::Malformed { field, bit, fault }
+}
+
+/// The encoding that a sender without the additions would have sent; `octets` has this many `bits`
+/// before its padding.
+fn without_additions(octets: &[u8], bits: usize, skipped: &[Skipped]) -> Vec<u8> {
+    let mut known = BitString::from_slice(octets);
+    known.truncate(bits);
+    for additions in skipped {
+        known.set(additions.marker, false);
+    }
+    // From the back, so that the bits in front keep their places.
+    for additions in skipped.iter().rev() {
+        drop(known.drain(additions.start..additions.end));
+    }
+    known.resize(known.len().next_multiple_of(8), false);
+    known.into_vec()
+}
+
+/// Compares `octets` with the encoding of `value`.
+fn check_canonical<T: rasn::Encode>(octets: &[u8], value: &T) -> Result<(), DecodeError> {
+    let encoded = encode(value).unwrap_or_default();
+    let first_difference = octets.iter().zip(&encoded).position(|(a, b)| a != b);
+    let bit = match first_difference {
+        None if octets.len() == encoded.len() => return Ok(()),
+        None => octets.len().min(encoded.len()) * 8,
+        Some(octet) => octet * 8 + (octets[octet] ^ encoded[octet]).leading_zeros() as usize,
+    };
+    Err(DecodeError::NotCanonical { bit })
+}

@@ -1,0 +1,361 @@
+//! The strict UPER decoder behind the `rasn::Decode` implementations of the generated types.
+//!
+//! It knows the part of X.691 that the modules of `asn1/*.asn` use: bounded integers, BOOLEAN, NULL,
+//! ENUMERATED, BIT STRING of fixed size, SEQUENCE, SEQUENCE OF and CHOICE. Every other type is
+//! [`Fault::Unsupported`].
+
+use rasn::types::constraints::{Bounded, Extensible, Size};
+use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
+use rasn::{Codec, Decode};
+
+use super::source::{Rejected, Source};
+use crate::error::Fault;
+
+type Result<T> = std::result::Result<T, Rejected>;
+
+/// Decoder of one type; the components of a SEQUENCE have one for them all.
+pub(super) struct Decoder<'s, 'a> {
+    source: &'s Source<'a>,
+    /// Presence bits of the OPTIONAL and DEFAULT components, the last one lowest.
+    presence: u64,
+    /// How many of them are yet to come.
+    optional_left: u32,
+}
+
+/// How many bits a number of this many values has.
+const fn width(values: u64) -> u32 {
+    match values {
+        0 | 1 => 0,
+        _ => (values - 1).ilog2() + 1,
+    }
+}
+
+impl<'s, 'a> Decoder<'s, 'a> {
+    pub(super) fn new(source: &'s Source<'a>) -> Self {
+        Self {
+            source,
+            presence: 0,
+            optional_left: 0,
+        }
+    }
+
+    /// An index below `count`, in as few bits as that takes.
+    fn index(&self, count: usize) -> Result<usize> {
+        let start = self.source.position();
+        let index = self.source.bits(width(count as u64))?;
+        match usize::try_from(index) {
+            Ok(index) if index < count => Ok(index),
+            _ => Err(self.source.reject_at(start, Fault::UnknownAlternative)),
+        }
+    }
+
+    /// The length of a list or string whose size is limited by `size`.
+    fn size(&self, size: Option<&Extensible<Size>>) -> Result<usize> {
+        let start = self.source.position();
+        let unsupported = || self.source.reject_at(start, Fault::Unsupported);
+        let size = size.ok_or_else(unsupported)?;
+        if size.extensible.is_some() && self.source.bit()? {
+            return Err(self.source.reject_at(start, Fault::BeyondRoot));
+        }
+        let (Some(&min), Some(&max)) = size.constraint.start_and_end() else {
+            return Err(unsupported());
+        };
+        let offset = self.source.bits(width((max - min) as u64 + 1))?;
+        match usize::try_from(offset)
+            .ok()
+            .and_then(|offset| min.checked_add(offset))
+        {
+            Some(length) if length <= max => Ok(length),
+            _ => Err(self.source.reject_at(start, Fault::Size { min, max })),
+        }
+    }
+
+    /// Whether the next OPTIONAL or DEFAULT component is present.
+    fn is_present(&mut self) -> Result<bool> {
+        match self.optional_left.checked_sub(1) {
+            Some(left) => {
+                self.optional_left = left;
+                Ok(self.presence >> left & 1 == 1)
+            }
+            None => self.unsupported(),
+        }
+    }
+
+    fn unsupported<T>(&self) -> Result<T> {
+        Err(self
+            .source
+            .reject_at(self.source.position(), Fault::Unsupported))
+    }
+}
+
+/// Methods for types that the modules do not use.
+macro_rules! unsupported {
+    ($($method:ident($($argument:ty),*) -> $type:ty;)*) => {$(
+        fn $method(&mut self, _: Tag, $(_: $argument),*) -> Result<$type> {
+            self.unsupported()
+        }
+    )*};
+}
+
+impl rasn::Decoder for Decoder<'_, '_> {
+    type Ok = ();
+    type Error = Rejected;
+    type AnyDecoder<const R: usize, const E: usize> = Self;
+
+    fn codec(&self) -> Codec {
+        Codec::Uper
+    }
+
+    fn decode_null(&mut self, _: Tag) -> Result<()> {
+        Ok(())
+    }
+
+    fn decode_bool(&mut self, _: Tag) -> Result<bool> {
+        self.source.bit()
+    }
+
+    /// X.691 clause 13.
+    fn decode_integer<I: types::IntegerType>(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<I> {
+        let start = self.source.position();
+        let Some(value) = constraints.value() else {
+            return self.unsupported();
+        };
+        if value.extensible.is_some() && self.source.bit()? {
+            return Err(self.source.reject_at(start, Fault::BeyondRoot));
+        }
+        let bounds: &Bounded<i128> = &value.constraint;
+        let (Some(&min), Some(&max)) = bounds.start_and_end() else {
+            return self.unsupported();
+        };
+        let Ok(values) = u64::try_from(max - min + 1) else {
+            return self.unsupported();
+        };
+        let number = min + i128::from(self.source.bits(width(values))?);
+        let fault = || {
+            self.source
+                .reject_at(start, Fault::Value { number, min, max })
+        };
+        if number > max {
+            return Err(fault());
+        }
+        I::try_from(number).map_err(|_| fault())
+    }
+
+    /// X.691 clause 14.
+    fn decode_enumerated<E: Enumerated>(&mut self, _: Tag) -> Result<E> {
+        let start = self.source.position();
+        let is_addition = E::EXTENDED_VARIANTS.is_some() && self.source.bit()?;
+        let value = if is_addition {
+            self.source
+                .small_number()?
+                .and_then(E::from_extended_enumeration_index)
+        } else {
+            E::from_enumeration_index(self.index(E::variance())?)
+        };
+        value.ok_or_else(|| self.source.reject_at(start, Fault::UnknownAlternative))
+    }
+
+    /// X.691 clause 16.
+    fn decode_bit_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::BitString> {
+        let length = self.size(constraints.size())?;
+        (0..length).map(|_| self.source.bit()).collect()
+    }
+
+    /// X.691 clause 19.
+    fn decode_sequence<const RC: usize, const EC: usize, D, DF, F>(
+        &mut self,
+        _: Tag,
+        _: Option<DF>,
+        decode_fn: F,
+    ) -> Result<D>
+    where
+        D: Constructed<RC, EC>,
+        DF: FnOnce() -> D,
+        F: FnOnce(&mut Self) -> Result<D>,
+    {
+        const {
+            assert!(
+                EC == 0,
+                "extension additions of a SEQUENCE are yet to be decoded"
+            );
+            assert!(D::FIELDS.number_of_optional_and_default_fields() <= 64);
+        }
+        let marker = self.source.position();
+        let is_extended = D::IS_EXTENSIBLE && self.source.bit()?;
+        #[expect(clippy::cast_possible_truncation, reason = "at most 64")]
+        let optional_left = D::FIELDS.number_of_optional_and_default_fields() as u32;
+        let presence = self.source.bits(optional_left)?;
+        let mut components = Decoder {
+            source: self.source,
+            presence,
+            optional_left,
+        };
+        let value = decode_fn(&mut components)?;
+        if is_extended {
+            self.source.skip_additions(marker)?;
+        }
+        Ok(value)
+    }
+
+    /// X.691 clause 20. The list grows to its length at most, which is known and small.
+    fn decode_sequence_of<D: Decode>(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<Vec<D>> {
+        let length = self.size(constraints.size())?;
+        let mut list = Vec::with_capacity(length);
+        for _ in 0..length {
+            list.push(D::decode(&mut Decoder::new(self.source))?);
+        }
+        Ok(list)
+    }
+
+    /// X.691 clause 23.
+    fn decode_choice<D: DecodeChoice>(&mut self, constraints: &Constraints) -> Result<D> {
+        let start = self.source.position();
+        let unknown = || self.source.reject_at(start, Fault::UnknownAlternative);
+        let is_addition = constraints.extensible() && self.source.bit()?;
+        let variants = if is_addition {
+            D::EXTENDED_VARIANTS.unwrap_or(&[])
+        } else {
+            D::VARIANTS
+        };
+        let index = if is_addition {
+            self.source.small_number()?.ok_or_else(unknown)?
+        } else {
+            self.index(variants.len())?
+        };
+        // Automatic tags: every alternative has a tag of its own.
+        let Some(&TagTree::Leaf(tag)) = variants.get(index) else {
+            return Err(unknown());
+        };
+        let mut alternative = Decoder::new(self.source);
+        if is_addition {
+            self.source.open_type(|| D::from_tag(&mut alternative, tag))
+        } else {
+            D::from_tag(&mut alternative, tag)
+        }
+    }
+
+    fn decode_explicit_prefix<D: Decode>(&mut self, tag: Tag) -> Result<D> {
+        if D::IS_CHOICE {
+            D::decode(self)
+        } else {
+            D::decode_with_tag(self, tag)
+        }
+    }
+
+    fn decode_optional_with_explicit_prefix<D: Decode>(&mut self, tag: Tag) -> Result<Option<D>> {
+        self.decode_optional_with_tag(tag)
+    }
+
+    fn decode_optional<D: Decode>(&mut self) -> Result<Option<D>> {
+        self.decode_optional_with_tag(D::TAG)
+    }
+
+    fn decode_optional_with_tag<D: Decode>(&mut self, tag: Tag) -> Result<Option<D>> {
+        let is_present = self.is_present()?;
+        is_present
+            .then(|| D::decode_with_tag(self, tag))
+            .transpose()
+    }
+
+    fn decode_optional_with_constraints<D: Decode>(
+        &mut self,
+        constraints: &Constraints,
+    ) -> Result<Option<D>> {
+        self.decode_optional_with_tag_and_constraints(D::TAG, constraints)
+    }
+
+    fn decode_optional_with_tag_and_constraints<D: Decode>(
+        &mut self,
+        tag: Tag,
+        constraints: &Constraints,
+    ) -> Result<Option<D>> {
+        let is_present = self.is_present()?;
+        is_present
+            .then(|| D::decode_with_tag_and_constraints(self, tag, constraints))
+            .transpose()
+    }
+
+    unsupported! {
+        decode_any() -> types::Any;
+        decode_object_identifier() -> types::ObjectIdentifier;
+        decode_utf8_string(&Constraints) -> types::Utf8String;
+        decode_visible_string(&Constraints) -> types::VisibleString;
+        decode_general_string(&Constraints) -> types::GeneralString;
+        decode_graphic_string(&Constraints) -> types::GraphicString;
+        decode_ia5_string(&Constraints) -> types::Ia5String;
+        decode_printable_string(&Constraints) -> types::PrintableString;
+        decode_numeric_string(&Constraints) -> types::NumericString;
+        decode_teletex_string(&Constraints) -> types::TeletexString;
+        decode_bmp_string(&Constraints) -> types::BmpString;
+        decode_utc_time() -> types::UtcTime;
+        decode_generalized_time() -> types::GeneralizedTime;
+        decode_date() -> types::Date;
+    }
+
+    fn decode_real<R: types::RealType>(&mut self, _: Tag, _: &Constraints) -> Result<R> {
+        self.unsupported()
+    }
+
+    fn decode_octet_string<'b, T>(&'b mut self, _: Tag, _: &Constraints) -> Result<T>
+    where
+        T: From<&'b [u8]> + From<Vec<u8>>,
+    {
+        self.unsupported()
+    }
+
+    fn decode_set_of<D: Decode + Eq + std::hash::Hash>(
+        &mut self,
+        _: Tag,
+        _: &Constraints,
+    ) -> Result<types::SetOf<D>> {
+        self.unsupported()
+    }
+
+    fn decode_set<const RC: usize, const EC: usize, FIELDS, SET, D, F>(
+        &mut self,
+        _: Tag,
+        _: D,
+        _: F,
+    ) -> Result<SET>
+    where
+        SET: Decode + Constructed<RC, EC>,
+        FIELDS: Decode,
+        D: Fn(&mut Self, usize, Tag) -> Result<FIELDS>,
+        F: FnOnce(Vec<FIELDS>) -> Result<SET>,
+    {
+        self.unsupported()
+    }
+
+    fn decode_extension_addition_with_explicit_tag_and_constraints<D: Decode>(
+        &mut self,
+        _: Tag,
+        _: &Constraints,
+    ) -> Result<Option<D>> {
+        self.unsupported()
+    }
+
+    fn decode_extension_addition_with_tag_and_constraints<D: Decode>(
+        &mut self,
+        _: Tag,
+        _: &Constraints,
+    ) -> Result<Option<D>> {
+        self.unsupported()
+    }
+
+    fn decode_extension_addition_group<const RC: usize, const EC: usize, D>(
+        &mut self,
+    ) -> Result<Option<D>>
+    where
+        D: Decode + Constructed<RC, EC>,
+    {
+        self.unsupported()
+    }
+}

@@ -1,0 +1,204 @@
+//! RAM: state and view to a message, and back.
+
+use crossguard_protocol::{
+    Availability, Coordination, Farewell, MAX_FOLLOWERS, Progress, Ram, SessionId, StationId,
+};
+
+use super::check_followers;
+use super::role::{farewell_from, farewell_of, role_from, role_of};
+use crate::asn1::cdd::GenerationDeltaTime;
+use crate::asn1::ram::{
+    HelpStatus, RAM, RamParameters, RobotAwareness, RobotLeaderFollowerOperationContainer,
+    RobotStatusContainer,
+};
+use crate::containers::{
+    basic_container, battery, battery_of, high_frequency, low_frequency, position_of,
+    read_high_frequency, slow_state_of,
+};
+use crate::error::ViewError;
+use crate::identifiers::Identifiers;
+use crate::message::header;
+use crate::state::{ControlMode, JobRole, RobotCategory, RobotState, TaskProgression};
+use crate::wire::{reason, reason_of};
+
+/// The RAM of a robot in this `state` whose part in coordination is `view`.
+///
+/// `generation_delta_time` is that of the position. The low-frequency container is there if it is
+/// asked for and the state has a [`slow`](RobotState::slow) part. Containers for clusters and motion
+/// prediction are the caller's to add.
+///
+/// # Errors
+/// When the view is one that no message can carry.
+pub fn ram_from(
+    identifiers: &Identifiers,
+    state: &RobotState,
+    view: &Ram,
+    availability: Availability,
+    generation_delta_time: u16,
+    with_low_frequency: bool,
+) -> Result<RAM, ViewError> {
+    check(view)?;
+    let role = role_from(view)?;
+    let farewell = view.farewell.map(farewell_from);
+    let progression = reported_progression(view).unwrap_or(state.task_progression);
+    let status = RobotStatusContainer::new(
+        state.category.to_wire(),
+        state.job_role.to_wire(),
+        progression.to_wire(),
+        battery(&state.battery),
+        state.control_mode.to_wire(),
+        help_status(&view.coordination),
+        match availability {
+            Availability::Available => None,
+            Availability::Unavailable(why) => Some(reason(why)),
+        },
+    );
+    let is_part = role.is_some() || farewell.is_some();
+    let operation = is_part.then(|| RobotLeaderFollowerOperationContainer::new(role, farewell));
+    let slow = state.slow.as_ref().filter(|_| with_low_frequency);
+    let parameters = RamParameters::new(
+        basic_container(identifiers.robot_station_type, &state.position),
+        high_frequency(state),
+        slow.map(|slow| low_frequency(slow, &state.position)),
+        status,
+        operation,
+        None,
+        None,
+    );
+    let awareness = RobotAwareness::new(GenerationDeltaTime(generation_delta_time), parameters);
+    Ok(RAM::new(
+        header::<RAM>(identifiers, view.station.0),
+        awareness,
+    ))
+}
+
+/// The protocol's view of a RAM.
+///
+/// # Errors
+/// How the message contradicts itself.
+pub fn view_of_ram(ram: &RAM) -> Result<Ram, ViewError> {
+    let parameters = &ram.ram.ram_parameters;
+    let operation = parameters
+        .robot_leader_follower_operation_container
+        .as_ref();
+    let role = operation.and_then(|operation| operation.role.as_ref());
+    let farewell = operation.and_then(|operation| operation.farewell.as_ref());
+    let sender = StationId(ram.header.station_id.0);
+    let view = Ram {
+        station: sender,
+        coordination: role.map_or(Ok(Coordination::None), |role| role_of(role, sender))?,
+        farewell: farewell.map(farewell_of),
+    };
+    check(&view)?;
+    let status = &parameters.robot_status_container;
+    let (found, expected) = (status.help_status, help_status(&view.coordination));
+    if found != expected {
+        return Err(ViewError::HelpStatus { found, expected });
+    }
+    let found = TaskProgression::from_wire(status.task_progression);
+    match reported_progression(&view) {
+        Some(expected) if expected != found => Err(ViewError::TaskProgression { found, expected }),
+        _ => Ok(view),
+    }
+}
+
+/// Whether the sender of a RAM takes part in coordination.
+#[must_use]
+pub fn availability_of(ram: &RAM) -> Availability {
+    match ram.ram.ram_parameters.robot_status_container.unavailability {
+        None => Availability::Available,
+        Some(why) => Availability::Unavailable(reason_of(why)),
+    }
+}
+
+/// The state of the sender of a RAM, in SI units.
+#[must_use]
+pub fn state_of(ram: &RAM) -> RobotState {
+    let parameters = &ram.ram.ram_parameters;
+    let status = &parameters.robot_status_container;
+    let position = position_of(&parameters.basic_container);
+    let slow = parameters.robot_low_frequency_container.as_ref();
+    let mut state = RobotState {
+        position,
+        category: RobotCategory::from_wire(status.robot_category),
+        job_role: JobRole::from_wire(status.operational_job_role),
+        task_progression: TaskProgression::from_wire(status.task_progression),
+        battery: battery_of(&status.battery_status),
+        control_mode: ControlMode::from_wire(status.control_mode),
+        slow: slow.map(|slow| slow_state_of(slow, &position)),
+        ..RobotState::default()
+    };
+    read_high_frequency(&parameters.robot_high_frequency_container, &mut state);
+    state
+}
+
+/// Checks what holds for the view of every RAM.
+fn check(view: &Ram) -> Result<(), ViewError> {
+    let sender = view.station;
+    let own_session = |number| SessionId {
+        leader: sender,
+        number,
+    };
+    let present = match view.coordination {
+        Coordination::None => None,
+        Coordination::NeedHelp { number, request } => {
+            if !(1..=MAX_FOLLOWERS).contains(&usize::from(request.followers)) {
+                return Err(ViewError::FollowerCount(request.followers));
+            }
+            Some(own_session(number))
+        }
+        Coordination::Leader {
+            number, followers, ..
+        } => {
+            if followers.is_empty() {
+                return Err(ViewError::NoFollowers);
+            }
+            check_followers(sender, followers.iter().map(|follower| follower.station))?;
+            Some(own_session(number))
+        }
+        Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
+            if session.leader == sender {
+                return Err(ViewError::OwnSession(sender));
+            }
+            Some(session)
+        }
+    };
+    let past = match view.farewell {
+        None => return Ok(()),
+        Some(Farewell::Left(session)) if session.leader == sender => {
+            return Err(ViewError::OwnSession(sender));
+        }
+        Some(Farewell::Left(session)) => session,
+        Some(Farewell::Ended(number)) => own_session(number),
+    };
+    if present == Some(past) {
+        return Err(ViewError::FarewellToPresent(past));
+    }
+    Ok(())
+}
+
+/// The status that goes with a part in a session.
+fn help_status(coordination: &Coordination) -> HelpStatus {
+    match coordination {
+        Coordination::None => HelpStatus::none,
+        Coordination::NeedHelp { .. } => HelpStatus::needHelp,
+        Coordination::OfferHelp { .. } => HelpStatus::offerHelp,
+        Coordination::Leader { .. } | Coordination::Follower { .. } => HelpStatus::roleConfirmed,
+    }
+}
+
+/// What a follower's report says of its task.
+fn reported_progression(view: &Ram) -> Option<TaskProgression> {
+    let Coordination::Follower {
+        last: Some(report), ..
+    } = view.coordination
+    else {
+        return None;
+    };
+    Some(match report.progress {
+        Progress::Executing => TaskProgression::Executing,
+        Progress::Completed => TaskProgression::Completed,
+        Progress::Failed(_) => TaskProgression::Failed,
+        Progress::SafeIdle => TaskProgression::SafeIdle,
+    })
+}

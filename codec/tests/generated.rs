@@ -1,0 +1,114 @@
+//! The rasn types in `src/asn1/generated.rs` are those of the `.asn` modules and never drift.
+//!
+//! This test needs the crate to compile: after a change of a module, generate the types first and
+//! adapt the crate to them then.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use rasn_compiler::prelude::*;
+
+/// In the order of their imports.
+const MODULES: [&str; 5] = ["CDD", "Common", "VAM", "RAM", "RMCM"];
+
+/// Set to write the generated file instead of comparing it.
+const UPDATE: &str = "CROSSGUARD_UPDATE_GENERATED";
+
+const HEADER: &str = "//! Generated from `asn1/*.asn` by `tests/generated.rs`; do not edit.";
+
+fn manifest_dir() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn module_paths() -> Vec<PathBuf> {
+    let path = |name| manifest_dir().join(format!("asn1/Crossguard-{name}.asn"));
+    MODULES.into_iter().map(path).collect()
+}
+
+/// What rasn-compiler makes of the modules, as it stands.
+fn compile() -> String {
+    let derive = "#[derive(AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, \
+                  Deserialize)]";
+    let config = RasnConfig {
+        type_annotations: vec![derive.into()],
+        custom_imports: vec!["serde::{Deserialize, Serialize}".into()],
+        ..RasnConfig::default()
+    };
+    let paths = module_paths();
+    let result = Compiler::<RasnBackend, _>::new_with_config(config)
+        .add_asn_sources_by_path(paths.iter())
+        .compile_to_string()
+        .expect("the modules compile");
+    assert!(result.warnings.is_empty(), "{:?}", result.warnings);
+    result.generated
+}
+
+/// Corrects what rasn-compiler gets wrong, and adds what it has no option for.
+fn correct(generated: &str) -> String {
+    // An inner subtype constraint becomes a value constraint that it is not.
+    let generated = generated.replace("value(\"0..\"), identifier", "identifier");
+    let mut corrected = vec![HEADER.to_owned()];
+    let mut lines = generated.lines();
+    while let Some(line) = lines.next() {
+        if line.contains("#[doc = \"") {
+            corrected.extend(doc_comment(line));
+            continue;
+        }
+        let mut item = line.to_owned();
+        if line.trim() == "#[rasn(" {
+            // An attribute over several lines.
+            let rest = lines.by_ref().take_while(|line| line.trim() != ")]");
+            item = rest.fold(item, |item, line| item + "\n" + line) + "\n        )]";
+        }
+        let rename = identifier(&item).map(|name| format!("        #[serde(rename = \"{name}\")]"));
+        corrected.push(with_serde_view(&item));
+        corrected.extend(rename);
+    }
+    corrected.join("\n") + "\n"
+}
+
+/// Names the serde view of types of rasn that have none of their own.
+fn with_serde_view(item: &str) -> String {
+    let views = [
+        ("FixedBitString<", "fixed_bits"),
+        ("BitString)", "bits"),
+        ("Integer)", "integer"),
+    ];
+    for (inner, view) in views {
+        if let Some((start, end)) = item.split_once(&format!("(pub {inner}")) {
+            return format!(
+                "{start}(#[serde(with = \"crate::asn1::view::{view}\")] pub {inner}{end}"
+            );
+        }
+    }
+    item.to_owned()
+}
+
+/// A doc attribute as a comment; nothing for the headings of the modules' sections.
+fn doc_comment(line: &str) -> Option<String> {
+    let (indent, doc) = line.split_once("#[doc = \"")?;
+    let text = doc.strip_suffix("\"]")?;
+    (!text.starts_with(" == ")).then(|| format!("{indent}///{text}"))
+}
+
+/// The ASN.1 identifier that an attribute names.
+fn identifier(item: &str) -> Option<&str> {
+    let (_, name) = item.split_once("identifier = \"")?;
+    name.split('"').next()
+}
+
+#[test]
+fn the_generated_types_are_those_of_the_modules() {
+    let path = manifest_dir().join("src/asn1/generated.rs");
+    let generated = correct(&compile());
+    if env::var_os(UPDATE).is_some() {
+        fs::write(&path, &generated).expect("the generated file can be written");
+        return;
+    }
+    let present = fs::read_to_string(&path).expect("the generated file can be read");
+    assert!(
+        generated == present,
+        "src/asn1/generated.rs is out of date; \
+         run: {UPDATE}=1 cargo test -p crossguard-codec --test generated"
+    );
+}

@@ -1,0 +1,49 @@
+//! What the tests share: hexadecimal text, sample messages, arbitrary messages.
+#![allow(
+    dead_code,
+    unreachable_pub,
+    reason = "each test uses the parts it needs"
+)]
+
+pub mod arbitrary;
+pub mod samples;
+pub mod views;
+
+/// The octets that `text` stands for; white space is left out.
+pub fn from_hex(text: &str) -> Vec<u8> {
+    let digits: Vec<u32> = text
+        .chars()
+        .filter(|c| !c.is_whitespace())
+        .map(|c| c.to_digit(16).expect("hexadecimal digits"))
+        .collect();
+    assert!(digits.len().is_multiple_of(2), "whole octets");
+    let octet = |pair: &[u32]| u8::try_from(pair[0] << 4 | pair[1]).unwrap();
+    digits.chunks(2).map(octet).collect()
+}
+
+pub fn to_hex(octets: &[u8]) -> String {
+    let digits = octets.iter().flat_map(|octet| [octet >> 4, octet & 15]);
+    digits
+        .map(|digit| char::from_digit(digit.into(), 16).unwrap())
+        .collect()
+}
+
+/// The octets as a text of bits, for surgery.
+pub fn to_bits(octets: &[u8]) -> String {
+    let bits = octets
+        .iter()
+        .flat_map(|octet| (0..8).rev().map(move |bit| octet >> bit & 1));
+    bits.map(|bit| if bit == 1 { '1' } else { '0' }).collect()
+}
+
+/// The octets that a text of bits stands for, padded with zeros. Anything but 0 and 1 is left out.
+pub fn from_bits(text: &str) -> Vec<u8> {
+    let mut bits: Vec<u8> = text
+        .chars()
+        .filter_map(|c| c.to_digit(2))
+        .map(|bit| u8::try_from(bit).unwrap())
+        .collect();
+    bits.resize(bits.len().next_multiple_of(8), 0);
+    let octet = |bits: &[u8]| bits.iter().fold(0, |octet, bit| octet << 1 | bit);
+    bits.chunks(8).map(octet).collect()
+}

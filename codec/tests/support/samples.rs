@@ -1,0 +1,465 @@
+//! Typical and largest messages.
+
+use crossguard_codec::asn1::cdd::{
+    AccelerationChange, AccelerationChangeIndication, CardinalNumber1B, CartesianCoordinate,
+    CartesianPosition3d, DeltaAltitude, DeltaLatitude, DeltaLongitude, DeltaReferencePosition,
+    DeltaTimeSecond, DeltaTimeTenthOfSecond, HeadingChangeIndication, HeadingValue, Identifier1B,
+    PathDeltaTime, PathDeltaTimeChoice, PathHistory, PathPoint, PathPointPredicted, PathPredicted,
+    PolygonalShape, PosConfidenceEllipse, SafeDistanceIndication, SafeDistanceIndicator,
+    SemiAxisLength, SequenceOfSafeDistanceIndication, SequenceOfTrajectoryInterceptionIndication,
+    Shape, StabilityChangeIndication, StabilityLossProbability, StandardLength9b,
+    StandardLength12b, StationId as WireStationId, TrajectoryInterceptionConfidence,
+    TrajectoryInterceptionIndication, TrajectoryInterceptionProbability, TurningDirection,
+    VruClusterInformation, VruClusterProfiles,
+};
+use crossguard_codec::asn1::ram::RAM;
+use crossguard_codec::asn1::rmcm::RMCM;
+use crossguard_codec::asn1::vam::{VruClusterInformationContainer, VruMotionPredictionContainer};
+use crossguard_codec::asn1::{cdd, common, ram};
+use crossguard_codec::{
+    Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, Identifiers,
+    JobRole, Lights, MapPlace, Measurement, Message, PATH_HISTORY_MAX, PATH_PREDICTION_MAX,
+    PastPosition, Position, PublicSignal, RobotCategory, RobotState, SignalMeans, SignalsShown,
+    SlowState, Target, TaskParameters, TaskProgression, ram_from, rmcm_from_answer,
+    rmcm_from_commands,
+};
+use crossguard_protocol::{
+    Answer, Availability, Command, Confirmation, Coordination, Failure, Farewell, Heartbeat,
+    HelpRequest, Millis, OfferNumber, Progress, Ram, Report, RequestId, SessionId, SessionNumber,
+    StationId, TaskSet, TaskType, Unavailability, UniqueNumber, Urgency, Verdict,
+};
+
+pub const LEADER: StationId = StationId(123_456_789);
+pub const FOLLOWER: StationId = StationId(987_654_321);
+pub const GENERATION_DELTA_TIME: u16 = 12_345;
+
+pub fn number(boot: u16, count: u16) -> UniqueNumber {
+    UniqueNumber { boot, count }
+}
+
+/// The session of [`LEADER`].
+pub fn session() -> SessionId {
+    SessionId {
+        leader: LEADER,
+        number: SessionNumber(number(5, 2)),
+    }
+}
+
+pub fn measurement(value: f64, confidence: f64) -> Measurement {
+    let confidence = Some(confidence);
+    Measurement { value, confidence }
+}
+
+pub fn position() -> Position {
+    Position {
+        altitude: Some(260.0),
+        ellipse: Some(ConfidenceEllipse {
+            semi_major: 1.0,
+            semi_minor: 0.5,
+            orientation: 90.0,
+        }),
+        altitude_confidence: Some(1.0),
+        ..Position::at(48.765_432_1, 9.123_456_7)
+    }
+}
+
+/// A robot dog that walks at 1.39 m/s.
+pub fn state() -> RobotState {
+    RobotState {
+        position: position(),
+        heading: Some(measurement(90.0, 1.0)),
+        speed: Some(measurement(1.39, 0.5)),
+        drive_direction: DriveDirection::Forward,
+        longitudinal_acceleration: Some(measurement(0.3, 0.2)),
+        yaw_rate: Some(measurement(-1.5, 1.0)),
+        dimensions: Dimensions {
+            length: Some(0.7),
+            width: Some(0.4),
+            height: Some(0.5),
+        },
+        category: RobotCategory::Quadruped,
+        job_role: JobRole::TrafficGuard,
+        battery: Battery {
+            state_of_charge: Some(83.0),
+            charging: false,
+        },
+        control_mode: ControlMode::Autonomous,
+        slow: Some(slow_state()),
+        ..RobotState::default()
+    }
+}
+
+pub fn slow_state() -> SlowState {
+    let past = |latitude, longitude| PastPosition {
+        latitude,
+        longitude,
+        altitude: Some(260.0),
+        duration: Some(0.5),
+    };
+    SlowState {
+        capabilities: Capabilities::FOLLOWING.union(Capabilities::DISPLAY),
+        supported_tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK]),
+        path: vec![
+            past(48.765_430_0, 9.123_450_0),
+            past(48.765_428_0, 9.123_440_0),
+        ],
+        lights: Some(Lights::DAYTIME_RUNNING),
+        signals: Some(SignalsShown {
+            to_vehicles: PublicSignal::Stop,
+            to_pedestrians: PublicSignal::Go,
+            means: SignalMeans::DISPLAY,
+        }),
+    }
+}
+
+/// A follower that executes command 3.
+pub fn follower_view() -> Ram {
+    let last = Some(Report {
+        request: RequestId(3),
+        progress: Progress::Executing,
+    });
+    let coordination = Coordination::Follower {
+        session: session(),
+        echo: Heartbeat(700),
+        last,
+    };
+    Ram {
+        station: FOLLOWER,
+        coordination,
+        farewell: None,
+    }
+}
+
+/// The RAM that a follower sends most of the time: without low-frequency container.
+pub fn typical_ram(identifiers: &Identifiers) -> RAM {
+    let available = Availability::Available;
+    ram_from(
+        identifiers,
+        &state(),
+        &follower_view(),
+        available,
+        GENERATION_DELTA_TIME,
+        false,
+    )
+    .unwrap()
+}
+
+pub fn command() -> Command {
+    Command {
+        session: session(),
+        to: FOLLOWER,
+        request: RequestId(3),
+        task: TaskType::MOVE,
+    }
+}
+
+pub fn parameters() -> TaskParameters {
+    TaskParameters {
+        target: Some(Target::Position {
+            latitude: 48.765_5,
+            longitude: 9.123_6,
+            altitude: None,
+        }),
+        maximum_speed: Some(1.2),
+        validity: Some(Millis(60_000)),
+        ..TaskParameters::default()
+    }
+}
+
+/// One command with a target.
+pub fn typical_rmcm(identifiers: &Identifiers) -> RMCM {
+    let commands = [(command(), parameters())];
+    rmcm_from_commands(
+        identifiers,
+        &position(),
+        None,
+        &commands,
+        GENERATION_DELTA_TIME,
+    )
+    .unwrap()
+}
+
+/// An acknowledgement.
+pub fn answer_rmcm(identifiers: &Identifiers) -> RMCM {
+    let answer = Answer {
+        from: FOLLOWER,
+        session: session(),
+        request: RequestId(3),
+        verdict: Verdict::Accepted,
+    };
+    let status = crossguard_codec::ExecutionStatus {
+        progression: TaskProgression::Idle,
+        time_to_completion: Some(Millis(21_600)),
+    };
+    rmcm_from_answer(
+        identifiers,
+        &position(),
+        &answer,
+        status,
+        GENERATION_DELTA_TIME,
+    )
+    .unwrap()
+}
+
+/// A RAM with everything in it, every list full, and of every CHOICE the longest alternative.
+pub fn largest_ram(identifiers: &Identifiers) -> RAM {
+    let mut state = state();
+    state.curvature = Some(measurement(0.01, 0.01));
+    state.lateral_acceleration = Some(measurement(0.1, 0.1));
+    state.vertical_acceleration = Some(measurement(0.1, 0.1));
+    state.orientation = Some(measurement(180.0, 1.0));
+    let step = slow_state().path[0];
+    state.slow = Some(SlowState {
+        path: vec![step; 23],
+        ..slow_state()
+    });
+    let follower = |id| Confirmation {
+        station: StationId(id),
+        offer: OfferNumber(number(u16::MAX, u16::MAX)),
+    };
+    let coordination = Coordination::Leader {
+        number: session().number,
+        heartbeat: Heartbeat(u16::MAX),
+        followers: [1, 2, 3, u32::MAX].into_iter().map(follower).collect(),
+    };
+    let other = SessionId {
+        leader: FOLLOWER,
+        ..session()
+    };
+    let farewell = Some(Farewell::Left(other));
+    let view = Ram {
+        station: LEADER,
+        coordination,
+        farewell,
+    };
+    let unavailable = Availability::Unavailable(Unavailability::NotSafe);
+    let mut ram = ram_from(identifiers, &state, &view, unavailable, u16::MAX, true).unwrap();
+    let parameters = &mut ram.ram.ram_parameters;
+    parameters.vru_cluster_information_container = Some(largest_cluster());
+    parameters.vru_motion_prediction_container = Some(largest_prediction());
+    ram
+}
+
+/// The follower's RAM whose report is the longest.
+pub fn failed_view() -> Ram {
+    let progress = Progress::Failed(Failure::Unavailable(Unavailability::LowBattery));
+    let last = Some(Report {
+        request: RequestId(255),
+        progress,
+    });
+    let coordination = Coordination::Follower {
+        session: session(),
+        echo: Heartbeat(0),
+        last,
+    };
+    Ram {
+        station: FOLLOWER,
+        coordination,
+        farewell: None,
+    }
+}
+
+fn largest_cluster() -> VruClusterInformationContainer {
+    let coordinate = || CartesianCoordinate(-32_768);
+    let corner = || CartesianPosition3d::new(coordinate(), coordinate(), Some(coordinate()));
+    let corners = (0..16).map(|_| corner()).collect();
+    let polygon = PolygonalShape::new(Some(corner()), corners, Some(StandardLength12b(4_095)));
+    VruClusterInformationContainer::new(VruClusterInformation::new(
+        Some(Identifier1B(255)),
+        Some(Shape::polygonal(polygon)),
+        CardinalNumber1B(255),
+        Some(VruClusterProfiles(rasn::types::FixedBitString::ZERO)),
+    ))
+}
+
+fn tenths() -> DeltaTimeTenthOfSecond {
+    DeltaTimeTenthOfSecond(127)
+}
+
+fn past_point() -> PathPoint {
+    let position = DeltaReferencePosition::new(
+        DeltaLatitude(-131_071),
+        DeltaLongitude(131_072),
+        DeltaAltitude(12_800),
+    );
+    PathPoint::new(position, Some(PathDeltaTime(65_535.into())))
+}
+
+fn predicted_point() -> PathPointPredicted {
+    let ellipse = PosConfidenceEllipse::new(
+        SemiAxisLength(4_095),
+        SemiAxisLength(0),
+        HeadingValue(3_601),
+    );
+    PathPointPredicted::new(
+        DeltaLatitude(131_072),
+        DeltaLongitude(-131_071),
+        Some(ellipse),
+        DeltaAltitude(-12_700),
+        cdd::AltitudeConfidence::outOfRange,
+        Some(PathDeltaTimeChoice::deltaTimeMidRange(DeltaTimeSecond(
+            86_400,
+        ))),
+        Some(StandardLength9b(511)),
+        Some(StandardLength9b(511)),
+    )
+}
+
+fn largest_prediction() -> VruMotionPredictionContainer {
+    let station = || Some(WireStationId(u32::MAX));
+    let safe = || SafeDistanceIndicator(true);
+    let distance = || SafeDistanceIndication::new(station(), safe(), Some(tenths()));
+    let interception = || {
+        let probability = TrajectoryInterceptionProbability(63);
+        let confidence = Some(TrajectoryInterceptionConfidence(3));
+        TrajectoryInterceptionIndication::new(station(), probability, confidence)
+    };
+    let eight = 0..8;
+    let distances = eight.clone().map(|_| distance()).collect();
+    let interceptions = eight.map(|_| interception()).collect();
+    let history = (0..PATH_HISTORY_MAX).map(|_| past_point()).collect();
+    let path = (0..PATH_PREDICTION_MAX)
+        .map(|_| predicted_point())
+        .collect();
+    VruMotionPredictionContainer::new(
+        Some(PathHistory(history)),
+        Some(PathPredicted(path)),
+        Some(SequenceOfSafeDistanceIndication(distances)),
+        Some(SequenceOfTrajectoryInterceptionIndication(interceptions)),
+        Some(AccelerationChangeIndication::new(
+            AccelerationChange::decelerate,
+            tenths(),
+        )),
+        Some(HeadingChangeIndication::new(
+            TurningDirection::right,
+            tenths(),
+        )),
+        Some(StabilityChangeIndication::new(
+            StabilityLossProbability(63),
+            tenths(),
+        )),
+    )
+}
+
+/// An RMCM with everything in it.
+pub fn largest_rmcm(identifiers: &Identifiers) -> RMCM {
+    let parameters = TaskParameters {
+        target: Some(Target::Position {
+            latitude: 90.0,
+            longitude: 180.0,
+            altitude: Some(8_000.0),
+        }),
+        heading: Some(359.9),
+        maximum_speed: Some(100.0),
+        minimum_pedestrian_distance: Some(51.1),
+        validity: Some(Millis(86_400_000)),
+    };
+    let follower = |id| {
+        (
+            Command {
+                to: StationId(id),
+                ..command()
+            },
+            parameters,
+        )
+    };
+    let commands = [1, 2, 3, 4].map(follower);
+    let place = Some(MapPlace::Intersection {
+        region: Some(65_535),
+        id: 65_535,
+    });
+    rmcm_from_commands(identifiers, &position(), place, &commands, u16::MAX).unwrap()
+}
+
+/// The messages of `golden/messages.json`, with their names: one of every kind.
+pub fn golden(identifiers: &Identifiers) -> Vec<(&'static str, Message)> {
+    let rams = golden_views().into_iter().map(|(name, view)| {
+        let with_low_frequency = view.coordination == Coordination::None && view.farewell.is_none();
+        let (state, available) = (state(), Availability::Available);
+        let time = GENERATION_DELTA_TIME;
+        let ram = ram_from(
+            identifiers,
+            &state,
+            &view,
+            available,
+            time,
+            with_low_frequency,
+        );
+        (name, Message::Ram(Box::new(ram.unwrap())))
+    });
+    let rmcms = [
+        ("commands", typical_rmcm(identifiers)),
+        ("acknowledges", answer_rmcm(identifiers)),
+    ];
+    let rmcms = rmcms.map(|(name, rmcm)| (name, Message::Rmcm(Box::new(rmcm))));
+    rams.chain(rmcms).collect()
+}
+
+fn golden_views() -> [(&'static str, Ram); 6] {
+    let session = session();
+    let number = session.number;
+    let tasks = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]);
+    let offer = OfferNumber(self::number(9, 4));
+    let request = HelpRequest {
+        urgency: Urgency::High,
+        followers: 1,
+        tasks,
+    };
+    let followers = [Confirmation {
+        station: FOLLOWER,
+        offer,
+    }]
+    .into_iter()
+    .collect();
+    let heartbeat = Heartbeat(700);
+    let leads = Coordination::Leader {
+        number,
+        heartbeat,
+        followers,
+    };
+    let offers = Coordination::OfferHelp {
+        session,
+        offer,
+        capabilities: tasks,
+    };
+    let view = |station, coordination| Ram {
+        station,
+        coordination,
+        farewell: None,
+    };
+    let idle = view(FOLLOWER, Coordination::None);
+    let ended = Some(Farewell::Ended(number));
+    [
+        ("idle, with low-frequency container", idle),
+        (
+            "asks for help",
+            view(LEADER, Coordination::NeedHelp { number, request }),
+        ),
+        ("offers help", view(FOLLOWER, offers)),
+        ("leads", view(LEADER, leads)),
+        ("follows and executes", follower_view()),
+        (
+            "has ended its session",
+            Ram {
+                station: LEADER,
+                farewell: ended,
+                ..idle
+            },
+        ),
+    ]
+}
+
+/// Changes the last command of a follower's RAM without changing its status.
+pub fn set_progress(ram: &mut RAM, progress: ram::CommandProgress) {
+    let operation = ram
+        .ram
+        .ram_parameters
+        .robot_leader_follower_operation_container
+        .as_mut();
+    let Some(ram::SessionRole::follower(follower)) =
+        operation.and_then(|operation| operation.role.as_mut())
+    else {
+        panic!("not the RAM of a follower");
+    };
+    follower.last_command = Some(ram::CommandReport::new(common::RequestId(3), progress));
+}

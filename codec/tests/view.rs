@@ -1,0 +1,486 @@
+//! What the protocol says arrives as it was said, and nothing contradictory arrives.
+
+mod support;
+
+use crossguard_codec::asn1::common::{self, UnavailabilityReason};
+use crossguard_codec::asn1::ram::{CommandProgress, HelpStatus, RAM, SessionRole};
+use crossguard_codec::asn1::rmcm::{ManeuverContainer, RMCM};
+use crossguard_codec::{
+    ExecutionStatus, Identifiers, Message, Target, TaskParameters, TaskProgression, ViewError,
+    availability_of, decode, encode, execution_of, map_place_of, ram_from, rmcm_from_answer,
+    rmcm_from_commands, task_parameters_of, view_of_ram, views_of_rmcm,
+};
+use crossguard_protocol::{
+    Availability, Command, Coordination, Failure, Farewell, Progress, Ram, RequestId, Rmcm,
+    SessionId, StationId,
+};
+use proptest::option;
+use proptest::prelude::*;
+use support::{samples, views};
+
+fn identifiers() -> Identifiers {
+    Identifiers::default()
+}
+
+/// The message as a receiver has it.
+fn over_the_air<M: crossguard_codec::Pdu>(message: &M) -> M {
+    let octets = encode(&identifiers(), message).expect("what is mapped can be encoded");
+    decode(&identifiers(), &octets)
+        .expect("what is encoded can be decoded")
+        .message
+}
+
+fn ram(view: &Ram) -> Result<RAM, ViewError> {
+    let available = Availability::Available;
+    ram_from(&identifiers(), &samples::state(), view, available, 0, false)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+    #[test]
+    fn every_view_arrives_as_it_was_said(
+        view in views::ram(),
+        availability in views::availability(),
+    ) {
+        let sent = ram_from(&identifiers(), &samples::state(), &view, availability, 7, true);
+        if let Ok(sent) = sent {
+            let received = over_the_air(&sent);
+            prop_assert_eq!(&received, &sent);
+            prop_assert_eq!(view_of_ram(&received), Ok(view));
+            prop_assert_eq!(availability_of(&received), availability);
+        }
+    }
+
+    #[test]
+    fn every_command_arrives_with_its_parameters(
+        leader in views::command(),
+        commands in prop::collection::vec((views::command(), views::parameters()), 1..5),
+        place in option::of(views::place()),
+        position in views::position(),
+    ) {
+        let session = leader.session;
+        let commands: Vec<(Command, TaskParameters)> = commands
+            .into_iter()
+            .map(|(command, parameters)| (Command { session, ..command }, parameters))
+            .collect();
+        let sent = rmcm_from_commands(&identifiers(), &position, place, &commands, 7);
+        if let Ok(sent) = sent {
+            let received = over_the_air(&sent);
+            let expected = commands.iter().map(|(command, _)| Rmcm::Command(*command));
+            prop_assert!(views_of_rmcm(&received).unwrap().iter().copied().eq(expected));
+            prop_assert_eq!(map_place_of(&received), place);
+            prop_assert_eq!(execution_of(&received), None);
+            for (command, _) in &commands {
+                // What was decoded is said again as it was.
+                let parameters = task_parameters_of(&received, command.to).unwrap();
+                let again = [(*command, parameters)];
+                let again = rmcm_from_commands(&identifiers(), &position, None, &again, 7).unwrap();
+                prop_assert_eq!(task_parameters_of(&again, command.to), Some(parameters));
+            }
+        }
+    }
+
+    #[test]
+    fn every_answer_arrives_with_its_status(
+        answer in views::answer(),
+        status in views::execution(),
+        position in views::position(),
+    ) {
+        if let Ok(sent) = rmcm_from_answer(&identifiers(), &position, &answer, status, 7) {
+            let received = over_the_air(&sent);
+            let views = views_of_rmcm(&received).unwrap();
+            prop_assert!(views.iter().eq([&Rmcm::Answer(answer)]));
+            prop_assert_eq!(execution_of(&received), Some(status));
+            prop_assert_eq!(task_parameters_of(&received, answer.from), None);
+        } else {
+            prop_assert_eq!(answer.from, answer.session.leader);
+        }
+    }
+
+    #[test]
+    fn a_received_message_has_a_view_that_can_be_said_again(seed: u64) {
+        let received = support::arbitrary::ram(&identifiers(), seed);
+        if let Ok(view) = view_of_ram(&received) {
+            prop_assert_eq!(view_of_ram(&ram(&view).unwrap()), Ok(view));
+        }
+    }
+}
+
+#[test]
+fn every_part_in_a_session_can_be_said() {
+    let golden = samples::golden(&identifiers());
+    let parts = golden.iter().filter_map(|(_, message)| match message {
+        Message::Ram(ram) => Some(view_of_ram(ram).unwrap().coordination),
+        Message::Rmcm(_) => None,
+    });
+    let parts: Vec<Coordination> = parts.collect();
+    assert!(parts.iter().any(|part| matches!(part, Coordination::None)));
+    assert!(
+        parts
+            .iter()
+            .any(|part| matches!(part, Coordination::NeedHelp { .. }))
+    );
+    assert!(
+        parts
+            .iter()
+            .any(|part| matches!(part, Coordination::OfferHelp { .. }))
+    );
+    assert!(
+        parts
+            .iter()
+            .any(|part| matches!(part, Coordination::Leader { .. }))
+    );
+    assert!(
+        parts
+            .iter()
+            .any(|part| matches!(part, Coordination::Follower { .. }))
+    );
+}
+
+#[test]
+fn what_a_robot_says_of_itself_is_said_by_no_other() {
+    let sent = ram(&samples::follower_view()).unwrap();
+    assert_eq!(view_of_ram(&sent), Ok(samples::follower_view()));
+
+    // The same octets with another sender, who then follows itself.
+    let mut forged = sent.clone();
+    forged.header.station_id.0 = samples::LEADER.0;
+    assert_eq!(
+        view_of_ram(&forged),
+        Err(ViewError::OwnSession(samples::LEADER))
+    );
+}
+
+#[test]
+fn nobody_leads_the_session_of_another() {
+    let identifiers = identifiers();
+    let mut forged = samples::largest_ram(&identifiers);
+    assert!(view_of_ram(&forged).is_ok());
+    forged.header.station_id.0 = 5;
+    let error = ViewError::NotOwnSession {
+        sender: StationId(5),
+        session: samples::session(),
+    };
+    assert_eq!(view_of_ram(&forged), Err(error));
+
+    let mut forged = samples::typical_rmcm(&identifiers);
+    forged.header.station_id.0 = 5;
+    assert_eq!(views_of_rmcm(&forged), Err(error));
+}
+
+#[test]
+fn the_help_status_goes_with_the_role() {
+    let mut ram = ram(&samples::follower_view()).unwrap();
+    let status = &mut ram.ram.ram_parameters.robot_status_container;
+    status.help_status = HelpStatus::none;
+    let (found, expected) = (HelpStatus::none, HelpStatus::roleConfirmed);
+    assert_eq!(
+        view_of_ram(&ram),
+        Err(ViewError::HelpStatus { found, expected })
+    );
+
+    ram.ram
+        .ram_parameters
+        .robot_leader_follower_operation_container = None;
+    assert_eq!(view_of_ram(&ram).unwrap().coordination, Coordination::None);
+}
+
+#[test]
+fn the_task_progression_goes_with_the_report() {
+    let mut ram = ram(&samples::follower_view()).unwrap();
+    assert_eq!(
+        ram.ram
+            .ram_parameters
+            .robot_status_container
+            .task_progression,
+        common::TaskProgression::executing
+    );
+    samples::set_progress(&mut ram, CommandProgress::completed(()));
+    let (found, expected) = (TaskProgression::Executing, TaskProgression::Completed);
+    assert_eq!(
+        view_of_ram(&ram),
+        Err(ViewError::TaskProgression { found, expected })
+    );
+}
+
+#[test]
+fn the_reason_of_a_failure_survives() {
+    let view = samples::failed_view();
+    let ram = ram(&view).unwrap();
+    let operation = ram
+        .ram
+        .ram_parameters
+        .robot_leader_follower_operation_container
+        .as_ref();
+    let Some(SessionRole::follower(follower)) = operation.and_then(|o| o.role.as_ref()) else {
+        panic!("not a follower");
+    };
+    let failed = follower
+        .last_command
+        .as_ref()
+        .map(|report| &report.progress);
+    let Some(CommandProgress::failed(reason)) = failed else {
+        panic!("not failed")
+    };
+    let low_battery = UnavailabilityReason::lowBattery;
+    assert_eq!(
+        *reason,
+        crossguard_codec::asn1::ram::FailureReason::unavailable(low_battery)
+    );
+    assert_eq!(view_of_ram(&over_the_air(&ram)), Ok(view));
+}
+
+#[test]
+fn the_leaders_execution_limit_is_nothing_a_follower_can_report() {
+    let mut view = samples::failed_view();
+    let Coordination::Follower {
+        last: Some(report), ..
+    } = &mut view.coordination
+    else {
+        panic!("not a report");
+    };
+    report.progress = Progress::Failed(Failure::ExecutionLimit);
+    assert_eq!(ram(&view), Err(ViewError::ExecutionLimit));
+}
+
+#[test]
+fn a_leader_names_every_follower_once_and_not_itself() {
+    let view = view_of_ram(&samples::largest_ram(&identifiers())).unwrap();
+    let with_followers = |stations: &[u32]| {
+        let Coordination::Leader {
+            number,
+            heartbeat,
+            followers,
+        } = view.coordination
+        else {
+            panic!("not a leader");
+        };
+        let offer = followers.iter().next().unwrap().offer;
+        let confirm = |&id: &u32| crossguard_protocol::Confirmation {
+            station: StationId(id),
+            offer,
+        };
+        let followers = stations.iter().map(confirm).collect();
+        let coordination = Coordination::Leader {
+            number,
+            heartbeat,
+            followers,
+        };
+        ram(&Ram {
+            coordination,
+            ..view
+        })
+        .map(drop)
+    };
+    assert_eq!(with_followers(&[1, 2]), Ok(()));
+    assert_eq!(with_followers(&[]), Err(ViewError::NoFollowers));
+    assert_eq!(
+        with_followers(&[1, 2, 1]),
+        Err(ViewError::NamedTwice(StationId(1)))
+    );
+    let leader = samples::LEADER;
+    assert_eq!(
+        with_followers(&[1, leader.0]),
+        Err(ViewError::OwnFollower(leader))
+    );
+
+    // And a receiver says the same to one that does.
+    let mut forged = samples::largest_ram(&identifiers());
+    let operation = forged
+        .ram
+        .ram_parameters
+        .robot_leader_follower_operation_container
+        .as_mut();
+    let Some(SessionRole::leader(role)) = operation.and_then(|o| o.role.as_mut()) else {
+        panic!("not a leader");
+    };
+    role.followers[1].station_id.0 = role.followers[0].station_id.0;
+    assert_eq!(
+        view_of_ram(&forged),
+        Err(ViewError::NamedTwice(StationId(1)))
+    );
+}
+
+#[test]
+fn a_leader_with_more_followers_than_a_session_has_is_refused() {
+    let mut forged = samples::largest_ram(&identifiers());
+    let operation = forged
+        .ram
+        .ram_parameters
+        .robot_leader_follower_operation_container
+        .as_mut();
+    let Some(SessionRole::leader(role)) = operation.and_then(|o| o.role.as_mut()) else {
+        panic!("not a leader");
+    };
+    role.followers.push(role.followers[0].clone());
+    assert_eq!(view_of_ram(&forged), Err(ViewError::TooManyFollowers(5)));
+}
+
+#[test]
+fn nobody_says_farewell_to_the_session_that_it_takes_part_in() {
+    let farewell = |session| Ram {
+        farewell: Some(Farewell::Left(session)),
+        ..samples::follower_view()
+    };
+    let present = samples::session();
+    assert_eq!(
+        ram(&farewell(present)),
+        Err(ViewError::FarewellToPresent(present))
+    );
+    let own = SessionId {
+        leader: samples::FOLLOWER,
+        ..present
+    };
+    assert_eq!(
+        ram(&farewell(own)),
+        Err(ViewError::OwnSession(samples::FOLLOWER))
+    );
+    let past = SessionId {
+        leader: StationId(9),
+        ..present
+    };
+    assert!(ram(&farewell(past)).is_ok());
+}
+
+#[test]
+fn a_request_is_for_1_to_4_followers() {
+    let request = crossguard_protocol::HelpRequest {
+        urgency: crossguard_protocol::Urgency::High,
+        followers: 5,
+        tasks: crossguard_protocol::TaskSet(7),
+    };
+    let number = samples::session().number;
+    let coordination = Coordination::NeedHelp { number, request };
+    let view = Ram {
+        station: samples::LEADER,
+        coordination,
+        farewell: None,
+    };
+    assert_eq!(ram(&view), Err(ViewError::FollowerCount(5)));
+}
+
+#[test]
+fn the_commands_of_a_message_belong_together() {
+    let rmcm = |commands: &[(Command, TaskParameters)]| {
+        rmcm_from_commands(&identifiers(), &samples::position(), None, commands, 0).map(drop)
+    };
+    let parameters = samples::parameters();
+    let first = samples::command();
+    let other = |to| Command {
+        to: StationId(to),
+        ..first
+    };
+    assert_eq!(rmcm(&[(first, parameters), (other(2), parameters)]), Ok(()));
+    assert_eq!(rmcm(&[]), Err(ViewError::CommandCount(0)));
+    let five = [1, 2, 3, 4, 5].map(|to| (other(to), parameters));
+    assert_eq!(rmcm(&five), Err(ViewError::CommandCount(5)));
+    let twice = [(first, parameters), (first, parameters)];
+    assert_eq!(rmcm(&twice), Err(ViewError::NamedTwice(first.to)));
+    let own = [(other(samples::LEADER.0), parameters)];
+    assert_eq!(rmcm(&own), Err(ViewError::OwnFollower(samples::LEADER)));
+    let session = SessionId {
+        leader: StationId(9),
+        ..first.session
+    };
+    let elsewhere = Command {
+        session,
+        ..other(2)
+    };
+    let error = ViewError::SessionsDiffer(first.session, session);
+    assert_eq!(
+        rmcm(&[(first, parameters), (elsewhere, parameters)]),
+        Err(error)
+    );
+}
+
+#[test]
+fn a_message_that_commands_a_follower_twice_is_refused() {
+    let mut forged: RMCM = samples::largest_rmcm(&identifiers());
+    let container = &mut forged.rmcm.rmcm_parameters.maneuver_container;
+    let ManeuverContainer::leaderManeuverContainer(leader) = container else {
+        panic!("not a leader");
+    };
+    leader.commands[3].target_follower_station_id.0 = 2;
+    assert_eq!(
+        views_of_rmcm(&forged),
+        Err(ViewError::NamedTwice(StationId(2)))
+    );
+}
+
+#[test]
+fn nobody_answers_itself() {
+    let mut forged = samples::answer_rmcm(&identifiers());
+    forged.header.station_id.0 = samples::LEADER.0;
+    assert_eq!(
+        views_of_rmcm(&forged),
+        Err(ViewError::OwnSession(samples::LEADER))
+    );
+}
+
+#[test]
+fn a_target_that_cannot_be_expressed_is_not_left_out() {
+    let targets = [
+        Target::Position {
+            latitude: f64::NAN,
+            longitude: 9.0,
+            altitude: None,
+        },
+        Target::Position {
+            latitude: 48.0,
+            longitude: 190.0,
+            altitude: None,
+        },
+        Target::Offset {
+            latitude: 0.02,
+            longitude: 0.0,
+            altitude: None,
+        },
+        Target::Lane(15),
+    ];
+    for target in targets {
+        let parameters = TaskParameters {
+            target: Some(target),
+            ..TaskParameters::default()
+        };
+        let commands = [(samples::command(), parameters)];
+        let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), None, &commands, 0);
+        assert_eq!(
+            rmcm,
+            Err(ViewError::Target(samples::FOLLOWER)),
+            "{target:?}"
+        );
+    }
+}
+
+#[test]
+fn a_limit_that_is_no_number_is_no_limit() {
+    let parameters = TaskParameters {
+        heading: Some(f64::NAN),
+        maximum_speed: Some(f64::NAN),
+        minimum_pedestrian_distance: Some(f64::NAN),
+        ..TaskParameters::default()
+    };
+    let commands = [(samples::command(), parameters)];
+    let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), None, &commands, 0);
+    let read = task_parameters_of(&rmcm.unwrap(), samples::FOLLOWER);
+    assert_eq!(read, Some(TaskParameters::default()));
+}
+
+#[test]
+fn durations_saturate_at_one_day() {
+    let status = ExecutionStatus {
+        time_to_completion: Some(crossguard_protocol::Millis(u32::MAX)),
+        ..ExecutionStatus::default()
+    };
+    let answer = crossguard_protocol::Answer {
+        from: samples::FOLLOWER,
+        session: samples::session(),
+        request: RequestId(0),
+        verdict: crossguard_protocol::Verdict::Accepted,
+    };
+    let position = samples::position();
+    let rmcm = rmcm_from_answer(&identifiers(), &position, &answer, status, 0).unwrap();
+    let time = execution_of(&rmcm).unwrap().time_to_completion;
+    assert_eq!(time, Some(crossguard_protocol::Millis::MAX_TIMER));
+}
