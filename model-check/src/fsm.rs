@@ -53,8 +53,8 @@ fn condense(labels: &BTreeSet<String>) -> Vec<String> {
         .collect()
 }
 
-/// The mode's name: the paper's state, and the role that tells its two sides apart.
-fn name((role, state): Mode) -> (&'static str, &'static str) {
+/// The parts of a mode's name: the paper's state, and the role that tells its two sides apart.
+fn parts((role, state): Mode) -> (&'static str, &'static str) {
     let side = match role {
         Role::None => "",
         Role::Requester => "requester",
@@ -71,8 +71,10 @@ fn name((role, state): Mode) -> (&'static str, &'static str) {
     (state, side)
 }
 
-fn id(mode: Mode) -> String {
-    let (state, side) = name(mode);
+/// The mode's name, one word.
+#[must_use]
+pub fn name(mode: Mode) -> String {
+    let (state, side) = parts(mode);
     if side.is_empty() {
         state.to_owned()
     } else {
@@ -83,17 +85,17 @@ fn id(mode: Mode) -> String {
 fn mermaid(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> String {
     let mut text = String::from("stateDiagram-v2\n    direction LR\n    [*] --> Idle\n");
     for &mode in modes {
-        let (state, side) = name(mode);
+        let (state, side) = parts(mode);
         if !side.is_empty() {
-            let _ = writeln!(text, "    state \"{state} ({side})\" as {}", id(mode));
+            let _ = writeln!(text, "    state \"{state} ({side})\" as {}", name(mode));
         }
     }
     for ((from, to), labels) in edges {
         let _ = writeln!(
             text,
             "    {} --> {}: {}",
-            id(*from),
-            id(*to),
+            name(*from),
+            name(*to),
             labels.join("<br>")
         );
     }
@@ -106,21 +108,21 @@ fn dot(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> S
          edge [fontname=sans, fontsize=9];\n",
     );
     for &mode in modes {
-        let (state, side) = name(mode);
+        let (state, side) = parts(mode);
         let label = if side.is_empty() {
             state.to_owned()
         } else {
             format!("{state}\\n{side}")
         };
-        let _ = writeln!(text, "    {} [label=\"{label}\"];", id(mode));
+        let _ = writeln!(text, "    {} [label=\"{label}\"];", name(mode));
     }
     for ((from, to), labels) in edges {
         let label = labels.join("\\n");
         let _ = writeln!(
             text,
             "    {} -> {} [label=\"{label}\"];",
-            id(*from),
-            id(*to)
+            name(*from),
+            name(*to)
         );
     }
     text.push_str("}\n");

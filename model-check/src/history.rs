@@ -37,7 +37,7 @@ pub struct CommandRecord {
 
 impl History {
     /// The record of a command, if it was ever sent.
-    #[must_use] 
+    #[must_use]
     pub fn command(&self, to: StationId, id: ManeuverId) -> Option<&CommandRecord> {
         self.commands
             .iter()
@@ -45,7 +45,7 @@ impl History {
     }
 
     /// The newest command of `session` that `to` has started.
-    #[must_use] 
+    #[must_use]
     pub fn newest_started(&self, to: StationId, session: SessionId) -> Option<RequestId> {
         let started = |r: &&CommandRecord| r.to == to && r.id.session == session && r.started;
         let requests = self
@@ -57,19 +57,19 @@ impl History {
     }
 
     /// Whether the leader of `session` has confirmed this follower with this offer.
-    #[must_use] 
+    #[must_use]
     pub fn is_confirmed(&self, session: SessionId, follower: Confirmation) -> bool {
         self.confirmed.contains(&(session, follower))
     }
 
     /// Whether `station` had a role in `session` when it crashed.
-    #[must_use] 
+    #[must_use]
     pub fn had_role_before_crash(&self, station: StationId, session: SessionId) -> bool {
         self.before_crash.contains(&(station, session))
     }
 
     /// Whether `station` ever had a role when it crashed.
-    #[must_use] 
+    #[must_use]
     pub fn crashed_in_role(&self, station: StationId) -> bool {
         self.before_crash
             .iter()
@@ -77,7 +77,7 @@ impl History {
     }
 
     /// Whether any follower has fallen back.
-    #[must_use] 
+    #[must_use]
     pub fn has_fallback(&self) -> bool {
         self.commands.iter().any(|command| command.fell_back)
     }

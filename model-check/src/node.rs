@@ -59,7 +59,7 @@ pub struct Actuation {
 
 impl Node {
     /// A robot at its first boot.
-    #[must_use] 
+    #[must_use]
     pub fn first_boot(station: StationId) -> Self {
         Self {
             robot: Some(Robot::new(station, 1)),
@@ -110,7 +110,7 @@ impl Node {
     }
 
     /// Whether the robot is up and has a part in no session.
-    #[must_use] 
+    #[must_use]
     pub fn is_idle(&self) -> bool {
         self.robot
             .as_ref()
@@ -118,7 +118,7 @@ impl Node {
     }
 
     /// Whether what the body does is what the protocol state says.
-    #[must_use] 
+    #[must_use]
     pub fn actuation_agrees(&self) -> bool {
         let expected = match &self.robot {
             None => Actuation::default(),

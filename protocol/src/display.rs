@@ -59,12 +59,9 @@ macro_rules! display_as_words {
 }
 
 display_as_words!(
-    CorridorClosure,
-    Disengagement,
     EndReason,
     FallbackPolicy,
     GoneReason,
-    Ignored,
     Progress,
     ReleaseReason,
     StopReason,
@@ -75,6 +72,39 @@ display_as_words!(
     crate::Rejection,
     crate::Role,
 );
+
+impl Display for CorridorClosure {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotEngaged(station, why) => write!(f, "station {station} is {why}"),
+            other => Words(other).fmt(f),
+        }
+    }
+}
+
+impl Display for Ignored {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotEngaged(station, why) => write!(f, "station {station} is {why}"),
+            Self::Unavailable(why) => write!(f, "unavailable, {why}"),
+            other => Words(other).fmt(f),
+        }
+    }
+}
+
+impl Display for Disengagement {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoLease => "out of contact",
+            Self::CommandOutstanding => "yet to acknowledge a command",
+            Self::NotExecuting => "not executing anything",
+            Self::NotGuarding => "not guarding anybody",
+            Self::Completed => "done with its task",
+            Self::Failed(why) => return write!(f, "unable to do its task: {why}"),
+            Self::SafeIdle => "idle in safety",
+        })
+    }
+}
 
 impl Display for Availability {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -291,7 +321,7 @@ mod tests {
         );
         assert_eq!(
             CorridorClosure::NotEngaged(StationId(2), Disengagement::NoLease).to_string(),
-            "not engaged(station id(2), no lease)"
+            "station 2 is out of contact"
         );
     }
 

@@ -1,0 +1,292 @@
+//! A sequence chart, line by line as things happen.
+//!
+//! Each robot has a column. Messages are drawn when they arrive; of the RAM that repeat what is known
+//! only the first is drawn.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+use crossguard_codec::Identifiers;
+use crossguard_protocol::{
+    Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Ram, State, StationId,
+};
+
+use crate::trace::{Entry, Record};
+use crate::wire::{Heard, MessageKind, overhear};
+
+/// Where the first column begins, and how far apart columns are.
+const LEFT: usize = 10;
+const SPACING: usize = 50;
+
+/// A chart in the making.
+#[derive(Debug)]
+pub struct Chart {
+    identifiers: Identifiers,
+    lanes: Vec<Lane>,
+    /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
+    drawn: HashMap<(usize, usize), Ram>,
+}
+
+#[derive(Debug)]
+struct Lane {
+    name: String,
+    station: StationId,
+    state: State,
+}
+
+impl Chart {
+    /// A chart of robots with these names and station ids, from left to right.
+    #[must_use]
+    pub fn new(robots: &[(&str, StationId)], identifiers: Identifiers) -> Self {
+        let lane = |&(name, station): &(&str, StationId)| Lane {
+            name: name.to_owned(),
+            station,
+            state: State::Idle,
+        };
+        Self {
+            identifiers,
+            lanes: robots.iter().map(lane).collect(),
+            drawn: HashMap::new(),
+        }
+    }
+
+    /// The line above the chart.
+    #[must_use]
+    pub fn header(&self) -> String {
+        let mut line = format!("{:>8}", "t/s");
+        for (i, lane) in self.lanes.iter().enumerate() {
+            pad(&mut line, LEFT + i * SPACING);
+            let _ = write!(line, "{} (station {})", lane.name, lane.station);
+        }
+        line
+    }
+
+    /// The lines that a record adds.
+    pub fn lines(&mut self, record: &Record) -> Vec<String> {
+        let Some(lane) = self.lanes.iter().position(|lane| lane.name == record.robot) else {
+            return Vec::new();
+        };
+        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+        let time = record.at_us as f64 / 1e6;
+        match &record.entry {
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => {
+                let mut notes: Vec<_> = note_of_input(input).into_iter().collect();
+                notes.extend(outputs.iter().filter_map(note_of_output));
+                let after = state.state();
+                if self.lanes[lane].state != after {
+                    self.lanes[lane].state = after;
+                    notes.push(format!("[{after:?}] {}", state.role()));
+                }
+                notes
+                    .into_iter()
+                    .map(|note| note_at(time, lane, &note))
+                    .collect()
+            }
+            Entry::Heard { octets, .. } => self.arrow(time, lane, octets, false),
+            Entry::Dropped { cause, octets, .. } if cause == "simulated loss" => {
+                self.arrow(time, lane, octets, true)
+            }
+            Entry::Dropped { cause, detail, .. } => {
+                vec![note_at(
+                    time,
+                    lane,
+                    &format!("! dropped, {cause}: {detail}"),
+                )]
+            }
+            Entry::Started { .. } | Entry::Sent { .. } | Entry::Stopped { .. } => Vec::new(),
+        }
+    }
+
+    fn arrow(&mut self, time: f64, to: usize, octets: &[u8], is_lost: bool) -> Vec<String> {
+        let Ok(heard) = overhear(&self.identifiers, octets) else {
+            return Vec::new();
+        };
+        let Some(from) = self
+            .lanes
+            .iter()
+            .position(|lane| lane.station == heard.from)
+        else {
+            return Vec::new();
+        };
+        if heard.kind == MessageKind::Ram && !self.is_news(from, to, &heard, is_lost) {
+            return Vec::new();
+        }
+        let text: Vec<_> = heard.inputs.iter().map(text_of).collect();
+        vec![arrow(time, from, to, &text.join("; "), is_lost)]
+    }
+
+    /// Whether a RAM says something that was not drawn before.
+    fn is_news(&mut self, from: usize, to: usize, heard: &Heard, is_lost: bool) -> bool {
+        let Some(Input::Ram { ram, .. }) = heard.inputs.first() else {
+            return false;
+        };
+        let essence = essence(*ram);
+        let known = self.drawn.get(&(from, to));
+        let is_empty =
+            matches!(essence.coordination, Coordination::None) && essence.farewell.is_none();
+        let is_news = match known {
+            Some(known) => *known != essence,
+            None => !is_empty,
+        };
+        if is_news && !is_lost {
+            self.drawn.insert((from, to), essence);
+        }
+        is_news
+    }
+}
+
+/// A RAM without what changes from one to the next.
+fn essence(mut ram: Ram) -> Ram {
+    match &mut ram.coordination {
+        Coordination::Leader { heartbeat, .. } => *heartbeat = Heartbeat(0),
+        Coordination::Follower { echo, .. } => *echo = Heartbeat(0),
+        Coordination::None | Coordination::NeedHelp { .. } | Coordination::OfferHelp { .. } => {}
+    }
+    ram
+}
+
+/// A message in a few words.
+fn text_of(input: &Input) -> String {
+    match input {
+        Input::Ram { ram, .. } => ram_text(ram),
+        other => other.to_string(),
+    }
+}
+
+fn ram_text(ram: &Ram) -> String {
+    let station = ram.station;
+    let part = match ram.coordination {
+        Coordination::None => "none".to_owned(),
+        Coordination::NeedHelp { number, .. } => format!("needHelp {station}#{}", number.0),
+        Coordination::OfferHelp { session, .. } => format!("offerHelp {session}"),
+        Coordination::Leader {
+            number, followers, ..
+        } => {
+            let followers: Vec<_> = followers.iter().map(|f| f.station.to_string()).collect();
+            format!("leader {station}#{} of {}", number.0, followers.join(", "))
+        }
+        Coordination::Follower {
+            session,
+            last: None,
+            ..
+        } => format!("follower {session}"),
+        Coordination::Follower {
+            session,
+            last: Some(last),
+            ..
+        } => {
+            format!("follower {session}: {} {}", last.request, last.progress)
+        }
+    };
+    let farewell = match ram.farewell {
+        None => String::new(),
+        Some(Farewell::Ended(number)) => format!(", ended {station}#{}", number.0),
+        Some(Farewell::Left(session)) => format!(", left {session}"),
+    };
+    format!("RAM {part}{farewell}")
+}
+
+fn note_of_input(input: &Input) -> Option<String> {
+    match input {
+        Input::Local(Event::OpenCorridor | Event::CommandManeuver { .. }) => None,
+        Input::Local(event) => Some(format!("* {event}")),
+        _ => None,
+    }
+}
+
+fn note_of_output(output: &Output) -> Option<String> {
+    Some(match output {
+        Output::StartManeuver(_)
+        | Output::StopManeuver(..)
+        | Output::FallBack(..)
+        | Output::CorridorOpened
+        | Output::CorridorClosed(_) => format!("> {output}"),
+        Output::Notify(
+            notice @ (Notice::FollowerGone(..)
+            | Notice::LeaseExpired(_)
+            | Notice::CommandRejected(..)
+            | Notice::ManeuverFailed(..)
+            | Notice::ManeuverCompleted(..)
+            | Notice::FollowerSafeIdle(..)
+            | Notice::SessionEnded(..)
+            | Notice::ContactLost(_)
+            | Notice::ContactRegained(_)),
+        ) => format!("- {notice}"),
+        _ => return None,
+    })
+}
+
+fn pad(line: &mut String, column: usize) {
+    let width = line.chars().count();
+    line.extend(std::iter::repeat_n(' ', column.saturating_sub(width)));
+}
+
+fn note_at(seconds: f64, column: usize, text: &str) -> String {
+    let mut line = format!("{seconds:>8.3}");
+    pad(&mut line, LEFT + column * SPACING);
+    line.push_str(text);
+    line
+}
+
+/// An arrow between two columns, with its text in the middle.
+fn arrow(time: f64, from: usize, to: usize, text: &str, is_lost: bool) -> String {
+    let (left, right) = (from.min(to), from.max(to));
+    let width = (right - left) * SPACING - 3;
+    let room = width.saturating_sub(6);
+    let text: String = if text.chars().count() > room {
+        text.chars()
+            .take(room.saturating_sub(1))
+            .chain(['…'])
+            .collect()
+    } else {
+        text.to_owned()
+    };
+    let dashes = width.saturating_sub(text.chars().count() + 3);
+    let (before, after) = (dashes / 2, dashes - dashes / 2);
+    let body = format!("{} {text} {}", "─".repeat(before), "─".repeat(after));
+    let end = if is_lost {
+        "x"
+    } else if from < to {
+        "►"
+    } else {
+        "◄"
+    };
+    let drawn = if from < to {
+        format!("{body}{end}")
+    } else {
+        format!("{end}{body}")
+    };
+    let mut line = format!("{time:>8.3}");
+    pad(&mut line, LEFT + left * SPACING + 1);
+    line.push_str(&drawn);
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arrow_spans_from_column_to_column() {
+        let there = arrow(1.5, 0, 1, "RMCM ack", false);
+        assert!(
+            there.starts_with("   1.500   ─") && there.ends_with("─►"),
+            "{there}"
+        );
+        assert_eq!(there.chars().count(), LEFT + SPACING - 2);
+        let back = arrow(1.5, 1, 0, "RMCM ack", false);
+        assert!(back.contains("◄─") && back.ends_with('─'), "{back}");
+        assert!(arrow(0.0, 0, 1, "RAM", true).ends_with("─x"));
+    }
+
+    #[test]
+    fn a_long_text_is_cut_to_fit() {
+        let line = arrow(0.0, 0, 1, &"long ".repeat(40), false);
+        assert_eq!(line.chars().count(), LEFT + SPACING - 2);
+        assert!(line.contains('…'));
+    }
+}

@@ -1,0 +1,111 @@
+//! The command line: subcommands, and how they end.
+//!
+//! Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete.
+
+mod check;
+mod codec;
+mod demo;
+mod fsm;
+mod run;
+
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
+#[derive(Parser)]
+#[command(
+    name = "crossguard",
+    version,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Watch a humanoid and a robot dog help a pedestrian across, over real sockets.
+    Demo(demo::Arguments),
+    /// Run one robot as one process; events are typed or piped in.
+    Run(run::Arguments),
+    /// Check scenarios exhaustively against the properties of the protocol.
+    Check(check::Arguments),
+    /// Print the state diagram of the protocol, drawn from what the transition function does.
+    Fsm(fsm::Arguments),
+    /// Convert messages between octets and JSON.
+    #[command(subcommand)]
+    Codec(codec::Command),
+}
+
+/// How a subcommand ends, when not well.
+#[derive(Debug)]
+enum Failure {
+    /// Something was found to be wrong; it has been printed.
+    Wrong,
+    /// The usage or an input is bad.
+    Input(String),
+    /// It was cut off before it could tell; what is known has been printed.
+    Incomplete,
+    /// Nobody reads the output any more.
+    NobodyReads,
+}
+
+impl Failure {
+    /// The usage or an input is bad.
+    fn input(error: impl std::fmt::Display) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    /// Standard output cannot be written to.
+    fn from(error: std::io::Error) -> Self {
+        match error.kind() {
+            ErrorKind::BrokenPipe => Self::NobodyReads,
+            _ => Self::input(format!("standard output: {error}")),
+        }
+    }
+}
+
+pub(crate) fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Fsm(arguments) => fsm::run(&arguments),
+        Command::Codec(command) => codec::run(&command),
+    };
+    match done {
+        Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
+        Err(Failure::Wrong) => ExitCode::from(1),
+        Err(Failure::Input(message)) => {
+            // Standard error may be gone as well, and then there is nobody to tell.
+            let _ = writeln!(std::io::stderr(), "crossguard: {message}");
+            ExitCode::from(2)
+        }
+        Err(Failure::Incomplete) => ExitCode::from(3),
+    }
+}
+
+/// Prints a line to standard output.
+fn print(line: impl std::fmt::Display) -> Result<(), Failure> {
+    Ok(writeln!(std::io::stdout(), "{line}")?)
+}
+
+/// Prints a value as JSON.
+fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let mut out = std::io::stdout();
+    match serde_json::to_writer_pretty(&mut out, value) {
+        Ok(()) => Ok(writeln!(out)?),
+        Err(error) => Err(std::io::Error::from(error).into()),
+    }
+}
+
+/// Whether progress is worth showing: only to people, and never among the output.
+fn shows_progress(is_json: bool) -> bool {
+    !is_json && std::io::stderr().is_terminal()
+}

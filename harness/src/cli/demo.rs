@@ -1,0 +1,209 @@
+//! `crossguard demo`.
+
+use std::path::PathBuf;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use crossguard_codec::Identifiers;
+use crossguard_harness::chart::Chart;
+use crossguard_harness::demo::{self, ARI, GO2, Options, Outcome};
+use crossguard_harness::timing::{Statistic, Summary};
+
+use super::{Failure, print, print_json};
+
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// How many crossings.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1_000))]
+    trials: u16,
+    /// How many times as fast as real the robots move; the protocol keeps its real timers.
+    #[arg(long, default_value_t = 3.0, value_parser = speed)]
+    speed: f64,
+    /// Probability with which each robot loses a datagram, from 0 to 0.9.
+    #[arg(long, default_value_t = 0.0, value_parser = loss)]
+    loss: f64,
+    /// Seed of the losses and of the robots' gait.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Port of the first robot on 127.0.0.1; the second has the next one.
+    #[arg(long, default_value_t = 47_401, value_parser = clap::value_parser!(u16).range(1_024..=65_534))]
+    port: u16,
+    /// Write the log to this file, one JSON object per line.
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+    /// Print the results as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
+    /// Leave the chart out.
+    #[arg(long, conflicts_with = "json")]
+    quiet: bool,
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    in_range(
+        text,
+        1.0,
+        100.0,
+        "slower than real time, a maneuver would exceed its limit",
+    )
+}
+
+fn loss(text: &str) -> Result<f64, String> {
+    in_range(
+        text,
+        0.0,
+        0.9,
+        "with more, robots cannot hear of each other in time",
+    )
+}
+
+fn in_range(text: &str, min: f64, max: f64, why: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (min..=max).contains(&value) => Ok(value),
+        _ => Err(format!("a number from {min} to {max} is wanted ({why})")),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let options = Options {
+        trials: usize::from(arguments.trials),
+        time_scale: arguments.speed,
+        loss: arguments.loss,
+        seed: arguments.seed,
+        port: arguments.port,
+    };
+    let mut log_file = match &arguments.log {
+        Some(path) => Some(create(path)?),
+        None => None,
+    };
+    let shows_chart = !arguments.json && !arguments.quiet;
+    let mut chart = Chart::new(&[ARI, GO2], Identifiers::default());
+    if shows_chart {
+        introduce(&options)?;
+        print(chart.header())?;
+    }
+    // If nobody reads the chart any more, the crossing goes on, and the log is complete.
+    let mut reads = true;
+    let (outcome, log) = demo::run(&options, &mut |record| {
+        if shows_chart && reads {
+            reads = chart.lines(record).iter().all(|line| print(line).is_ok());
+        }
+    })
+    .map_err(Failure::input)?;
+    if let (Some(file), Some(path)) = (&mut log_file, &arguments.log) {
+        std::io::Write::write_all(file, &log)
+            .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+    }
+    if arguments.json {
+        print_json(&outcome)?;
+    } else {
+        report(&outcome)?;
+    }
+    if outcome.succeeded() {
+        Ok(())
+    } else {
+        Err(Failure::Wrong)
+    }
+}
+
+fn create(path: &std::path::Path) -> Result<std::fs::File, Failure> {
+    std::fs::File::create(path)
+        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+}
+
+fn introduce(options: &Options) -> Result<(), Failure> {
+    // Both maneuvers of the crossing as they are planned, and half a second around them.
+    let seconds = 26.0 / options.time_scale + 1.5;
+    print(format_args!(
+        "A pedestrian wants to cross. {} and {} coordinate over UDP on 127.0.0.1:{} and :{}.\n\
+         They move {} times as fast as real: about {seconds:.0} s per crossing.\n",
+        ARI.0,
+        GO2.0,
+        options.port,
+        options.port + 1,
+        options.time_scale,
+    ))
+}
+
+fn report(outcome: &Outcome) -> Result<(), Failure> {
+    print("")?;
+    print(table(&outcome.maneuvers))?;
+    print(
+        "T_neg: from the leader's command to its acknowledgement, on loopback; the paper's went over \
+         IEEE 802.11p.\nT_exec: simulated motion, in the robots' own time. T_TMCT = T_neg + T_exec. \
+         Mean ± standard deviation.\nWhere the paper's column is empty its figure is not known here.\n",
+    )?;
+    print(format_args!(
+        "{} of {} crossings completed{}; in the end {}.",
+        outcome.crossings,
+        outcome.trials,
+        if outcome.retries > 0 {
+            format!(", {} begun again", outcome.retries)
+        } else {
+            String::new()
+        },
+        outcome
+            .final_states
+            .iter()
+            .map(|(robot, state)| format!("{robot} is {state}"))
+            .collect::<Vec<_>>()
+            .join(", "),
+    ))?;
+    for (robot, counters) in &outcome.counters {
+        let causes: Vec<_> = counters
+            .iter()
+            .map(|(cause, n)| format!("{cause} {n}"))
+            .collect();
+        if !causes.is_empty() {
+            print(format_args!(
+                "What came to nothing at {robot}: {}.",
+                causes.join(", ")
+            ))?;
+        }
+    }
+    match (&outcome.trace, &outcome.trace_error) {
+        (Some(trace), _) => print(format_args!(
+            "Log: {} steps of {} robots, replayed through the transition function: every step was one.",
+            trace.steps, trace.robots
+        )),
+        (None, error) => print(format_args!(
+            "Log: NOT what the transition function does: {}",
+            error.as_deref().unwrap_or_default()
+        )),
+    }
+}
+
+fn table(summaries: &[Summary]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header([
+        "maneuver",
+        "completed",
+        "T_neg [s]",
+        "T_exec [s]",
+        "T_TMCT [s]",
+        "paper T_neg [s]",
+        "paper T_exec [s]",
+    ]);
+    for summary in summaries {
+        let paper = &summary.paper;
+        table.add_row([
+            summary.task.clone(),
+            summary.trials.to_string(),
+            statistic(summary.t_neg_s, 4),
+            statistic(summary.t_exec_s, 2),
+            statistic(summary.t_tmct_s, 2),
+            paper.t_neg_s.map_or_else(String::new, |t| statistic(t, 3)),
+            paper
+                .t_exec_s
+                .map_or_else(String::new, |t| format!("{t:.1}")),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn statistic(statistic: Statistic, digits: usize) -> String {
+    format!("{:.digits$} ± {:.digits$}", statistic.mean, statistic.sd)
+}

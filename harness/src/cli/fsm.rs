@@ -1,0 +1,48 @@
+//! `crossguard fsm`.
+
+use crossguard_model_check::{fsm, universe};
+
+use super::{Failure, print, print_json};
+
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The form of the diagram.
+    #[arg(long, value_enum, default_value_t = Format::Mermaid)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// A stateDiagram-v2 of Mermaid.
+    Mermaid,
+    /// A digraph of Graphviz.
+    Dot,
+    /// The transitions as JSON.
+    Json,
+}
+
+#[derive(serde::Serialize)]
+struct Transition {
+    from: String,
+    to: String,
+    on: Vec<String>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let universe = universe::explore(&universe::config());
+    match arguments.format {
+        Format::Mermaid => print(fsm::diagram(&universe, fsm::Format::Mermaid).trim_end()),
+        Format::Dot => print(fsm::diagram(&universe, fsm::Format::Dot).trim_end()),
+        Format::Json => {
+            let transitions = universe
+                .edges
+                .iter()
+                .map(|((from, to), labels)| Transition {
+                    from: fsm::name(*from),
+                    to: fsm::name(*to),
+                    on: labels.iter().cloned().collect(),
+                });
+            print_json(&transitions.collect::<Vec<_>>())
+        }
+    }
+}

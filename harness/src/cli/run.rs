@@ -1,0 +1,331 @@
+//! `crossguard run`.
+
+use std::collections::VecDeque;
+use std::io::{BufRead, IsTerminal};
+use std::net::SocketAddrV4;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::time::{Duration, Instant};
+
+use crossguard_harness::application::{Application, Plan};
+use crossguard_harness::body::Body;
+use crossguard_harness::boot;
+use crossguard_harness::operator::{self, HELP, Line};
+use crossguard_harness::robot_file::RobotFile;
+use crossguard_harness::runtime::{Clock, Order, Running, Setup};
+use crossguard_harness::trace::{self, Entry, Record};
+use crossguard_harness::transport::{Faults, Link, Lossy};
+use crossguard_harness::wire::Wire;
+use crossguard_protocol::{Input, Output, Robot, State};
+
+use super::{Failure, print};
+
+/// How long the loop waits before it looks at the other things.
+const TICK: Duration = Duration::from_millis(20);
+
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct Arguments {
+    /// The robot's configuration.
+    #[arg(long, value_name = "FILE")]
+    config: PathBuf,
+    /// Send to and listen on this multicast group instead of the configured link.
+    #[arg(long, value_name = "GROUP:PORT", requires = "interface")]
+    multicast: Option<SocketAddrV4>,
+    /// The interface of the multicast group.
+    #[arg(long, value_name = "NAME", requires = "multicast")]
+    interface: Option<String>,
+    /// Probability with which the robot loses a datagram, from 0 to 1.
+    #[arg(long, default_value_t = 0.0)]
+    loss: f64,
+    /// Seed of the losses and of the robot's gait.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Write the log to this file, one JSON object per line.
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+    /// Print the log to standard output, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_HELP: &str = "Events are typed or piped in; type 'help' for a list. At the end of piped \
+input the robot goes on; 'quit' or Ctrl-C makes it leave its session in order and stop.";
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if !(0.0..=1.0).contains(&arguments.loss) {
+        return Err(Failure::Input(format!(
+            "--loss {}: from 0 to 1 is possible",
+            arguments.loss
+        )));
+    }
+    let file = RobotFile::read(&arguments.config).map_err(Failure::input)?;
+    let link = match (&arguments.multicast, &arguments.interface) {
+        (Some(group), Some(interface)) => Link::Multicast {
+            group: *group,
+            interface: interface.clone(),
+        },
+        _ => file.link.clone(),
+    };
+    let (sender, receiver) = link.open().map_err(Failure::input)?;
+    let log_file = match &arguments.log {
+        Some(path) => Some(create(path)?),
+        None => None,
+    };
+    // The counter is taken last, when nothing else can go wrong, and before anything is sent.
+    let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
+    let body = Body::new(
+        file.build,
+        file.site,
+        file.place,
+        file.speed,
+        arguments.seed,
+    );
+    let plan = file.autopilot.then(|| Plan::crossing(file.site));
+    let (log, records) = sync_channel(4_096);
+    let faults = Faults {
+        loss: arguments.loss,
+        seed: arguments.seed,
+    };
+    let running = Setup {
+        name: file.name.clone(),
+        station: file.station,
+        boot: boot.counter,
+        config: file.config.clone(),
+        wire: Wire {
+            identifiers: file.identifiers,
+        },
+        application: Application::new(body, plan),
+        sender: Box::new(sender),
+        receiver: Box::new(Lossy::new(receiver, faults)),
+        log,
+        clock: Clock::start(),
+    }
+    .start();
+    if !arguments.json {
+        let (name, station, counter) = (&file.name, file.station, boot.counter);
+        print(format_args!(
+            "{name} is station {station}, boot {counter}, on {}. Type 'help' for help.",
+            link.address()
+        ))?;
+    }
+    let outcome = Console {
+        file: &file,
+        is_json: arguments.json,
+        log_file,
+        robot: Robot::new(file.station, boot.counter),
+        pending: VecDeque::new(),
+        hold: None,
+        reads: true,
+    }
+    .attend(&running, &records, &lines());
+    running.order(Order::Stop);
+    running.wait();
+    outcome
+}
+
+fn create(path: &std::path::Path) -> Result<std::io::BufWriter<std::fs::File>, Failure> {
+    std::fs::File::create(path)
+        .map(std::io::BufWriter::new)
+        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+}
+
+/// What is typed, line by line, from a thread that ends with the input.
+fn lines() -> Receiver<String> {
+    let (send, lines) = sync_channel(64);
+    std::thread::spawn(move || {
+        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if send.send(line).is_err() {
+                return;
+            }
+        }
+    });
+    lines
+}
+
+/// The person at the robot: what was typed, and what is printed.
+struct Console<'a> {
+    file: &'a RobotFile,
+    is_json: bool,
+    log_file: Option<std::io::BufWriter<std::fs::File>>,
+    /// The robot as its newest record shows it.
+    robot: Robot,
+    pending: VecDeque<Line>,
+    hold: Option<Hold>,
+    /// Whether somebody still reads what is printed.
+    reads: bool,
+}
+
+/// What the next line waits for.
+enum Hold {
+    Time(Instant),
+    State(State, Instant),
+}
+
+impl Console<'_> {
+    fn attend(
+        &mut self,
+        running: &Running,
+        records: &Receiver<Record>,
+        lines: &Receiver<String>,
+    ) -> Result<(), Failure> {
+        let interrupted = interrupts();
+        let mut quits = false;
+        loop {
+            match records.recv_timeout(TICK) {
+                Ok(record) => self.record(&record)?,
+                Err(RecvTimeoutError::Timeout) => {}
+                // The robot has stopped, and everything that it said has been taken.
+                Err(RecvTimeoutError::Disconnected) => return self.close(),
+            }
+            while let Ok(text) = lines.try_recv() {
+                self.type_in(&text)?;
+            }
+            if !quits && (interrupted.load(Ordering::Relaxed) || self.next_line(running)?) {
+                quits = true;
+                running.order(Order::Stop);
+            }
+        }
+    }
+
+    fn record(&mut self, record: &Record) -> Result<(), Failure> {
+        if let Some(file) = &mut self.log_file {
+            trace::write(file, record).map_err(|error| Failure::Input(format!("log: {error}")))?;
+        }
+        if self.is_json {
+            if self.reads {
+                self.reads = trace::write(&mut std::io::stdout(), record).is_ok();
+            }
+        } else {
+            for line in self.texts(record) {
+                self.say(&line);
+            }
+        }
+        if let Entry::Step { state, .. } = &record.entry {
+            self.robot = (**state).clone();
+        }
+        Ok(())
+    }
+
+    /// A robot goes on also when nobody reads what it says.
+    fn say(&mut self, line: &str) {
+        if self.reads && !self.is_json {
+            self.reads = print(line).is_ok();
+        }
+    }
+
+    fn texts(&self, record: &Record) -> Vec<String> {
+        #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
+        let time = record.at_us as f64 / 1e6;
+        let mut texts = Vec::new();
+        match &record.entry {
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => {
+                for output in outputs.iter() {
+                    match (output, input) {
+                        (Output::Ignored(reason), Input::Local(event)) => {
+                            texts.push(format!("{event}: ignored, {reason}"));
+                        }
+                        (Output::SendRam | Output::Ignored(_), _) => {}
+                        (output, _) => texts.push(output.to_string()),
+                    }
+                }
+                if state.state() != self.robot.state() {
+                    texts.push(format!("now {:?} ({})", state.state(), state.role()));
+                }
+            }
+            Entry::Dropped { cause, detail, .. } if cause != "simulated loss" => {
+                texts.push(format!("dropped, {cause}: {detail}"));
+            }
+            Entry::Stopped { counters } => {
+                texts.push("stopped".to_owned());
+                let came_to_nothing = counters.iter().map(|(cause, n)| format!("{cause}: {n}"));
+                texts.extend(came_to_nothing);
+            }
+            _ => {}
+        }
+        texts
+            .iter()
+            .map(|text| format!("{time:>9.3} {}: {text}", record.robot))
+            .collect()
+    }
+
+    fn type_in(&mut self, text: &str) -> Result<(), Failure> {
+        match operator::parse(text, &self.file.site) {
+            Ok(line) => self.pending.push_back(line),
+            // A person tries again; a script is wrong from here on.
+            Err(error) if std::io::stdin().is_terminal() => self.say(&error.to_string()),
+            Err(error) => return Err(Failure::Input(format!("'{text}': {error}"))),
+        }
+        Ok(())
+    }
+
+    /// Takes the next line up if nothing holds it back. Whether it is to quit.
+    fn next_line(&mut self, running: &Running) -> Result<bool, Failure> {
+        let now = Instant::now();
+        match self.hold {
+            Some(Hold::Time(until)) if now < until => return Ok(false),
+            Some(Hold::State(wanted, until)) if self.robot.state() != wanted => {
+                if now < until {
+                    return Ok(false);
+                }
+                let found = self.robot.state();
+                self.say(&format!(
+                    "{wanted:?} was not reached in time; the state is {found:?}"
+                ));
+                return Err(Failure::Wrong);
+            }
+            _ => self.hold = None,
+        }
+        match self.pending.pop_front() {
+            Some(Line::Order(tell)) => running.order(tell.into()),
+            Some(Line::Wait(time)) => self.hold = Some(Hold::Time(now + time)),
+            Some(Line::Until(state, time)) => self.hold = Some(Hold::State(state, now + time)),
+            Some(Line::Status) => self.say(&status(&self.robot)),
+            Some(Line::Help) => self.say(HELP),
+            Some(Line::Quit) => return Ok(true),
+            Some(Line::Blank) | None => {}
+        }
+        Ok(false)
+    }
+
+    fn close(&mut self) -> Result<(), Failure> {
+        match &mut self.log_file {
+            Some(file) => {
+                std::io::Write::flush(file).map_err(|error| Failure::Input(format!("log: {error}")))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+fn status(robot: &Robot) -> String {
+    let session = robot
+        .session()
+        .map_or_else(String::new, |session| format!(", session {session}"));
+    let (state, role, availability) = (robot.state(), robot.role(), robot.availability());
+    format!(
+        "{state:?}, {role}, {availability}{session}; says: {}",
+        robot.ram()
+    )
+}
+
+/// Set when the process is told to stop.
+fn interrupts() -> Arc<AtomicBool> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&interrupted);
+    // A second Ctrl-C should still end a process that does not stop by itself.
+    let handler = move || {
+        if set.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    // It can only fail when there is a handler already, and there is none.
+    let _ = ctrlc::set_handler(handler);
+    interrupted
+}

@@ -1,0 +1,107 @@
+//! Every message and input that came to nothing, counted under a named cause.
+
+use std::collections::BTreeMap;
+
+use crossguard_codec::{DecodeError, Fault, ViewError};
+use crossguard_protocol::Ignored;
+use serde::Serialize;
+
+/// Why something came to nothing.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Cause {
+    /// A datagram is not a message.
+    Undecodable(&'static str),
+    /// A message contradicts itself.
+    Contradictory(&'static str),
+    /// The transition function ignored an input.
+    Ignored(Ignored),
+    /// A datagram arrived while the inbox was full.
+    InboxFull,
+    /// The fault layer dropped a datagram on purpose.
+    SimulatedLoss,
+    /// The operating system did not take a datagram.
+    NotSent,
+    /// The operating system gave no datagrams any more.
+    LinkFailed,
+    /// The log's reader was too slow.
+    LogFull,
+}
+
+impl Cause {
+    /// The cause's name: layer and reason.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::Undecodable(why) => format!("undecodable: {why}"),
+            Self::Contradictory(why) => format!("contradictory: {why}"),
+            // Not which robot it was about; that is in the log.
+            Self::Ignored(Ignored::NotEngaged(..)) => "ignored: not engaged".to_owned(),
+            Self::Ignored(why) => format!("ignored: {why}"),
+            Self::InboxFull => "inbox full".to_owned(),
+            Self::SimulatedLoss => "simulated loss".to_owned(),
+            Self::NotSent => "not sent".to_owned(),
+            Self::LinkFailed => "link failed".to_owned(),
+            Self::LogFull => "log full".to_owned(),
+        }
+    }
+}
+
+impl From<&DecodeError> for Cause {
+    fn from(error: &DecodeError) -> Self {
+        Self::Undecodable(match error {
+            DecodeError::TooShort { .. } => "too short",
+            DecodeError::TooLong { .. } => "too long",
+            DecodeError::MessageId { .. } => "unknown messageId",
+            DecodeError::ProtocolVersion { .. } => "unknown protocolVersion",
+            DecodeError::TrailingOctets { .. } => "trailing octets",
+            DecodeError::NotCanonical { .. } => "not canonical",
+            DecodeError::Rule(_) => "broken rule",
+            DecodeError::Malformed { fault, .. } => match fault {
+                Fault::Truncated => "truncated",
+                Fault::Value { .. } => "value out of range",
+                Fault::Size { .. } | Fault::BeyondRoot => "size out of range",
+                Fault::UnknownAlternative => "unknown alternative",
+                Fault::Padding => "padding not zero",
+                _ => "malformed extension",
+            },
+            _ => "other",
+        })
+    }
+}
+
+impl From<&ViewError> for Cause {
+    fn from(error: &ViewError) -> Self {
+        Self::Contradictory(match error {
+            ViewError::NotOwnSession { .. } => "leads a session that is not its own",
+            ViewError::OwnSession(_) => "follows in its own session",
+            ViewError::HelpStatus { .. } => "helpStatus does not fit the role",
+            ViewError::TaskProgression { .. } => "taskProgression does not fit the report",
+            ViewError::NamedTwice(_) | ViewError::OwnFollower(_) => "impossible followers",
+            ViewError::FarewellToPresent(_) => "farewell to the present session",
+            _ => "other",
+        })
+    }
+}
+
+/// How often each cause occurred, by its name.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Counters(BTreeMap<String, u64>);
+
+impl Counters {
+    /// Counts one occurrence.
+    pub fn count(&mut self, cause: Cause) {
+        *self.0.entry(cause.name()).or_default() += 1;
+    }
+
+    /// How often `cause` occurred.
+    #[must_use]
+    pub fn of(&self, cause: Cause) -> u64 {
+        self.0.get(&cause.name()).copied().unwrap_or_default()
+    }
+
+    /// The names of the causes that occurred, with how often.
+    #[must_use]
+    pub const fn by_name(&self) -> &BTreeMap<String, u64> {
+        &self.0
+    }
+}

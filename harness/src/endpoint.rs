@@ -1,0 +1,413 @@
+//! One robot's endpoint: the transition function joined to the wire and to generation rules.
+//!
+//! It does no input or output and reads no clock. Whoever drives it says what time it is, hands it
+//! datagrams and events, and carries out the effects in order:
+//!
+//! ```text
+//!  datagram ──► wire ──► inputs ─┐                    ┌─► transmit octets
+//!  event ────────────────────────┼─► Robot::step ─────┼─► act (start, stop, corridor, notice)
+//!  time passes ──────────────────┘                    └─► stepped (for the log)
+//! ```
+
+use std::collections::BTreeMap;
+
+use crossguard_codec::si::generation_delta_time;
+use crossguard_codec::{ControlMode, RobotState, TaskParameters, TaskProgression};
+use crossguard_protocol::{
+    Availability, Config, CorridorClosure, Event, FallbackPolicy, Ignored, Input, Maneuver, Millis,
+    Notice, Output, Outputs, Rmcm, Robot, State, StationId, StopReason, TaskType, Unavailability,
+};
+
+use crate::counters::{Cause, Counters};
+use crate::generation::{Generation, INTERVAL_MIN_MS, Trigger};
+use crate::wire::{Heard, MessageKind, Wire};
+
+/// What time it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Moment {
+    /// Milliseconds since any fixed moment, on a clock that never goes back.
+    pub now_ms: u64,
+    /// `TimestampIts`: milliseconds since 2004, leap seconds counted.
+    pub timestamp_its: u64,
+}
+
+/// What an endpoint is told.
+#[derive(Clone, Copy, Debug)]
+pub enum Stimulus<'a> {
+    /// A datagram was received.
+    Datagram(&'a [u8]),
+    /// The application tells an event.
+    Event(Event),
+    /// The application commands a maneuver.
+    Order {
+        /// Who is to do it.
+        follower: StationId,
+        /// What.
+        task: TaskType,
+        /// Where and how.
+        parameters: TaskParameters,
+    },
+    /// Nothing but that time has passed.
+    Time,
+}
+
+/// What an endpoint wants to be done.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// The transition function took a step; for the log.
+    Stepped {
+        /// What it took in.
+        input: Input,
+        /// What it put out.
+        outputs: Box<Outputs>,
+        /// The state after it.
+        state: Box<Robot>,
+    },
+    /// A message was understood; for the log.
+    Heard {
+        /// Which message.
+        kind: MessageKind,
+        /// Who sent it.
+        from: StationId,
+        /// Its octets.
+        octets: Vec<u8>,
+    },
+    /// Send these octets.
+    Transmit {
+        /// Which message they are.
+        kind: MessageKind,
+        /// Why it is sent.
+        trigger: Trigger,
+        /// The message.
+        octets: Vec<u8>,
+    },
+    /// The application is to do something.
+    Act(Act),
+    /// A datagram came to nothing, or a message could not be sent.
+    Dropped {
+        /// Why.
+        cause: Cause,
+        /// What exactly.
+        detail: String,
+        /// The datagram.
+        octets: Vec<u8>,
+    },
+}
+
+/// What the application is to do or to know.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Act {
+    /// Start a maneuver with these parameters.
+    Start(Maneuver, TaskParameters),
+    /// Stop a maneuver.
+    Stop(Maneuver, StopReason),
+    /// Stop a maneuver by the policy of its task.
+    FallBack(Maneuver, FallbackPolicy),
+    /// Let the pedestrian cross.
+    OpenCorridor,
+    /// Hold the pedestrian back.
+    CloseCorridor(CorridorClosure),
+    /// Keep the pseudonym, or let it change.
+    LockIdentity(bool),
+    /// Know this.
+    Notice(Notice),
+    /// Know that the event that was told had no effect.
+    Ignored(Event, Ignored),
+}
+
+/// One robot's endpoint.
+#[derive(Clone, Debug)]
+pub struct Endpoint {
+    robot: Robot,
+    config: Config,
+    wire: Wire,
+    /// Until when the robot has been told that time passed.
+    told_ms: u64,
+    generation: Generation,
+    /// Parameters of each follower's newest command, for its repetition.
+    orders: BTreeMap<StationId, TaskParameters>,
+    counters: Counters,
+}
+
+impl Endpoint {
+    /// The endpoint of a robot that has just booted, at `now_ms`.
+    #[must_use]
+    pub fn new(robot: Robot, config: Config, wire: Wire, now_ms: u64) -> Self {
+        Self {
+            robot,
+            config,
+            wire,
+            told_ms: now_ms,
+            generation: Generation::default(),
+            orders: BTreeMap::new(),
+            counters: Counters::default(),
+        }
+    }
+
+    /// The protocol state.
+    #[must_use]
+    pub const fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// The configuration.
+    #[must_use]
+    pub const fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// What came to nothing so far.
+    #[must_use]
+    pub const fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Counts something that came to nothing outside of the endpoint.
+    pub fn count(&mut self, cause: Cause) {
+        self.counters.count(cause);
+    }
+
+    /// When the endpoint must be told at the latest that time has passed, in ms on its clock.
+    #[must_use]
+    pub fn next_wakeup_ms(&self) -> u64 {
+        let by_protocol = self
+            .robot
+            .next_due()
+            .map(|due| self.told_ms + u64::from(due.0));
+        let by_generation = self.told_ms + INTERVAL_MIN_MS;
+        match self.robot.next_ram() {
+            Some(_) => by_protocol.unwrap_or(by_generation),
+            None => by_protocol.map_or(by_generation, |due| due.min(by_generation)),
+        }
+    }
+
+    /// Takes in what happened at `moment` to a robot in `state`; the effects, in order.
+    pub fn handle(
+        &mut self,
+        moment: Moment,
+        state: &RobotState,
+        stimulus: Stimulus<'_>,
+    ) -> Vec<Effect> {
+        let mut turn = Turn {
+            moment,
+            state: self.complete(state),
+            effects: Vec::new(),
+        };
+        self.elapse(&mut turn);
+        match stimulus {
+            Stimulus::Datagram(octets) => self.hear(&mut turn, octets),
+            Stimulus::Event(event) => self.tell(&mut turn, event),
+            Stimulus::Order {
+                follower,
+                task,
+                parameters,
+            } => {
+                self.order(&mut turn, follower, task, parameters);
+            }
+            Stimulus::Time => {}
+        }
+        self.generate(&mut turn);
+        turn.effects
+    }
+
+    /// The application's state, with what the protocol knows better.
+    fn complete(&self, state: &RobotState) -> RobotState {
+        let mut state = state.clone();
+        state.task_progression = match self.robot.state() {
+            State::ManeuverExecuting => TaskProgression::Executing,
+            _ => TaskProgression::Idle,
+        };
+        if let Availability::Unavailable(reason) = self.robot.availability() {
+            state.control_mode = match reason {
+                Unavailability::Teleoperated => ControlMode::Teleoperated,
+                Unavailability::EmergencyStop => ControlMode::EmergencyStop,
+                Unavailability::LocalFault => ControlMode::Fault,
+                Unavailability::LowBattery | Unavailability::NotSafe => state.control_mode,
+            };
+        }
+        if let Some(slow) = &mut state.slow {
+            slow.supported_tasks = self.config.settings().capabilities;
+        }
+        state
+    }
+
+    /// Tells the robot how much time has passed since it was told the last time.
+    fn elapse(&mut self, turn: &mut Turn) {
+        let elapsed = turn.moment.now_ms.saturating_sub(self.told_ms);
+        if elapsed == 0 {
+            return;
+        }
+        self.told_ms = turn.moment.now_ms;
+        let elapsed = u32::try_from(elapsed).unwrap_or(u32::MAX);
+        self.step(turn, Input::Elapsed(Millis(elapsed)), None);
+    }
+
+    fn hear(&mut self, turn: &mut Turn, octets: &[u8]) {
+        match self.wire.hear(self.robot.station(), &turn.state, octets) {
+            Ok(Heard {
+                kind,
+                from,
+                inputs,
+                parameters,
+                ..
+            }) => {
+                turn.effects.push(Effect::Heard {
+                    kind,
+                    from,
+                    octets: octets.to_vec(),
+                });
+                for input in inputs {
+                    self.step(turn, input, parameters);
+                }
+            }
+            Err(unheard) => self.drop(
+                turn,
+                (&unheard).into(),
+                unheard.to_string(),
+                octets.to_vec(),
+            ),
+        }
+    }
+
+    fn tell(&mut self, turn: &mut Turn, event: Event) {
+        let outputs = self.step(turn, Input::Local(event), None);
+        if let Some(reason) = outputs.ignored() {
+            turn.effects.push(Effect::Act(Act::Ignored(event, reason)));
+        }
+    }
+
+    fn order(
+        &mut self,
+        turn: &mut Turn,
+        follower: StationId,
+        task: TaskType,
+        parameters: TaskParameters,
+    ) {
+        let before = self.orders.insert(follower, parameters);
+        let event = Event::CommandManeuver { follower, task };
+        self.tell(turn, event);
+        let is_ignored = matches!(turn.effects.last(), Some(Effect::Act(Act::Ignored(ignored, _))) if *ignored == event);
+        if is_ignored && let Some(before) = before {
+            // The command that is outstanding keeps its own parameters.
+            self.orders.insert(follower, before);
+        }
+    }
+
+    /// A step of the transition function, and what follows from it. `parameters` are those of the
+    /// command that `input` may be.
+    fn step(
+        &mut self,
+        turn: &mut Turn,
+        input: Input,
+        parameters: Option<TaskParameters>,
+    ) -> Outputs {
+        let outputs = self.robot.step(&self.config, input);
+        let state = Box::new(self.robot.clone());
+        turn.effects.push(Effect::Stepped {
+            input,
+            outputs: Box::new(outputs),
+            state,
+        });
+        for output in outputs.iter() {
+            match *output {
+                Output::SendRam => self.send_ram(turn, Trigger::Protocol),
+                Output::SendRmcm(rmcm) => self.send_rmcm(turn, rmcm),
+                Output::Ignored(reason) => self.counters.count(Cause::Ignored(reason)),
+                output => {
+                    let act = act(output, parameters.unwrap_or_default());
+                    turn.effects.extend(act.map(Effect::Act));
+                }
+            }
+        }
+        outputs
+    }
+
+    fn send_ram(&mut self, turn: &mut Turn, trigger: Trigger) {
+        let now_ms = turn.moment.now_ms;
+        let low_frequency = self.generation.low_frequency_due(now_ms);
+        let octets = self.wire.ram(
+            &turn.state,
+            &self.robot.ram(),
+            self.robot.availability(),
+            turn.generation_delta_time(),
+            low_frequency,
+        );
+        self.generation.sent(now_ms, &turn.state, low_frequency);
+        self.transmit(turn, MessageKind::Ram, trigger, octets);
+    }
+
+    fn send_rmcm(&mut self, turn: &mut Turn, rmcm: Rmcm) {
+        let time = turn.generation_delta_time();
+        let octets = match rmcm {
+            Rmcm::Command(command) => {
+                let parameters = self.orders.get(&command.to).copied().unwrap_or_default();
+                self.wire.command(&turn.state, command, parameters, time)
+            }
+            Rmcm::Answer(answer) => self.wire.answer(&self.complete(&turn.state), answer, time),
+        };
+        self.transmit(turn, MessageKind::Rmcm, Trigger::Protocol, octets);
+    }
+
+    fn transmit(
+        &mut self,
+        turn: &mut Turn,
+        kind: MessageKind,
+        trigger: Trigger,
+        octets: Result<Vec<u8>, crate::wire::Unsendable>,
+    ) {
+        match octets {
+            Ok(octets) => turn.effects.push(Effect::Transmit {
+                kind,
+                trigger,
+                octets,
+            }),
+            Err(error) => self.drop(turn, Cause::NotSent, error.to_string(), Vec::new()),
+        }
+    }
+
+    fn drop(&mut self, turn: &mut Turn, cause: Cause, detail: String, octets: Vec<u8>) {
+        self.counters.count(cause);
+        turn.effects.push(Effect::Dropped {
+            cause,
+            detail,
+            octets,
+        });
+    }
+
+    /// Outside of a session, sends a RAM when the generation rules say so.
+    fn generate(&mut self, turn: &mut Turn) {
+        if self.robot.next_ram().is_none()
+            && let Some(trigger) = self.generation.trigger(turn.moment.now_ms, &turn.state)
+        {
+            self.send_ram(turn, trigger);
+        }
+    }
+}
+
+/// What one call of [`Endpoint::handle`] works with.
+struct Turn {
+    moment: Moment,
+    state: RobotState,
+    effects: Vec<Effect>,
+}
+
+impl Turn {
+    fn generation_delta_time(&self) -> u16 {
+        generation_delta_time(self.moment.timestamp_its)
+    }
+}
+
+/// What an output means to the application.
+fn act(output: Output, parameters: TaskParameters) -> Option<Act> {
+    Some(match output {
+        Output::StartManeuver(maneuver) => Act::Start(maneuver, parameters),
+        Output::StopManeuver(maneuver, why) => Act::Stop(maneuver, why),
+        Output::FallBack(maneuver, policy) => Act::FallBack(maneuver, policy),
+        Output::CorridorOpened => Act::OpenCorridor,
+        Output::CorridorClosed(why) => Act::CloseCorridor(why),
+        Output::LockIdentity => Act::LockIdentity(true),
+        Output::UnlockIdentity => Act::LockIdentity(false),
+        Output::Notify(notice) => Act::Notice(notice),
+        Output::SendRam | Output::SendRmcm(_) | Output::Ignored(_) => return None,
+    })
+}

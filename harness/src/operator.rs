@@ -1,0 +1,383 @@
+//! What a person types to a running robot.
+
+use std::time::Duration;
+
+use crossguard_codec::TaskParameters;
+use crossguard_protocol::{
+    Availability, Event, HelpRequest, MAX_FOLLOWERS, State, StationId, TaskSet, TaskType,
+    Unavailability, Urgency,
+};
+
+use crate::application::Wish;
+use crate::runtime::Order;
+use crate::site::{Place, Site};
+
+/// A line that was typed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Line {
+    /// Tell the robot this.
+    Order(Tell),
+    /// Wait so long before the next line.
+    Wait(Duration),
+    /// Wait until the robot is in this state, but no longer than this.
+    Until(State, Duration),
+    /// Print what the robot is doing.
+    Status,
+    /// Print what can be typed.
+    Help,
+    /// Leave the session in order and stop.
+    Quit,
+    /// Nothing but a comment.
+    Blank,
+}
+
+/// What the robot is told.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Tell {
+    /// A wish of its application.
+    Wish(Wish),
+    /// The maneuver that runs is finished, well or not.
+    Finish(bool),
+}
+
+impl From<Tell> for Order {
+    fn from(tell: Tell) -> Self {
+        match tell {
+            Tell::Wish(wish) => Self::Wish(wish),
+            Tell::Finish(well) => Self::Finish { well },
+        }
+    }
+}
+
+/// What can be typed.
+pub const HELP: &str = "\
+detect [FOLLOWERS] [low|medium|high|emergency] [TASK ...]
+                       a pedestrian needs help; 1 follower for initialPos and move by default
+order STATION TASK [EAST NORTH [SPEED]]
+                       have a follower do a maneuver, in metres and m/s
+done | fail            the maneuver that runs is finished, or cannot be
+open | close           open or close the corridor
+task-completed         the pedestrian has crossed
+leave                  leave the session
+unavailable REASON     low-battery, teleoperated, emergency-stop, local-fault, not-safe
+available              take part again
+status                 what the robot is doing
+wait SECONDS           before the next line
+until STATE [SECONDS]  wait for idle, help-requested, role-established or maneuver-executing
+help                   this
+quit                   leave the session and stop
+TASK is initialPos, move, block, or task3 to task15. What follows a # is a comment.";
+
+/// Why a line means nothing.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Misunderstood {
+    /// There is no such command.
+    #[error("no command '{0}'; type 'help'")]
+    Command(String),
+    /// A word is missing.
+    #[error("'{command}' wants {wanted}")]
+    Missing {
+        /// The command.
+        command: &'static str,
+        /// What it wants.
+        wanted: &'static str,
+    },
+    /// A word means nothing here.
+    #[error("'{word}' is not {wanted}")]
+    Word {
+        /// The word.
+        word: String,
+        /// What was wanted in its place.
+        wanted: &'static str,
+    },
+    /// There are more words than the command takes.
+    #[error("'{0}' is one word too many")]
+    Surplus(String),
+}
+
+/// Understands a line. Places in it are on `site`.
+///
+/// # Errors
+/// Why it means nothing.
+pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
+    let text = text.split('#').next().unwrap_or_default();
+    let mut words = text.split_whitespace();
+    let Some(command) = words.next() else {
+        return Ok(Line::Blank);
+    };
+    let rest: Vec<&str> = words.collect();
+    let tell = |event| Ok(Line::Order(Tell::Wish(Wish::Tell(event))));
+    match (command, rest.as_slice()) {
+        ("detect", words) => tell(Event::PedestrianDetected(request(words)?)),
+        ("order", words) => order(words, site),
+        ("done", []) => Ok(Line::Order(Tell::Finish(true))),
+        ("fail", []) => Ok(Line::Order(Tell::Finish(false))),
+        ("open", []) => tell(Event::OpenCorridor),
+        ("close", []) => tell(Event::CloseCorridor),
+        ("task-completed", []) => tell(Event::TaskCompleted),
+        ("leave", []) => tell(Event::LeaveRequested),
+        ("available", []) => tell(Event::AvailabilityChanged(Availability::Available)),
+        ("unavailable", [reason]) => {
+            let reason = Availability::Unavailable(unavailability(reason)?);
+            tell(Event::AvailabilityChanged(reason))
+        }
+        ("unavailable", []) => Err(Misunderstood::Missing {
+            command: "unavailable",
+            wanted: "a reason",
+        }),
+        ("wait", [time]) => Ok(Line::Wait(seconds(time)?)),
+        ("wait", []) => Err(Misunderstood::Missing {
+            command: "wait",
+            wanted: "seconds",
+        }),
+        ("until", [name]) => Ok(Line::Until(state(name)?, Duration::from_mins(1))),
+        ("until", [name, time]) => Ok(Line::Until(state(name)?, seconds(time)?)),
+        ("until", []) => Err(Misunderstood::Missing {
+            command: "until",
+            wanted: "a state",
+        }),
+        ("status", []) => Ok(Line::Status),
+        ("help", []) => Ok(Line::Help),
+        ("quit", []) => Ok(Line::Quit),
+        (
+            "done" | "fail" | "open" | "close" | "task-completed" | "leave" | "available"
+            | "unavailable" | "wait" | "until" | "status" | "help" | "quit",
+            [.., last],
+        ) => Err(Misunderstood::Surplus((*last).to_owned())),
+        (other, _) => Err(Misunderstood::Command(other.to_owned())),
+    }
+}
+
+fn request(words: &[&str]) -> Result<HelpRequest, Misunderstood> {
+    let mut request = HelpRequest {
+        urgency: Urgency::Medium,
+        followers: 1,
+        tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]),
+    };
+    let mut tasks = Vec::new();
+    for (i, word) in words.iter().enumerate() {
+        if i == 0
+            && let Ok(followers) = word.parse()
+        {
+            if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
+                return Err(wrong(word, "a number of followers from 1 to 4"));
+            }
+            request.followers = followers;
+        } else if let Some(urgency) = urgency(word) {
+            request.urgency = urgency;
+        } else {
+            tasks.push(task(word)?);
+        }
+    }
+    if !tasks.is_empty() {
+        request.tasks = TaskSet::of(&tasks);
+    }
+    Ok(request)
+}
+
+fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
+    let [station, name, rest @ ..] = words else {
+        return Err(Misunderstood::Missing {
+            command: "order",
+            wanted: "a station and a task",
+        });
+    };
+    let follower = StationId(
+        station
+            .parse()
+            .map_err(|_| wrong(station, "a station id"))?,
+    );
+    let metres = |word: &str| number(word).ok_or_else(|| wrong(word, "a number of metres"));
+    let (target, maximum_speed) = match rest {
+        [] => (None, None),
+        [east, north] => (Some(Place::new(metres(east)?, metres(north)?)), None),
+        [east, north, speed] => {
+            let target = Place::new(metres(east)?, metres(north)?);
+            let speed = number(speed).filter(|speed| *speed > 0.0);
+            (
+                Some(target),
+                Some(speed.ok_or_else(|| wrong(rest[2], "a speed in m/s"))?),
+            )
+        }
+        [only] => return Err(wrong(only, "a place: two numbers of metres are")),
+        [.., last] => return Err(Misunderstood::Surplus((*last).to_owned())),
+    };
+    let target = target.map(|place| site.target(place));
+    let parameters = TaskParameters {
+        target,
+        maximum_speed,
+        ..TaskParameters::default()
+    };
+    Ok(Line::Order(Tell::Wish(Wish::Order {
+        follower,
+        task: task(name)?,
+        parameters,
+    })))
+}
+
+fn wrong(word: &str, wanted: &'static str) -> Misunderstood {
+    Misunderstood::Word {
+        word: word.to_owned(),
+        wanted,
+    }
+}
+
+fn number(word: &str) -> Option<f64> {
+    word.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+fn seconds(word: &str) -> Result<Duration, Misunderstood> {
+    let seconds = number(word).filter(|seconds| (0.0..=86_400.0).contains(seconds));
+    seconds
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| wrong(word, "a number of seconds up to a day"))
+}
+
+fn task(name: &str) -> Result<TaskType, Misunderstood> {
+    let task = TaskSet(u16::MAX)
+        .iter()
+        .find(|task| task.to_string() == name);
+    task.ok_or_else(|| wrong(name, "a task: initialPos, move, block, or task3 to task15"))
+}
+
+fn urgency(name: &str) -> Option<Urgency> {
+    let all = [
+        Urgency::Low,
+        Urgency::Medium,
+        Urgency::High,
+        Urgency::Emergency,
+    ];
+    all.into_iter().find(|urgency| urgency.to_string() == name)
+}
+
+fn unavailability(name: &str) -> Result<Unavailability, Misunderstood> {
+    let all = [
+        Unavailability::LowBattery,
+        Unavailability::Teleoperated,
+        Unavailability::EmergencyStop,
+        Unavailability::LocalFault,
+        Unavailability::NotSafe,
+    ];
+    let reason = all
+        .into_iter()
+        .find(|reason| reason.to_string().replace(' ', "-") == name);
+    reason.ok_or_else(|| wrong(name, "a reason to be unavailable; see 'help'"))
+}
+
+fn state(name: &str) -> Result<State, Misunderstood> {
+    match name {
+        "idle" => Ok(State::Idle),
+        "help-requested" => Ok(State::HelpRequested),
+        "role-established" => Ok(State::RoleEstablished),
+        "maneuver-executing" => Ok(State::ManeuverExecuting),
+        _ => Err(wrong(name, "a state; see 'help'")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Line, String> {
+        parse(text, &Site::default()).map_err(|error| error.to_string())
+    }
+
+    fn told(text: &str) -> Event {
+        match parsed(text) {
+            Ok(Line::Order(Tell::Wish(Wish::Tell(event)))) => event,
+            other => panic!("{text}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_detection_has_defaults_and_takes_what_is_said() {
+        let Event::PedestrianDetected(plain) = told("detect") else {
+            panic!()
+        };
+        assert_eq!((plain.followers, plain.urgency), (1, Urgency::Medium));
+        let Event::PedestrianDetected(full) = told("detect 2 high block # at school") else {
+            panic!()
+        };
+        assert_eq!((full.followers, full.urgency), (2, Urgency::High));
+        assert_eq!(full.tasks, TaskSet::of(&[TaskType::BLOCK]));
+    }
+
+    #[test]
+    fn an_order_may_lead_somewhere_at_some_speed() {
+        let Ok(Line::Order(Tell::Wish(Wish::Order {
+            follower,
+            task,
+            parameters,
+        }))) = parsed("order 2 move 1 8 0.4")
+        else {
+            panic!("not an order")
+        };
+        assert_eq!((follower, task), (StationId(2), TaskType::MOVE));
+        assert_eq!(parameters.maximum_speed, Some(0.4));
+        assert_eq!(
+            parameters.target,
+            Some(Site::default().target(Place::new(1.0, 8.0)))
+        );
+    }
+
+    #[test]
+    fn what_means_nothing_is_answered_with_what_would() {
+        for (text, answer) in [
+            ("fly", "no command 'fly'; type 'help'"),
+            ("unavailable", "'unavailable' wants a reason"),
+            (
+                "unavailable bored",
+                "'bored' is not a reason to be unavailable; see 'help'",
+            ),
+            ("detect 5", "'5' is not a number of followers from 1 to 4"),
+            (
+                "detect soon",
+                "'soon' is not a task: initialPos, move, block, or task3 to task15",
+            ),
+            ("order 2", "'order' wants a station and a task"),
+            ("order two move", "'two' is not a station id"),
+            (
+                "order 2 move 1",
+                "'1' is not a place: two numbers of metres are",
+            ),
+            ("order 2 move 1 8 -1", "'-1' is not a speed in m/s"),
+            ("wait long", "'long' is not a number of seconds up to a day"),
+            ("wait inf", "'inf' is not a number of seconds up to a day"),
+            ("until done", "'done' is not a state; see 'help'"),
+            ("quit now", "'now' is one word too many"),
+        ] {
+            assert_eq!(parsed(text), Err(answer.to_owned()), "{text}");
+        }
+    }
+
+    #[test]
+    fn comments_and_blank_lines_are_passed_over() {
+        for text in ["", "   ", "# nothing", "  # nothing"] {
+            assert_eq!(parsed(text), Ok(Line::Blank));
+        }
+    }
+
+    #[test]
+    fn everything_that_the_help_names_is_understood() {
+        for text in [
+            "detect 1 low move",
+            "order 1 block",
+            "done",
+            "fail",
+            "open",
+            "close",
+            "task-completed",
+            "leave",
+            "unavailable low-battery",
+            "available",
+            "status",
+            "wait 1",
+            "until idle 3",
+            "help",
+            "quit",
+        ] {
+            assert!(parsed(text).is_ok(), "{text}");
+            assert!(HELP.contains(text.split(' ').next().unwrap()), "{text}");
+        }
+    }
+}

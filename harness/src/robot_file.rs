@@ -1,0 +1,216 @@
+//! The configuration of one robot: a TOML file for `crossguard run`.
+
+use std::net::{SocketAddr, SocketAddrV4};
+use std::path::{Path, PathBuf};
+
+use crossguard_codec::{IdentifierClash, Identifiers};
+use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
+use serde::Deserialize;
+
+use crate::body::Build;
+use crate::site::{Place, Site};
+use crate::transport::Link;
+
+/// A robot's configuration, checked.
+#[derive(Clone, Debug)]
+pub struct RobotFile {
+    /// Its name.
+    pub name: String,
+    /// Its station id.
+    pub station: StationId,
+    /// What kind of robot it is.
+    pub build: Build,
+    /// Where its boot counter is kept.
+    pub boot_file: PathBuf,
+    /// Where it stands.
+    pub place: Place,
+    /// Where the origin of places is.
+    pub site: Site,
+    /// How many times as fast as real its simulated body moves.
+    pub speed: f64,
+    /// Whether it leads the crossing by itself once a pedestrian is detected.
+    pub autopilot: bool,
+    /// Its link.
+    pub link: Link,
+    /// The protocol's configuration.
+    pub config: Config,
+    /// What no standard has assigned.
+    pub identifiers: Identifiers,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    name: String,
+    station: u32,
+    build: Build,
+    boot_file: PathBuf,
+    #[serde(default)]
+    place: [f64; 2],
+    #[serde(default = "one")]
+    speed: f64,
+    #[serde(default)]
+    autopilot: bool,
+    #[serde(default)]
+    site: Option<SiteTable>,
+    link: LinkTable,
+    #[serde(default)]
+    protocol: Settings,
+    #[serde(default)]
+    identifiers: Identifiers,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SiteTable {
+    latitude: f64,
+    longitude: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LinkTable {
+    address: Option<SocketAddr>,
+    #[serde(default)]
+    peers: Vec<SocketAddr>,
+    multicast: Option<SocketAddrV4>,
+    interface: Option<String>,
+}
+
+/// Why a robot cannot be configured.
+#[derive(Debug, thiserror::Error)]
+pub enum RobotFileError {
+    /// The file cannot be read.
+    #[error("{}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// The text is no configuration.
+    #[error("{}: {cause}", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// What and where.
+        cause: Box<toml::de::Error>,
+    },
+    /// The text is a configuration that makes no sense.
+    #[error("{}: {cause}", path.display())]
+    Impossible {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: Impossibility,
+    },
+}
+
+/// What is wrong with a configuration.
+#[derive(Debug, thiserror::Error)]
+pub enum Impossibility {
+    /// Timers contradict each other.
+    #[error("[protocol] {0}")]
+    Settings(#[from] BrokenInequality),
+    /// Identifiers contradict each other.
+    #[error("[identifiers] {0}")]
+    Identifiers(#[from] IdentifierClash),
+    /// There is no link, or there are two.
+    #[error("[link] wants either 'address' and 'peers', or 'multicast' and 'interface'")]
+    Link,
+    /// A peer is not on the loopback interface.
+    #[error(
+        "[link] {0} is not a loopback address; to reach other machines, use 'multicast' and \
+         'interface'"
+    )]
+    NotLoopback(SocketAddr),
+    /// The body's time does not pass, or goes back.
+    #[error("speed is {0}: a number from 1 to 100 is wanted")]
+    Speed(f64),
+    /// A site that is not on earth.
+    #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
+    Site(f64, f64),
+}
+
+impl RobotFile {
+    /// Reads a configuration. Paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn read(path: &Path) -> Result<Self, RobotFileError> {
+        let owned = || path.to_owned();
+        let text = std::fs::read_to_string(path).map_err(|cause| RobotFileError::Unreadable {
+            path: owned(),
+            cause,
+        })?;
+        let file: Text = toml::from_str(&text).map_err(|cause| RobotFileError::Syntax {
+            path: owned(),
+            cause: Box::new(cause),
+        })?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        file.check(folder)
+            .map_err(|cause| RobotFileError::Impossible {
+                path: owned(),
+                cause,
+            })
+    }
+}
+
+impl Text {
+    fn check(self, folder: &Path) -> Result<RobotFile, Impossibility> {
+        if !(1.0..=100.0).contains(&self.speed) {
+            return Err(Impossibility::Speed(self.speed));
+        }
+        let site = self.site.map_or_else(Site::default, |site| Site {
+            latitude: site.latitude,
+            longitude: site.longitude,
+        });
+        if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
+            return Err(Impossibility::Site(site.latitude, site.longitude));
+        }
+        self.identifiers.check()?;
+        Ok(RobotFile {
+            name: self.name,
+            station: StationId(self.station),
+            build: self.build,
+            boot_file: folder.join(self.boot_file),
+            place: Place::new(self.place[0], self.place[1]),
+            site,
+            speed: self.speed,
+            autopilot: self.autopilot,
+            link: self.link.check()?,
+            config: Config::new(self.protocol)?,
+            identifiers: self.identifiers,
+        })
+    }
+}
+
+impl LinkTable {
+    fn check(self) -> Result<Link, Impossibility> {
+        match self {
+            Self {
+                address: Some(address),
+                peers,
+                multicast: None,
+                interface: None,
+            } => {
+                let all = std::iter::once(&address).chain(&peers);
+                match all.copied().find(|address| !address.ip().is_loopback()) {
+                    Some(outside) => Err(Impossibility::NotLoopback(outside)),
+                    None => Ok(Link::Peers { address, peers }),
+                }
+            }
+            Self {
+                address: None,
+                peers,
+                multicast: Some(group),
+                interface: Some(interface),
+            } if peers.is_empty() => Ok(Link::Multicast { group, interface }),
+            _ => Err(Impossibility::Link),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! A street corner in metres, and where on earth it is.
+
+use crossguard_codec::{ConfidenceEllipse, Position, Target};
+
+/// A place in metres east and north of the site's origin.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Place {
+    /// Metres to the east.
+    pub east: f64,
+    /// Metres to the north.
+    pub north: f64,
+}
+
+impl Place {
+    /// The place so many metres east and north of the origin.
+    #[must_use]
+    pub const fn new(east: f64, north: f64) -> Self {
+        Self { east, north }
+    }
+
+    /// Distance in metres.
+    #[must_use]
+    pub fn distance(self, other: Self) -> f64 {
+        (other.east - self.east).hypot(other.north - self.north)
+    }
+
+    /// Direction in degrees clockwise from north; 0 towards itself.
+    #[must_use]
+    pub fn bearing(self, other: Self) -> f64 {
+        (other.east - self.east)
+            .atan2(other.north - self.north)
+            .to_degrees()
+            .rem_euclid(360.0)
+    }
+
+    /// The place `distance` metres from here on the way to `other`.
+    #[must_use]
+    pub fn towards(self, other: Self, distance: f64) -> Self {
+        let whole = self.distance(other);
+        if whole == 0.0 {
+            return other;
+        }
+        let part = distance / whole;
+        Self {
+            east: self.east + (other.east - self.east) * part,
+            north: self.north + (other.north - self.north) * part,
+        }
+    }
+}
+
+/// Where the origin of a site is, in degrees.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Site {
+    /// Latitude of the origin.
+    pub latitude: f64,
+    /// Longitude of the origin.
+    pub longitude: f64,
+}
+
+impl Default for Site {
+    /// A street corner in Karlsruhe.
+    fn default() -> Self {
+        Self {
+            latitude: 49.010_1,
+            longitude: 8.412_4,
+        }
+    }
+}
+
+/// Metres per degree of latitude, and of longitude at the equator, on a sphere; within 0.6 % of the
+/// ellipsoid, which is more than a simulated site needs.
+const METRES_PER_DEGREE: f64 = 111_195.0;
+
+impl Site {
+    /// Latitude and longitude of a place, in degrees.
+    #[must_use]
+    pub fn coordinates(&self, place: Place) -> (f64, f64) {
+        let latitude = self.latitude + place.north / METRES_PER_DEGREE;
+        let shrink = self.latitude.to_radians().cos();
+        (
+            latitude,
+            self.longitude + place.east / (METRES_PER_DEGREE * shrink),
+        )
+    }
+
+    /// The place at a latitude and longitude in degrees.
+    #[must_use]
+    pub fn place(&self, latitude: f64, longitude: f64) -> Place {
+        let shrink = self.latitude.to_radians().cos();
+        Place {
+            east: (longitude - self.longitude) * METRES_PER_DEGREE * shrink,
+            north: (latitude - self.latitude) * METRES_PER_DEGREE,
+        }
+    }
+
+    /// A place as a RAM tells it, known to 20 cm.
+    #[must_use]
+    pub fn position(&self, place: Place) -> Position {
+        let (latitude, longitude) = self.coordinates(place);
+        let ellipse = ConfidenceEllipse {
+            semi_major: 0.2,
+            semi_minor: 0.2,
+            orientation: 0.0,
+        };
+        Position {
+            ellipse: Some(ellipse),
+            ..Position::at(latitude, longitude)
+        }
+    }
+
+    /// A place as the target of a command.
+    #[must_use]
+    pub fn target(&self, place: Place) -> Target {
+        let (latitude, longitude) = self.coordinates(place);
+        Target::Position {
+            latitude,
+            longitude,
+            altitude: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_comes_back_from_its_coordinates() {
+        let site = Site::default();
+        let place = Place::new(12.5, -3.25);
+        let (latitude, longitude) = site.coordinates(place);
+        assert!(site.place(latitude, longitude).distance(place) < 1e-6);
+    }
+
+    #[test]
+    fn the_codec_measures_the_distances_of_the_site() {
+        let site = Site::default();
+        let (here, there) = (Place::new(0.0, 0.0), Place::new(30.0, 40.0));
+        let measured = crossguard_codec::distance(&site.position(here), &site.position(there));
+        assert!(
+            (f64::from(measured.0) / 10.0 - 50.0).abs() < 0.5,
+            "{measured:?}"
+        );
+    }
+
+    #[test]
+    fn bearings_go_clockwise_from_north() {
+        let origin = Place::default();
+        for (place, bearing) in [
+            (Place::new(0.0, 1.0), 0.0),
+            (Place::new(1.0, 0.0), 90.0),
+            (Place::new(0.0, -1.0), 180.0),
+            (Place::new(-1.0, 0.0), 270.0),
+        ] {
+            assert!((origin.bearing(place) - bearing).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! UDP: fan-out to peers on the loopback interface, or a multicast group on a named interface.
+
+use std::io::ErrorKind;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
+use std::time::Duration;
+
+use socket2::{Domain, InterfaceIndexOrAddress, Protocol, Socket, Type};
+
+use super::{Arrival, NotSent, Receiver, Sender};
+
+/// How long a receiver waits before it looks whether it should stop.
+const WAIT: Duration = Duration::from_millis(100);
+
+/// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
+const DATAGRAM_MAX: usize = 2_048;
+
+/// A robot's link to others.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Link {
+    /// A socket of its own, and each peer's.
+    Peers {
+        /// The robot's own address.
+        address: SocketAddr,
+        /// Those of the others.
+        peers: Vec<SocketAddr>,
+    },
+    /// A group that everybody has joined.
+    Multicast {
+        /// The group and its port.
+        group: SocketAddrV4,
+        /// Name of the interface, like `eth0`.
+        interface: String,
+    },
+}
+
+/// Why a link cannot be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum LinkError {
+    /// The address is taken.
+    #[error(
+        "{address} is in use; is another robot or demo running there? Choose another address or port"
+    )]
+    InUse {
+        /// The address.
+        address: SocketAddr,
+    },
+    /// The address cannot be used.
+    #[error("{address} cannot be used: {cause}")]
+    Unusable {
+        /// The address.
+        address: SocketAddr,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// The group is no multicast group.
+    #[error("{group} is not a multicast address; those go from 224.0.0.0 to 239.255.255.255")]
+    NotMulticast {
+        /// The address.
+        group: SocketAddrV4,
+    },
+    /// There is no such interface.
+    #[error("no interface '{name}' with an IPv4 address; there are: {known}")]
+    NoInterface {
+        /// The name.
+        name: String,
+        /// The names of those that there are.
+        known: String,
+    },
+}
+
+/// The sending half of a link.
+#[derive(Debug)]
+pub struct UdpSender {
+    socket: UdpSocket,
+    to: Vec<SocketAddr>,
+}
+
+/// The receiving half of a link.
+#[derive(Debug)]
+pub struct UdpReceiver {
+    socket: UdpSocket,
+    buffer: Box<[u8; DATAGRAM_MAX]>,
+}
+
+impl Link {
+    /// Opens the link.
+    ///
+    /// # Errors
+    /// Why it cannot be opened.
+    pub fn open(&self) -> Result<(UdpSender, UdpReceiver), LinkError> {
+        let (socket, to) = match self {
+            Self::Peers { address, peers } => (bind(*address)?, peers.clone()),
+            Self::Multicast { group, interface } => {
+                (join(*group, interface)?, vec![SocketAddr::V4(*group)])
+            }
+        };
+        let address = self.address();
+        let unusable = |cause| LinkError::Unusable { address, cause };
+        socket.set_read_timeout(Some(WAIT)).map_err(unusable)?;
+        let receiver = socket.try_clone().map_err(unusable)?;
+        Ok((
+            UdpSender { socket, to },
+            UdpReceiver {
+                socket: receiver,
+                buffer: Box::new([0; DATAGRAM_MAX]),
+            },
+        ))
+    }
+
+    /// The address that the link listens on.
+    #[must_use]
+    pub const fn address(&self) -> SocketAddr {
+        match self {
+            Self::Peers { address, .. } => *address,
+            Self::Multicast { group, .. } => SocketAddr::V4(*group),
+        }
+    }
+}
+
+fn open_error(address: SocketAddr) -> impl Fn(std::io::Error) -> LinkError {
+    move |cause| match cause.kind() {
+        ErrorKind::AddrInUse => LinkError::InUse { address },
+        _ => LinkError::Unusable { address, cause },
+    }
+}
+
+fn bind(address: SocketAddr) -> Result<UdpSocket, LinkError> {
+    UdpSocket::bind(address).map_err(open_error(address))
+}
+
+/// Joins a group so that several robots on one machine can be in it.
+fn join(group: SocketAddrV4, interface: &str) -> Result<UdpSocket, LinkError> {
+    if !group.ip().is_multicast() {
+        return Err(LinkError::NotMulticast { group });
+    }
+    let (index, source) = interface_of(interface)?;
+    let address = SocketAddr::V4(group);
+    let open = || -> std::io::Result<UdpSocket> {
+        let socket = Socket::new(Domain::IPV4, Type::DGRAM, Some(Protocol::UDP))?;
+        socket.set_reuse_address(true)?;
+        socket.bind(&address.into())?;
+        socket.join_multicast_v4_n(group.ip(), &InterfaceIndexOrAddress::Index(index))?;
+        socket.set_multicast_if_v4(&source)?;
+        socket.set_multicast_loop_v4(true)?;
+        // Single hop, like the radio.
+        socket.set_multicast_ttl_v4(1)?;
+        Ok(socket.into())
+    };
+    open().map_err(open_error(address))
+}
+
+fn interface_of(name: &str) -> Result<(u32, Ipv4Addr), LinkError> {
+    let interfaces = if_addrs::get_if_addrs().unwrap_or_default();
+    let ipv4 = interfaces
+        .iter()
+        .filter_map(|interface| match interface.ip() {
+            IpAddr::V4(address) => Some((interface, address)),
+            IpAddr::V6(_) => None,
+        });
+    let found = ipv4.clone().find(|(interface, _)| interface.name == name);
+    let known = || {
+        ipv4.map(|(interface, _)| interface.name.clone())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    match found.and_then(|(interface, address)| Some((interface.index?, address))) {
+        Some(found) => Ok(found),
+        None => Err(LinkError::NoInterface {
+            name: name.to_owned(),
+            known: known(),
+        }),
+    }
+}
+
+impl Sender for UdpSender {
+    fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
+        let failures = self
+            .to
+            .iter()
+            .filter_map(|to| self.socket.send_to(octets, to).err());
+        let (failed, cause) =
+            failures.fold((0, None), |(failed, _), cause| (failed + 1, Some(cause)));
+        match cause {
+            None => Ok(()),
+            Some(cause) => Err(NotSent {
+                failed,
+                receivers: self.to.len(),
+                cause,
+            }),
+        }
+    }
+}
+
+impl Receiver for UdpReceiver {
+    fn receive(&mut self) -> std::io::Result<Option<Arrival>> {
+        match self.socket.recv_from(&mut *self.buffer) {
+            Ok((length, _)) => Ok(Some(Arrival::Datagram(self.buffer[..length].to_vec()))),
+            // A peer that is gone answers with ICMP, which shows up as a refused connection.
+            Err(error)
+                if matches!(
+                    error.kind(),
+                    ErrorKind::WouldBlock
+                        | ErrorKind::TimedOut
+                        | ErrorKind::Interrupted
+                        | ErrorKind::ConnectionRefused
+                        | ErrorKind::ConnectionReset
+                ) =>
+            {
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn any_port() -> SocketAddr {
+        SocketAddr::from((Ipv4Addr::LOCALHOST, 0))
+    }
+
+    #[test]
+    fn a_datagram_reaches_every_peer() {
+        let (a, b) = (
+            UdpSocket::bind(any_port()).unwrap(),
+            UdpSocket::bind(any_port()).unwrap(),
+        );
+        let peers = vec![a.local_addr().unwrap(), b.local_addr().unwrap()];
+        let (mut sender, _) = Link::Peers {
+            address: any_port(),
+            peers,
+        }
+        .open()
+        .unwrap();
+        sender.send(b"hello").unwrap();
+        for peer in [a, b] {
+            let mut buffer = [0; 16];
+            assert_eq!(peer.recv(&mut buffer).unwrap(), 5);
+        }
+    }
+
+    #[test]
+    fn an_address_in_use_is_said_to_be() {
+        let taken = UdpSocket::bind(any_port()).unwrap().local_addr();
+        let holder = UdpSocket::bind(taken.unwrap()).unwrap();
+        let address = holder.local_addr().unwrap();
+        let error = Link::Peers {
+            address,
+            peers: Vec::new(),
+        }
+        .open()
+        .unwrap_err();
+        assert!(matches!(error, LinkError::InUse { .. }), "{error}");
+    }
+
+    #[test]
+    fn a_group_that_is_none_and_an_interface_that_is_none_are_told_apart() {
+        let open = |group: &str, interface: &str| {
+            let link = Link::Multicast {
+                group: group.parse().unwrap(),
+                interface: interface.to_owned(),
+            };
+            link.open().unwrap_err()
+        };
+        assert!(matches!(
+            open("127.0.0.1:4000", "lo"),
+            LinkError::NotMulticast { .. }
+        ));
+        let error = open("239.118.122.97:4000", "no-such-interface");
+        assert!(matches!(error, LinkError::NoInterface { .. }), "{error}");
+    }
+}
