@@ -192,10 +192,11 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit.
-const SHIPPED: [(&str, &str); 4] = [
+const SHIPPED: [(&str, &str); 5] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
+    ("offer-race", include_str!("../scenarios/offer-race.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
 ];
 

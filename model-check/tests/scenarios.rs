@@ -38,6 +38,11 @@ fn contention() {
 }
 
 #[test]
+fn offer_race() {
+    assert_verified("offer-race");
+}
+
+#[test]
 fn trio() {
     assert_verified("trio");
 }
