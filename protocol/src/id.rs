@@ -201,6 +201,13 @@ mod tests {
     }
 
     #[test]
+    fn heartbeats_half_the_space_apart_are_in_no_order() {
+        let (a, b) = (Heartbeat(5), Heartbeat(5).after(1 << 15));
+        assert!(!a.is_newer_than(b) && !b.is_newer_than(a));
+        assert!(a.after((1 << 15) - 1).is_newer_than(a));
+    }
+
+    #[test]
     fn exactly_one_of_two_numbers_of_a_session_is_newer() {
         for first in 0..=u8::MAX {
             for step in 1..=RequestId::MAX_PER_SESSION {

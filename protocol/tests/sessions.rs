@@ -250,6 +250,121 @@ fn whoever_claims_a_part_that_nobody_gave_it_does_not_end_the_session() {
     assert_eq!(street[ARI].role(), Role::Requester);
 }
 
+/// What `GO2` says when it has a part in an older session of `ARI`.
+fn offer_to(session: SessionId) -> Ram {
+    let coordination = Coordination::OfferHelp {
+        session,
+        offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
+        capabilities: TaskSet::of(&[TaskType::MOVE]),
+    };
+    Ram {
+        station: GO2,
+        coordination,
+        farewell: None,
+    }
+}
+
+#[test]
+fn an_offer_to_an_older_session_is_not_taken_for_the_present_one() {
+    for established in [false, true] {
+        let mut street = Street::new(&[ARI, SPOT]);
+        street.tell(ARI, Event::PedestrianDetected(escort(1)));
+        if established {
+            street.pass(400);
+        }
+        let before = street[ARI].phase().clone();
+        street.hears_ram(ARI, offer_to(other_session(ARI)));
+        assert_eq!(*street[ARI].phase(), before);
+        let ended = Farewell::Ended(other_session(ARI).number);
+        assert_eq!(
+            street[ARI].farewell(),
+            Some(ended),
+            "whoever offers is told"
+        );
+    }
+}
+
+#[test]
+fn a_helper_is_not_moved_by_another_session_of_the_same_leader() {
+    let mut street = Street::new(&[ARI, GO2]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    street.part(ARI, GO2);
+    let Coordination::OfferHelp { offer, .. } = street[GO2].ram().coordination else {
+        panic!()
+    };
+    let before = street[GO2].phase().clone();
+    let me = Confirmation {
+        station: GO2,
+        offer,
+    };
+    for followers in [Followers::EMPTY, [me].into_iter().collect()] {
+        let (number, heartbeat) = (other_session(ARI).number, Heartbeat(0));
+        let coordination = Coordination::Leader {
+            number,
+            heartbeat,
+            followers,
+        };
+        street.hears_ram(
+            GO2,
+            Ram {
+                station: ARI,
+                coordination,
+                farewell: None,
+            },
+        );
+        assert_eq!(*street[GO2].phase(), before);
+    }
+    let (request, task) = (RequestId(0), TaskType::MOVE);
+    let command = Command {
+        session: other_session(ARI),
+        to: GO2,
+        request,
+        task,
+    };
+    assert_eq!(
+        street.hears_rmcm(GO2, Rmcm::Command(command)).ignored(),
+        Some(Ignored::NothingNew)
+    );
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(other_session(ARI)))
+    );
+    assert_eq!(*street[GO2].phase(), before);
+}
+
+#[test]
+fn who_leaves_an_older_session_keeps_its_offer_to_the_present_one() {
+    let mut street = Street::new(&[ARI, GO2]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let farewell = Some(Farewell::Left(other_session(ARI)));
+    let left = Ram {
+        station: GO2,
+        coordination: Coordination::None,
+        farewell,
+    };
+    assert_eq!(
+        street.hears_ram(ARI, left).ignored(),
+        Some(Ignored::OtherSession)
+    );
+    street.pass(300);
+    assert_eq!(street[ARI].role(), Role::Leader);
+}
+
+#[test]
+fn a_timer_that_is_not_armed_does_not_expire() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    for (who, timer) in [
+        (ARI, Timer::Help),
+        (ARI, Timer::Acknowledgement(GO2)),
+        (ARI, Timer::Lost(GO2)),
+        (GO2, Timer::Leave),
+        (GO2, Timer::Farewell),
+    ] {
+        let outputs = street.step(who, Input::Expired(timer));
+        assert_eq!(outputs.ignored(), Some(Ignored::TimerNotArmed), "{timer}");
+    }
+}
+
 #[test]
 fn a_rebooted_follower_is_not_drawn_back_by_a_late_confirmation() {
     let mut street = Street::new(&[ARI, GO2]);
