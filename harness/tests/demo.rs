@@ -1,0 +1,150 @@
+//! `crossguard demo`, as its user runs it.
+
+mod support;
+
+use std::process::Stdio;
+
+use serde_json::Value;
+use support::*;
+
+fn demo(more: &[&str]) -> std::process::Output {
+    let port = two_free_ports().to_string();
+    run(&[&["demo", "--speed", "50", "--port", &port], more].concat())
+}
+
+fn assert_all_well(result: &Value) {
+    assert_eq!(result["trace_valid"], true, "{result}");
+    assert_eq!(result["final_states"]["ARI"], "Idle", "{result}");
+    assert_eq!(result["final_states"]["Go2"], "Idle", "{result}");
+}
+
+#[test]
+fn the_results_have_the_papers_times_for_each_maneuver() {
+    let output = demo(&["--trials", "3", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let result = json(&output);
+    assert_all_well(&result);
+    assert_eq!(result["crossings"], 3);
+    let maneuvers = result["maneuvers"].as_array().unwrap();
+    let tasks: Vec<_> = maneuvers
+        .iter()
+        .map(|m| m["task"].as_str().unwrap())
+        .collect();
+    assert_eq!(tasks, ["initialPos", "move"]);
+    for maneuver in maneuvers {
+        assert_eq!(maneuver["trials"], 3);
+        let mean = |time: &str| maneuver[time]["mean"].as_f64().unwrap();
+        assert!(
+            maneuver["t_exec_s"]["sd"].as_f64().unwrap() > 0.0,
+            "no two walks are alike"
+        );
+        assert!(mean("t_neg_s") > 0.0);
+        assert!((mean("t_tmct_s") - mean("t_neg_s") - mean("t_exec_s")).abs() < 1e-9);
+    }
+    // The escort is planned to take as long as the paper's, give or take the gait.
+    let escort = maneuvers[1]["t_exec_s"]["mean"].as_f64().unwrap();
+    assert!((20.0..25.0).contains(&escort), "{escort}");
+}
+
+#[test]
+fn a_person_sees_the_chart_the_table_and_the_verdict_on_the_log() {
+    let output = demo(&[]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = stdout(&output);
+    for expected in [
+        "pedestrian detected",
+        "RAM needHelp",
+        "RAM offerHelp",
+        "RAM leader",
+        "RMCM command 1#1.0/0 initialPos to 2",
+        "RMCM ack 1#1.0/0",
+        "corridor opened",
+        "corridor closed",
+        "T_TMCT [s]",
+        "1 of 1 crossings completed; in the end ARI is Idle, Go2 is Idle.",
+        "every step was one",
+    ] {
+        assert!(text.contains(expected), "'{expected}' is not in:\n{text}");
+    }
+}
+
+#[test]
+fn with_three_of_ten_datagrams_lost_the_crossing_ends_well() {
+    for seed in ["1", "2"] {
+        let output = demo(&["--loss", "0.3", "--seed", seed, "--json"]);
+        let result = json(&output);
+        assert_all_well(&result);
+        let lost = result["counters"]["ARI"]["simulated loss"]
+            .as_u64()
+            .unwrap();
+        assert!(lost > 0, "{result}");
+        assert_eq!(output.status.code(), Some(0), "{result}");
+    }
+}
+
+#[test]
+fn the_log_holds_every_step_of_both_robots() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("demo.log");
+    let output = demo(&["--json", "--log", path.to_str().unwrap()]);
+    let steps = json(&output)["trace"]["steps"].as_u64().unwrap();
+    let log = std::fs::read_to_string(path).unwrap();
+    let of_kind = |kind: &str| records(&log).iter().filter(|r| r["entry"] == kind).count() as u64;
+    assert_eq!(of_kind("step"), steps);
+    assert_eq!(of_kind("started"), 2);
+    assert_eq!(of_kind("stopped"), 2);
+    let validated = crossguard_harness::trace::validate(log.as_bytes()).unwrap();
+    assert_eq!(validated.steps as u64, steps);
+}
+
+#[test]
+fn a_second_demo_on_the_same_port_is_refused_and_the_first_goes_on() {
+    let port = two_free_ports().to_string();
+    let mut first = crossguard(&["demo", "--speed", "10", "--port", &port, "--json"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let second = run(&["demo", "--port", &port]);
+    assert_refused(
+        &second,
+        "is in use; is another robot or demo running there?",
+    );
+    let first = {
+        wait_for(&mut first, std::time::Duration::from_secs(60));
+        first.wait_with_output().unwrap()
+    };
+    assert_all_well(&json(&first));
+}
+
+#[test]
+fn bad_usage_is_refused_with_what_is_wanted() {
+    assert_refused(
+        &run(&["demo", "--speed", "0.1"]),
+        "a number from 1 to 100 is wanted",
+    );
+    assert_refused(
+        &run(&["demo", "--loss", "1.5"]),
+        "a number from 0 to 0.9 is wanted",
+    );
+    assert_refused(&run(&["demo", "--trials", "0"]), "0 is not in 1..=1000");
+    assert_refused(
+        &run(&["demo", "--log", "/no/such/folder/log"]),
+        "/no/such/folder/log",
+    );
+    assert_refused(&run(&["dance"]), "unrecognized subcommand 'dance'");
+}
+
+#[test]
+fn a_reader_that_goes_away_does_not_make_it_panic() {
+    let port = two_free_ports().to_string();
+    let mut child = crossguard(&["demo", "--speed", "50", "--port", &port])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    wait_for(&mut child, std::time::Duration::from_secs(60));
+    let output = child.wait_with_output().unwrap();
+    assert!(!stderr(&output).contains("panicked"), "{}", stderr(&output));
+}

@@ -1,0 +1,132 @@
+//! What the tests of the command share.
+#![allow(dead_code, unreachable_pub, reason = "each test uses what it needs")]
+
+use std::io::Write;
+use std::net::UdpSocket;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// The `crossguard` command with these arguments.
+pub fn crossguard(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_crossguard"));
+    command.args(arguments);
+    command
+}
+
+/// Runs the command to its end.
+pub fn run(arguments: &[&str]) -> Output {
+    crossguard(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+/// Runs the command with this on its standard input.
+pub fn run_with(arguments: &[&str], input: &[u8]) -> Output {
+    let mut child = crossguard(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(input).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// Asserts that the command refused its input with a readable cause.
+pub fn assert_refused(output: &Output, cause: &str) {
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains(cause), "'{cause}' is not in: {message}");
+    assert!(!message.contains("panicked"), "{message}");
+}
+
+pub fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|error| panic!("{error}\n{}\n{}", stdout(output), stderr(output)))
+}
+
+/// A UDP port on 127.0.0.1 that is free, and so is the next one.
+pub fn two_free_ports() -> u16 {
+    loop {
+        let first = UdpSocket::bind("127.0.0.1:0").unwrap();
+        let port = first.local_addr().unwrap().port();
+        if (1_024..65_000).contains(&port) && UdpSocket::bind(("127.0.0.1", port + 1)).is_ok() {
+            return port;
+        }
+    }
+}
+
+/// A robot's configuration in a file, with what differs from robot to robot.
+pub fn robot_file(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> String {
+    let build = if station == 1 {
+        "humanoid"
+    } else {
+        "quadruped"
+    };
+    let text = format!(
+        "name = \"{name}\"\nstation = {station}\nbuild = \"{build}\"\n\
+         boot_file = \"{name}.boot\"\nspeed = 40.0\nautopilot = true\n\n[link]\n\
+         address = \"127.0.0.1:{port}\"\npeers = [\"127.0.0.1:{peer}\"]\n"
+    );
+    let path = folder.join(format!("{name}.toml"));
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// Starts a robot whose log goes to its standard output.
+pub fn start(config: &str, more: &[&str]) -> Child {
+    crossguard(&["run", "--config", config, "--json"])
+        .args(more)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// Types lines to a robot.
+pub fn type_to(robot: &mut Child, lines: &str) {
+    let input = robot.stdin.as_mut().unwrap();
+    input.write_all(lines.as_bytes()).unwrap();
+    input.flush().unwrap();
+}
+
+/// Waits until the process has ended, at most for so long.
+pub fn wait_for(child: &mut Child, patience: Duration) -> std::process::ExitStatus {
+    let deadline = Instant::now() + patience;
+    loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            return status;
+        }
+        if Instant::now() >= deadline {
+            let _ = child.kill();
+            panic!("still running after {patience:?}");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// Sends a signal to a process.
+pub fn signal(child: &Child, signal: &str) {
+    let status = Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(status.success());
+}
+
+/// The records of a log.
+pub fn records(log: &str) -> Vec<Value> {
+    log.lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
