@@ -7,7 +7,7 @@ use crossguard_codec::{
     Battery, Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, RobotCategory,
     RobotState, SlowState, Target, TaskParameters,
 };
-use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId};
+use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, TaskType};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
@@ -87,7 +87,8 @@ pub struct Body {
 struct Motion {
     to: Place,
     speed_mps: f64,
-    /// The maneuver that is finished when the body arrives; `None` on the way to safety.
+    /// The maneuver that is finished when the body arrives; `None` on the way to safety, or to where
+    /// it blocks.
     maneuver: Option<ManeuverId>,
 }
 
@@ -121,7 +122,8 @@ impl Body {
         self.place = self.safe_place;
     }
 
-    /// Begins a maneuver. Without a target it is done where the body stands.
+    /// Begins a maneuver. Without a target it is done where the body stands. A `block` goes on until
+    /// it is ended from outside.
     pub fn start(&mut self, maneuver: Maneuver, parameters: TaskParameters) {
         let to = match parameters.target {
             Some(Target::Position {
@@ -139,7 +141,7 @@ impl Body {
         self.motion = Some(Motion {
             to,
             speed_mps: limit * gait,
-            maneuver: Some(maneuver.id),
+            maneuver: (maneuver.task != TaskType::BLOCK).then_some(maneuver.id),
         });
     }
 
@@ -300,6 +302,22 @@ mod tests {
             let speed = body.state().speed.unwrap().value;
             assert!(speed <= 0.5 * (1.0 + GAIT_VARIATION), "{speed}");
         }
+    }
+
+    #[test]
+    fn a_block_holds_its_place_until_it_is_ended() {
+        let mut body = walking(1.0);
+        let block = Maneuver {
+            task: TaskType::BLOCK,
+            ..maneuver()
+        };
+        let parameters = TaskParameters {
+            target: Some(Site::default().target(Place::new(0.0, 5.0))),
+            ..TaskParameters::default()
+        };
+        body.start(block, parameters);
+        assert_eq!(body.advance(600.0), None);
+        assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
     }
 
     #[test]

@@ -27,19 +27,18 @@ fn two_processes_do_the_crossing() {
     let port = two_free_ports();
     let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
     let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
-    let mut go2 = start(&go2, &[]);
-    let mut ari = start(&ari, &[]);
+    let mut dog = start(&go2);
+    let mut humanoid = start(&ari);
     type_to(
-        &mut ari,
+        &mut humanoid,
         "wait 0.3\ndetect\nuntil maneuver-executing\nuntil idle\nquit\n",
     );
-    assert_eq!(wait_for(&mut ari, PATIENCE).code(), Some(0));
-    type_to(&mut go2, "quit\n");
-    assert_eq!(wait_for(&mut go2, PATIENCE).code(), Some(0));
-    let log = stdout(&ari.wait_with_output().unwrap());
-    assert_eq!(ends(&log), ["\"taskCompleted\""]);
-    for log in [log, stdout(&go2.wait_with_output().unwrap())] {
-        crossguard_harness::trace::validate(log.as_bytes()).unwrap();
+    assert_eq!(wait_for(&mut humanoid, PATIENCE).code(), Some(0));
+    type_to(&mut dog, "quit\n");
+    assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
+    assert_eq!(ends(&log_of(&ari)), ["\"taskCompleted\""]);
+    for robot in [ari, go2] {
+        crossguard_harness::trace::validate(log_of(&robot).as_bytes()).unwrap();
     }
 }
 
@@ -54,7 +53,7 @@ fn a_person_types_every_step_and_reads_what_happens() {
         .unwrap()
         .replace("autopilot = true", "");
     std::fs::write(&ari, text).unwrap();
-    let mut go2 = start(&go2, &[]);
+    let mut go2 = start(&go2);
     let script = "wait 0.3\ndetect 1 high block # a child\nuntil role-established\nwait 0.4\n\
                   order 2 block\nuntil maneuver-executing\nopen\nwait 0.2\nstatus\nclose\n\
                   task-completed\nuntil idle\nquit\n";
@@ -89,19 +88,18 @@ fn an_interrupted_leader_ends_its_session_in_order() {
         std::fs::write(path, text).unwrap();
     };
     slow(&go2);
-    let (mut ari, mut go2) = (start(&ari, &[]), start(&go2, &[]));
-    type_to(&mut ari, "wait 0.3\ndetect\n");
-    type_to(&mut go2, "until maneuver-executing\nuntil idle 30\nquit\n");
+    let (mut humanoid, mut dog) = (start(&ari), start(&go2));
+    type_to(&mut humanoid, "wait 0.3\ndetect\n");
+    type_to(&mut dog, "until maneuver-executing\nuntil idle 30\nquit\n");
     std::thread::sleep(Duration::from_millis(1_500));
-    signal(&ari, "-INT");
-    assert_eq!(wait_for(&mut ari, PATIENCE).code(), Some(0));
+    signal(&humanoid, "-INT");
+    assert_eq!(wait_for(&mut humanoid, PATIENCE).code(), Some(0));
     assert_eq!(
-        wait_for(&mut go2, PATIENCE).code(),
+        wait_for(&mut dog, PATIENCE).code(),
         Some(0),
         "released by name, not by silence"
     );
-    let log = stdout(&ari.wait_with_output().unwrap());
-    assert_eq!(ends(&log), ["\"leaveRequested\""]);
+    assert_eq!(ends(&log_of(&ari)), ["\"leaveRequested\""]);
 }
 
 #[test]
@@ -110,12 +108,12 @@ fn a_killed_robot_boots_with_the_next_counter_and_never_reuses_a_session() {
     let port = two_free_ports();
     let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
     for boot in 1..=3 {
-        let mut robot = start(&ari, &[]);
+        let mut robot = start(&ari);
         type_to(&mut robot, "detect\n");
         std::thread::sleep(Duration::from_millis(400));
         signal(&robot, "-KILL");
         wait_for(&mut robot, PATIENCE);
-        let log = stdout(&robot.wait_with_output().unwrap());
+        let log = log_of(&ari);
         let sessions = format!("\"number\":{{\"boot\":{boot},\"count\":0}}");
         assert!(log.contains(&sessions), "{log}");
     }
@@ -201,7 +199,7 @@ fn two_processes_of_one_robot_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let port = two_free_ports();
     let config = robot_file(folder.path(), "ARI", 1, port, port + 1);
-    let mut first = start(&config, &[]);
+    let mut first = start(&config);
     std::thread::sleep(Duration::from_millis(300));
     assert_refused(&run(&["run", "--config", &config]), "is in use");
     // Also when the second one would listen elsewhere.

@@ -1,6 +1,7 @@
 //! What the tests of the command share.
 #![allow(dead_code, unreachable_pub, reason = "each test uses what it needs")]
 
+use std::fs::File;
 use std::io::Write;
 use std::net::UdpSocket;
 use std::path::Path;
@@ -82,15 +83,20 @@ pub fn robot_file(folder: &Path, name: &str, station: u32, port: u16, peer: u16)
     path.to_str().unwrap().to_owned()
 }
 
-/// Starts a robot whose log goes to its standard output.
-pub fn start(config: &str, more: &[&str]) -> Child {
+/// Starts a robot whose log goes to a file beside its configuration, see [`log_of`].
+pub fn start(config: &str) -> Child {
+    let log = File::create(Path::new(config).with_extension("log")).unwrap();
     crossguard(&["run", "--config", config, "--json"])
-        .args(more)
         .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
+        .stdout(log)
         .stderr(Stdio::piped())
         .spawn()
         .unwrap()
+}
+
+/// The log of a robot that was started with [`start`].
+pub fn log_of(config: &str) -> String {
+    std::fs::read_to_string(Path::new(config).with_extension("log")).unwrap()
 }
 
 /// Types lines to a robot.
