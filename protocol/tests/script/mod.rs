@@ -1,7 +1,7 @@
 //! The vocabulary of the protocol scripts: robots on a street, what they are told, what they hear,
 //! what they say, and time that passes.
 //!
-//! Every step also checks that the state stays valid.
+//! Every step also checks that the state stays valid, and that nothing was allocated.
 #![allow(
     dead_code,
     unreachable_pub,
@@ -107,7 +107,12 @@ impl Street {
     fn step_silently(&mut self, who: StationId, input: Input) -> Outputs {
         let robot = self.robots.get_mut(&who).expect("no such robot");
         let before = robot.clone();
-        let outputs = robot.step(&self.config, input);
+        let mut outputs = Outputs::default();
+        let allocated = allocation_counter::measure(|| outputs = robot.step(&self.config, input));
+        assert_eq!(
+            allocated.count_total, 0,
+            "{input:?} allocates in {before:#?}"
+        );
         assert!(
             robot.is_valid(&self.config),
             "{input:?}\nin {before:#?}\nleads to {robot:#?}"
