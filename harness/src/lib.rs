@@ -1,5 +1,30 @@
 //! Endpoints, transports and the crossing of Crossguard.
-#![allow(missing_docs)]
+//!
+//! What surrounds the transition function of [`crossguard_protocol`] on a robot that is really
+//! there: messages on a link, a clock, an application with a body, a log, a boot counter. It holds
+//! no rule of the protocol.
+//!
+//! ```text
+//!   datagrams ──► transport ──► wire ──┐             ┌──► application ──► body
+//!                                      ▼             │        │
+//!   clock ───────────────────────► endpoint ◄────────┼────────┘ events
+//!                                  Robot::step ──────┤
+//!   datagrams ◄── transport ◄── wire ◄── generation ◄┘──► trace (log)
+//! ```
+//!
+//! - [`endpoint::Endpoint`] joins them without doing any input or output of its own: datagrams,
+//!   events and the time go in, datagrams and outputs come out. A robot stack with its own loop
+//!   embeds this.
+//! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
+//!   multicast, and simulated loss.
+//! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
+//!   be a step of the transition function.
+//! - [`boot`] is the counter that makes session numbers unique over power failures.
+//! - [`demo`] is the paper's crossing with two robots and their simulated [`body`]s, [`timing`] its
+//!   table, [`chart`] its sequence chart.
+//! - [`robot_file`] and [`operator`] are what `crossguard run` reads: a configuration, and what a
+//!   person types.
+
 pub mod application;
 pub mod body;
 pub mod boot;

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use support::*;
 
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// The reasons for which sessions ended, from a robot's log.
 fn ends(log: &str) -> Vec<String> {

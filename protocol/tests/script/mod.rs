@@ -5,6 +5,7 @@
 #![allow(
     dead_code,
     unreachable_pub,
+    clippy::wildcard_imports,
     reason = "each script uses the words it needs"
 )]
 
