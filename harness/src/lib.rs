@@ -41,3 +41,8 @@ pub mod timing;
 pub mod trace;
 pub mod transport;
 pub mod wire;
+
+/// The Rust in the README compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
