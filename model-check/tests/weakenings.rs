@@ -150,6 +150,37 @@ fn without_memory_of_requests_a_command_is_executed_twice_and_after_fallback() {
     assert_breaks("pair", StartsRepeatedCommands, &[I4, I9]);
 }
 
+/// An older command is started like a new one.
+struct StartsOlderCommands;
+
+impl Rules for StartsOlderCommands {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        match (robot.phase(), input) {
+            (Phase::Following(following), Input::Rmcm(Rmcm::Command(command)))
+                if command.session == following.session
+                    && following
+                        .job
+                        .is_some_and(|job| job.request.is_newer_than(command.request)) =>
+            {
+                let id = ManeuverId {
+                    session: command.session,
+                    request: command.request,
+                };
+                let task = command.task;
+                [Output::StartManeuver(Maneuver { id, task })]
+                    .into_iter()
+                    .collect()
+            }
+            _ => robot.step(config, input),
+        }
+    }
+}
+
+#[test]
+fn without_the_order_of_requests_an_older_command_is_executed() {
+    assert_breaks("pair", StartsOlderCommands, &[I5]);
+}
+
 /// Any acknowledgement is taken for that of the outstanding command.
 struct TakesAnyAcknowledgement;
 
@@ -233,6 +264,52 @@ fn an_identity_that_is_not_locked_may_change_in_a_session() {
     );
 }
 
+/// A follower that changes its pseudonym takes that of its leader.
+struct TakesItsLeadersPseudonym;
+
+impl Rules for TakesItsLeadersPseudonym {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let (Phase::Following(following), Input::Local(Event::IdentityChanged(_))) =
+            (robot.phase(), input)
+        {
+            let mut state = serde_json::to_value(&*robot).unwrap();
+            state["station"] = serde_json::to_value(following.session.leader).unwrap();
+            *robot = serde_json::from_value(state).unwrap();
+            return Outputs::default();
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn a_pseudonym_that_is_in_use_makes_a_robot_follow_itself() {
+    assert_breaks("pair", TakesItsLeadersPseudonym, &[I1]);
+}
+
+/// When one follower is gone, another one's lease goes too.
+struct LosesTwoForOne;
+
+impl Rules for LosesTwoForOne {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let one_is_gone = outputs
+            .notices()
+            .any(|notice| matches!(notice, Notice::FollowerGone(..)));
+        if let (true, Phase::Leading(leading)) = (one_is_gone, robot.phase()) {
+            let others: Vec<_> = leading.members.iter().map(|m| m.station).collect();
+            for station in others {
+                robot.step(config, Input::Expired(Timer::Lease(station)));
+            }
+        }
+        outputs
+    }
+}
+
+#[test]
+fn a_follower_that_goes_must_not_touch_the_others() {
+    assert_breaks("trio", LosesTwoForOne, &[I17]);
+}
+
 /// A follower has no timers.
 struct FollowersWaitForEver;
 
@@ -266,10 +343,10 @@ fn without_timers_a_follower_of_a_crashed_leader_is_stuck() {
     }
 }
 
-/// A requester never gives up, and commands are repeated without end.
-struct RepeatsWithoutEnd;
+/// A command is repeated once more than it may be.
+struct RepeatsOnceTooOften;
 
-impl Rules for RepeatsWithoutEnd {
+impl Rules for RepeatsOnceTooOften {
     fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
         let patient = Settings {
             n_ack: config.settings().n_ack + 1,
@@ -280,6 +357,6 @@ impl Rules for RepeatsWithoutEnd {
 }
 
 #[test]
-fn one_repeat_too_many_is_noticed() {
-    assert_breaks("pair", RepeatsWithoutEnd, &[I16]);
+fn one_repeat_too_many_is_noticed_and_is_no_valid_state() {
+    assert_breaks("pair", RepeatsOnceTooOften, &[I13, I16]);
 }
