@@ -18,6 +18,7 @@
 
 mod canonical;
 pub mod check;
+pub mod fair;
 pub mod fsm;
 mod graph;
 pub mod history;
