@@ -19,6 +19,7 @@
 mod canonical;
 pub mod check;
 pub mod fair;
+mod fairness;
 pub mod fsm;
 mod graph;
 pub mod history;

@@ -314,6 +314,13 @@ impl Member {
     pub const fn has_joined(&self) -> bool {
         self.echoed.is_some()
     }
+
+    /// Whether the follower has completed its newest acknowledged command.
+    #[must_use]
+    pub fn has_completed(&self) -> bool {
+        self.order
+            .is_some_and(|order| order.progress == Some(Progress::Completed))
+    }
 }
 
 impl Lease {
