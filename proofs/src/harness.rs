@@ -3,14 +3,24 @@
 /// One harness.
 #[derive(Clone, Copy, Debug)]
 pub struct Harness {
-    /// Its full name, as `cargo kani --harness` takes it.
-    pub name: &'static str,
+    /// Its path, with that of the crate.
+    pub path: &'static str,
     /// How often Kani unwinds each loop.
     pub unwind: u32,
     /// The SAT solver that Kani uses.
     pub solver: &'static str,
     /// The harness.
     pub run: fn(),
+}
+
+impl Harness {
+    /// Its name, as `cargo kani --harness` takes it.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.path
+            .split_once("::")
+            .map_or(self.path, |(_crate, name)| name)
+    }
 }
 
 /// Declares the harnesses of a module: functions with the bound of their loops and their solver.
@@ -36,7 +46,7 @@ macro_rules! harnesses {
         #[cfg(not(all(kani, not(feature = "stand-in"))))]
         pub(crate) const HARNESSES: &[$crate::Harness] = &[$(
             $crate::Harness {
-                name: concat!(module_path!(), "::", stringify!($name)),
+                path: concat!(module_path!(), "::", stringify!($name)),
                 unwind: $unwind,
                 solver: stringify!($solver),
                 run: $name,

@@ -7,8 +7,8 @@
 //!                             ◄── tests: proptest, with shrinking; sweeps over all values
 //! ```
 //!
-//! A harness chooses symbolic values, states its bound by [`kani::assume`], calls a law, and marks
-//! with [`kani::cover!`] each class of outcomes that must be reachable. In an ordinary build `kani`
+//! A harness chooses symbolic values, states its bound by `kani::assume`, calls a law, and marks
+//! with `kani::cover!` each class of outcomes that must be reachable. In an ordinary build `kani`
 //! is the [`stand_in`], which makes a harness a function that runs with random values.
 //!
 //! `harnesses.toml` lists all harnesses, and `tests/harnesses.rs` compares it with this crate.

@@ -1,7 +1,7 @@
 //! What stands in for the crate `kani` where there is no Kani: random values, so that a harness is a
 //! test.
 //!
-//! A run of a harness ends early where [`assume`] does not hold. Which of its [`cover!`] marks it
+//! A run of a harness ends early where `assume` does not hold. Which of its `cover!` marks it
 //! reached is recorded.
 
 use std::cell::RefCell;

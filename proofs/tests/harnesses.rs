@@ -61,7 +61,8 @@ fn every_harness_holds_for_random_values_and_reaches_its_marks() {
         if record.covers.len() != entry.covers || record.covers.values().any(|reached| !reached) {
             wrong.push(format!(
                 "{}: {record:?}, listed {}",
-                harness.name, entry.covers
+                harness.name(),
+                entry.covers
             ));
         }
     }
@@ -72,7 +73,7 @@ fn every_harness_holds_for_random_values_and_reaches_its_marks() {
 fn the_list_has_every_harness_as_it_is() {
     let committed = committed();
     let listed: Vec<_> = committed.iter().map(|entry| entry.name.as_str()).collect();
-    let present: Vec<_> = harnesses().map(|harness| harness.name).collect();
+    let present: Vec<_> = harnesses().map(Harness::name).collect();
     assert_eq!(listed, present);
     assert_eq!(listed.iter().collect::<BTreeSet<_>>().len(), listed.len());
     for (harness, entry) in harnesses().zip(&committed) {
