@@ -329,6 +329,12 @@ impl Lease {
     pub const fn stands(self) -> bool {
         matches!(self, Self::Stands(_))
     }
+
+    /// The time that is left of the lease, or of the time without one.
+    pub(crate) const fn countdown(self) -> Countdown {
+        let (Self::Stands(left) | Self::Expired(left)) = self;
+        left
+    }
 }
 
 impl Order {
@@ -368,5 +374,11 @@ impl Contact {
     #[must_use]
     pub const fn is_lost(self) -> bool {
         matches!(self, Self::Lost(_))
+    }
+
+    /// The time that is left of `T_safety` or `T_leave`.
+    pub(crate) const fn countdown(self) -> Countdown {
+        let (Self::Fresh(left) | Self::Lost(left)) = self;
+        left
     }
 }
