@@ -213,7 +213,7 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit.
-const SHIPPED: [(&str, &str); 7] = [
+const SHIPPED: [(&str, &str); 9] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -222,7 +222,9 @@ const SHIPPED: [(&str, &str); 7] = [
         include_str!("../scenarios/leader-crash.toml"),
     ),
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
+    ("bilateral", include_str!("../scenarios/bilateral.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
+    ("wrap", include_str!("../scenarios/wrap.toml")),
     ("stable", include_str!("../scenarios/stable.toml")),
 ];
 
