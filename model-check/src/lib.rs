@@ -30,6 +30,7 @@ pub mod model;
 pub mod network;
 pub mod node;
 pub mod properties;
+pub mod replay;
 pub mod report;
 pub mod scenario;
 pub mod sequence;
