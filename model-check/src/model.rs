@@ -261,7 +261,9 @@ impl Model {
             for how in [Delivery::Late, Delivery::LateAndAgain] {
                 actions.push(Action::Deliver { transmission, how });
             }
-            actions.push(Action::Lose(transmission));
+            if state.left.losses != Some(0) {
+                actions.push(Action::Lose(transmission));
+            }
         }
         for (i, node) in (0..).zip(self.nodes(state)) {
             match &node.robot {
@@ -293,7 +295,7 @@ impl Model {
         if self.0.scenario.cooperative && is_rmcm {
             return;
         }
-        if channel.loss {
+        if channel.loss && state.left.losses != Some(0) {
             actions.push(Action::Lose(transmission));
         }
         if state
@@ -392,12 +394,15 @@ impl Model {
                 }
                 Some(step)
             }
-            Action::Lose(transmission) if next.network.next_on_air() == Some(transmission) => {
-                next.network.take_off_air();
-                None
-            }
             Action::Lose(transmission) => {
-                next.network.forget(transmission);
+                if let Some(left) = &mut next.left.losses {
+                    *left -= 1;
+                }
+                if next.network.next_on_air() == Some(transmission) {
+                    next.network.take_off_air();
+                } else {
+                    next.network.forget(transmission);
+                }
                 None
             }
             Action::Delay(transmission) => {

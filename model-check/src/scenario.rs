@@ -91,6 +91,8 @@ pub struct Bounds {
     pub crashes: u8,
     /// A crashed robot boots again.
     pub restarts: u8,
+    /// A message gets lost on its way to one receiver; any number of times where nothing is said.
+    pub losses: Option<u8>,
 }
 
 /// What the radio channel does.
@@ -442,8 +444,18 @@ impl Hash for Bounds {
             disturbances,
             crashes,
             restarts,
+            losses,
         } = *self;
-        state.write(&[detections, commands, disturbances, crashes, restarts]);
+        // A bound of 255 losses and none at all may share a hash.
+        let losses = losses.unwrap_or(u8::MAX);
+        state.write(&[
+            detections,
+            commands,
+            disturbances,
+            crashes,
+            restarts,
+            losses,
+        ]);
     }
 }
 
@@ -455,6 +467,7 @@ impl fmt::Display for Bounds {
             ("disturbances", self.disturbances),
             ("crashes", self.crashes),
             ("restarts", self.restarts),
+            ("losses", self.losses.unwrap_or_default()),
         ];
         let allowed: Vec<_> = bounds
             .iter()
