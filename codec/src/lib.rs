@@ -48,6 +48,7 @@
 
 pub mod asn1;
 mod containers;
+pub mod core;
 mod distance;
 mod error;
 mod identifiers;
@@ -61,8 +62,9 @@ mod view;
 mod wire;
 
 pub use containers::position_of;
+pub use core::Fault;
 pub use distance::distance;
-pub use error::{BrokenRule, DecodeError, EncodeError, Fault, FieldPath, ViewError};
+pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
 pub use identifiers::{IdentifierClash, Identifiers, MessageIdentifiers};
 pub use message::{Message, Pdu, Received, decode, encode};
 pub use rules::{PATH_HISTORY_MAX, PATH_PREDICTION_MAX};
