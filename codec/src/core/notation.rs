@@ -97,8 +97,11 @@ macro_rules! asn1 {
 
             #[inline]
             fn decode(reader: Reader<'_>) -> Read<'_, Self> {
-                let reader = if $extensible { reader.root()? } else { reader };
-                let (number, reader) = reader.integer($min.into(), $max.into())?;
+                let (number, reader) = if $extensible {
+                    reader.extensible_integer($min.into(), $max.into())?
+                } else {
+                    reader.integer($min.into(), $max.into())?
+                };
                 Ok((Self(number as $rust), reader))
             }
 

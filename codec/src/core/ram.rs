@@ -193,7 +193,7 @@ asn1! {
 
 asn1! {
     /// How many followers are asked for.
-    FollowerCount ::= INTEGER (1..4) as u8
+    RequestedFollowers ::= INTEGER (1..4) as u8
 }
 
 asn1! {
@@ -201,7 +201,7 @@ asn1! {
     RequesterRole ::= SEQUENCE {
         session         CoordinationSession,
         urgency         RequestUrgency,
-        follower_count  FollowerCount,
+        follower_count  RequestedFollowers,
         requested_tasks TaskSet,
         ...
     }

@@ -137,6 +137,18 @@ impl<'a> Reader<'a> {
         Ok((number, reader))
     }
 
+    /// As [`integer`](Self::integer), of a type with an extension marker (X.691 clause 13.1).
+    ///
+    /// # Errors
+    /// [`Fault::Value`] for a larger one, [`Fault::BeyondRoot`] for one behind the marker.
+    pub fn extensible_integer(self, min: i64, max: i64) -> Read<'a, i64> {
+        let read = self.root()?.integer(min, max);
+        read.map_err(|error| match error.fault {
+            Fault::Value { .. } => Error::at(self.position, error.fault),
+            _ => error,
+        })
+    }
+
     /// The extension bit of an INTEGER or a size, which has to be clear.
     ///
     /// # Errors
