@@ -7,7 +7,7 @@
 //! ```text
 //!               notation: asn1!{ BasicContainer ::= SEQUENCE { .. } }
 //!                  │ makes
-//!   octets ──► Reader ──► Uper::decode ──► value ──► Uper::encode ──► Writer ──► octets
+//!   octets ──► Reader ──► Uper::read   ──► value ──► Uper::encode ──► Writer ──► octets
 //!                  └── Error: field, bit, fault              arbitrary ◄── Source
 //! ```
 //!
@@ -19,6 +19,18 @@
 //! values and on octets. An alternative of an ENUMERATED or CHOICE that a newer sender may know is an
 //! error, as it is there: a message that says something unknown where the protocol reads is not half
 //! understood.
+
+#![allow(
+    clippy::cast_lossless,
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "there is no `From` in constants; what is cast fits, which the laws show"
+)]
+#![allow(
+    clippy::items_after_statements,
+    reason = "assertions stand in front of what they are for"
+)]
 
 pub mod cdd;
 pub mod common;
@@ -54,11 +66,23 @@ pub trait Uper: Copy + Eq {
     #[must_use]
     fn encode<'a>(&self, writer: Writer<'a>) -> Writer<'a>;
 
-    /// Reads the value that the next bits encode.
+    /// Reads the value that the next bits encode into `self`, which holds [`LOWEST`](Self::LOWEST) and
+    /// keeps what is not there: nothing that is absent is copied.
+    ///
+    /// # Errors
+    /// Which field they do not encode, and why. `self` holds some value then.
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error>;
+
+    /// The value that the next bits encode, and the reader behind it.
     ///
     /// # Errors
     /// Which field they do not encode, and why.
-    fn decode(reader: Reader<'_>) -> Read<'_, Self>;
+    #[inline]
+    fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+        let mut value = Self::LOWEST;
+        let reader = value.read(reader)?;
+        Ok((value, reader))
+    }
 
     /// Any value, as the source wants.
     fn arbitrary<S: Source>(source: &mut S) -> Self;
@@ -87,8 +111,8 @@ pub fn encode<T: Uper>(value: &T, buffer: &mut [u8]) -> Result<usize, Error> {
 /// # Errors
 /// Which field is wrong, and why.
 pub fn decode<T: Uper>(octets: &[u8]) -> Result<(T, usize), Error> {
-    let (value, reader) = T::decode(Reader::new(octets))?;
-    let reader = reader.padding(0)?;
+    let mut value = T::LOWEST;
+    let reader = value.read(Reader::new(octets))?.padding(0)?;
     match reader.left() / 8 {
         0 => Ok((value, reader.extended())),
         octets => Err(Error::at(reader.position(), Fault::Trailing { octets })),
@@ -112,8 +136,8 @@ impl Uper for Null {
         writer
     }
 
-    fn decode(reader: Reader<'_>) -> Read<'_, Self> {
-        Ok(((), reader))
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
+        Ok(reader)
     }
 
     fn arbitrary<S: Source>(_: &mut S) -> Self {}
@@ -130,8 +154,10 @@ impl Uper for bool {
     }
 
     #[inline]
-    fn decode(reader: Reader<'_>) -> Read<'_, Self> {
-        reader.bit()
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
+        let behind;
+        (*self, behind) = reader.bit()?;
+        Ok(behind)
     }
 
     fn arbitrary<S: Source>(source: &mut S) -> Self {

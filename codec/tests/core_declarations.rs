@@ -27,8 +27,7 @@ fn read(path: &str) -> String {
 /// Small letters; a hyphen stays where it is a sign.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
-    let mut letters = text.chars().peekable();
-    while let Some(letter) = letters.next() {
+    for letter in text.chars() {
         let is_sign = letter == '-' && plain.ends_with('(');
         if is_sign || !(letter.is_whitespace() || letter == '_' || letter == '-') {
             plain.extend(letter.to_lowercase());

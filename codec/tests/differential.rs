@@ -75,11 +75,12 @@ fn additions(random: &mut Random) -> String {
     bits.extend(present.iter().map(|bit| if *bit { '1' } else { '0' }));
     for _ in present.iter().filter(|bit| **bit) {
         let length = random.index(1, 3) * random.index(1, 60);
-        match length {
-            0..0x80 => bits += &format!("{length:08b}"),
-            _ => bits += &format!("10{length:014b}"),
-        }
-        bits += &to_bits(&random.octets(length));
+        let determinant = match length {
+            0..0x80 => format!("{length:08b}"),
+            _ => format!("10{length:014b}"),
+        };
+        bits.push_str(&determinant);
+        bits.push_str(&to_bits(&random.octets(length)));
     }
     bits
 }

@@ -4,7 +4,7 @@ use core::fmt;
 use core::ops::Deref;
 
 use super::error::{Error, Fault, Field};
-use super::reader::{Read, Reader};
+use super::reader::Reader;
 use super::source::Source;
 use super::writer::Writer;
 use super::{Uper, width};
@@ -97,7 +97,7 @@ impl<T: Uper, const MIN: usize, const MAX: usize, const CAPACITY: usize, const E
         writer
     }
 
-    fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
         let fault = |fault| Err(Error::at(reader.position(), fault));
         let behind_marker = if EXTENSIBLE { reader.root()? } else { reader };
         let (offset, mut reader) = behind_marker.bits(Self::SIZE_BITS)?;
@@ -109,15 +109,14 @@ impl<T: Uper, const MIN: usize, const MAX: usize, const CAPACITY: usize, const E
             let (found, max) = (length, CAPACITY);
             return fault(Fault::TooMany { found, max });
         }
-        let mut list = Self::LOWEST;
-        list.length = length;
-        for (index, item) in list.items.iter_mut().enumerate() {
+        self.length = length;
+        for (index, item) in self.items.iter_mut().enumerate() {
             if index == length {
                 break;
             }
-            (*item, reader) = T::decode(reader)?;
+            reader = item.read(reader)?;
         }
-        Ok((list, reader))
+        Ok(reader)
     }
 
     fn arbitrary<S: Source>(source: &mut S) -> Self {

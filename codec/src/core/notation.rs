@@ -96,13 +96,14 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+            fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
                 let (number, reader) = if $extensible {
                     reader.extensible_integer($min.into(), $max.into())?
                 } else {
                     reader.integer($min.into(), $max.into())?
                 };
-                Ok((Self(number as $rust), reader))
+                self.0 = number as $rust;
+                Ok(reader)
             }
 
             fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -147,10 +148,11 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+            fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
                 let (first_highest, reader) = reader.bits($size)?;
                 let bits = (first_highest as $rust) << ($rust::BITS - $size);
-                Ok((Self(bits.reverse_bits()), reader))
+                self.0 = bits.reverse_bits();
+                Ok(reader)
             }
 
             fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -190,9 +192,10 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+            fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
                 let (index, reader) = reader.enumerated(Self::ALL.len(), $extensible)?;
-                Ok((Self::ALL[index], reader))
+                *self = Self::ALL[index];
+                Ok(reader)
             }
 
             fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -234,6 +237,7 @@ macro_rules! asn1 {
 
         const _: () = {
             #[allow(non_camel_case_types, reason = "names of components")]
+            #[allow(clippy::enum_variant_names, reason = "names of components")]
             enum Index { $($field),+ }
 
             /// How many components are OPTIONAL or have a DEFAULT.
@@ -260,21 +264,21 @@ macro_rules! asn1 {
                 }
 
                 #[inline]
-                fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+                fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
                     let (is_extended, reader) = reader.bits($extensible as u32)?;
                     let (presence, reader) = reader.bits(OPTIONAL)?;
                     // The bit of the next component is in the place of OPTIONAL.
                     let presence = u64::from(presence) << 1;
                     $(
                         let (presence, is_present) = component!(next $kind, presence, OPTIONAL);
-                        let ($field, reader) = match component!(decode $kind, reader, is_present) {
-                            Ok(read) => read,
+                        let read = component!(read $kind, self.$field, reader, is_present);
+                        let reader = match read {
+                            Ok(reader) => reader,
                             Err(error) => return Err(error.within(Index::$field as usize)),
                         };
                     )+
                     let _ = presence;
-                    let reader = if is_extended == 1 { reader.skip_additions()? } else { reader };
-                    Ok((Self { $($field),+ }, reader))
+                    if is_extended == 1 { reader.skip_additions() } else { Ok(reader) }
                 }
 
                 fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -305,6 +309,7 @@ macro_rules! asn1 {
         }
 
         const _: () = {
+            #[allow(clippy::enum_variant_names, reason = "names of alternatives")]
             enum Index { $($variant,)+ $($addition,)* }
 
             /// How many alternatives of the root there are here.
@@ -343,22 +348,33 @@ macro_rules! asn1 {
                 }
 
                 #[inline]
-                fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+                fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
                     let start = reader.position();
                     let (is_addition, reader) = reader.bits($extensible as u32)?;
                     if is_addition == 1 {
                         let (index, reader) = reader.small_number()?;
                         $(if index == Some(Index::$addition as usize - ROOT) {
                             let read = open_type::decode::<$addition_type>(reader);
-                            return alternative(Index::$addition as usize, read, Self::$addition);
+                            return match read {
+                                Ok((value, reader)) => {
+                                    *self = Self::$addition(value);
+                                    Ok(reader)
+                                }
+                                Err(error) => Err(error.within(Index::$addition as usize)),
+                            };
                         })*
                         let _ = (index, reader);
                         return Err(Error::at(start, Fault::UnknownAlternative));
                     }
                     let (index, reader) = reader.index(COUNT)?;
                     $(if index == Index::$variant as usize {
-                        let read = <$type as Uper>::decode(reader);
-                        return alternative(index, read, Self::$variant);
+                        return match <$type as Uper>::decode(reader) {
+                            Ok((value, reader)) => {
+                                *self = Self::$variant(value);
+                                Ok(reader)
+                            }
+                            Err(error) => Err(error.within(index)),
+                        };
                     })+
                     Err(Error::at(start, Fault::AbsentAlternative))
                 }
@@ -418,15 +434,15 @@ macro_rules! component {
         ($presence << 1, $presence >> $optional & 1 == 1)
     };
 
-    (decode [$type:ident], $reader:ident, $is_present:ident) => {{
+    (read [$type:ident], $slot:expr, $reader:ident, $is_present:ident) => {{
         let _: bool = $is_present;
-        <$type as Uper>::decode($reader)
+        $slot.read($reader)
     }};
-    (decode [$type:ident OPTIONAL], $reader:ident, $is_present:ident) => {
-        optional::<$type>($reader, $is_present)
+    (read [$type:ident OPTIONAL], $slot:expr, $reader:ident, $is_present:ident) => {
+        read_optional(&mut $slot, $reader, $is_present)
     };
-    (decode [$type:ident DEFAULT $default:ident], $reader:ident, $is_present:ident) => {
-        defaulted::<$type>($reader, $is_present, $type::$default)
+    (read [$type:ident DEFAULT $default:ident], $slot:expr, $reader:ident, $is_present:ident) => {
+        read_defaulted(&mut $slot, $reader, $is_present)
     };
 
     (arbitrary [$type:ident], $source:ident) => { <$type as Uper>::arbitrary($source) };
@@ -443,54 +459,49 @@ pub(super) mod prelude {
     pub(in crate::core) use super::super::error::{Error, FIELDS_MAX, Fault, Field};
     pub(in crate::core) use super::super::list::SequenceOf;
     pub(in crate::core) use super::super::open_type;
-    pub(in crate::core) use super::super::reader::{Read, Reader};
+    pub(in crate::core) use super::super::reader::Reader;
     pub(in crate::core) use super::super::source::Source;
     pub(in crate::core) use super::super::writer::Writer;
     pub(in crate::core) use super::super::{Null, Uper, width};
-    pub(in crate::core) use super::{alternative, asn1, component, defaulted, longest, optional};
+    pub(in crate::core) use super::{asn1, component, longest, read_defaulted, read_optional};
 }
 
 pub(super) use {asn1, component};
 
 use super::Uper;
 use super::error::{Error, Fault};
-use super::reader::{Read, Reader};
+use super::reader::Reader;
 
-/// The component, if it is present.
+/// Reads the component, if it is present.
 #[inline]
-pub(super) fn optional<T: Uper>(reader: Reader<'_>, is_present: bool) -> Read<'_, Option<T>> {
+pub(super) fn read_optional<'a, T: Uper>(
+    slot: &mut Option<T>,
+    reader: Reader<'a>,
+    is_present: bool,
+) -> Result<Reader<'a>, Error> {
     if !is_present {
-        return Ok((None, reader));
+        return Ok(reader);
     }
-    let (value, reader) = T::decode(reader)?;
-    Ok((Some(value), reader))
+    slot.insert(T::LOWEST).read(reader)
 }
 
-/// The component if it is present, which it is only if it is not its default (X.691 clause 19.5).
+/// Reads the component if it is present, which it is only if it is not its default (X.691 clause
+/// 19.5). The slot holds the default.
 #[inline]
-pub(super) fn defaulted<T: Uper>(reader: Reader<'_>, is_present: bool, default: T) -> Read<'_, T> {
+pub(super) fn read_defaulted<'a, T: Uper>(
+    slot: &mut T,
+    reader: Reader<'a>,
+    is_present: bool,
+) -> Result<Reader<'a>, Error> {
     if !is_present {
-        return Ok((default, reader));
+        return Ok(reader);
     }
-    match T::decode(reader)? {
-        (value, _) if value == default => {
-            Err(Error::at(reader.position(), Fault::DefaultSpelledOut))
-        }
-        read => Ok(read),
+    let (value, behind) = T::decode(reader)?;
+    if value == *slot {
+        return Err(Error::at(reader.position(), Fault::DefaultSpelledOut));
     }
-}
-
-/// The alternative `index` of a CHOICE.
-#[inline]
-pub(super) fn alternative<T, C>(
-    index: usize,
-    read: Read<'_, T>,
-    choose: impl FnOnce(T) -> C,
-) -> Read<'_, C> {
-    match read {
-        Ok((value, reader)) => Ok((choose(value), reader)),
-        Err(error) => Err(error.within(index)),
-    }
+    *slot = value;
+    Ok(behind)
 }
 
 /// The largest of these numbers of bits.

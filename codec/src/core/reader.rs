@@ -1,5 +1,10 @@
 //! The bits of an encoding, read in order.
 
+#![allow(
+    clippy::inline_always,
+    reason = "a reader that goes through memory at every field is several times slower"
+)]
+
 use super::error::{Error, Fault};
 use super::width;
 
@@ -67,7 +72,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// [`Fault::Truncated`] when fewer are left.
-    #[inline]
+    #[inline(always)]
     pub fn skip(self, count: usize) -> Result<Self, Error> {
         if count > self.left() {
             return Err(Error::at(self.end, Fault::Truncated));
@@ -80,20 +85,19 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// [`Fault::Truncated`] when fewer are left.
-    #[inline]
+    #[inline(always)]
     pub fn bits(self, count: u32) -> Read<'a, u32> {
         debug_assert!(count <= 32);
         let reader = self.skip(count as usize)?;
         let aligned = self.window() << (self.position % 8);
         // Twice, since a shift by 64 is none.
         let number = aligned >> 1 >> (63 - count);
-        #[expect(clippy::cast_possible_truncation, reason = "at most 32 bits are left")]
         Ok((number as u32, reader))
     }
 
     /// The octets from that of the next bit on, first octet highest. What is behind the encoding is
     /// zero.
-    #[inline]
+    #[inline(always)]
     fn window(self) -> u64 {
         let first = self.position / 8;
         match self.octets.get(first..).and_then(<[u8]>::first_chunk::<8>) {
@@ -103,6 +107,7 @@ impl<'a> Reader<'a> {
     }
 
     /// As [`window`](Self::window), where fewer than eight octets are left.
+    #[cold]
     fn last_window(self, first: usize) -> u64 {
         let mut window = 0;
         for index in 0..WINDOW_OCTETS {
@@ -116,7 +121,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// [`Fault::Truncated`] when there is none.
-    #[inline]
+    #[inline(always)]
     pub fn bit(self) -> Read<'a, bool> {
         let (bit, reader) = self.bits(1)?;
         Ok((bit == 1, reader))
@@ -126,7 +131,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// [`Fault::Value`] for a larger one.
-    #[inline]
+    #[inline(always)]
     pub fn integer(self, min: i64, max: i64) -> Read<'a, i64> {
         let (offset, reader) = self.bits(width(min, max))?;
         let number = min + i64::from(offset);
@@ -153,7 +158,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// [`Fault::BeyondRoot`] when it is set.
-    #[inline]
+    #[inline(always)]
     pub fn root(self) -> Result<Self, Error> {
         match self.bit()? {
             (false, reader) => Ok(reader),
@@ -165,7 +170,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// [`Fault::UnknownAlternative`] for a larger one.
-    #[inline]
+    #[inline(always)]
     pub fn index(self, count: usize) -> Read<'a, usize> {
         let (index, reader) = self.bits(width(0, count as i64 - 1))?;
         let index = index as usize;
@@ -180,7 +185,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// [`Fault::UnknownAlternative`] for a value that is not known.
-    #[inline]
+    #[inline(always)]
     pub fn enumerated(self, count: usize, is_extensible: bool) -> Read<'a, usize> {
         if !is_extensible {
             return self.index(count);

@@ -66,10 +66,8 @@ impl<'a> Writer<'a> {
     /// As [`put`](Self::put), where fewer than eight octets are left.
     fn put_last(octets: &mut [u8], window: u64) {
         let window = window.to_be_bytes();
-        for index in 0..WINDOW_OCTETS {
-            if let Some(octet) = octets.get_mut(index) {
-                *octet = window[index];
-            }
+        for (octet, begun) in octets.iter_mut().zip(window).take(WINDOW_OCTETS) {
+            *octet = begun;
         }
     }
 
@@ -78,11 +76,7 @@ impl<'a> Writer<'a> {
     #[inline]
     pub fn integer(self, number: i64, min: i64, max: i64) -> Self {
         debug_assert!(min <= number && number <= max);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "no range has more than 2^32 numbers"
-        )]
+        // No range has more than 2^32 numbers.
         self.bits((number - min) as u32, width(min, max))
     }
 
