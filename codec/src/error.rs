@@ -6,7 +6,7 @@ use crossguard_protocol::{MAX_FOLLOWERS, SessionId, StationId};
 use thiserror::Error;
 
 use crate::asn1::ram::HelpStatus;
-use crate::core::Fault;
+use crate::core::{self, Fault, Uper};
 use crate::state::TaskProgression;
 
 /// Why octets are not a message.
@@ -71,6 +71,23 @@ pub enum DecodeError {
     /// The message breaks a rule that its encoding does not show.
     #[error(transparent)]
     Rule(#[from] BrokenRule),
+    /// The core takes the message and the reference does not, which differential tests exclude.
+    #[error("core and reference disagree on the message")]
+    Disagreement,
+}
+
+impl DecodeError {
+    /// The error of the core, with the names of the fields of `T`.
+    pub(crate) fn of_core<T: Uper>(error: core::Error) -> Self {
+        match error.fault {
+            Fault::Trailing { octets: count } => Self::TrailingOctets { count },
+            fault => Self::Malformed {
+                field: FieldPath(error.names(T::FIELDS).collect()),
+                bit: error.bit,
+                fault,
+            },
+        }
+    }
 }
 
 /// A rule that holds for a message beyond what its encoding shows. Fields are in the spelling of
@@ -138,6 +155,25 @@ pub enum EncodeError {
     /// The message breaks a rule that its encoding does not show.
     #[error(transparent)]
     Rule(#[from] BrokenRule),
+    /// A field is one that no receiver takes: a list is too long, or its size or value is behind an
+    /// extension marker.
+    #[error("{field}: {fault}")]
+    Malformed {
+        /// The field.
+        field: FieldPath,
+        /// What is wrong with it.
+        fault: Fault,
+    },
+}
+
+impl EncodeError {
+    /// The error of the core, with the names of the fields of `T`.
+    pub(crate) fn of_core<T: Uper>(error: core::Error) -> Self {
+        Self::Malformed {
+            field: FieldPath(error.names(T::FIELDS).collect()),
+            fault: error.fault,
+        }
+    }
 }
 
 /// Why a message contradicts itself or says what no message can.

@@ -136,7 +136,7 @@ macro_rules! agreement {
     };
 }
 
-const CASES: u32 = 128;
+const CASES: u32 = 64;
 
 mod every_type {
     use super::{CASES, ProptestConfig, agree, proptest};

@@ -111,7 +111,7 @@ fn a_second_demo_on_the_same_port_is_refused_and_the_first_goes_on() {
         "is in use; is another robot or demo running there?",
     );
     let first = {
-        wait_for(&mut first, std::time::Duration::from_secs(60));
+        wait_for(&mut first, std::time::Duration::from_mins(1));
         first.wait_with_output().unwrap()
     };
     assert_all_well(&json(&first));
@@ -144,7 +144,7 @@ fn a_reader_that_goes_away_does_not_make_it_panic() {
         .spawn()
         .unwrap();
     drop(child.stdout.take());
-    wait_for(&mut child, std::time::Duration::from_secs(60));
+    wait_for(&mut child, std::time::Duration::from_mins(1));
     let output = child.wait_with_output().unwrap();
     assert!(!stderr(&output).contains("panicked"), "{}", stderr(&output));
 }
