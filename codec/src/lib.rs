@@ -11,7 +11,7 @@
 //!
 //! - `asn1/*.asn` in this crate are the messages, as ASN.1 modules that any compiler takes; [`asn1`]
 //!   holds the types that follow from them.
-//! - [`core`](crate::core) is the codec of RAM and RMCM bit by bit, without heap, with its laws; it
+//! - [`core`] is the codec of RAM and RMCM bit by bit, without heap, with its laws; it
 //!   decides what is a message.
 //! - [`encode`] and [`decode`] are strict: exactly the canonical unaligned PER encodings of valid
 //!   messages are accepted, extension additions of newer senders are skipped, and everything else is
