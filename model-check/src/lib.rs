@@ -25,6 +25,7 @@ mod intern;
 pub mod model;
 pub mod network;
 pub mod node;
+pub mod paper;
 pub mod properties;
 pub mod report;
 pub mod scenario;

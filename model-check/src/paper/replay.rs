@@ -1,0 +1,181 @@
+//! The physical story of a counterexample, to be told to robots that run the real protocol.
+//!
+//! A counterexample says what the robots of the paper's wording do; a replay leaves that out. It says
+//! what happens *to* robots: detections, what applications ask for, finished maneuvers, breakdowns,
+//! and what the radio does. The radio carries everything except
+//!
+//! - RAM on the links that are *silent*: those on which the receiver's next RAM would have changed the
+//!   story, so it was not heard in it;
+//! - the messages that are *held*: those that are under way in the story.
+
+use serde::{Deserialize, Serialize};
+
+use super::model::{Action, Cast, Flight, Kind, World};
+use super::robot::Place;
+use super::{Counterexample, counterexamples, explore_all};
+
+/// The story of one counterexample.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Replay {
+    /// Id of the broken property.
+    pub property: String,
+    /// What happens, in a few words.
+    pub title: String,
+    /// The robots.
+    pub robots: Vec<Party>,
+    /// What happens, in order.
+    pub steps: Vec<Step>,
+}
+
+/// A robot of the story.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Party {
+    /// Its name.
+    pub name: String,
+    /// Its station id.
+    pub station: u32,
+}
+
+/// One step of the story.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// What happens.
+    pub what: Happening,
+    /// Links that carry no RAM from now on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub silent: Vec<Link>,
+    /// Messages that are under way from now on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub held: Vec<Message>,
+}
+
+/// What happens to robots and to messages. Robots are named by their station ids.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Happening {
+    /// It detects a pedestrian.
+    Detect(u32),
+    /// The newest RAM of one robot is heard by the other.
+    Hear(Link),
+    /// The newest RAM of one robot to the other is delayed.
+    Delay(Link),
+    /// The application of one robot wants the other one to move along with the pedestrian.
+    Command(Link),
+    /// What is held arrives.
+    Arrive(Message),
+    /// What is held arrives, and a copy of it stays under way.
+    ArriveAgain(Message),
+    /// What is held is lost.
+    Lose(Message),
+    /// Its body has finished the maneuver.
+    Finish(u32),
+    /// Its application says that the task is done.
+    CompleteTask(u32),
+    /// As much time passes as its safety timer runs.
+    SafetyTimeout(u32),
+    /// It breaks down for good.
+    Crash(u32),
+}
+
+/// From one robot to another.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Link {
+    /// The sender's station id.
+    pub from: u32,
+    /// The receiver's.
+    pub to: u32,
+}
+
+/// A message on a link.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Message {
+    /// A RAM.
+    Ram(Link),
+    /// An RMCM with a command.
+    Command(Link),
+    /// An RMCM with an answer.
+    Answer(Link),
+}
+
+/// The stories of all counterexamples, in the order of their hazards.
+#[must_use]
+pub fn replays() -> Vec<Replay> {
+    counterexamples(&explore_all())
+        .into_iter()
+        .map(Counterexample::replay)
+        .collect()
+}
+
+impl Counterexample {
+    fn replay(&self) -> Replay {
+        let text = self.hazard.text();
+        let steps = self.steps.iter().map(|step| Step {
+            what: happening(&step.before, step.action),
+            silent: silent(&step.after),
+            held: step.after.flying.iter().map(|(f, _)| message(*f)).collect(),
+        });
+        Replay {
+            property: text.id.to_owned(),
+            title: text.title.to_owned(),
+            robots: parties(&self.cast),
+            steps: steps.collect(),
+        }
+    }
+}
+
+fn parties(cast: &Cast) -> Vec<Party> {
+    let party = |(place, name): (Place, &&str)| Party {
+        name: (*name).to_owned(),
+        station: station(place),
+    };
+    cast.names.iter().enumerate().map(party).collect()
+}
+
+fn station(place: Place) -> u32 {
+    u32::try_from(place + 1).expect("a cast has a handful of robots")
+}
+
+fn link(from: Place, to: Place) -> Link {
+    let (from, to) = (station(from), station(to));
+    Link { from, to }
+}
+
+fn silent(world: &World) -> Vec<Link> {
+    world
+        .telling_links()
+        .map(|(from, to)| link(from, to))
+        .collect()
+}
+
+fn message(Flight { from, to, kind }: Flight) -> Message {
+    let link = link(from, to);
+    match kind {
+        Kind::Ram => Message::Ram(link),
+        Kind::Command => Message::Command(link),
+        Kind::Acknowledgement => Message::Answer(link),
+    }
+}
+
+fn happening(before: &World, action: Action) -> Happening {
+    match action {
+        Action::Detect(place) => Happening::Detect(station(place)),
+        Action::Hear { from, to } => Happening::Hear(link(from, to)),
+        Action::Delay { from, to } => Happening::Delay(link(from, to)),
+        Action::Command(place) => {
+            let follower = before.robot(place).and_then(|leader| leader.follower());
+            Happening::Command(link(place, follower.expect("only a leader commands")))
+        }
+        Action::Arrive { flight, again } if again => Happening::ArriveAgain(message(flight)),
+        Action::Arrive { flight, .. } => Happening::Arrive(message(flight)),
+        Action::Lose(flight) => Happening::Lose(message(flight)),
+        Action::Finish(place) => Happening::Finish(station(place)),
+        Action::CompleteTask(place) => Happening::CompleteTask(station(place)),
+        Action::SafetyTimeout(place) => Happening::SafetyTimeout(station(place)),
+        Action::Crash(place) => Happening::Crash(station(place)),
+    }
+}
