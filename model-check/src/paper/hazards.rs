@@ -5,7 +5,7 @@ use stateright::Property;
 
 use crossguard_protocol::State as Stage;
 
-use super::model::{Cast, World};
+use super::model::{Question, World};
 use super::robot::{HelpStatus, Input, Place, Progression, Rmcm, Robot};
 
 /// A property of the paper's wording.
@@ -102,31 +102,22 @@ pub(super) const HOLDS: &str = "P0";
 pub(super) const PREMISE: &str = "P0-premise";
 const HOLDS_BIT: u16 = 1 << Hazard::ALL.len();
 
-/// The properties that stateright checks in a cast.
-pub(super) fn properties(cast: &Cast) -> Vec<Property<Cast>> {
-    const ABSENT: [fn(&Cast, &World) -> bool; Hazard::ALL.len()] = [
-        |_, world| !Hazard::P1.is_in(world),
-        |_, world| !Hazard::P2.is_in(world),
-        |_, world| !Hazard::P3.is_in(world),
-        |_, world| !Hazard::P4.is_in(world),
-        |_, world| !Hazard::P5.is_in(world),
-        |_, world| !Hazard::P6.is_in(world),
-        |_, world| !Hazard::P7.is_in(world),
-        |_, world| !Hazard::P8.is_in(world),
-        |_, world| !Hazard::P9.is_in(world),
-        |_, world| !Hazard::P10.is_in(world),
-        |_, world| !Hazard::P11.is_in(world),
-        |_, world| !Hazard::P12.is_in(world),
-    ];
-    let absent = |&hazard: &Hazard| Property::always(hazard.text().id, ABSENT[hazard as usize]);
-    let mut properties: Vec<_> = cast.hazards.iter().map(absent).collect();
-    properties.push(Property::always(HOLDS, |_, world: &World| {
-        world.memory.brought_about & HOLDS_BIT == 0
-    }));
-    if cast.commands > 1 {
-        properties.push(Property::sometimes(PREMISE, |_, world: &World| {
-            is_crossed(world)
-        }));
+/// What stateright looks at to answer a question.
+///
+/// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
+/// keeps the last.
+pub(super) fn properties(question: &Question) -> Vec<Property<Question>> {
+    let mut properties = vec![match question.hazard {
+        Some(hazard) => Property::always(hazard.text().id, |question: &Question, world: &World| {
+            question.hazard.is_none_or(|hazard| !hazard.is_in(world))
+        }),
+        None => Property::always(HOLDS, |_, world: &World| {
+            world.memory.brought_about & HOLDS_BIT == 0
+        }),
+    }];
+    if question.hazard.is_none() && question.cast.commands > 1 {
+        let is_met = |_: &Question, world: &World| is_crossed(world);
+        properties.push(Property::sometimes(PREMISE, is_met));
     }
     properties
 }

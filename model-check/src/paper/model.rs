@@ -26,7 +26,14 @@ pub(super) struct Cast {
     pub(super) crashes: u8,
     /// Whether a RAM may be delayed.
     pub(super) delay: bool,
-    pub(super) hazards: &'static [Hazard],
+}
+
+/// What stateright is asked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Question {
+    pub(super) cast: Cast,
+    /// The hazard to find, or what holds.
+    pub(super) hazard: Option<Hazard>,
 }
 
 /// A message under way.
@@ -247,41 +254,41 @@ impl Cast {
             }
         }
     }
+}
 
-    fn successor(world: &World, action: Action) -> Option<World> {
-        let mut next = world.clone();
-        next.memory.brought_about = 0;
-        match action {
-            Action::Detect(place) => {
-                next.detections += 1;
-                next.step(place, Input::Detected)?;
-            }
-            Action::Hear { from, to } => {
-                let ram = world.robot(from)?.ram();
-                next.step(to, Input::Ram(from, ram))?;
-            }
-            Action::Command(place) => next.step(place, Input::Commanded(world.memory.given))?,
-            Action::Arrive { flight, again } => {
-                if !again {
-                    next.land(flight);
-                }
-                next.step(flight.to, world.content(flight)?.input(flight.from))?;
-            }
-            Action::Finish(place) => next.step(place, Input::Finished)?,
-            Action::CompleteTask(place) => next.step(place, Input::TaskCompleted)?,
-            Action::SafetyTimeout(place) => next.step(place, Input::SafetyTimeout)?,
-            Action::Delay { from, to } => {
-                let ram = world.robot(from)?.ram();
-                next.send(from, to, Content::Ram(ram))?;
-            }
-            Action::Lose(flight) => next.land(flight),
-            Action::Crash(place) => {
-                next.crashes += 1;
-                next.robots[place] = None;
-            }
+fn successor(world: &World, action: Action) -> Option<World> {
+    let mut next = world.clone();
+    next.memory.brought_about = 0;
+    match action {
+        Action::Detect(place) => {
+            next.detections += 1;
+            next.step(place, Input::Detected)?;
         }
-        Some(next)
+        Action::Hear { from, to } => {
+            let ram = world.robot(from)?.ram();
+            next.step(to, Input::Ram(from, ram))?;
+        }
+        Action::Command(place) => next.step(place, Input::Commanded(world.memory.given))?,
+        Action::Arrive { flight, again } => {
+            if !again {
+                next.land(flight);
+            }
+            next.step(flight.to, world.content(flight)?.input(flight.from))?;
+        }
+        Action::Finish(place) => next.step(place, Input::Finished)?,
+        Action::CompleteTask(place) => next.step(place, Input::TaskCompleted)?,
+        Action::SafetyTimeout(place) => next.step(place, Input::SafetyTimeout)?,
+        Action::Delay { from, to } => {
+            let ram = world.robot(from)?.ram();
+            next.send(from, to, Content::Ram(ram))?;
+        }
+        Action::Lose(flight) => next.land(flight),
+        Action::Crash(place) => {
+            next.crashes += 1;
+            next.robots[place] = None;
+        }
     }
+    Some(next)
 }
 
 impl Content {
@@ -293,13 +300,13 @@ impl Content {
     }
 }
 
-impl stateright::Model for Cast {
+impl stateright::Model for Question {
     type State = World;
     type Action = Action;
 
     fn init_states(&self) -> Vec<World> {
         vec![World {
-            robots: vec![Some(Robot::IDLE); self.names.len()],
+            robots: vec![Some(Robot::IDLE); self.cast.names.len()],
             flying: Vec::new(),
             memory: Memory::default(),
             detections: 0,
@@ -308,16 +315,16 @@ impl stateright::Model for Cast {
     }
 
     fn actions(&self, world: &World, actions: &mut Vec<Action>) {
-        // The shortest counterexample that is found is the first in this order.
-        self.channel_actions(world, actions);
-        self.local_actions(world, actions);
-        if world.crashes < self.crashes {
+        // Of equally short counterexamples the first in this order is found.
+        self.cast.channel_actions(world, actions);
+        self.cast.local_actions(world, actions);
+        if world.crashes < self.cast.crashes {
             actions.extend(world.robots().map(|(place, _)| Action::Crash(place)));
         }
     }
 
     fn next_state(&self, world: &World, action: Action) -> Option<World> {
-        Self::successor(world, action)
+        successor(world, action)
     }
 
     fn properties(&self) -> Vec<Property<Self>> {

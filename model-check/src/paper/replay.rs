@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::model::{Action, Cast, Flight, Kind, World};
 use super::robot::Place;
-use super::{Counterexample, counterexamples, explore_all};
+use super::{Counterexample, counterexamples};
 
 /// The story of one counterexample.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -105,8 +105,8 @@ pub enum Message {
 /// The stories of all counterexamples, in the order of their hazards.
 #[must_use]
 pub fn replays() -> Vec<Replay> {
-    counterexamples(&explore_all())
-        .into_iter()
+    counterexamples()
+        .iter()
         .map(Counterexample::replay)
         .collect()
 }
