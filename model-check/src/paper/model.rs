@@ -138,13 +138,23 @@ impl World {
 
     /// The links on which the sender's current RAM would change the receiver.
     pub(super) fn telling_links(&self) -> impl Iterator<Item = (Place, Place)> {
-        self.robots().flat_map(move |(from, sender)| {
-            self.robots().filter_map(move |(to, receiver)| {
-                let mut after = *receiver;
-                after.step(to, Input::Ram(from, sender.ram()));
-                (from != to && after != *receiver).then_some((from, to))
-            })
+        self.links()
+            .filter(|&(from, to)| self.told(from, to) != self.robots[to])
+    }
+
+    /// From every robot to every other.
+    pub(super) fn links(&self) -> impl Iterator<Item = (Place, Place)> {
+        self.robots().flat_map(move |(from, _)| {
+            let others = self.robots().filter(move |(to, _)| *to != from);
+            others.map(move |(to, _)| (from, to))
         })
+    }
+
+    /// The robot at `to` if it heard the current RAM of the robot at `from`.
+    pub(super) fn told(&self, from: Place, to: Place) -> Option<Robot> {
+        let mut robot = self.robots[to]?;
+        robot.step(to, Input::Ram(from, self.robots[from]?.ram()));
+        Some(robot)
     }
 
     fn send(&mut self, from: Place, to: Place, content: Content) -> Option<()> {

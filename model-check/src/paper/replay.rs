@@ -4,15 +4,15 @@
 //! what happens *to* robots: detections, what applications ask for, finished maneuvers, breakdowns,
 //! and what the radio does. The radio carries everything except
 //!
-//! - RAM on the links that are *silent*: those on which the receiver's next RAM would have changed the
-//!   story, so it was not heard in it;
+//! - RAM on the links that are *silent*: to hear one there, before or after the step, would have made
+//!   it another story;
 //! - the messages that are *held*: those that are under way in the story.
 
 use serde::{Deserialize, Serialize};
 
 use super::model::{Action, Cast, Flight, Kind, World};
 use super::robot::Place;
-use super::{Counterexample, counterexamples};
+use super::{Counterexample, Transition, counterexamples};
 
 /// The story of one counterexample.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -114,9 +114,9 @@ pub fn replays() -> Vec<Replay> {
 impl Counterexample {
     fn replay(&self) -> Replay {
         let text = self.hazard.text();
-        let steps = self.steps.iter().map(|step| Step {
+        let steps = self.steps.iter().enumerate().map(|(i, step)| Step {
             what: happening(&step.before, step.action),
-            silent: silent(&step.after),
+            silent: self.silent(i),
             held: step.after.flying.iter().map(|(f, _)| message(*f)).collect(),
         });
         Replay {
@@ -125,6 +125,34 @@ impl Counterexample {
             robots: parties(&self.cast),
             steps: steps.collect(),
         }
+    }
+
+    /// The links that are silent in a step.
+    fn silent(&self, step: usize) -> Vec<Link> {
+        let Transition {
+            before,
+            action,
+            after,
+        } = &self.steps[step];
+        // That the leader was heard matters only to a safety timeout.
+        let is_timeout = |step: &Transition| matches!(step.action, Action::SafetyTimeout(_));
+        let times_out = self.steps[step..].iter().any(is_timeout);
+        let tells = |world: &World, from, to| {
+            let (robot, mut told) = (world.robots[to], world.told(from, to));
+            if let (Some(robot), Some(told), false) = (robot, &mut told, times_out) {
+                told.heard_leader = robot.heard_leader;
+            }
+            told != robot
+        };
+        let is_silent = |&(from, to): &(Place, Place)| {
+            let is_heard = *action == Action::Hear { from, to };
+            tells(after, from, to) || !is_heard && tells(before, from, to)
+        };
+        after
+            .links()
+            .filter(is_silent)
+            .map(|(from, to)| link(from, to))
+            .collect()
     }
 }
 
@@ -143,13 +171,6 @@ fn station(place: Place) -> u32 {
 fn link(from: Place, to: Place) -> Link {
     let (from, to) = (station(from), station(to));
     Link { from, to }
-}
-
-fn silent(world: &World) -> Vec<Link> {
-    world
-        .telling_links()
-        .map(|(from, to)| link(from, to))
-        .collect()
 }
 
 fn message(Flight { from, to, kind }: Flight) -> Message {
