@@ -223,3 +223,9 @@ fn each_hazard_has_its_story() {
         assert_eq!(story(&text.id.to_lowercase()).property, text.id);
     }
 }
+
+#[test]
+#[should_panic(expected = "nobody guards the corridor")]
+fn a_corridor_that_nobody_guards_is_noticed() {
+    told("p3", |_| ()).stop_silently(GO2);
+}

@@ -7,8 +7,9 @@ use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use crossguard_model_check::check::{Options, Progress, check};
 use crossguard_model_check::model::Model;
+use crossguard_model_check::paper;
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
-use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::scenario::{Scenario, ScenarioError};
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
@@ -16,7 +17,8 @@ use super::{Failure, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Shipped scenarios by name, or files; all shipped ones if none is named.
+    /// Shipped scenarios by name, or files; all shipped ones if none is named. 'paper-literal' is the
+    /// paper's text word for word, which must fail.
     #[arg(value_name = "SCENARIO|FILE")]
     scenarios: Vec<String>,
     /// List the shipped scenarios and check nothing.
@@ -54,13 +56,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // others.
     let scenarios = names
         .into_iter()
-        .map(Scenario::load)
+        .map(Subject::load)
         .collect::<Result<Vec<_>, _>>();
     let mut report = Report {
         scenarios: Vec::new(),
     };
-    for scenario in scenarios.map_err(Failure::input)? {
-        let checked = check_one(arguments, scenario);
+    for subject in scenarios.map_err(Failure::input)? {
+        let checked = match subject {
+            Subject::Scenario(scenario) => check_one(arguments, *scenario),
+            Subject::PaperLiteral => paper::check(),
+        };
         if !arguments.json {
             print_report(&checked)?;
         }
@@ -71,7 +76,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         summarize(&report)?;
     }
-    if report.scenarios.iter().any(ScenarioReport::failed) {
+    if report.scenarios.iter().any(is_wrong) {
         Err(Failure::Wrong)
     } else if report.scenarios.iter().any(|scenario| !scenario.exhaustive) {
         Err(Failure::Incomplete)
@@ -80,12 +85,36 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// What can be checked.
+enum Subject {
+    Scenario(Box<Scenario>),
+    PaperLiteral,
+}
+
+impl Subject {
+    fn load(name: &str) -> Result<Self, ScenarioError> {
+        if name == paper::NAME {
+            return Ok(Self::PaperLiteral);
+        }
+        Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
+    }
+}
+
+/// Whether something was found that should not be; the paper's text must fail, and in full.
+fn is_wrong(report: &ScenarioReport) -> bool {
+    if paper::made(report) {
+        !paper::fails_as_it_must(report)
+    } else {
+        report.failed()
+    }
+}
+
 fn list() -> Result<(), Failure> {
     for name in Scenario::shipped() {
         let scenario = Scenario::load(name).map_err(Failure::input)?;
         print(format_args!("{name:<14} {}", scenario.summary))?;
     }
-    Ok(())
+    print(format_args!("{:<14} {}", paper::NAME, paper::SUMMARY))
 }
 
 fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
@@ -160,7 +189,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         };
         table.add_row([
             &property.id,
-            verdict(property.verdict),
+            verdict(report, property.verdict),
             &property.statement,
             premise,
         ]);
@@ -178,8 +207,9 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
     print("")
 }
 
-const fn verdict(verdict: Verdict) -> &'static str {
+fn verdict(report: &ScenarioReport, verdict: Verdict) -> &'static str {
     match verdict {
+        Verdict::Violated if paper::fails_as_it_must(report) => "violated, as it must be",
         Verdict::Holds => "holds",
         Verdict::Reachable => "reachable",
         Verdict::Violated => "VIOLATED",
@@ -215,15 +245,27 @@ fn words(name: &str) -> String {
 }
 
 fn summarize(report: &Report) -> Result<(), Failure> {
-    let scenarios = report.scenarios.len();
-    let verified = report
-        .scenarios
+    let (literal, scenarios): (Vec<_>, Vec<_>) =
+        report.scenarios.iter().partition(|r| paper::made(r));
+    for literal in literal {
+        let how = if is_wrong(literal) {
+            "does not fail as it must"
+        } else {
+            "fails as it must"
+        };
+        print(format_args!("{} {how}.", literal.name))?;
+    }
+    if scenarios.is_empty() {
+        return Ok(());
+    }
+    let verified = scenarios
         .iter()
         .filter(|r| r.exhaustive && !r.failed())
         .count();
-    let states: usize = report.scenarios.iter().map(|r| r.unique_states).sum();
+    let states: usize = scenarios.iter().map(|r| r.unique_states).sum();
     print(format_args!(
-        "{verified} of {scenarios} scenarios verified exhaustively, {} states in all.",
+        "{verified} of {} scenarios verified exhaustively, {} states in all.",
+        scenarios.len(),
         HumanCount(states as u64)
     ))
 }

@@ -377,6 +377,12 @@ impl Street {
         self.actors.keys().filter(lead).count()
     }
 
+    /// A body that stops of its own accord, for a test of the tests.
+    pub(crate) fn stop_silently(&mut self, station: u32) {
+        self.actor(station).running = None;
+        self.pass(STEP_MS);
+    }
+
     /// Asserts that none of the hazards is there.
     fn check(&self) {
         let mut led = BTreeSet::new();

@@ -78,7 +78,7 @@ pub(super) const TEXTS: [Text; Hazard::ALL.len()] = [
         id: "P11",
         title: "acknowledgement of an earlier session",
         statement: "an acknowledgement counts only for the command that it answers",
-        explanation: "Neither requestID nor jobAdviceID says of which session it is, and every leader counts from the same number. A copy of the acknowledgement of command 0 from the crossing before acknowledges command 0 of this one, which the follower has never heard.",
+        explanation: "Neither requestID nor jobAdviceID says of which session it is, and every leader counts from the same number. A late offer from the crossing before makes its robot a follower of this one, and a copy of the acknowledgement of command 0 from the crossing before acknowledges command 0 of this one, which nobody has heard.",
         closed_by: "Every RMCM carries the session (leader, session number), and session numbers never repeat, not even after a reboot (I6, I7, I15).",
     },
     Text {
