@@ -6,7 +6,7 @@ use stateright::Property;
 use crossguard_protocol::State as Stage;
 
 use super::model::{Question, World};
-use super::robot::{HelpStatus, Input, Place, Progression, Rmcm, Robot};
+use super::robot::{Command, HelpStatus, Input, Place, Progression, Rmcm, Robot};
 
 /// A property of the paper's wording.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -166,31 +166,15 @@ pub(super) fn brought_about(before: &World, place: Place, input: Input, after: &
         Input::Ram(_, ram) if ram.progression == Progression::Completed => {
             is_completed_too_early(before, robot, after)
         }
-        Input::Rmcm(from, Rmcm::Command(command)) => {
-            let is_started = after.command == Some(command) && after.executing().is_some();
-            let bit = 1 << command.serial;
-            let by_whom = before.robot(from).and_then(Robot::follower);
-            let is_again = is_started && before.memory.started & bit != 0;
-            // The leader may have ended its role since; then it is nobody's command any more, but it
-            // was given: the follower still believes in that leader.
-            let is_given = command.serial < before.memory.given
-                && (by_whom == Some(place) || robot.leader() == Some(from));
-            let mut found = if is_again { Hazard::P6.bit() } else { 0 };
-            if is_started && !is_given {
-                found |= HOLDS_BIT;
+        Input::Rmcm(from, Rmcm::Command(command)) if after.executing() == Some(command) => {
+            if !is_given(before, from, robot, command) {
+                return HOLDS_BIT;
             }
-            return found;
+            let is_again = before.memory.started & 1 << command.serial != 0;
+            is_again.then_some(Hazard::P6)
         }
-        Input::Rmcm(_, Rmcm::Acknowledgement(answered)) => {
-            if robot.state == after.state {
-                return 0;
-            }
-            let outstanding = robot.command.map(|command| command.serial);
-            if outstanding != Some(answered.serial) {
-                return Hazard::P11.bit();
-            }
-            let has_fallen_back = before.memory.fallen_back & 1 << answered.serial != 0;
-            has_fallen_back.then_some(Hazard::P1)
+        Input::Rmcm(_, Rmcm::Acknowledgement(answered)) if robot.state != after.state => {
+            is_acknowledged_in_vain(before, robot, answered)
         }
         Input::SafetyTimeout => {
             let leader = robot.leader().and_then(|leader| before.robot(leader));
@@ -200,6 +184,20 @@ pub(super) fn brought_about(before: &World, place: Place, input: Input, after: &
         _ => None,
     };
     found.map_or(0, Hazard::bit)
+}
+
+/// Whether a command was given, and by the leader that the follower follows.
+fn is_given(before: &World, from: Place, follower: &Robot, command: Command) -> bool {
+    command.serial < before.memory.given && follower.leader() == Some(from)
+}
+
+/// The leader takes an answer that is for another command, or from a follower that has fallen back.
+fn is_acknowledged_in_vain(before: &World, leader: &Robot, answered: Command) -> Option<Hazard> {
+    if leader.command != Some(answered) {
+        return Some(Hazard::P11);
+    }
+    let has_fallen_back = before.memory.fallen_back & 1 << answered.serial != 0;
+    has_fallen_back.then_some(Hazard::P1)
 }
 
 /// A RAM with `none` stopped a maneuver that the leader, who did not mean it, counts on.

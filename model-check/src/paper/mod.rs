@@ -20,7 +20,7 @@
 //! - an acknowledgement is for the outstanding command if the `jobAdviceID` is its `requestID`, and a
 //!   leader counts `requestID`s from 0 in each task;
 //! - the safety timeout of a follower is held off by RMCM, takes it to Idle, and stops its maneuver;
-//! - a leader in ManeuverExecuting that hears `completed` from its follower takes its command as
+//! - a leader in `ManeuverExecuting` that hears `completed` from its follower takes its command as
 //!   completed; nothing else in a follower's RAM changes a leader;
 //! - only a robot in Idle answers a `needHelp`; no time limit is given for any state.
 
@@ -171,7 +171,7 @@ fn hazard_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport {
         kind: "S".to_owned(),
         verdict: verdict(counterexample.is_none()),
         statement: text.statement.to_owned(),
-        counterexample: counterexample.map_or_else(Vec::new, |found| found.chart()),
+        counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
     }
 }
 

@@ -11,7 +11,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::model::{Action, Cast, Flight, Kind, World};
-use super::robot::Place;
+use super::robot::{Place, Robot};
 use super::{Counterexample, Transition, counterexamples};
 
 /// The story of one counterexample.
@@ -188,7 +188,7 @@ fn happening(before: &World, action: Action) -> Happening {
         Action::Hear { from, to } => Happening::Hear(link(from, to)),
         Action::Delay { from, to } => Happening::Delay(link(from, to)),
         Action::Command(place) => {
-            let follower = before.robot(place).and_then(|leader| leader.follower());
+            let follower = before.robot(place).and_then(Robot::follower);
             Happening::Command(link(place, follower.expect("only a leader commands")))
         }
         Action::Arrive { flight, again } if again => Happening::ArriveAgain(message(flight)),
