@@ -9,10 +9,12 @@ use std::time::{Duration, Instant};
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
+use crate::fair::{LeadsTo, leads_to};
+use crate::fairness::Runs;
 use crate::graph::{Graph, Limit};
 use crate::model::{Action, Delivery, Model, State};
 use crate::network::Transmission;
-use crate::properties::{Kind, PropertyId};
+use crate::properties::{Kind, PropertyId, View};
 use crate::report::{ChartStep, CutOff, PropertyReport, ScenarioReport, Verdict};
 use crate::scenario::{Scenario, Size};
 
@@ -199,12 +201,13 @@ impl Findings<'_> {
     }
 
     fn rule(&self, i: usize, id: PropertyId) -> PropertyReport {
-        let counterexample = match id {
-            PropertyId::L7 => self
-                .graph
-                .stuck(self.model)
-                .map(|path| chart(self.model, path)),
-            _ => self.checked.counterexamples[i].clone(),
+        let (counterexample, repeats_after) = match id {
+            PropertyId::L7 => (self.stuck(), None),
+            _ if id.kind() == Kind::L => match self.lasso(id) {
+                Some((chart, repeats_after)) => (Some(chart), Some(repeats_after)),
+                None => (None, None),
+            },
+            _ => (self.checked.counterexamples[i].clone(), None),
         };
         let verdict = match (&counterexample, self.cut_off) {
             (Some(_), _) => Verdict::Violated,
@@ -214,6 +217,7 @@ impl Findings<'_> {
         let kind = match id.kind() {
             Kind::S => "S",
             Kind::T => "T",
+            Kind::L => "L",
         };
         PropertyReport {
             id: id.to_string(),
@@ -221,6 +225,50 @@ impl Findings<'_> {
             verdict,
             statement: id.statement().to_owned(),
             counterexample: counterexample.unwrap_or_default(),
+            repeats_after,
+        }
+    }
+
+    /// A run into a state from which the robots cannot all get idle any more.
+    fn stuck(&self) -> Option<Vec<ChartStep>> {
+        let runs = self.runs();
+        let stem = self.graph.run_to(self.graph.stuck()?);
+        Some(chart(self.model, runs.along(&stem, &[])))
+    }
+
+    /// A fair run that breaks a liveness property, and how many steps of it come before its cycle.
+    /// Notes the property's premise where it is met.
+    fn lasso(&self, id: PropertyId) -> Option<(Vec<ChartStep>, usize)> {
+        let rule = id.liveness_rule()?;
+        if self.cut_off.is_some() {
+            return None;
+        }
+        let runs = self.runs();
+        let view = |state| View {
+            model: self.model,
+            state: self.graph.state(state),
+        };
+        for subject in rule.subjects.among(self.model.scenario().robots.len()) {
+            let from = |state| (rule.from)(&view(state), subject);
+            // What comes after a broken step property was not explored.
+            let to = |state| (rule.to)(&view(state), subject) || view(state).state.is_broken();
+            match leads_to(&runs, runs.fairness(), from, to) {
+                LeadsTo::Vacuous => {}
+                LeadsTo::Holds => self.model.note_premise(id),
+                LeadsTo::Broken(lasso) => {
+                    self.model.note_premise(id);
+                    let run = runs.along(&lasso.stem, &lasso.cycle);
+                    return Some((chart(self.model, run), lasso.stem.len() - 1));
+                }
+            }
+        }
+        None
+    }
+
+    const fn runs(&self) -> Runs<'_> {
+        Runs {
+            model: self.model,
+            graph: self.graph,
         }
     }
 
@@ -237,6 +285,7 @@ impl Findings<'_> {
             verdict,
             statement: premise.to_owned(),
             counterexample: Vec::new(),
+            repeats_after: None,
         })
     }
 }
@@ -289,7 +338,7 @@ pub fn describe(model: &Model, action: Action) -> String {
 
 fn assumptions(scenario: &Scenario) -> Vec<String> {
     let channel = scenario.channel;
-    vec![
+    let mut assumptions = vec![
         "untimed: any armed timer may expire at any moment, so verdicts hold for all timer settings"
             .to_owned(),
         format!("at most: {}", scenario.bounds),
@@ -304,14 +353,30 @@ fn assumptions(scenario: &Scenario) -> Vec<String> {
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),
         "stateright tells states apart by 64-bit fingerprints".to_owned(),
-    ]
+    ];
+    if scenario.properties.iter().any(|id| id.kind() == Kind::L) {
+        assumptions.push(
+            "L: weakly fair: an armed timer expires at some time, unless it is stopped or restarted \
+             again and again; a message on air is delivered, lost or delayed at some time"
+                .to_owned(),
+        );
+    }
+    if scenario.cooperative {
+        assumptions.push(
+            "cooperative: an RMCM arrives; of RAM of one kind that are sent one way again and again, \
+             some arrive; no timer that guards against silence runs out; applications give their \
+             commands, finish maneuvers, and end the task once one is completed, all at some time"
+                .to_owned(),
+        );
+    }
+    assumptions
 }
 
 // stateright wants a plain function for each property; these are them.
 
 fn holds<const N: usize>(model: &Model, state: &State) -> bool {
     let id = PropertyId::ALL[N];
-    !Model::is_broken(state, id) && model.state_rule_holds(state, id)
+    !Model::breaks(state, id) && model.state_rule_holds(state, id)
 }
 
 macro_rules! per_property {
@@ -323,7 +388,8 @@ macro_rules! per_property {
 
 per_property!(
     0 "I1", 1 "I2", 2 "I3", 3 "I4", 4 "I5", 5 "I6", 6 "I7", 7 "I8", 8 "I9", 9 "I11", 10 "I12",
-    11 "I13", 12 "I14", 13 "I15", 14 "I16", 15 "I17", 16 "I18", 17 "L7"
+    11 "I13", 12 "I14", 13 "I15", 14 "I16", 15 "I17", 16 "I18", 17 "L1", 18 "L2", 19 "L3", 20 "L4",
+    21 "L5", 22 "L6", 23 "L7"
 );
 
 impl stateright::Model for Model {

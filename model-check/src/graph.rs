@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use rustc_hash::FxBuildHasher;
 
-use crate::model::{Action, Model, State};
+use crate::model::{Model, State};
 use crate::report::CutOff;
 
 /// How far a graph may grow.
@@ -126,6 +126,29 @@ impl Graph {
         self.cut_off
     }
 
+    pub(crate) fn state(&self, number: u32) -> &State {
+        &self.states[number as usize]
+    }
+
+    /// The number of `next`, which is a successor of state `number`.
+    pub(crate) fn successor_number(&self, number: u32, next: &State) -> u32 {
+        let number = number as usize;
+        let mut targets = self.targets[self.starts[number]..self.starts[number + 1]].iter();
+        *targets
+            .find(|&&target| self.state(target) == next)
+            .expect("it is a successor")
+    }
+
+    /// A shortest run from the initial state, both ends included.
+    pub(crate) fn run_to(&self, number: u32) -> Vec<u32> {
+        let mut run = vec![number];
+        while run[run.len() - 1] != 0 {
+            run.push(self.parents[run[run.len() - 1] as usize]);
+        }
+        run.reverse();
+        run
+    }
+
     /// For each state, whether it can reach one that satisfies `goal`.
     fn can_reach(&self, goal: impl Fn(&State) -> bool) -> Vec<bool> {
         let states = self.states.len();
@@ -157,34 +180,9 @@ impl Graph {
         reached
     }
 
-    /// A shortest run into a state from which the robots cannot all get idle any more.
-    pub(crate) fn stuck(&self, model: &Model) -> Option<Vec<(State, Option<Action>)>> {
+    /// A state from which the robots cannot all get idle any more, as near as possible.
+    pub(crate) fn stuck(&self) -> Option<u32> {
         let stuck = self.resettable.iter().position(|&resettable| !resettable)?;
-        let mut path = vec![stuck];
-        while path[path.len() - 1] != 0 {
-            path.push(self.parents[path[path.len() - 1]] as usize);
-        }
-        path.reverse();
-        let states = path.iter().map(|&state| &self.states[state]);
-        let nexts = states.clone().skip(1).map(Some).chain([None]);
-        let with_action = |(state, next): (&State, Option<&State>)| {
-            (
-                state.clone(),
-                next.and_then(|next| action_between(model, state, next)),
-            )
-        };
-        Some(states.zip(nexts).map(with_action).collect())
+        Some(u32::try_from(stuck).expect("fewer than 2^32 states"))
     }
-}
-
-/// An action that leads from one state to the other.
-fn action_between(model: &Model, from: &State, to: &State) -> Option<Action> {
-    let mut actions = Vec::new();
-    model.actions_in(from, &mut actions);
-    let leads_there = |&action: &Action| {
-        model
-            .successor(from, action)
-            .is_some_and(|(next, _)| next == *to)
-    };
-    actions.into_iter().find(leads_there)
 }

@@ -18,6 +18,8 @@
 
 mod canonical;
 pub mod check;
+pub mod fair;
+mod fairness;
 pub mod fsm;
 mod graph;
 pub mod history;

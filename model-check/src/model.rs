@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use crossguard_protocol::{
-    Availability, Coordination, Event, Farewell, Input, Outputs, Phase, Ram, Rmcm, Robot,
+    Availability, Coordination, Event, Farewell, Input, Member, Outputs, Phase, Ram, Rmcm, Robot,
     StationId, Timer, Unavailability,
 };
 
@@ -18,7 +18,7 @@ use crate::intern::Interner;
 use crate::network::{Message, Network, Transmission};
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::{PropertyId, StepView, View};
-use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
+use crate::scenario::{Bounds, MAX_ROBOTS, PSEUDONYM_STEP, Scenario};
 use crate::steps::{Cause, Step, Steps, judge_historic};
 
 /// A global state: numbers of interned parts, and what may still happen.
@@ -37,6 +37,13 @@ impl State {
     #[must_use]
     pub const fn left(&self) -> Bounds {
         self.left
+    }
+
+    /// Whether the step into this state broke a step property. What might come after it is not
+    /// explored.
+    #[must_use]
+    pub const fn is_broken(&self) -> bool {
+        self.broken != 0
     }
 }
 
@@ -107,6 +114,11 @@ impl RobotStep<'_> {
     pub const fn outputs(&self) -> &Outputs {
         &self.step.outputs
     }
+
+    /// The timers that the step armed, whether or not they had been armed before.
+    pub(crate) fn restarted(&self) -> impl Iterator<Item = Timer> {
+        self.step.restarted.iter().copied()
+    }
 }
 
 impl Model {
@@ -157,6 +169,11 @@ impl Model {
             .map(|&number| self.0.steps.nodes.value(number))
     }
 
+    /// The robot at this place of the scenario in a state.
+    pub(crate) fn node(&self, state: &State, place: usize) -> &Node {
+        self.0.steps.nodes.value(state.nodes[place])
+    }
+
     /// The history of a state.
     #[must_use]
     pub fn history(&self, state: &State) -> &History {
@@ -171,7 +188,7 @@ impl Model {
 
     /// Whether the step into this state broke a step property.
     #[must_use]
-    pub fn is_broken(state: &State, property: PropertyId) -> bool {
+    pub fn breaks(state: &State, property: PropertyId) -> bool {
         state.broken & property.bit() != 0
     }
 
@@ -231,10 +248,14 @@ impl Model {
         if state.broken != 0 {
             return;
         }
-        if let Some(transmission) = state.network.next_on_air() {
-            self.fates(state, transmission, actions);
-            return;
+        match state.network.next_on_air() {
+            Some(transmission) => self.fates(state, transmission, actions),
+            None => self.actions_off_air(state, actions),
         }
+    }
+
+    /// Everything that may happen in `state` once nothing is on air any more.
+    pub(crate) fn actions_off_air(&self, state: &State, actions: &mut Vec<Action>) {
         for transmission in state.network.delayed() {
             for how in [Delivery::Late, Delivery::LateAndAgain] {
                 actions.push(Action::Deliver { transmission, how });
@@ -245,7 +266,9 @@ impl Model {
             match &node.robot {
                 Some(robot) => {
                     for (timer, _) in robot.timers().iter() {
-                        actions.push(Action::Expire(i, *timer));
+                        if !self.0.scenario.cooperative || !guards_against_silence(*timer) {
+                            actions.push(Action::Expire(i, *timer));
+                        }
                     }
                     self.local_events(state, i, robot, actions);
                     if state.left.crashes > 0 {
@@ -265,6 +288,10 @@ impl Model {
             transmission,
             how: Delivery::AtOnce,
         });
+        let is_rmcm = matches!(self.message(transmission.message), Message::Rmcm(_));
+        if self.0.scenario.cooperative && is_rmcm {
+            return;
+        }
         if channel.loss {
             actions.push(Action::Lose(transmission));
         }
@@ -293,12 +320,17 @@ impl Model {
             push(Event::AvailabilityChanged(Availability::Available));
         }
         if left.disturbances > 0 {
-            push(Event::IdentityChanged(StationId(robot.station().0 + 100)));
+            push(Event::IdentityChanged(StationId(
+                robot.station().0 + PSEUDONYM_STEP,
+            )));
         }
         match robot.phase() {
             Phase::Idle => {}
             Phase::Leading(leading) => {
-                push(Event::TaskCompleted);
+                let is_completed = leading.members.iter().any(Member::has_completed);
+                if is_completed || !scenario.cooperative {
+                    push(Event::TaskCompleted);
+                }
                 if left.commands > 0 {
                     for member in leading.members.iter() {
                         for task in scenario.request.tasks.iter() {
@@ -436,6 +468,11 @@ impl Model {
         Some(RobotStep { robot: i, step })
     }
 
+    /// Notes that the premise of a property has been met.
+    pub(crate) fn note_premise(&self, property: PropertyId) {
+        self.note_premises(property.bit());
+    }
+
     fn note_premises(&self, met: u32) {
         if met & !self.0.premises_met.load(Ordering::Relaxed) != 0 {
             self.0.premises_met.fetch_or(met, Ordering::Relaxed);
@@ -516,6 +553,12 @@ pub(crate) fn concerns(message: &Message, receiver: StationId) -> bool {
             by_farewell || by_coordination
         }
     }
+}
+
+/// Whether a timer does not run out when what is sent arrives and everybody does their part. The
+/// others pace the robot's own work.
+const fn guards_against_silence(timer: Timer) -> bool {
+    !matches!(timer, Timer::Ram | Timer::Selection | Timer::Farewell)
 }
 
 /// Takes an event off what may still happen.

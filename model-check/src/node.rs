@@ -5,6 +5,8 @@ use crossguard_protocol::{
     StationId, Timer,
 };
 
+use smallvec::SmallVec;
+
 use crate::canonical::Renamable;
 
 /// A transition function. The kit has one, [`Protocol`]; to put another in its place shows what a
@@ -143,6 +145,13 @@ impl Node {
     pub fn untimed(&self) -> Self {
         self.renamed(&mut ForgetDurations)
     }
+
+    /// The timers that the last step from a node without durations has armed.
+    pub(crate) fn restarted_timers(&self) -> SmallVec<[Timer; 4]> {
+        let timers = self.robot.as_ref().map(Robot::timers).unwrap_or_default();
+        let restarted = timers.iter().filter(|(_, left)| *left != FORGOTTEN);
+        restarted.map(|(timer, _)| *timer).collect()
+    }
 }
 
 impl Renamable for Node {
@@ -162,11 +171,14 @@ impl Renamable for Node {
     }
 }
 
+/// What an armed timer has left in a node without durations.
+const FORGOTTEN: Millis = Millis(1);
+
 struct ForgetDurations;
 
 impl Renaming for ForgetDurations {
     fn countdown(&mut self, _timer: Timer, _left: Millis) -> Millis {
-        Millis(1)
+        FORGOTTEN
     }
 }
 

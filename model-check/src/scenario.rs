@@ -20,6 +20,12 @@ use crate::properties::PropertyId;
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 4;
 
+/// How many robots a cooperative scenario may have.
+const MAX_COOPERATIVE_ROBOTS: usize = 3;
+
+/// By how much a robot's station id grows when it changes its pseudonym.
+pub(crate) const PSEUDONYM_STEP: u32 = 100;
+
 /// A scenario, checked.
 #[derive(Clone, Debug)]
 pub struct Scenario {
@@ -37,6 +43,10 @@ pub struct Scenario {
     pub corridor: bool,
     /// What the radio channel does.
     pub channel: Channel,
+    /// Whether everything around the robots does its part, which L3 assumes: an RMCM arrives, of the
+    /// RAM that are sent again and again some arrive, no timer that guards against silence runs out,
+    /// and applications command, finish, and end the task once it is completed.
+    pub cooperative: bool,
     /// The configuration of every robot.
     pub config: Config,
     /// The properties to check.
@@ -105,6 +115,8 @@ struct File {
     bounds: Bounds,
     #[serde(default)]
     corridor: bool,
+    #[serde(default)]
+    cooperative: bool,
     channel: Channel,
     #[serde(default)]
     protocol: Settings,
@@ -183,6 +195,15 @@ pub enum Impossibility {
     /// Too many messages delayed.
     #[error("{0} messages delayed at a time: at most {MAX_DELAYED} are possible")]
     Delayed(u8),
+    /// Too many robots to tell all their messages apart.
+    #[error("{0} robots in a cooperative scenario: at most {MAX_COOPERATIVE_ROBOTS} are possible")]
+    Cooperative(usize),
+    /// Two robots whose pseudonyms could not be told apart.
+    #[error("station ids {0} and {1} must not differ by a multiple of {PSEUDONYM_STEP}")]
+    SamePseudonyms(StationId, StationId),
+    /// A property that assumes what the scenario does not.
+    #[error("L3 speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
+    NotCooperative,
     /// An unknown property.
     #[error("no property '{0}': {list}", list = PropertyId::list())]
     Property(String),
@@ -192,12 +213,19 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit.
-const SHIPPED: [(&str, &str); 5] = [
+const SHIPPED: [(&str, &str); 9] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
+    (
+        "leader-crash",
+        include_str!("../scenarios/leader-crash.toml"),
+    ),
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
+    ("bilateral", include_str!("../scenarios/bilateral.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
+    ("wrap", include_str!("../scenarios/wrap.toml")),
+    ("stable", include_str!("../scenarios/stable.toml")),
 ];
 
 impl Scenario {
@@ -227,6 +255,15 @@ impl Scenario {
             cause,
         })?;
         Self::parse(name, &text)
+    }
+
+    /// The place of the robot that has, or had before it changed its pseudonym, this station id.
+    #[must_use]
+    pub fn place_of(&self, station: StationId) -> Option<usize> {
+        let base = |id: StationId| id.0 % PSEUDONYM_STEP;
+        self.robots
+            .iter()
+            .position(|robot| base(robot.station) == base(station))
     }
 
     /// Reads a scenario from its text; `file` is what errors call it.
@@ -293,15 +330,21 @@ impl File {
             return Err(at(Place::Key("robots"), I::Robots(robots)));
         }
         for (i, robot) in self.robots.iter().enumerate() {
-            if self.robots[..i]
-                .iter()
-                .any(|other| other.station == robot.station)
-            {
-                return Err(at(Place::Key("robots"), I::SameStation(robot.station)));
+            let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
+            for other in self.robots[..i].iter().map(|other| other.station) {
+                if other == one {
+                    return Err(at(Place::Key("robots"), I::SameStation(one)));
+                }
+                if pseudonym(other) == pseudonym(one) {
+                    return Err(at(Place::Key("robots"), I::SamePseudonyms(other, one)));
+                }
             }
         }
         if !self.robots.iter().any(|robot| robot.detects) {
             return Err(at(Place::Key("robots"), I::NobodyDetects));
+        }
+        if self.cooperative && robots > MAX_COOPERATIVE_ROBOTS {
+            return Err(at(Place::Key("cooperative"), I::Cooperative(robots)));
         }
         let delayed = self.channel.delayed;
         if usize::from(delayed) > MAX_DELAYED {
@@ -315,6 +358,9 @@ impl File {
             let place = Place::Offset(name.span().start);
             let name = name.into_inner();
             match name.parse() {
+                Ok(PropertyId::L3) if !self.cooperative => {
+                    return Err(at(place, I::NotCooperative));
+                }
                 Ok(property) => properties.push(property),
                 Err(()) => return Err(at(place, I::Property(name))),
             }
@@ -327,6 +373,7 @@ impl File {
             bounds: self.bounds,
             corridor: self.corridor,
             channel: self.channel,
+            cooperative: self.cooperative,
             config,
             properties,
             expected: self.expected,

@@ -33,6 +33,8 @@ pub(crate) struct Step {
     pub(crate) after: u32,
     /// The messages that it sends.
     pub(crate) sends: SmallVec<[u16; 2]>,
+    /// The timers that it armed, whether or not they had been armed before.
+    pub(crate) restarted: SmallVec<[Timer; 4]>,
     /// Whether it changed nothing.
     pub(crate) is_ignored: bool,
     /// Whether what it means depends on the history, or changes it.
@@ -110,6 +112,7 @@ impl Steps {
             input,
             outputs,
             sends: self.sends(&after, &outputs),
+            restarted: after.restarted_timers(),
             is_ignored: outputs.ignored().is_some(),
             is_historic,
             premises,

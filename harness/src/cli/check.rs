@@ -224,10 +224,16 @@ fn print_counterexample(property: &PropertyReport) -> Result<(), Failure> {
     }
     print(format_args!("  {} is broken by:", property.id))?;
     for (i, step) in property.counterexample.iter().enumerate() {
+        if property.repeats_after == Some(i) {
+            print("        and from here on for ever:")?;
+        }
         print(format_args!("  {:>4}. {}", i + 1, step.action))?;
         for output in &step.outputs {
             print(format_args!("          {output}"))?;
         }
+    }
+    if property.repeats_after == Some(property.counterexample.len()) {
+        print("        and then nothing happens any more.")?;
     }
     Ok(())
 }
