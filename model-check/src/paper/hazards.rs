@@ -64,6 +64,11 @@ impl Hazard {
         super::texts::TEXTS[self as usize]
     }
 
+    /// Whether it is that somebody waits for ever, and nothing happens any more.
+    pub(super) const fn is_without_end(self) -> bool {
+        matches!(self, Self::P5 | Self::P8 | Self::P9 | Self::P10 | Self::P12)
+    }
+
     const fn bit(self) -> u16 {
         1 << self as u16
     }

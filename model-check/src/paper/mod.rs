@@ -109,6 +109,7 @@ pub fn check() -> ScenarioReport {
             verdict: verdict(!is_p0_broken),
             statement: "a follower starts only what its leader commanded it".to_owned(),
             counterexample: Vec::new(),
+            repeats_after: None,
         },
         PropertyReport {
             id: hazards::PREMISE.to_owned(),
@@ -121,6 +122,7 @@ pub fn check() -> ScenarioReport {
             statement: "a crossing of two maneuvers goes well, and all robots are idle again"
                 .to_owned(),
             counterexample: Vec::new(),
+            repeats_after: None,
         },
     ];
     properties.extend(Hazard::ALL.map(|hazard| hazard_report(hazard, &found)));
@@ -168,10 +170,14 @@ fn hazard_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport {
     let counterexample = found.iter().find(|found| found.hazard == hazard);
     PropertyReport {
         id: text.id.to_owned(),
-        kind: "S".to_owned(),
+        kind: if hazard.is_without_end() { "L" } else { "S" }.to_owned(),
         verdict: verdict(counterexample.is_none()),
         statement: text.statement.to_owned(),
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
+        // After the last step nothing happens any more.
+        repeats_after: counterexample
+            .filter(|_| hazard.is_without_end())
+            .map(|found| found.steps.len()),
     }
 }
 

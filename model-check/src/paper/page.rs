@@ -60,13 +60,15 @@ impl Counterexample {
                 let _ = writeln!(chart, "    Note over {}: {what}", names[place]);
             }
         }
-        let _ = writeln!(
-            chart,
-            "    Note over {},{}: {}",
-            names[0],
-            names[names.len() - 1],
-            self.hazard.text().title
-        );
+        let (first, last) = (names[0], names[names.len() - 1]);
+        let title = self.hazard.text().title;
+        let _ = writeln!(chart, "    Note over {first},{last}: {title}");
+        if self.hazard.is_without_end() {
+            let _ = writeln!(
+                chart,
+                "    Note over {first},{last}: nothing happens any more"
+            );
+        }
         chart + "```\n"
     }
 }
