@@ -131,18 +131,17 @@ fn p6_duplicated_command_that_is_executed_twice() {
 
 #[test]
 fn p7_two_leaders_of_one_follower() {
-    const NAO: u32 = 2;
-    const DOG: u32 = 3;
+    const NAO: u32 = 3;
     let street = told("p7", |street| {
         assert_eq!(street.robot(ARI).role(), Role::Leader);
-        assert_eq!(street.robot(NAO).role(), Role::Requester);
-        let not_for_it = street.ignored(NAO, Ignored::NotAddressed);
-        assert!(not_for_it > 0, "NAO has heard the offer to ARI");
+        assert_eq!(street.robot(GO2).role(), Role::Requester);
+        let not_for_it = street.ignored(GO2, Ignored::NotAddressed);
+        assert!(not_for_it > 0, "Go2 has heard the offer to ARI");
     });
     then(street, 10_000, |street| {
-        assert_eq!(street.robot(DOG).role(), Role::Follower);
+        assert_eq!(street.robot(NAO).role(), Role::Follower);
         assert_eq!(street.leaders(), 1);
-        assert!(ended(street, NAO, EndReason::NoHelp));
+        assert!(ended(street, GO2, EndReason::NoHelp));
     });
 }
 

@@ -190,7 +190,7 @@ impl Runs<'_> {
     }
 
     /// Every action that is possible in a state, with the transition that it makes.
-    fn transitions(&self, state: u32) -> Vec<(Action, Edge)> {
+    pub(crate) fn transitions(&self, state: u32) -> Vec<(Action, Edge)> {
         let from = self.graph.state(state);
         let mut actions = Vec::new();
         self.model.actions_in(from, &mut actions);

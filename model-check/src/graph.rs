@@ -27,6 +27,15 @@ impl Limit {
     }
 }
 
+/// How far an exploration is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reached {
+    pub(crate) states: usize,
+    /// How many of them are still to be expanded.
+    pub(crate) frontier: usize,
+    pub(crate) depth: usize,
+}
+
 /// Every reachable state and every transition between them.
 pub(crate) struct Graph {
     states: Vec<State>,
@@ -43,12 +52,12 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// Explores `model` from its initial state, breadth first. `watch` is told states and depth, and
-    /// says whether to stop.
+    /// Explores `model` from its initial state, breadth first. `watch` is told how far it is, and says
+    /// whether to stop.
     pub(crate) fn build(
         model: &Model,
         limit: Limit,
-        watch: &mut dyn FnMut(usize, usize) -> bool,
+        watch: &mut dyn FnMut(Reached) -> bool,
     ) -> Self {
         let start = Instant::now();
         let initial = model.initial();
@@ -71,7 +80,7 @@ impl Graph {
                 (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
             }
             if at % 16_384 == 0 {
-                graph.cut_off = if watch(graph.states.len(), graph.depth) {
+                graph.cut_off = if watch(graph.reached(at)) {
                     Some(CutOff::FoundBroken)
                 } else {
                     limit.reached(graph.states.len(), start.elapsed())
@@ -107,6 +116,14 @@ impl Graph {
         graph.resettable =
             graph.can_reach(|state| model.nodes(state).all(crate::node::Node::is_idle));
         graph
+    }
+
+    fn reached(&self, expanded: usize) -> Reached {
+        Reached {
+            states: self.states.len(),
+            frontier: self.states.len() - expanded,
+            depth: self.depth,
+        }
     }
 
     pub(crate) fn states(&self) -> usize {

@@ -4,9 +4,9 @@
 //!   scenarios/*.toml ──► scenario ──► model ◄── crossguard_protocol::Robot::step
 //!                                       │
 //!                        ┌──────────────┴──────────────┐
-//!                    stateright                      graph
-//!               properties of states           facts about all runs
-//!                and of single steps             (reset is reachable)
+//!                    stateright                      graph ──► fair
+//!               properties of states           facts about all runs: reset is
+//!                and of single steps           reachable, leads-to under fairness
 //!                        └──────────────┬──────────────┘
 //!                                     check ──► report
 //! ```
@@ -18,6 +18,8 @@
 
 mod canonical;
 pub mod check;
+pub mod explore;
+pub mod export;
 pub mod fair;
 mod fairness;
 pub mod fsm;
@@ -31,5 +33,7 @@ pub mod paper;
 pub mod properties;
 pub mod report;
 pub mod scenario;
+pub mod sequence;
 mod steps;
+pub mod transitions;
 pub mod universe;

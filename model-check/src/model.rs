@@ -20,6 +20,7 @@ use crate::node::{Node, Protocol, Rules};
 use crate::properties::{PropertyId, StepView, View};
 use crate::scenario::{Bounds, MAX_ROBOTS, PSEUDONYM_STEP, Scenario};
 use crate::steps::{Cause, Step, Steps, judge_historic};
+use crate::transitions::Transitions;
 
 /// A global state: numbers of interned parts, and what may still happen.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -327,6 +328,9 @@ impl Model {
         match robot.phase() {
             Phase::Idle => {}
             Phase::Leading(leading) => {
+                if left.disturbances > 0 {
+                    push(Event::LeaveRequested);
+                }
                 let is_completed = leading.members.iter().any(Member::has_completed);
                 if is_completed || !scenario.cooperative {
                     push(Event::TaskCompleted);
@@ -354,6 +358,9 @@ impl Model {
                     if left.disturbances > 0 {
                         push(Event::ManeuverFailed(maneuver.id));
                     }
+                }
+                if matches!(robot.phase(), Phase::Requesting(_)) && !scenario.cooperative {
+                    push(Event::TaskCompleted);
                 }
                 if left.disturbances > 0 {
                     push(Event::LeaveRequested);
@@ -462,10 +469,24 @@ impl Model {
             next.history = self.0.histories.number(view.history_after());
         }
         next.broken |= broken;
+        if !step.taken.load(Ordering::Relaxed) {
+            step.taken.store(true, Ordering::Relaxed);
+        }
         self.note_premises(premises);
         self.transmit(next, i, step);
         next.nodes[i] = step.after;
         Some(RobotStep { robot: i, step })
+    }
+
+    /// The transitions of the state diagram that robots have taken so far.
+    #[must_use]
+    pub fn transitions_taken(&self) -> Transitions {
+        let mut taken = Transitions::default();
+        for (before, step) in self.0.steps.taken() {
+            let after = self.0.steps.nodes.value(step.after);
+            taken.note(before, step.input, after);
+        }
+        taken
     }
 
     /// Notes that the premise of a property has been met.

@@ -1,5 +1,7 @@
 //! A robot in the model: its protocol state, and what its body has been told to do.
 
+use std::fmt;
+
 use crossguard_protocol::{
     Config, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming, Robot,
     StationId, Timer,
@@ -151,6 +153,25 @@ impl Node {
         let timers = self.robot.as_ref().map(Robot::timers).unwrap_or_default();
         let restarted = timers.iter().filter(|(_, left)| *left != FORGOTTEN);
         restarted.map(|(timer, _)| *timer).collect()
+    }
+}
+
+impl fmt::Display for Node {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(robot) = &self.robot else {
+            return f.write_str("down");
+        };
+        write!(f, "{robot}")?;
+        if let Some(maneuver) = self.actuation.running {
+            write!(f, "; its body executes {maneuver}")?;
+        }
+        if self.actuation.corridor_open {
+            f.write_str("; the corridor is open")?;
+        }
+        let timers = robot.timers();
+        let timers = timers.iter().map(|(timer, _)| timer.to_string());
+        let timers: SmallVec<[String; 4]> = timers.collect();
+        write!(f, "; timers: {}", timers.join(", "))
     }
 }
 

@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+use crate::sequence::{Chart, ChartStep};
+use crate::transitions::Transitions;
+
 /// What came of checking one scenario.
 #[derive(Clone, Debug, Serialize)]
 pub struct ScenarioReport {
@@ -9,6 +12,8 @@ pub struct ScenarioReport {
     pub name: String,
     /// What it is about.
     pub summary: String,
+    /// The robots' names, as charts have them.
+    pub robots: Vec<String>,
     /// Distinct states, up to renaming of numbers.
     pub unique_states: usize,
     /// Transitions between distinct states.
@@ -30,6 +35,9 @@ pub struct ScenarioReport {
     pub properties: Vec<PropertyReport>,
     /// What the verdicts assume.
     pub assumptions: Vec<String>,
+    /// The transitions of the state diagram that robots took.
+    #[serde(skip)]
+    pub transitions_taken: Transitions,
 }
 
 /// What cut an exploration off.
@@ -82,15 +90,6 @@ pub enum Verdict {
     Incomplete,
 }
 
-/// One step of a counterexample.
-#[derive(Clone, Debug, Serialize)]
-pub struct ChartStep {
-    /// What happened.
-    pub action: String,
-    /// What the robot that took the step put out.
-    pub outputs: Vec<String>,
-}
-
 impl ScenarioReport {
     /// Whether something was found that is wrong: a property is broken, a premise is met nowhere, or
     /// the state space has another size than the scenario's file expects.
@@ -108,6 +107,17 @@ impl ScenarioReport {
             .iter()
             .find(|property| property.id == id)
             .map(|property| property.verdict)
+    }
+
+    /// The chart of the run that breaks a property; `None` where nothing does.
+    #[must_use]
+    pub fn chart<'a>(&'a self, property: &'a PropertyReport) -> Option<Chart<'a>> {
+        (!property.counterexample.is_empty()).then_some(Chart {
+            title: &property.statement,
+            robots: &self.robots,
+            steps: &property.counterexample,
+            repeats_after: property.repeats_after,
+        })
     }
 
     /// The ids of the properties that are broken.

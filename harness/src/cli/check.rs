@@ -1,6 +1,9 @@
 //! `crossguard check`.
 
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use comfy_table::Table;
@@ -10,6 +13,8 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
 use crossguard_model_check::scenario::{Scenario, ScenarioError};
+use crossguard_model_check::transitions::Transitions;
+use crossguard_model_check::{export, universe};
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
@@ -17,10 +22,13 @@ use super::{Failure, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Shipped scenarios by name, or files; all shipped ones if none is named. 'paper-literal' is the
-    /// paper's text word for word, which must fail.
+    /// Shipped scenarios by name, or files; the quick ones of the shipped if none is named.
+    /// 'paper-literal' is the paper's text word for word, which must fail.
     #[arg(value_name = "SCENARIO|FILE")]
     scenarios: Vec<String>,
+    /// Check all shipped scenarios, also those that take minutes.
+    #[arg(long, conflicts_with = "scenarios")]
+    all: bool,
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
     list: bool,
@@ -33,24 +41,53 @@ pub(super) struct Arguments {
     /// Give up a scenario after this many seconds; its verdict is then 'incomplete'.
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<u32>,
+    /// Write the chart of each counterexample to this folder, as text, as Mermaid and as SVG.
+    #[arg(long, value_name = "FOLDER")]
+    charts: Option<PathBuf>,
+    /// Write the state graph of the scenario instead of checking it.
+    #[arg(long, value_name = "FORMAT", requires = "output")]
+    export: Option<Format>,
+    /// The file that the state graph is written to.
+    #[arg(long, value_name = "FILE", requires = "export")]
+    output: Option<PathBuf>,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
 }
 
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Format {
+    /// A digraph of Graphviz.
+    Dot,
+    /// Aldébaran, which CADP and mCRL2 read.
+    Aut,
+}
+
 #[derive(Serialize)]
 struct Report {
     scenarios: Vec<ScenarioReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fsm_coverage: Option<Coverage>,
+}
+
+/// How much of the state diagram the scenarios reach together.
+#[derive(Serialize)]
+struct Coverage {
+    reached: usize,
+    of: usize,
+    not_reached: Vec<String>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
-    let names: Vec<&str> = if arguments.scenarios.is_empty() {
+    let names: Vec<&str> = if !arguments.scenarios.is_empty() {
+        arguments.scenarios.iter().map(String::as_str).collect()
+    } else if arguments.all {
         Scenario::shipped().collect()
     } else {
-        arguments.scenarios.iter().map(String::as_str).collect()
+        Scenario::quick().collect()
     };
     // All are read before any is checked: a mistake in the last one should not cost the time of the
     // others.
@@ -58,18 +95,29 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .into_iter()
         .map(Subject::load)
         .collect::<Result<Vec<_>, _>>();
+    let scenarios = scenarios.map_err(Failure::input)?;
+    if let (Some(format), Some(file)) = (arguments.export, &arguments.output) {
+        return export_one(arguments, scenarios, format, file);
+    }
     let mut report = Report {
         scenarios: Vec::new(),
+        fsm_coverage: None,
     };
-    for subject in scenarios.map_err(Failure::input)? {
+    for subject in scenarios {
         let checked = match subject {
             Subject::Scenario(scenario) => check_one(arguments, *scenario),
             Subject::PaperLiteral => paper::check(),
         };
+        if let Some(folder) = &arguments.charts {
+            write_charts(&checked, folder)?;
+        }
         if !arguments.json {
             print_report(&checked)?;
         }
         report.scenarios.push(checked);
+    }
+    if arguments.scenarios.is_empty() {
+        report.fsm_coverage = Some(coverage(&report.scenarios));
     }
     if arguments.json {
         print_json(&report)?;
@@ -117,22 +165,89 @@ fn list() -> Result<(), Failure> {
     print(format_args!("{:<14} {}", paper::NAME, paper::SUMMARY))
 }
 
-fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
+fn options(arguments: &Arguments) -> Options {
     let defaults = Options::default();
-    let options = Options {
+    Options {
         threads: arguments.threads.unwrap_or(defaults.threads),
         states_max: arguments.max_states.map(NonZeroUsize::get),
         time_max: arguments
             .timeout
             .map(|seconds| Duration::from_secs(seconds.into())),
         ..defaults
-    };
+    }
+}
+
+fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
     let bar = progress_bar(arguments.json, &scenario);
-    let report = check(&Model::new(scenario), &options, &mut |progress| {
-        show(&bar, progress);
-    });
+    let report = check(
+        &Model::new(scenario),
+        &options(arguments),
+        &mut |progress| {
+            show(&bar, progress);
+        },
+    );
     bar.finish_and_clear();
     report
+}
+
+/// How much of the state diagram these scenarios reach together.
+fn coverage(scenarios: &[ScenarioReport]) -> Coverage {
+    let all = universe::explore(&universe::config()).transitions;
+    let mut taken = Transitions::default();
+    for scenario in scenarios {
+        taken.add(&scenario.transitions_taken);
+    }
+    let not_reached = all.not_in(&taken);
+    Coverage {
+        reached: all.count() - not_reached.len(),
+        of: all.count(),
+        not_reached,
+    }
+}
+
+fn export_one(
+    arguments: &Arguments,
+    subjects: Vec<Subject>,
+    format: Format,
+    file: &Path,
+) -> Result<(), Failure> {
+    let Ok([Subject::Scenario(scenario)]) = <[Subject; 1]>::try_from(subjects) else {
+        return Err(Failure::input("--export wants one scenario"));
+    };
+    let format = match format {
+        Format::Dot => export::Format::Dot,
+        Format::Aut => export::Format::Aut,
+    };
+    let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
+    let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
+    let model = Model::new(*scenario);
+    let cut_off = export::export(&model, &options(arguments), format, &mut to).map_err(cannot)?;
+    to.flush().map_err(cannot)?;
+    match cut_off {
+        None => Ok(()),
+        Some(_) => Err(Failure::Incomplete),
+    }
+}
+
+fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
+    for property in &report.properties {
+        let Some(chart) = report.chart(property) else {
+            continue;
+        };
+        let name = format!("{}-{}", report.name, property.id);
+        let forms = [
+            ("txt", chart.text()),
+            ("mmd", chart.mermaid()),
+            ("svg", chart.svg()),
+        ];
+        for (extension, text) in forms {
+            let path = folder.join(format!("{name}.{extension}"));
+            std::fs::create_dir_all(folder)
+                .and_then(|()| std::fs::write(&path, text))
+                .map_err(|cause| Failure::input(format!("{}: {cause}", path.display())))?;
+        }
+    }
+    Ok(())
 }
 
 fn progress_bar(is_json: bool, scenario: &Scenario) -> ProgressBar {
@@ -155,7 +270,11 @@ fn show(bar: &ProgressBar, progress: Progress) {
     }
     // The slower of the two explorations says how far the check is.
     bar.set_position(progress.checked.min(progress.explored) as u64);
-    bar.set_prefix(format!("depth {}", progress.depth));
+    bar.set_prefix(format!(
+        "frontier {}, depth {}",
+        HumanCount(progress.frontier as u64),
+        progress.depth
+    ));
 }
 
 fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
@@ -198,7 +317,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         print(format_args!("  {}", line.trim_end()))?;
     }
     for property in &report.properties {
-        print_counterexample(property)?;
+        print_counterexample(report, property)?;
     }
     print("  assuming:")?;
     for assumption in &report.assumptions {
@@ -218,22 +337,13 @@ fn verdict(report: &ScenarioReport, verdict: Verdict) -> &'static str {
     }
 }
 
-fn print_counterexample(property: &PropertyReport) -> Result<(), Failure> {
-    if property.counterexample.is_empty() {
+fn print_counterexample(report: &ScenarioReport, property: &PropertyReport) -> Result<(), Failure> {
+    let Some(chart) = report.chart(property) else {
         return Ok(());
-    }
+    };
     print(format_args!("  {} is broken by:", property.id))?;
-    for (i, step) in property.counterexample.iter().enumerate() {
-        if property.repeats_after == Some(i) {
-            print("        and from here on for ever:")?;
-        }
-        print(format_args!("  {:>4}. {}", i + 1, step.action))?;
-        for output in &step.outputs {
-            print(format_args!("          {output}"))?;
-        }
-    }
-    if property.repeats_after == Some(property.counterexample.len()) {
-        print("        and then nothing happens any more.")?;
+    for line in chart.text().lines() {
+        print(format_args!("  {line}"))?;
     }
     Ok(())
 }
@@ -273,5 +383,15 @@ fn summarize(report: &Report) -> Result<(), Failure> {
         "{verified} of {} scenarios verified exhaustively, {} states in all.",
         scenarios.len(),
         HumanCount(states as u64)
-    ))
+    ))?;
+    if let Some(coverage) = &report.fsm_coverage {
+        let Coverage { reached, of, .. } = coverage;
+        print(format_args!(
+            "{reached} of the {of} transitions of the state diagram were taken in them."
+        ))?;
+        for transition in &coverage.not_reached {
+            print(format_args!("  not taken: {transition}"))?;
+        }
+    }
+    Ok(())
 }

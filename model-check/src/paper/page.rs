@@ -1,12 +1,13 @@
-//! Counterexamples in words, as charts, and as the documentation page.
+//! Counterexamples in words, and the documentation page.
 
 use std::fmt::Write as _;
 
 use crossguard_protocol::State as Stage;
 
-use super::model::{Action, Cast, Content, Flight, World};
-use super::robot::{HelpStatus, Place, Rmcm, Robot};
+use super::model::{Action, Content, Flight, Kind, World};
+use super::robot::{HelpStatus, Place as Robots, Rmcm, Robot};
 use super::{Counterexample, Transition, counterexamples};
+use crate::sequence::{Chart, ChartStep, Fate, Place};
 
 const INTRODUCTION: &str = "\
 # The paper's text taken word for word
@@ -35,7 +36,7 @@ pub fn page() -> String {
         let text = found.hazard.text();
         let _ = write!(
             page,
-            "\n## {}: {}\n\n{}\n\nBroken property: {}.\n\n{}\nClosed by: {}\n",
+            "\n## {}: {}\n\n{}\n\nBroken property: {}.\n\n```mermaid\n{}```\n\nClosed by: {}\n",
             text.id,
             text.title,
             text.explanation,
@@ -49,107 +50,71 @@ pub fn page() -> String {
 
 impl Counterexample {
     fn mermaid(&self) -> String {
-        let names = self.cast.names;
-        let mut chart = "```mermaid\nsequenceDiagram\n".to_owned();
-        for name in names {
-            let _ = writeln!(chart, "    participant {name}");
-        }
-        for step in &self.steps {
-            let _ = writeln!(chart, "    {}", arrow_or_note(&self.cast, step));
-            for (place, what) in consequences(step) {
-                let _ = writeln!(chart, "    Note over {}: {what}", names[place]);
+        let robots: Vec<_> = self
+            .cast
+            .names
+            .iter()
+            .map(|&name| name.to_owned())
+            .collect();
+        let chart = Chart {
+            title: self.hazard.text().title,
+            robots: &robots,
+            steps: &self.chart(),
+            repeats_after: self.repeats_after(),
+        };
+        chart.mermaid()
+    }
+
+    /// The run step by step.
+    pub(super) fn chart(&self) -> Vec<ChartStep> {
+        let steps = self.steps.iter().enumerate();
+        let in_words = |(i, step): (usize, &Transition)| {
+            let (place, action) = self.placed(i);
+            ChartStep {
+                place,
+                action,
+                outputs: consequences(step),
             }
+        };
+        steps.map(in_words).collect()
+    }
+
+    /// What happens in a step, and where.
+    fn placed(&self, step: usize) -> (Place, String) {
+        let Transition { before, action, .. } = &self.steps[step];
+        let between = |from, to, fate| Place::Between { from, to, fate };
+        let at = |robot, event: &str| (Place::At(robot), event.to_owned());
+        match *action {
+            Action::Hear { from, to } => (between(from, to, Fate::Arrives), heard(before, from)),
+            Action::Delay { from, to } => (between(from, to, Fate::Delayed), heard(before, from)),
+            Action::Arrive { flight, again } => {
+                let was_under_way =
+                    step > 0 && self.steps[step - 1].before.content(flight).is_some();
+                let fate = match again {
+                    true => Fate::ArrivesLateAndAgain,
+                    false if was_under_way || flight.kind == Kind::Ram => Fate::ArrivesLate,
+                    false => Fate::Arrives,
+                };
+                (
+                    between(flight.from, flight.to, fate),
+                    content(before, flight),
+                )
+            }
+            Action::Lose(flight) => {
+                let place = between(flight.from, flight.to, Fate::Lost);
+                (place, content(before, flight))
+            }
+            Action::Detect(robot) => at(robot, "pedestrian detected"),
+            Action::Command(robot) => at(robot, "gives a command"),
+            Action::Finish(robot) => at(robot, "maneuver finished"),
+            Action::CompleteTask(robot) => at(robot, "task completed"),
+            Action::SafetyTimeout(robot) => at(robot, "safety timeout"),
+            Action::Crash(robot) => at(robot, "breaks down"),
         }
-        let (first, last) = (names[0], names[names.len() - 1]);
-        let title = self.hazard.text().title;
-        let _ = writeln!(chart, "    Note over {first},{last}: {title}");
-        if self.hazard.is_without_end() {
-            let _ = writeln!(
-                chart,
-                "    Note over {first},{last}: nothing happens any more"
-            );
-        }
-        chart + "```\n"
     }
 }
 
-fn arrow_or_note(cast: &Cast, step: &Transition) -> String {
-    let names = cast.names;
-    let way = |from: Place, arrow, to: Place, what| {
-        format!("{}{arrow}{}: {what}", names[from], names[to])
-    };
-    match step.action {
-        Action::Hear { from, to } => way(from, "->>", to, heard(&step.before, from)),
-        Action::Arrive { flight, again } => {
-            let what = content(&step.before, flight) + copies(again);
-            way(flight.from, "->>", flight.to, what)
-        }
-        Action::Lose(flight) => {
-            let what = content(&step.before, flight) + " (lost)";
-            way(flight.from, "-x", flight.to, what)
-        }
-        Action::Delay { from, to } => {
-            let what = heard(&step.before, from) + " (delayed)";
-            way(from, "--)", to, what)
-        }
-        Action::Detect(place)
-        | Action::Command(place)
-        | Action::Finish(place)
-        | Action::CompleteTask(place)
-        | Action::SafetyTimeout(place)
-        | Action::Crash(place) => format!("Note over {}: {}", names[place], event(step.action)),
-    }
-}
-
-/// An action in words.
-pub(super) fn describe(cast: &Cast, before: &World, action: Action) -> String {
-    let names = cast.names;
-    let way = |from: Place, arrow, to: Place, what| {
-        format!("{} {arrow} {}: {what}", names[from], names[to])
-    };
-    match action {
-        Action::Hear { from, to } => way(from, "->", to, heard(before, from)),
-        Action::Delay { from, to } => {
-            way(from, "-~", to, format!("{} (delayed)", heard(before, from)))
-        }
-        Action::Arrive { flight, again } => {
-            let what = content(before, flight) + copies(again);
-            way(flight.from, "->", flight.to, what)
-        }
-        Action::Lose(flight) => {
-            let what = content(before, flight) + " (lost)";
-            way(flight.from, "-x", flight.to, what)
-        }
-        Action::Detect(place)
-        | Action::Command(place)
-        | Action::Finish(place)
-        | Action::CompleteTask(place)
-        | Action::SafetyTimeout(place)
-        | Action::Crash(place) => format!("{}: {}", names[place], event(action)),
-    }
-}
-
-const fn event(action: Action) -> &'static str {
-    match action {
-        Action::Detect(_) => "pedestrian detected",
-        Action::Command(_) => "gives a command",
-        Action::Finish(_) => "maneuver finished",
-        Action::CompleteTask(_) => "task completed",
-        Action::SafetyTimeout(_) => "safety timeout",
-        Action::Crash(_) => "breaks down",
-        Action::Hear { .. } | Action::Arrive { .. } | Action::Delay { .. } | Action::Lose(_) => "",
-    }
-}
-
-const fn copies(again: bool) -> &'static str {
-    if again {
-        " (a copy is still under way)"
-    } else {
-        ""
-    }
-}
-
-fn heard(world: &World, from: Place) -> String {
+fn heard(world: &World, from: Robots) -> String {
     world
         .robot(from)
         .map_or_else(String::new, |sender| sender.ram().to_string())
@@ -161,56 +126,50 @@ fn content(world: &World, flight: Flight) -> String {
         .map_or_else(String::new, |content| content.to_string())
 }
 
-/// What a step changes, and in whom.
-pub(super) fn consequences(step: &Transition) -> Vec<(Place, String)> {
+/// What a step changes in the robot that takes it.
+fn consequences(step: &Transition) -> Vec<String> {
+    if is_restarted(step) {
+        return vec!["starts the maneuver a second time".to_owned()];
+    }
     let robots = step.before.robots().filter_map(|(place, before)| {
         let after = step.after.robot(place)?;
-        (before != after).then(|| (place, change(step, place, before, after)))
+        (before != after).then(|| change(before, after))
     });
-    let mut consequences: Vec<_> = robots.filter(|(_, what)| !what.is_empty()).collect();
-    if let Some(place) = restarted(step) {
-        consequences.push((place, "starts the maneuver a second time".to_owned()));
-    }
-    consequences
+    robots.flatten().collect()
 }
 
-fn change(step: &Transition, place: Place, before: &Robot, after: &Robot) -> String {
+fn change(before: &Robot, after: &Robot) -> Vec<String> {
     let starts = after
         .executing()
         .filter(|_| before.executing() != after.executing());
     let command = match (starts, after.command, before.command) {
-        _ if restarted(step) == Some(place) => return String::new(),
-        (Some(command), ..) => format!("acknowledges and starts {}", command.request),
+        (Some(command), ..) => Some(format!("acknowledges and starts {}", command.request)),
         (None, Some(command), None) if after.follower().is_some() => {
-            return format!("sends {}", Rmcm::Command(command));
+            Some(format!("sends {}", Rmcm::Command(command)))
         }
         (None, None, Some(command)) if after.follower().is_some() => {
-            format!("counts {} as completed", command.request)
+            Some(format!("counts {} as completed", command.request))
         }
-        _ => String::new(),
+        _ => None,
     };
     let stops = before.executing().is_some() && after.state == Stage::Idle;
-    let state = match (before.state == after.state, after.status) {
-        (true, _) => String::new(),
-        (false, _) if stops => "Idle, stops the maneuver".to_owned(),
-        (false, HelpStatus::Leader { .. }) => format!("{:?} (leader)", after.state),
-        (false, HelpStatus::Follower { .. }) => format!("{:?} (follower)", after.state),
-        (false, _) => format!("{:?}", after.state),
-    };
-    let parts = [command, state];
-    let parts: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-    parts.join(", ")
+    let stage = (before.state != after.state).then(|| match after.status {
+        HelpStatus::Leader { .. } => format!("{:?} (leader)", after.state),
+        HelpStatus::Follower { .. } => format!("{:?} (follower)", after.state),
+        _ => format!("{:?}", after.state),
+    });
+    let stops = stops.then(|| "stops the maneuver".to_owned());
+    [command, stops, stage].into_iter().flatten().collect()
 }
 
-/// Who started a command that was started before.
-fn restarted(step: &Transition) -> Option<Place> {
+/// Whether a command is started that was started before.
+fn is_restarted(step: &Transition) -> bool {
     let Action::Arrive { flight, .. } = step.action else {
-        return None;
+        return false;
     };
     let Some(Content::Rmcm(Rmcm::Command(command))) = step.before.content(flight) else {
-        return None;
+        return false;
     };
-    let is_started = step.before.memory.started & 1 << command.serial != 0;
-    let executes = step.after.robot(flight.to)?.executing() == Some(command);
-    (is_started && executes).then_some(flight.to)
+    let executing = step.after.robot(flight.to).and_then(Robot::executing);
+    step.before.memory.started & 1 << command.serial != 0 && executing == Some(command)
 }

@@ -86,6 +86,6 @@ pub(super) const TEXTS: [Text; Hazard::ALL.len()] = [
         title: "follower that broke down and is counted on for ever",
         statement: "a leader does not count for ever on a follower that is gone",
         explanation: "The follower breaks down in the middle of its maneuver. The leader waits for a RAM with `completed`, and nothing tells it that no RAM comes any more: it stays in ManeuverExecuting for ever, and the pedestrian is on the road.",
-        closed_by: "The lease on a follower runs out t_lease after the newest heartbeat that it echoed, and the corridor closes; T_exec bounds every maneuver, and a follower without a lease is dropped (I10, I11, L4).",
+        closed_by: "The lease on a follower runs out t_lease after the newest heartbeat that it echoed, and the corridor closes; T_exec bounds every maneuver, and a follower without a lease is dropped (I10, I11).",
     },
 ];
