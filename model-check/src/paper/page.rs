@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crossguard_protocol::State as Stage;
 
 use super::model::{Action, Content, Flight, Kind, World};
-use super::robot::{HelpStatus, Place as Robots, Rmcm, Robot};
+use super::robot::{self, HelpStatus, Rmcm, Robot};
 use super::{Counterexample, Transition, counterexamples};
 use crate::sequence::{Chart, ChartStep, Fate, Place};
 
@@ -114,7 +114,7 @@ impl Counterexample {
     }
 }
 
-fn heard(world: &World, from: Robots) -> String {
+fn heard(world: &World, from: robot::Place) -> String {
     world
         .robot(from)
         .map_or_else(String::new, |sender| sender.ram().to_string())
