@@ -316,7 +316,7 @@ pub(crate) fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<Ch
 }
 
 /// An action in words, with its place in a chart.
-fn placed(model: &Model, action: Action) -> (Place, String) {
+pub(crate) fn placed(model: &Model, action: Action) -> (Place, String) {
     let between = |Transmission { from, to, message }, fate| {
         let place = Place::Between {
             from: from.into(),
@@ -356,7 +356,8 @@ pub(crate) fn label(model: &Model, action: Action) -> String {
 }
 
 /// The robots' names in charts.
-pub(crate) fn names(scenario: &Scenario) -> Vec<String> {
+#[must_use]
+pub fn names(scenario: &Scenario) -> Vec<String> {
     let name = |robot: &RobotSetup| format!("robot {}", robot.station);
     scenario.robots.iter().map(name).collect()
 }

@@ -31,6 +31,7 @@ pub mod network;
 pub mod node;
 pub mod paper;
 pub mod properties;
+pub mod replay;
 pub mod report;
 pub mod scenario;
 pub mod sequence;

@@ -205,7 +205,8 @@ struct Drawing {
 impl Drawing {
     const LANE: usize = 420;
     const LINE: usize = 17;
-    const STYLE: &'static str = "text{font:13px sans-serif;fill:#222}.name{font-weight:bold}\
+    const STYLE: &'static str = "text{font:13px sans-serif;fill:#222;paint-order:stroke;stroke:#fff;\
+        stroke-width:4px}.name{font-weight:bold}\
         .number{fill:#888;font-size:11px}.output{fill:#0a5}.turn{fill:#a00;font-weight:bold}\
         line{stroke:#bbb}.message{stroke:#222;stroke-width:1.3}.lost{stroke:#c00}\
         .delayed{stroke:#c80}.late{stroke:#06c}path{fill:none}";

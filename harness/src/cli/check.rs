@@ -8,9 +8,10 @@ use std::time::Duration;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_model_check::check::{Options, Progress, check};
+use crossguard_model_check::check::{Options, Progress, check, names};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
+use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
 use crossguard_model_check::scenario::{Scenario, ScenarioError};
 use crossguard_model_check::transitions::Transitions;
@@ -41,9 +42,13 @@ pub(super) struct Arguments {
     /// Give up a scenario after this many seconds; its verdict is then 'incomplete'.
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<u32>,
-    /// Write the chart of each counterexample to this folder, as text, as Mermaid and as SVG.
+    /// Write each counterexample to this folder: as a chart in text, Mermaid and SVG, and as JSON for
+    /// --replay.
     #[arg(long, value_name = "FOLDER")]
     charts: Option<PathBuf>,
+    /// Follow the run in this file, a counterexample of before, and say whether it still exists.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["export", "charts"])]
+    replay: Option<PathBuf>,
     /// Write the state graph of the scenario instead of checking it.
     #[arg(long, value_name = "FORMAT", requires = "output")]
     export: Option<Format>,
@@ -81,6 +86,9 @@ struct Coverage {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
+    }
+    if let Some(file) = &arguments.replay {
+        return replay_one(arguments, file);
     }
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()
@@ -229,17 +237,65 @@ fn export_one(
     }
 }
 
+fn replay_one(arguments: &Arguments, file: &Path) -> Result<(), Failure> {
+    let cannot =
+        |cause: &dyn std::fmt::Display| Failure::input(format!("{}: {cause}", file.display()));
+    let text = std::fs::read_to_string(file).map_err(|cause| cannot(&cause))?;
+    let replay: Replay = serde_json::from_str(&text).map_err(|cause| cannot(&cause))?;
+    let name = match arguments.scenarios.as_slice() {
+        [] => &replay.scenario,
+        [name] => name,
+        _ => return Err(Failure::input("--replay wants one scenario")),
+    };
+    let model = Model::new(Scenario::load(name).map_err(Failure::input)?);
+    let line = |step: usize| {
+        let robots = names(model.scenario());
+        format!("{}. {}", step + 1, replay.steps[step].line(&robots))
+    };
+    match replay.follow(&model) {
+        Followed::StoppedAt(step) => print(format_args!(
+            "The run of {} in {name} does not exist any more: this cannot happen now:\n  {}",
+            replay.property,
+            line(step)
+        )),
+        Followed::OtherwiseAt(step, outputs) => print(format_args!(
+            "The run of {} in {name} does not exist any more: after\n  {}\nthe robot now puts out: {}",
+            replay.property,
+            line(step),
+            outputs.join(", ")
+        )),
+        followed @ Followed::ToTheEnd(_) if replay.is_broken(&followed) => {
+            print(format_args!(
+                "The run of {} in {name} still exists as it was.",
+                replay.property
+            ))?;
+            Err(Failure::Wrong)
+        }
+        Followed::ToTheEnd(_) => print(format_args!(
+            "The run of {} in {name} exists, and does not break it any more.",
+            replay.property
+        )),
+    }
+}
+
 fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
     for property in &report.properties {
         let Some(chart) = report.chart(property) else {
             continue;
         };
         let name = format!("{}-{}", report.name, property.id);
-        let forms = [
+        let mut forms = vec![
             ("txt", chart.text()),
             ("mmd", chart.mermaid()),
             ("svg", chart.svg()),
         ];
+        // What is no run of the protocol cannot be followed.
+        if !paper::made(report)
+            && let Some(replay) = Replay::of(report, property)
+        {
+            let json = serde_json::to_string_pretty(&replay).map_err(Failure::input)?;
+            forms.push(("json", json));
+        }
         for (extension, text) in forms {
             let path = folder.join(format!("{name}.{extension}"));
             std::fs::create_dir_all(folder)
