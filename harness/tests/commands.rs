@@ -72,6 +72,26 @@ fn bad_scenarios_are_refused_before_any_is_checked() {
 }
 
 #[test]
+fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
+    let output = run(&["check", "paper-literal"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = stdout(&output);
+    assert_eq!(
+        text.matches("violated, as it must be").count(),
+        12,
+        "{text}"
+    );
+    assert!(text.contains("P12 is broken by:"), "{text}");
+    assert!(
+        text.ends_with("paper-literal fails as it must.\n"),
+        "{text}"
+    );
+    let report = json(&run(&["check", "paper-literal", "--json"]));
+    assert_eq!(report["scenarios"][0]["name"], "paper-literal");
+    assert!(stdout(&run(&["check", "--list"])).contains("paper-literal"));
+}
+
+#[test]
 fn the_shipped_scenarios_are_listed() {
     let text = stdout(&run(&["check", "--list"]));
     for name in crossguard_model_check::scenario::Scenario::shipped() {

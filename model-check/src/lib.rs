@@ -29,6 +29,7 @@ mod intern;
 pub mod model;
 pub mod network;
 pub mod node;
+pub mod paper;
 pub mod properties;
 pub mod replay;
 pub mod report;
