@@ -9,6 +9,7 @@
 //! checked where a message is [encoded](crate::encode) or [decoded](crate::decode), and by the
 //! conversions of [`si`](crate::si), which produce nothing else.
 
+mod conversion;
 #[rustfmt::skip]
 #[allow(
     missing_docs,

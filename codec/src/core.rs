@@ -46,6 +46,7 @@ mod source;
 pub mod vam;
 mod writer;
 
+pub(crate) use error::Path;
 pub use error::{Error, Fault, Field};
 pub use list::SequenceOf;
 pub use reader::{Outer, Read, Reader};

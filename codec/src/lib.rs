@@ -26,7 +26,7 @@
 //!     Identifiers, Message, Position, RobotState, decode, distance, encode, ram_from, state_of,
 //!     view_of_ram,
 //! };
-//! use crossguard_codec::asn1::ram::RAM;
+//! use crossguard_codec::core::ram::RAM;
 //! use crossguard_protocol::{Availability, Decimetres, Robot, StationId};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -69,7 +69,7 @@ pub use containers::position_of;
 pub use distance::distance;
 pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
 pub use identifiers::{IdentifierClash, Identifiers, MessageIdentifiers};
-pub use message::{Message, Pdu, Received, decode, encode};
+pub use message::{Message, Pdu, Received, decode, encode, encode_into};
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
 pub use state::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, JobRole,
