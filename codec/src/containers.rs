@@ -5,14 +5,13 @@
 
 use crate::core::Uper;
 use crate::core::cdd::{
-    AccelerationComponent, AccelerationConfidence, AccelerationValue, Altitude,
-    AltitudeConfidence, AltitudeValue, BasicContainer, Curvature, CurvatureConfidence,
-    CurvatureValue, DeltaAltitude, DeltaLatitude, DeltaLongitude,
-    DeltaReferencePosition, ExteriorLights, Latitude, Longitude, ObjectDimensionValue,
-    PathDeltaTime, PathPoint, PositionConfidenceEllipse, ReferencePositionWithConfidence,
-    SemiAxisLength, Speed, SpeedConfidence, SpeedValue, TrafficParticipantType, Wgs84Angle,
-    Wgs84AngleConfidence, Wgs84AngleValue, YawRate, YawRateConfidence,
-    YawRateValue,
+    AccelerationComponent, AccelerationConfidence, AccelerationValue, Altitude, AltitudeConfidence,
+    AltitudeValue, BasicContainer, Curvature, CurvatureConfidence, CurvatureValue, DeltaAltitude,
+    DeltaLatitude, DeltaLongitude, DeltaReferencePosition, ExteriorLights, Latitude, Longitude,
+    ObjectDimensionValue, PathDeltaTime, PathPoint, PositionConfidenceEllipse,
+    ReferencePositionWithConfidence, SemiAxisLength, Speed, SpeedConfidence, SpeedValue,
+    TrafficParticipantType, Wgs84Angle, Wgs84AngleConfidence, Wgs84AngleValue, YawRate,
+    YawRateConfidence, YawRateValue,
 };
 use crate::core::ram::{
     self, BatteryStatus, RobotCapabilities, RobotDimensions, RobotHighFrequencyContainer,
@@ -182,7 +181,7 @@ fn dimensions(dimensions: &Dimensions) -> RobotDimensions {
     }
 }
 
-fn dimensions_of(dimensions: &RobotDimensions) -> Dimensions {
+fn dimensions_of(dimensions: RobotDimensions) -> Dimensions {
     let dimension = |number: ObjectDimensionValue| si::DIMENSION.decode(number.get());
     Dimensions {
         length: dimension(dimensions.length),
@@ -221,7 +220,7 @@ pub(crate) fn read_high_frequency(container: &RobotHighFrequencyContainer, state
     state.curvature = container.curvature.and_then(curvature_of);
     state.yaw_rate = container.yaw_rate.and_then(yaw_rate_of);
     state.orientation = container.orientation.and_then(angle_of);
-    state.dimensions = dimensions_of(&container.robot_dimensions);
+    state.dimensions = dimensions_of(container.robot_dimensions);
 }
 
 /// The low-frequency container of a robot at `reference`.
@@ -341,7 +340,7 @@ pub(crate) fn battery(battery: &Battery) -> BatteryStatus {
     }
 }
 
-pub(crate) fn battery_of(battery: &BatteryStatus) -> Battery {
+pub(crate) fn battery_of(battery: BatteryStatus) -> Battery {
     Battery {
         state_of_charge: si::STATE_OF_CHARGE.decode(battery.state_of_charge.get()),
         charging: battery.charging,

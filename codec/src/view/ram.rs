@@ -123,7 +123,7 @@ pub fn state_of(ram: &RAM) -> RobotState {
         category: RobotCategory::from_wire(status.robot_category),
         job_role: JobRole::from_wire(status.operational_job_role),
         task_progression: TaskProgression::from_wire(status.task_progression),
-        battery: battery_of(&status.battery_status),
+        battery: battery_of(status.battery_status),
         control_mode: ControlMode::from_wire(status.control_mode),
         slow: slow.map(|slow| slow_state_of(slow, &position)),
         ..RobotState::default()

@@ -95,7 +95,12 @@ pub(super) fn role_of(role: &SessionRole, sender: StationId) -> Result<Coordinat
         SessionRole::Leader(leader) => Coordination::Leader {
             number: own(leader.session)?,
             heartbeat: Heartbeat(leader.heartbeat.0),
-            followers: leader.followers.iter().map(confirmation_of).collect(),
+            followers: leader
+                .followers
+                .iter()
+                .copied()
+                .map(confirmation_of)
+                .collect(),
         },
         SessionRole::Follower(follower) => Coordination::Follower {
             session: session_of(follower.session),
@@ -120,7 +125,7 @@ fn confirmation(confirmation: Confirmation) -> ConfirmedFollower {
     }
 }
 
-fn confirmation_of(follower: &ConfirmedFollower) -> Confirmation {
+fn confirmation_of(follower: ConfirmedFollower) -> Confirmation {
     Confirmation {
         station: station_of(follower.station_id),
         offer: offer_of(follower.offer_number),
