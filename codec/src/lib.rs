@@ -60,7 +60,7 @@ pub mod si;
 mod size;
 mod state;
 mod uper;
-mod view;
+pub mod view;
 mod wire;
 
 pub use crate::core::Fault;
@@ -76,6 +76,7 @@ pub use state::{
     Lights, Measurement, PastPosition, Position, PublicSignal, RobotCategory, RobotState,
     SignalMeans, SignalsShown, SlowState, TaskProgression,
 };
+#[doc(no_inline)]
 pub use view::{
     ExecutionStatus, MapPlace, Target, TaskParameters, availability_of, execution_of, map_place_of,
     ram_from, rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of, view_of_ram,

@@ -31,7 +31,7 @@ use super::{
     views_of_rmcm,
 };
 use crate::core::ram::{RAM, RobotLeaderFollowerOperationContainer};
-use crate::core::rmcm::{ManeuverContainer, RMCM};
+use crate::core::rmcm::{ManeuverCommand, ManeuverContainer, RMCM};
 use crate::identifiers::Identifiers;
 use crate::state::{Position, RobotState};
 
@@ -58,15 +58,17 @@ pub fn can_be_said(view: &Ram) -> bool {
             let is_sound = !followers.is_empty() && are_others(view.station, stations);
             (is_sound, Some(own(number)))
         }
-        Coordination::Follower { session, last, .. } => {
-            (is_foreign(session) && last.is_none_or(is_own), Some(session))
-        }
+        Coordination::Follower { session, last, .. } => (
+            is_foreign(session) && last.is_none_or(is_own),
+            Some(session),
+        ),
     };
     let past = view.farewell.map(|farewell| match farewell {
         Farewell::Ended(number) => own(number),
         Farewell::Left(session) => session,
     });
-    let has_left_own = matches!(view.farewell, Some(Farewell::Left(session)) if !is_foreign(session));
+    let has_left_own =
+        matches!(view.farewell, Some(Farewell::Left(session)) if !is_foreign(session));
     is_sound && !has_left_own && (past.is_none() || past != present)
 }
 
@@ -140,7 +142,8 @@ fn part(
     container.copied().unwrap_or(nothing)
 }
 
-/// Every RAM has a state; the RAM of that state has it too, and so on without drifting.
+/// Every RAM has a state; the RAM of that state has it too, and so on without drifting. What has two
+/// names on the wire, as the antimeridian has, the first RAM tells by one.
 pub fn states_are_told_as_they_were_read(ram: &RAM) {
     let told = retold(ram);
     assert!(told.is_some());
@@ -161,39 +164,131 @@ fn retold(ram: &RAM) -> Option<RAM> {
 }
 
 /// An RMCM can be made of commands exactly where they are of one session, for different followers,
-/// and not too many, and it has those commands in their order.
-pub fn commands_keep_the_view(commands: &[Command], place: Option<MapPlace>) {
-    let mut told = [None; MAX_FOLLOWERS];
-    for (slot, command) in told.iter_mut().zip(commands) {
-        *slot = Some((*command, TaskParameters::default()));
-    }
-    let belong_together = commands.first().is_some_and(|first| {
-        let leader = first.session.leader;
+/// and not too many, and it has those commands in their order. The parameters have no target, since
+/// not every target can be expressed.
+pub fn commands_keep_the_view(commands: &[(Command, TaskParameters)], place: Option<MapPlace>) {
+    let belong_together = commands.first().is_some_and(|(first, _)| {
+        let stations = commands.iter().map(|(command, _)| command.to);
         commands.len() <= MAX_FOLLOWERS
-            && commands.iter().all(|command| command.session == first.session)
-            && are_others(leader, commands.iter().map(|command| command.to))
+            && commands
+                .iter()
+                .all(|(command, _)| command.session == first.session)
+            && are_others(first.session.leader, stations)
     });
-    // Commands that are too many are as good as none.
-    let told = match (commands.len(), told) {
-        (1, [Some(a), ..]) => rmcm_of(&[a], place),
-        (2, [Some(a), Some(b), ..]) => rmcm_of(&[a, b], place),
-        (3, [Some(a), Some(b), Some(c), ..]) => rmcm_of(&[a, b, c], place),
-        (4, [Some(a), Some(b), Some(c), Some(d)]) => rmcm_of(&[a, b, c, d], place),
-        _ => None,
-    };
-    assert!(told.is_some() == belong_together);
-    let Some(told) = told else {
+    let said = rmcm_of(place, commands);
+    assert!(said.is_some() == belong_together);
+    let Some(said) = said else {
         return;
     };
-    let views = views_of_rmcm(&told);
-    assert!(views.is_ok());
+    let views = views_of_rmcm(&said);
+    assert!(views.is_ok_and(|views| views.len() == commands.len()));
     if let Ok(views) = views {
-        assert!(views.len() == commands.len());
-        for (view, command) in views.iter().zip(commands) {
+        for (view, (command, _)) in views.iter().zip(commands) {
             assert!(*view == Rmcm::Command(*command));
-            assert!(task_parameters_of(&told, command.to) == Some(TaskParameters::default()));
         }
     }
-    assert!(map_place_of(&told) == place);
-    assert!(execution_of(&told).is_none());
+    assert!(map_place_of(&said) == place);
+    assert!(execution_of(&said).is_none());
+}
+
+/// An RMCM can be made of every answer to another robot and has that answer, with the status.
+pub fn answers_keep_the_view(answer: &Answer, status: ExecutionStatus) {
+    let said = rmcm_of_answer(answer, status);
+    assert!(said.is_some() == (answer.from != answer.session.leader));
+    let Some(said) = said else {
+        return;
+    };
+    let views = views_of_rmcm(&said);
+    assert!(views.is_ok_and(|views| views.len() == 1));
+    if let Ok(views) = views {
+        for view in views.iter() {
+            assert!(*view == Rmcm::Answer(*answer));
+        }
+    }
+    let at_most_a_day = |time: Millis| time.min(Millis::MAX_TIMER);
+    let expected = ExecutionStatus {
+        time_to_completion: status.time_to_completion.map(at_most_a_day),
+        ..status
+    };
+    assert!(execution_of(&said) == Some(expected));
+    assert!(map_place_of(&said).is_none());
+}
+
+/// Every RMCM has views or contradicts itself, and the views have everything that it says of
+/// commands and answers: made of them again it says the same.
+pub fn hearing_an_rmcm_is_total(rmcm: &RMCM) {
+    let Ok(views) = views_of_rmcm(rmcm) else {
+        return;
+    };
+    let mut views = views.iter();
+    let heard = &rmcm.rmcm.rmcm_parameters.maneuver_container;
+    match heard {
+        ManeuverContainer::LeaderManeuverContainer(heard) => {
+            assert!(heard.commands.len() == views.clone().count());
+            for (view, heard) in views.zip(heard.commands.iter()) {
+                let Rmcm::Command(command) = view else {
+                    panic!("a leader answers");
+                };
+                let said = rmcm_of(None, &[(*command, TaskParameters::default())]);
+                let said = said.as_ref().and_then(the_command);
+                assert!(said.is_some_and(|said| {
+                    said.request_id == heard.request_id
+                        && said.target_follower_station_id == heard.target_follower_station_id
+                        && said.task_type == heard.task_type
+                }));
+            }
+        }
+        ManeuverContainer::FollowerManeuverContainer(_) => {
+            let (Some(Rmcm::Answer(answer)), Some(status)) = (views.next(), execution_of(rmcm))
+            else {
+                panic!("a follower says something else than an answer and how far it is");
+            };
+            let said = rmcm_of_answer(answer, status);
+            assert!(said.is_some_and(|said| {
+                said.rmcm.rmcm_parameters.maneuver_container == *heard
+                    && said.header.station_id == rmcm.header.station_id
+            }));
+        }
+    }
+}
+
+/// Every command has parameters; the command with these parameters has them too, and so on without
+/// drifting. The antimeridian has two names on the wire, of which the first command tells one.
+pub fn parameters_are_told_as_they_were_read(rmcm: &RMCM) {
+    let Ok(views) = views_of_rmcm(rmcm) else {
+        return;
+    };
+    for view in views.iter() {
+        if let Rmcm::Command(command) = view {
+            let told = retold_command(rmcm, command);
+            assert!(told.is_some());
+            if let Some(told) = told {
+                assert!(retold_command(&told, command) == Some(told));
+            }
+        }
+    }
+}
+
+/// A command alone, with the parameters that it has in a message.
+fn retold_command(rmcm: &RMCM, command: &Command) -> Option<RMCM> {
+    let parameters = task_parameters_of(rmcm, command.to)?;
+    rmcm_of(None, &[(*command, parameters)])
+}
+
+fn rmcm_of(place: Option<MapPlace>, commands: &[(Command, TaskParameters)]) -> Option<RMCM> {
+    let (identifiers, position) = (Identifiers::default(), Position::default());
+    rmcm_from_commands(&identifiers, &position, place, commands, 0).ok()
+}
+
+fn rmcm_of_answer(answer: &Answer, status: ExecutionStatus) -> Option<RMCM> {
+    let (identifiers, position) = (Identifiers::default(), Position::default());
+    rmcm_from_answer(&identifiers, &position, answer, status, 0).ok()
+}
+
+/// The first command of a leader.
+fn the_command(rmcm: &RMCM) -> Option<&ManeuverCommand> {
+    match &rmcm.rmcm.rmcm_parameters.maneuver_container {
+        ManeuverContainer::LeaderManeuverContainer(container) => container.commands.first(),
+        ManeuverContainer::FollowerManeuverContainer(_) => None,
+    }
 }
