@@ -16,14 +16,14 @@ pub(crate) struct Limit {
 }
 
 impl Limit {
-    fn reached(&self, states: usize, time: Duration) -> Option<CutOff> {
-        if self.states.is_some_and(|max| states >= max) {
-            Some(CutOff::StateLimit)
-        } else if self.time.is_some_and(|max| time >= max) {
-            Some(CutOff::TimeLimit)
-        } else {
-            None
-        }
+    fn states_reached(&self, states: usize) -> Option<CutOff> {
+        let reached = self.states.is_some_and(|max| states >= max);
+        reached.then_some(CutOff::StateLimit)
+    }
+
+    fn time_reached(&self, time: Duration) -> Option<CutOff> {
+        let reached = self.time.is_some_and(|max| time >= max);
+        reached.then_some(CutOff::TimeLimit)
     }
 }
 
@@ -79,15 +79,14 @@ impl Graph {
             if at == level_ends {
                 (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
             }
+            graph.cut_off = limit.states_reached(graph.states.len());
             if at % 16_384 == 0 {
-                graph.cut_off = if watch(graph.reached(at)) {
-                    Some(CutOff::FoundBroken)
-                } else {
-                    limit.reached(graph.states.len(), start.elapsed())
-                };
-                if graph.cut_off.is_some() {
-                    return graph;
-                }
+                let has_to_stop = watch(graph.reached(at)).then_some(CutOff::FoundBroken);
+                let out_of_time = limit.time_reached(start.elapsed());
+                graph.cut_off = graph.cut_off.or(has_to_stop).or(out_of_time);
+            }
+            if graph.cut_off.is_some() {
+                return graph;
             }
             let state = graph.states[at].clone();
             actions.clear();

@@ -215,7 +215,7 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 9] = [
+const SHIPPED: [(&str, &str); 10] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -228,6 +228,10 @@ const SHIPPED: [(&str, &str); 9] = [
     ("trio", include_str!("../scenarios/trio.toml")),
     ("wrap", include_str!("../scenarios/wrap.toml")),
     ("stable", include_str!("../scenarios/stable.toml")),
+    (
+        "team-of-four",
+        include_str!("../scenarios/team-of-four.toml"),
+    ),
 ];
 
 /// How many of the shipped scenarios take seconds.

@@ -93,7 +93,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()
     } else if arguments.all {
-        Scenario::shipped().collect()
+        Scenario::shipped().chain([paper::NAME]).collect()
     } else {
         Scenario::quick().collect()
     };
