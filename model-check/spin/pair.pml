@@ -115,6 +115,8 @@ byte quiet;
 hidden Message m;       /* of use within one step alone */
 hidden byte i;
 hidden short present;
+hidden byte stray;
+hidden int before;
 
 #define NAME(s, q)    (((s) - 1) * COMMANDS + (q))
 #define BIT(s, q)     (1 << (NAME(s, q) - 1))

@@ -57,23 +57,28 @@ inline hear_follower() {
     fi
 }
 
+/* What an answer could change. */
+#define RECORD (leader.phase | leader.outstanding << 3 | leader.repeats << 6 | leader.order << 9 \
+                | leader.progress << 12 | leader.lease << 15 | leader.joined << 16 | corridor << 17)
+
 inline hear_answer() {
-    PREMISE(7, leader.phase != LEADING || m.session != leader.session
-               || m.request != leader.outstanding);
+    stray = (leader.phase != LEADING || m.session != leader.session
+             || m.request != leader.outstanding);
+    before = RECORD;
+    PREMISE(7, stray);
+    if
 #ifdef ANY_ACKNOWLEDGEMENT
-    if
     :: leader.phase == LEADING && m.session == leader.session && leader.outstanding != 0 ->
-        CHECK(7, m.request == leader.outstanding);
 #else
-    if
-    :: leader.phase == LEADING && m.session == leader.session && m.request == leader.outstanding ->
+    :: !stray ->
 #endif
         if
         :: m.says -> acknowledge()
         :: else -> leader.outstanding = 0; leader.repeats = 0
         fi
     :: else
-    fi
+    fi;
+    CHECK(7, !stray || before == RECORD)
 }
 
 inline requester_hears() {
