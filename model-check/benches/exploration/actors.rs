@@ -14,7 +14,8 @@ use crossguard_model_check::network::Message;
 use crossguard_model_check::node::{Node, Protocol};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::{
-    Coordination, Event, Farewell, Heartbeat, Input, Output, Phase, Ram, Rmcm, StationId, Timer,
+    Coordination, Event, Farewell, Heartbeat, Input, Output, Phase, Ram, Rmcm, Robot, StationId,
+    Timer,
 };
 use rustc_hash::FxHasher;
 use stateright::actor::{
@@ -252,8 +253,9 @@ fn model(scenario: &Scenario) -> Robots {
         })
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "stateright wants it so")]
 fn within_boundary((): &(), state: &ActorModelState<RobotActor>) -> bool {
-    let young = |node: &Node| match node.robot.as_ref().map(|robot| robot.phase()) {
+    let young = |node: &Node| match node.robot.as_ref().map(Robot::phase) {
         Some(Phase::Leading(leading)) => {
             leading.heartbeat.distance_from(Heartbeat(0)) <= HEARTBEAT_MAX
         }
