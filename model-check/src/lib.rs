@@ -46,5 +46,5 @@ pub fn count_states(model: &model::Model) -> usize {
         states: None,
         time: None,
     };
-    graph::Graph::build(model, unlimited, &mut |_, _| false).states()
+    graph::Graph::build(model, unlimited, &mut |_| false).states()
 }

@@ -118,7 +118,7 @@ impl RobotStep<'_> {
 
     /// What the robot put out.
     #[must_use]
-    pub const fn outputs(&self) -> &Outputs {
+    pub fn outputs(&self) -> &Outputs {
         &self.step.outputs
     }
 
@@ -409,7 +409,7 @@ impl Model {
                 Some(step)
             }
             Action::Lose(transmission) => {
-                if let Some(left) = &mut next.left.losses {
+                if let Some(left) = &mut next.state.left.losses {
                     *left -= 1;
                 }
                 if next.network.next_on_air() == Some(transmission) {
@@ -428,7 +428,7 @@ impl Model {
                 Some(self.robot_step(&mut next, i.into(), Cause::Timer(timer))?)
             }
             Action::Local(i, event) => {
-                spend(&mut next.state.left, event);
+                next.state.left.spend(event);
                 let step = self.robot_step(&mut next, i.into(), Cause::Event(event))?;
                 if step.step.is_ignored {
                     return None;
@@ -581,22 +581,4 @@ impl Model {
 /// others pace the robot's own work.
 const fn guards_against_silence(timer: Timer) -> bool {
     !matches!(timer, Timer::Ram | Timer::Selection | Timer::Farewell)
-}
-
-/// Takes an event off what may still happen.
-fn spend(left: &mut Bounds, event: Event) {
-    let bound = match event {
-        Event::PedestrianDetected(_) => &mut left.detections,
-        Event::CommandManeuver { .. } => &mut left.commands,
-        Event::ManeuverFailed(_)
-        | Event::LeaveRequested
-        | Event::AvailabilityChanged(Availability::Unavailable(_))
-        | Event::IdentityChanged(_) => &mut left.disturbances,
-        Event::ManeuverCompleted(_)
-        | Event::TaskCompleted
-        | Event::AvailabilityChanged(Availability::Available)
-        | Event::OpenCorridor
-        | Event::CloseCorridor => return,
-    };
-    *bound -= 1;
 }
