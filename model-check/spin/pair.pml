@@ -1,7 +1,7 @@
 /* The scenario `pair` in Promela: one robot that detects a pedestrian, one that helps.
  *
- * Written from the text of the protocol (design section 4; README, "Where the protocol says more than
- * the paper"), not from the Rust code, so that an error in one is not repeated in the other. What is
+ * Its rules are those of the protocol's text (README, "Where the protocol says more than the paper"); it
+ * shares no line with the Rust code. How independent it is of that, what is
  * modelled, what is not, and how to run it: README.md in this folder.
  *
  *      Requester  ──► air ──►  Channel  ──►  Helper          air: just sent, fate decided first
