@@ -1,8 +1,9 @@
 //! The whole state graph, for facts about runs that stateright's exploration does not establish.
 
-use std::collections::HashMap;
+use std::hash::BuildHasher;
 use std::time::{Duration, Instant};
 
+use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
 use crate::model::{Model, State};
@@ -61,8 +62,10 @@ impl Graph {
     ) -> Self {
         let start = Instant::now();
         let initial = model.initial();
-        let mut numbers: HashMap<State, u32, FxBuildHasher> = HashMap::default();
-        numbers.insert(initial.clone(), 0);
+        let hash = |state: &State| FxBuildHasher.hash_one(state);
+        // Numbers of states, by what the states are; each state is stored once.
+        let mut numbers: HashTable<u32> = HashTable::new();
+        numbers.insert_unique(hash(&initial), 0, |_| 0);
         let mut graph = Self {
             states: vec![initial],
             parents: vec![0],
@@ -96,9 +99,14 @@ impl Graph {
                 let Some((next, _)) = model.successor(&state, action) else {
                     continue;
                 };
-                let fresh = u32::try_from(graph.states.len()).expect("fewer than 2^32 states");
-                let number = *numbers.entry(next).or_insert_with_key(|next| {
-                    graph.states.push(next.clone());
+                let hashed = hash(&next);
+                let known = numbers.find(hashed, |&number| graph.states[number as usize] == next);
+                let number = known.copied().unwrap_or_else(|| {
+                    let fresh = u32::try_from(graph.states.len()).expect("fewer than 2^32 states");
+                    numbers.insert_unique(hashed, fresh, |&number| {
+                        hash(&graph.states[number as usize])
+                    });
+                    graph.states.push(next);
                     graph
                         .parents
                         .push(u32::try_from(at).expect("fewer than 2^32 states"));
