@@ -273,7 +273,8 @@ impl Outputs {
     ///
     /// The capacity is proved to suffice for every step; see the crate's `valid` module.
     pub(crate) fn push(&mut self, output: Output) {
-        if output == Output::SendRam && self.iter().any(|&o| o == Output::SendRam) {
+        let says_all = |output: &Output| matches!(output, Output::SendRam);
+        if says_all(&output) && self.iter().any(says_all) {
             return;
         }
         let pushed = self.0.push(output);
