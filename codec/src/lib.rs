@@ -17,6 +17,7 @@
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
 //!   map to and from the protocol's view.
+//! - [`geonet`] has the headers under a message, GeoNetworking and BTP-B.
 //! - [`Identifiers`] holds what no standard has assigned.
 //!
 //! ```
@@ -50,6 +51,7 @@ pub mod asn1;
 mod containers;
 mod distance;
 mod error;
+pub mod geonet;
 mod identifiers;
 mod message;
 mod rules;

@@ -112,6 +112,20 @@ impl Arbitrary for bool {
     }
 }
 
+impl Arbitrary for f64 {
+    #[expect(clippy::cast_precision_loss, reason = "any value does")]
+    fn any() -> Self {
+        match random() % 8 {
+            0 => [Self::NAN, Self::INFINITY, Self::NEG_INFINITY, -0.0][(random() % 4) as usize],
+            1 => Self::from_bits(random()),
+            // Where the ranges of the data elements are.
+            scale => {
+                (random().cast_signed() >> 32) as Self / 10_f64.powi(4 + 2 * (scale as i32 % 3))
+            }
+        }
+    }
+}
+
 impl<T: Arbitrary, const N: usize> Arbitrary for [T; N] {
     fn any() -> Self {
         std::array::from_fn(|_| T::any())

@@ -68,8 +68,10 @@ impl<T: Copy, const N: usize> List<T, N> {
         condition: impl Fn(&T) -> bool,
         change: impl FnOnce(&mut T) -> R,
     ) -> Option<R> {
-        for item in self.0.iter_mut().flatten() {
-            if condition(item) {
+        for slot in &mut self.0 {
+            if let Some(item) = slot
+                && condition(item)
+            {
                 return Some(change(item));
             }
         }
