@@ -1,4 +1,4 @@
-//! The headers under a message: GeoNetworking and BTP-B.
+//! The headers under a message: `GeoNetworking` and BTP-B.
 //!
 //! Basic header, common header, the extended headers of single-hop broadcast (SHB) and geo-broadcast
 //! (GBC) of EN 302 636-4-1, and BTP-B of EN 302 636-5-1. Without heap and without the standard
@@ -83,7 +83,7 @@ pub struct TrafficClass {
     pub id: u8,
 }
 
-/// A GeoNetworking address.
+/// A `GeoNetworking` address.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Address {
     /// Whether it was configured by hand.

@@ -119,9 +119,9 @@ impl Arbitrary for f64 {
             0 => [Self::NAN, Self::INFINITY, Self::NEG_INFINITY, -0.0][(random() % 4) as usize],
             1 => Self::from_bits(random()),
             // Where the ranges of the data elements are.
-            scale => {
-                (random().cast_signed() >> 32) as Self / 10_f64.powi(4 + 2 * (scale as i32 % 3))
-            }
+            2..4 => (random().cast_signed() >> 32) as Self / 1e4,
+            4..6 => (random().cast_signed() >> 32) as Self / 1e6,
+            _ => (random().cast_signed() >> 32) as Self / 1e8,
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::task::{FallbackPolicy, TaskType, Unavailability};
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
 pub enum Output {
     /// Send a RAM now, with [`Robot::ram`](crate::Robot::ram) of the state after this step.
     SendRam,

@@ -37,7 +37,7 @@ impl AsRef<[u8]> for Encoded {
 /// Octets that are yet to be read.
 struct Reader<'a>(&'a [u8]);
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     fn array<const N: usize>(&mut self, field: Field) -> Result<[u8; N], GeonetError> {
         let (first, rest) = self
             .0

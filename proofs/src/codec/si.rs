@@ -52,7 +52,7 @@ harnesses! {
         laws::classes_are_the_smallest_that_fit(&si::ALTITUDE_CONFIDENCE, half_width);
         kani::cover!(half_width > 200.0, "out of range");
         kani::cover!(half_width < 0.0, "negative");
-        kani::cover!(half_width >= 0.0 && half_width < 0.01, "the best");
+        kani::cover!((0.0..0.01).contains(&half_width), "the best");
     }
 
     /// All half widths.
