@@ -111,6 +111,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
             .filter(|_| cut_off.is_none())
             .map(|expected| expected == size),
         properties: findings.all(),
+        figures: Vec::new(),
         assumptions: assumptions(scenario),
         seconds: start.elapsed().as_secs_f64(),
     }

@@ -29,4 +29,5 @@ pub mod properties;
 pub mod report;
 pub mod scenario;
 mod steps;
+pub mod timed;
 pub mod universe;

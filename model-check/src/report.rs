@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::timed::Figure;
+
 /// What came of checking one scenario.
 #[derive(Clone, Debug, Serialize)]
 pub struct ScenarioReport {
@@ -28,6 +30,9 @@ pub struct ScenarioReport {
     pub size_as_expected: Option<bool>,
     /// What was found about each property and each premise.
     pub properties: Vec<PropertyReport>,
+    /// The longest times found, where the scenario is a timed one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub figures: Vec<Figure>,
     /// What the verdicts assume.
     pub assumptions: Vec<String>,
 }

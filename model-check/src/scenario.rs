@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
+use crate::timed::{Section, Timed, TimedImpossibility, TimedProperty};
 
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 4;
@@ -39,8 +40,10 @@ pub struct Scenario {
     pub channel: Channel,
     /// The configuration of every robot.
     pub config: Config,
-    /// The properties to check.
+    /// The properties to check; none where the scenario is timed.
     pub properties: Vec<PropertyId>,
+    /// What makes it a timed scenario, with the properties to check then.
+    pub timed: Option<Timed>,
     /// What an exploration must find, where the file says so.
     pub expected: Option<Size>,
 }
@@ -88,7 +91,8 @@ pub struct Bounds {
 #[serde(deny_unknown_fields)]
 pub struct Channel {
     /// How many messages may be delayed at a time; each may arrive late, in any order, more than
-    /// once, or never.
+    /// once, or never. A timed scenario bounds for how long instead.
+    #[serde(default)]
     pub delayed: u8,
     /// Whether a message may get lost on its way to one receiver and reach another.
     pub loss: bool,
@@ -108,6 +112,7 @@ struct File {
     channel: Channel,
     #[serde(default)]
     protocol: Settings,
+    timed: Option<Section>,
     properties: Vec<toml::Spanned<String>>,
     expected: Option<Size>,
 }
@@ -189,15 +194,19 @@ pub enum Impossibility {
     /// The protocol's settings contradict each other.
     #[error(transparent)]
     Settings(#[from] BrokenInequality),
+    /// What is wrong with the time of a timed scenario.
+    #[error(transparent)]
+    Timed(#[from] TimedImpossibility),
 }
 
 /// The scenarios that come with the kit.
-const SHIPPED: [(&str, &str); 5] = [
+const SHIPPED: [(&str, &str); 6] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
+    ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
 ];
 
 impl Scenario {
@@ -310,15 +319,23 @@ impl File {
         let request = self.request.check()?;
         let config = Config::new(self.protocol)
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
-        let mut properties = Vec::new();
-        for name in self.properties {
-            let place = Place::Offset(name.span().start);
-            let name = name.into_inner();
-            match name.parse() {
-                Ok(property) => properties.push(property),
-                Err(()) => return Err(at(place, I::Property(name))),
+        let mut timed = None;
+        if let Some(section) = self.timed {
+            let checked = section.check(config.settings(), &self.robots);
+            let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
+            if delayed > 0 {
+                let cause = TimedImpossibility::Untimed("delayed");
+                return Err(at(Place::Key("delayed"), cause));
             }
+            checked.properties = all_named(&self.properties, TimedProperty::named, |name| {
+                TimedImpossibility::Property(name).into()
+            })?;
+            timed = Some(checked);
         }
+        let properties = match timed {
+            Some(_) => Vec::new(),
+            None => all_named(&self.properties, |name| name.parse().ok(), I::Property)?,
+        };
         Ok(Scenario {
             name: self.name,
             summary: self.summary,
@@ -328,10 +345,24 @@ impl File {
             corridor: self.corridor,
             channel: self.channel,
             config,
+            timed,
             properties,
             expected: self.expected,
         })
     }
+}
+
+/// The properties of these names.
+fn all_named<P>(
+    names: &[toml::Spanned<String>],
+    named: impl Fn(&str) -> Option<P>,
+    unknown: impl Fn(String) -> Impossibility,
+) -> Result<Vec<P>, Located> {
+    let property = |name: &toml::Spanned<String>| {
+        let place = Place::Offset(name.span().start);
+        named(name.get_ref()).ok_or_else(|| at(place, unknown(name.get_ref().clone())))
+    };
+    names.iter().map(property).collect()
 }
 
 /// The key whose line a broken inequality is reported at: the first timer in its formula.

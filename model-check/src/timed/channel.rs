@@ -4,7 +4,6 @@
 //! it arrives at any moment of that, in any order, or never. Whether it is lost needs no deciding: a
 //! message that has not arrived at the end of its time never will.
 
-use crate::canonical::Ranks;
 use crate::network::Transmission;
 
 /// How many messages may be under way at a time.
@@ -59,17 +58,18 @@ impl Channel {
         self.0.iter().filter_map(|slot| slot.flight())
     }
 
-    /// Sends a message. The same one twice at the same time is one.
+    /// Sends a message. One that is still under way from before is from now on the one sent now: both
+    /// tell the receiver the same.
     ///
     /// # Panics
     /// When more messages are under way than there is room for.
     pub(super) fn send(&mut self, transmission: Transmission) {
-        let slot = Slot::of(transmission, 0);
-        if !self.0.contains(&slot) {
-            let free = self.0.iter_mut().find(|slot| **slot == Slot::EMPTY);
-            *free.expect("room for what is sent within the longest delay") = slot;
-            self.0.sort_unstable();
-        }
+        let is_same = |slot: &Slot| slot.flight().is_some_and(|f| f.transmission == transmission);
+        let place = (self.0.iter().position(is_same))
+            .or_else(|| self.0.iter().position(|slot| *slot == Slot::EMPTY));
+        let place = place.expect("room for what is sent within the longest delay");
+        self.0[place] = Slot::of(transmission, 0);
+        self.0.sort_unstable();
     }
 
     /// Takes away a message that has arrived.
@@ -114,13 +114,6 @@ impl Channel {
             }
         }
         self.0.sort_unstable();
-    }
-
-    /// Adds the names in all messages to `ranks`.
-    pub(super) fn add_names(&self, ranks: &mut Ranks, names: impl Fn(u16, &mut Ranks)) {
-        for flight in self.flights() {
-            names(flight.transmission.message, ranks);
-        }
     }
 }
 

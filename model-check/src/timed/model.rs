@@ -13,7 +13,7 @@
 //! fires when the robot is told of the time.
 
 use crossguard_protocol::{
-    Availability, Event, Input, Millis, Output, Outputs, Phase, Renaming, Timer, Unavailability,
+    Config, Event, Input, Member, Millis, Output, Outputs, Phase, Renaming, Robot, Timer,
 };
 use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
@@ -153,55 +153,55 @@ impl Model {
         self.messages.value(number.into())
     }
 
-    /// Everything that may happen in `state`. An application's event may turn out to be ignored.
+    /// Everything that may happen in `state`.
     pub fn actions_in(&self, state: &State, actions: &mut Vec<Action>) {
         if rules::is_over(self, state) {
+            return;
+        }
+        if let Some(event) = self.leader_event(state) {
+            actions.push(Action::Local(self.timed.leader, event));
             return;
         }
         let robots = self.scenario.robots.len();
         let corners = if self.timed.clock.drifts() { 1 << robots } else { 1 };
         actions.extend((0..corners).map(Action::Tick));
         actions.extend(state.channel.flights().map(Action::Deliver));
-        self.leader_events(state, actions);
         if state.watch == Watch::Off {
             self.failures(state, actions);
         }
     }
 
-    /// What the application of the leader could come up with.
-    fn leader_events(&self, state: &State, actions: &mut Vec<Action>) {
-        let leader = self.timed.leader;
-        let Some(robot) = &self.node(state, leader).robot else { return };
-        let Phase::Leading(leading) = robot.phase() else { return };
+    /// What the application of the leader does at once: it commands a follower as soon as that has
+    /// joined, and opens the corridor as soon as it may.
+    fn leader_event(&self, state: &State) -> Option<Event> {
+        let robot = self.node(state, self.timed.leader).robot.as_ref()?;
+        let Phase::Leading(leading) = robot.phase() else { return None };
         if state.left.commands > 0 {
-            for member in leading.members.iter() {
-                for task in self.scenario.request.tasks.iter() {
-                    let follower = member.station;
-                    let command = Event::CommandManeuver { follower, task };
-                    actions.push(Action::Local(leader, command));
-                }
+            let free = |member: &&Member| {
+                member.has_joined() && member.outstanding.is_none() && member.order.is_none()
+            };
+            if let (Some(member), Some(task)) =
+                (leading.members.iter().find(free), self.scenario.request.tasks.iter().next())
+            {
+                return Some(Event::CommandManeuver { follower: member.station, task });
             }
         }
-        if self.scenario.corridor && !leading.corridor_open {
-            actions.push(Action::Local(leader, Event::OpenCorridor));
-        }
+        let may_open = self.scenario.corridor
+            && !leading.corridor_open
+            && leading.corridor_obstacle(&self.scenario.config).is_none();
+        may_open.then_some(Event::OpenCorridor)
     }
 
-    /// One robot fails: the leader crashes, or a follower crashes, fails its maneuver or becomes
-    /// unavailable while it executes.
+    /// One robot fails: the leader crashes, or a follower crashes or fails its maneuver while it
+    /// executes.
     fn failures(&self, state: &State, actions: &mut Vec<Action>) {
         for (i, node) in (0..).zip(self.nodes(state)) {
-            let Some(robot) = &node.robot else { continue };
             let (leads, running) = (i == self.timed.leader, node.actuation.running);
-            if state.left.crashes > 0 && (leads || running.is_some()) {
+            if state.left.crashes > 0 && node.robot.is_some() && (leads || running.is_some()) {
                 actions.push(Action::Crash(i));
             }
             if state.left.disturbances > 0 && let Some(maneuver) = running {
                 actions.push(Action::Local(i, Event::ManeuverFailed(maneuver)));
-                if robot.availability() == Availability::Available {
-                    let unavailable = Availability::Unavailable(Unavailability::LocalFault);
-                    actions.push(Action::Local(i, Event::AvailabilityChanged(unavailable)));
-                }
             }
         }
     }
@@ -317,11 +317,12 @@ impl Model {
             Output::SendRmcm(rmcm) => Some(Message::Rmcm(rmcm)),
             _ => None,
         });
+        let mut held = Held { config: &self.scenario.config, robot };
         let step = Step {
             sends: sends.map(|message| self.message_number(message)).collect(),
             is_ignored: outputs.ignored().is_some(),
             is_valid: robot.is_valid(&self.scenario.config),
-            after: self.nodes.number(after.renamed(&mut Held(self))),
+            after: self.nodes.number(after.renamed(&mut held)),
         };
         self.steps.insert((node, cause), step.clone());
         Some(step)
@@ -389,7 +390,7 @@ impl Model {
 fn spend(next: &mut State, event: Event) {
     match event {
         Event::CommandManeuver { .. } => next.left.commands -= 1,
-        Event::ManeuverFailed(_) | Event::AvailabilityChanged(_) => {
+        Event::ManeuverFailed(_) => {
             next.left.disturbances -= 1;
             next.watch = Watch::FollowerFailed(0);
         }
@@ -397,17 +398,21 @@ fn spend(next: &mut State, event: Event) {
     }
 }
 
-/// The two timers that are longer than anything that is measured are held at the time they are
+/// The two timers that are longer than anything that is measured are held at the time that they are
 /// started with: a run ends before they do.
-struct Held<'a>(&'a Model);
+struct Held<'a> {
+    config: &'a Config,
+    robot: &'a Robot,
+}
 
 impl Renaming for Held<'_> {
     fn countdown(&mut self, timer: Timer, left: Millis) -> Millis {
-        let config = &self.0.scenario.config;
-        match timer {
-            Timer::IdentityLock => config.t_lock_session(),
-            // All tasks of a timed scenario have the same limit, so it need not be looked up.
-            Timer::Execution(_) => self.0.timed.t_exec,
+        match (timer, self.robot.phase()) {
+            (Timer::IdentityLock, _) => self.config.t_lock_session(),
+            (Timer::Execution(station), Phase::Leading(leading)) => {
+                let order = leading.member(station).and_then(|member| member.order);
+                order.map_or(left, |order| self.config.t_exec(order.task))
+            }
             _ => left,
         }
     }

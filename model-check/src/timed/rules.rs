@@ -36,6 +36,12 @@ impl TimedProperty {
         }
     }
 
+    /// The property of this id.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|property| property.name() == name)
+    }
+
     /// What the property speaks about: of every state, or that something comes in time.
     #[must_use]
     pub const fn kind(self) -> &'static str {
@@ -183,9 +189,9 @@ pub(super) fn is_over(model: &Model, state: &State) -> bool {
     let leader = model.node(state, model.timed().leader);
     match state.watch() {
         Watch::LeaderDown(_) => !model.nodes(state).any(is_following),
+        // Nothing from before the failure is under way any more that could open the corridor again.
         Watch::FollowerFailed(ticks) => {
-            let bound = Measure::CorridorClosed.bound(&model.scenario().config, model.timed().delay);
-            model.timed().clock.millis(ticks) > bound || leader.is_idle()
+            !leader.actuation.corridor_open && ticks > model.timed().delay_ticks
         }
         Watch::Off | Watch::Request(_) => leader.is_idle(),
     }

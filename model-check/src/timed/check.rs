@@ -1,0 +1,172 @@
+//! Runs the check of one timed scenario and says what came of it.
+
+use std::time::Instant;
+
+use crossguard_protocol::Outputs;
+
+use super::explore::Explored;
+use super::model::{Action, Model, State};
+use super::rules::TimedProperty;
+use super::watch::Longest;
+use crate::check::{Options, Progress};
+use crate::network::Message;
+use crate::report::{ChartStep, PropertyReport, ScenarioReport, Verdict};
+use crate::scenario::Size;
+
+/// Checks a timed model. `watch` is told now and then how far it is. Of the options, the limits on
+/// states and time count; one thread explores.
+#[must_use]
+pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+    let start = Instant::now();
+    let (scenario, timed) = (model.scenario(), model.timed());
+    let explored = Explored::of(model, options, watch);
+    let size = Size {
+        unique_states: explored.states(),
+        depth: explored.depth,
+    };
+    let exhaustive = explored.cut_off.is_none();
+    let properties = timed.properties.iter();
+    ScenarioReport {
+        name: scenario.name.clone(),
+        summary: scenario.summary.clone(),
+        unique_states: size.unique_states,
+        transitions: explored.transitions,
+        depth: size.depth,
+        exhaustive,
+        cut_off: explored.cut_off,
+        size_as_expected: scenario
+            .expected
+            .filter(|_| exhaustive)
+            .map(|expected| expected == size),
+        properties: properties
+            .flat_map(|&id| [Some(rule(model, &explored, id)), premise(&explored, id)])
+            .flatten()
+            .collect(),
+        figures: explored
+            .longest
+            .figures(&timed.clock, &scenario.config, timed.delay),
+        assumptions: assumptions(model),
+        seconds: start.elapsed().as_secs_f64(),
+    }
+}
+
+fn rule(model: &Model, explored: &Explored, id: TimedProperty) -> PropertyReport {
+    let path = explored.path_to_broken(id);
+    let verdict = match (&path, explored.cut_off) {
+        (Some(_), _) => Verdict::Violated,
+        (None, Some(_)) => Verdict::Incomplete,
+        (None, None) => Verdict::Holds,
+    };
+    PropertyReport {
+        id: id.name().to_owned(),
+        kind: id.kind().to_owned(),
+        verdict,
+        statement: id.statement().to_owned(),
+        counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
+    }
+}
+
+fn premise(explored: &Explored, id: TimedProperty) -> Option<PropertyReport> {
+    let verdict = match (explored.premises.met(id), explored.cut_off) {
+        (true, _) => Verdict::Reachable,
+        (false, Some(_)) => Verdict::Incomplete,
+        (false, None) => Verdict::Unreachable,
+    };
+    id.premise().map(|premise| PropertyReport {
+        id: format!("{}-premise", id.name()),
+        kind: "premise".to_owned(),
+        verdict,
+        statement: premise.to_owned(),
+        counterexample: Vec::new(),
+    })
+}
+
+/// A run as a chart: at each step the time, what happened, and what the robots put out.
+fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
+    let mut state = model.initial();
+    let mut actions = Vec::new();
+    let mut ticks = 0;
+    let mut steps = Vec::new();
+    for &place in path {
+        actions.clear();
+        model.actions_in(&state, &mut actions);
+        let action = actions[usize::from(place)];
+        ticks += u32::from(matches!(action, Action::Tick(_)));
+        let time = ticks * model.timed().clock.tick.0;
+        let outputs = model.outputs(&state, action);
+        steps.push(ChartStep {
+            action: format!("{time:>5} ms  {}", describe(model, &state, action)),
+            outputs: outputs.iter().flat_map(|(i, outputs)| lines(model, *i, outputs)).collect(),
+        });
+        let Some(next) = model.successor(&state, action, &mut Longest::default()) else { break };
+        state = next;
+    }
+    steps
+}
+
+fn lines(model: &Model, robot: u8, outputs: &Outputs) -> Vec<String> {
+    let station = model.scenario().robots[usize::from(robot)].station;
+    outputs.iter().map(|output| format!("{station}: {output}")).collect()
+}
+
+/// An action in words.
+fn describe(model: &Model, state: &State, action: Action) -> String {
+    let robots = &model.scenario().robots;
+    let station = |i: u8| robots[usize::from(i)].station;
+    match action {
+        Action::Tick(fast) => {
+            let clock = &model.timed().clock;
+            let shown = (0..).zip(robots).filter(|(i, _)| model.node(state, *i).robot.is_some());
+            let shown = shown.map(|(i, robot)| {
+                let elapsed = if fast & 1 << i == 0 { clock.slow } else { clock.fast };
+                format!("{} of {} ms", robot.station, elapsed.0)
+            });
+            format!("a tick: {}", shown.collect::<Vec<_>>().join(", "))
+        }
+        Action::Deliver(flight) => {
+            let way = flight.transmission;
+            let delay = model.timed().clock.millis(flight.ticks).0;
+            let message = match model.message(way.message) {
+                Message::Ram(ram) => ram.to_string(),
+                Message::Rmcm(rmcm) => rmcm.to_string(),
+            };
+            format!("{} -> {}: {message} (after {delay} ms)", station(way.from), station(way.to))
+        }
+        Action::Local(i, event) => format!("{}: {event}", station(i)),
+        Action::Crash(i) => format!("{} crashes for good", station(i)),
+    }
+}
+
+fn assumptions(model: &Model) -> Vec<String> {
+    let (scenario, timed) = (model.scenario(), model.timed());
+    let clock = &timed.clock;
+    let drift = if clock.drifts() {
+        format!(
+            "clocks: each shows {} or {} ms of each tick, in any order; that is every clock within {} ppm, read to {} ms",
+            clock.slow.0,
+            clock.fast.0,
+            scenario.config.settings().drift_ppm,
+            clock.fast.0 - clock.slow.0,
+        )
+    } else {
+        "clocks do not drift".to_owned()
+    };
+    vec![
+        format!(
+            "timed: every robot looks once a tick of {} ms; what is due fires then",
+            clock.tick.0
+        ),
+        drift,
+        format!(
+            "channel: each message is under way from 0 to {} ms, in any order, or gets lost, per receiver",
+            timed.delay.0,
+        ),
+        format!("at most: {}; one failure in a run, after the request", scenario.bounds),
+        "maneuvers last longer than a run, and no application ends a session or closes the corridor"
+            .to_owned(),
+        "no run lasts as long as T_lock or T_exec".to_owned(),
+        "figures and bounds are true time, and of these timers; a crash stops the robot's body".to_owned(),
+        "heartbeats are counted from the oldest one in a state; states that differ in the names of sessions and offers alone count as one"
+            .to_owned(),
+    ]
+}
