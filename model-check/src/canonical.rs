@@ -184,13 +184,14 @@ mod tests {
         };
         let mut names = Names::default();
         let beats = [(1, 9), (1, 4), (2, 7), (1, 6)];
-        names.heartbeats.extend(
-            beats.map(|(leader, beat): (u32, u16)| (session(leader), Heartbeat(beat))),
-        );
+        names
+            .heartbeats
+            .extend(beats.map(|(leader, beat): (u32, u16)| (session(leader), Heartbeat(beat))));
         let mut ranks = Ranks::default();
         ranks.add(&names);
         assert!(ranks.rank_keeping_distances());
-        let renamed = beats.map(|(leader, beat)| ranks.heartbeat(session(leader), Heartbeat(beat)).0);
+        let renamed =
+            beats.map(|(leader, beat)| ranks.heartbeat(session(leader), Heartbeat(beat)).0);
         assert_eq!(renamed, [5, 0, 0, 2]);
     }
 

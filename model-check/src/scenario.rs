@@ -200,13 +200,14 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit.
-const SHIPPED: [(&str, &str); 6] = [
+const SHIPPED: [(&str, &str); 7] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
     ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
+    ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
 ];
 
 impl Scenario {
@@ -321,12 +322,9 @@ impl File {
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
         let mut timed = None;
         if let Some(section) = self.timed {
-            let checked = section.check(config.settings(), &self.robots);
+            let (settings, bounds) = (config.settings(), &self.bounds);
+            let checked = section.check(settings, &self.robots, bounds, self.channel);
             let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
-            if delayed > 0 {
-                let cause = TimedImpossibility::Untimed("delayed");
-                return Err(at(Place::Key("delayed"), cause));
-            }
             checked.properties = all_named(&self.properties, TimedProperty::named, |name| {
                 TimedImpossibility::Property(name).into()
             })?;

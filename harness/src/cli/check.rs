@@ -9,6 +9,7 @@ use crossguard_model_check::check::{Options, Progress, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
 use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::timed::{self, Figure};
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
@@ -99,9 +100,11 @@ fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
         ..defaults
     };
     let bar = progress_bar(arguments.json, &scenario);
-    let report = check(&Model::new(scenario), &options, &mut |progress| {
-        show(&bar, progress);
-    });
+    let mut watch = |progress| show(&bar, progress);
+    let report = match timed::Model::new(scenario.clone()) {
+        Some(model) => timed::check(&model, &options, &mut watch),
+        None => check(&Model::new(scenario), &options, &mut watch),
+    };
     bar.finish_and_clear();
     report
 }
@@ -168,6 +171,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
     for line in table.lines() {
         print(format_args!("  {}", line.trim_end()))?;
     }
+    print_figures(&report.figures)?;
     for property in &report.properties {
         print_counterexample(property)?;
     }
@@ -176,6 +180,23 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         print(format_args!("  - {assumption}"))?;
     }
     print("")
+}
+
+fn print_figures(figures: &[Figure]) -> Result<(), Failure> {
+    if figures.is_empty() {
+        return Ok(());
+    }
+    print("  longest times:")?;
+    for figure in figures {
+        let found = figure
+            .ms
+            .map_or_else(|| "none".to_owned(), |ms| format!("{ms} ms"));
+        print(format_args!(
+            "  {:<54} {found:>7}, by calculation at most {} ms",
+            figure.name, figure.bound_ms
+        ))?;
+    }
+    Ok(())
 }
 
 const fn verdict(verdict: Verdict) -> &'static str {

@@ -64,7 +64,10 @@ impl Channel {
     /// # Panics
     /// When more messages are under way than there is room for.
     pub(super) fn send(&mut self, transmission: Transmission) {
-        let is_same = |slot: &Slot| slot.flight().is_some_and(|f| f.transmission == transmission);
+        let is_same = |slot: &Slot| {
+            slot.flight()
+                .is_some_and(|f| f.transmission == transmission)
+        };
         let place = (self.0.iter().position(is_same))
             .or_else(|| self.0.iter().position(|slot| *slot == Slot::EMPTY));
         let place = place.expect("room for what is sent within the longest delay");
@@ -80,16 +83,20 @@ impl Channel {
 
     /// Takes away everything on its way to one robot, which is down.
     pub(super) fn forget_receiver(&mut self, to: u8) {
-        self.retain(|slot| slot.flight().is_some_and(|flight| flight.transmission.to != to));
+        self.retain(|slot| {
+            slot.flight()
+                .is_some_and(|flight| flight.transmission.to != to)
+        });
     }
 
     /// One tick passes. What has been under way for `ticks_max` is lost.
     pub(super) fn tick(&mut self, ticks_max: u8) {
         for slot in &mut self.0 {
             *slot = match slot.flight() {
-                Some(Flight { transmission, ticks }) if ticks < ticks_max => {
-                    Slot::of(transmission, ticks + 1)
-                }
+                Some(Flight {
+                    transmission,
+                    ticks,
+                }) if ticks < ticks_max => Slot::of(transmission, ticks + 1),
                 _ => Slot::EMPTY,
             };
         }
@@ -99,9 +106,22 @@ impl Channel {
     /// The channel with every message replaced.
     pub(super) fn map(&self, mut replace: impl FnMut(u16) -> u16) -> Self {
         let mut mapped = Self::EMPTY;
-        for (slot, Flight { transmission, ticks }) in mapped.0.iter_mut().zip(self.flights()) {
+        for (
+            slot,
+            Flight {
+                transmission,
+                ticks,
+            },
+        ) in mapped.0.iter_mut().zip(self.flights())
+        {
             let message = replace(transmission.message);
-            *slot = Slot::of(Transmission { message, ..transmission }, ticks);
+            *slot = Slot::of(
+                Transmission {
+                    message,
+                    ..transmission
+                },
+                ticks,
+            );
         }
         mapped.0.sort_unstable();
         mapped
@@ -122,7 +142,11 @@ mod tests {
     use super::*;
 
     const fn to(to: u8, message: u16) -> Transmission {
-        Transmission { from: 0, to, message }
+        Transmission {
+            from: 0,
+            to,
+            message,
+        }
     }
 
     #[test]
@@ -132,10 +156,19 @@ mod tests {
         channel.tick(2);
         channel.send(to(1, 7));
         channel.tick(2);
-        let ticks: Vec<_> = channel.flights().map(|f| (f.transmission.message, f.ticks)).collect();
+        let ticks: Vec<_> = channel
+            .flights()
+            .map(|f| (f.transmission.message, f.ticks))
+            .collect();
         assert_eq!(ticks, [(7, 1), (0, 2)]);
         channel.tick(2);
-        assert_eq!(channel.flights().map(|f| f.transmission.message).collect::<Vec<_>>(), [7]);
+        assert_eq!(
+            channel
+                .flights()
+                .map(|f| f.transmission.message)
+                .collect::<Vec<_>>(),
+            [7]
+        );
     }
 
     #[test]
@@ -144,7 +177,10 @@ mod tests {
         channel.send(to(1, 3));
         channel.send(to(2, 3));
         channel.send(to(2, 4));
-        channel.take(Flight { transmission: to(2, 3), ticks: 0 });
+        channel.take(Flight {
+            transmission: to(2, 3),
+            ticks: 0,
+        });
         channel.forget_receiver(1);
         assert!(channel.flights().map(|f| f.transmission).eq([to(2, 4)]));
     }

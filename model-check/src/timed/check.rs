@@ -96,9 +96,14 @@ fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
         let outputs = model.outputs(&state, action);
         steps.push(ChartStep {
             action: format!("{time:>5} ms  {}", describe(model, &state, action)),
-            outputs: outputs.iter().flat_map(|(i, outputs)| lines(model, *i, outputs)).collect(),
+            outputs: outputs
+                .iter()
+                .flat_map(|(i, outputs)| lines(model, *i, outputs))
+                .collect(),
         });
-        let Some(next) = model.successor(&state, action, &mut Longest::default()) else { break };
+        let Some(next) = model.successor(&state, action, &mut Longest::default()) else {
+            break;
+        };
         state = next;
     }
     steps
@@ -106,7 +111,10 @@ fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
 
 fn lines(model: &Model, robot: u8, outputs: &Outputs) -> Vec<String> {
     let station = model.scenario().robots[usize::from(robot)].station;
-    outputs.iter().map(|output| format!("{station}: {output}")).collect()
+    outputs
+        .iter()
+        .map(|output| format!("{station}: {output}"))
+        .collect()
 }
 
 /// An action in words.
@@ -116,9 +124,15 @@ fn describe(model: &Model, state: &State, action: Action) -> String {
     match action {
         Action::Tick(fast) => {
             let clock = &model.timed().clock;
-            let shown = (0..).zip(robots).filter(|(i, _)| model.node(state, *i).robot.is_some());
+            let shown = (0..)
+                .zip(robots)
+                .filter(|(i, _)| model.node(state, *i).robot.is_some());
             let shown = shown.map(|(i, robot)| {
-                let elapsed = if fast & 1 << i == 0 { clock.slow } else { clock.fast };
+                let elapsed = if fast & 1 << i == 0 {
+                    clock.slow
+                } else {
+                    clock.fast
+                };
                 format!("{} of {} ms", robot.station, elapsed.0)
             });
             format!("a tick: {}", shown.collect::<Vec<_>>().join(", "))
@@ -130,7 +144,11 @@ fn describe(model: &Model, state: &State, action: Action) -> String {
                 Message::Ram(ram) => ram.to_string(),
                 Message::Rmcm(rmcm) => rmcm.to_string(),
             };
-            format!("{} -> {}: {message} (after {delay} ms)", station(way.from), station(way.to))
+            format!(
+                "{} -> {}: {message} (after {delay} ms)",
+                station(way.from),
+                station(way.to)
+            )
         }
         Action::Local(i, event) => format!("{}: {event}", station(i)),
         Action::Crash(i) => format!("{} crashes for good", station(i)),

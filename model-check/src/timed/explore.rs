@@ -24,7 +24,6 @@ pub(super) struct Explored {
     broken: [Option<u32>; TimedProperty::ALL.len()],
     /// Transitions in which no time passes.
     instant: Vec<(u32, u32)>,
-    stats: [usize;4],
 }
 
 impl Explored {
@@ -48,21 +47,26 @@ impl Explored {
                 }
             }
             let from = number(at);
-            if let Ok(_) = std::env::var("PROBE") { let k = match state.watch() { super::watch::Watch::Off => 0, super::watch::Watch::Request(_) => 1, super::watch::Watch::LeaderDown(_)=>2, _=>3}; explored.stats[k]+=1; if at % 65536==0 { eprintln!("{:?} waiting {}", explored.stats, waiting.len()); } }
             actions.clear();
             model.actions_in(&state, &mut actions);
+            let mut stuck = !actions.is_empty();
             for (i, &action) in (0..).zip(&actions) {
                 let Some(next) = model.successor(&state, action, &mut explored.longest) else {
                     continue;
                 };
+                explored.premises.note_step(model, &state, &next);
                 let to = match numbers.get(&next) {
                     Some(&known) => known,
                     None => explored.add(model, next, (from, i), &mut numbers, &mut waiting),
                 };
+                stuck = false;
                 explored.transitions += 1;
                 if !matches!(action, Action::Tick(_)) {
                     explored.instant.push((from, to));
                 }
+            }
+            if stuck {
+                explored.broken[TimedProperty::I12 as usize].get_or_insert(from);
             }
             at += 1;
         }
@@ -81,7 +85,6 @@ impl Explored {
             parents: Vec::new(),
             broken: [None; TimedProperty::ALL.len()],
             instant: Vec::new(),
-            stats: [0;4],
         }
     }
 
@@ -142,7 +145,10 @@ impl Explored {
             .collect();
         while let Some(state) = free.pop() {
             let first = self.instant.partition_point(|&(from, _)| from < state);
-            for &(_, to) in self.instant[first..].iter().take_while(|&&(from, _)| from == state) {
+            for &(_, to) in self.instant[first..]
+                .iter()
+                .take_while(|&&(from, _)| from == state)
+            {
                 incoming[to as usize] -= 1;
                 if incoming[to as usize] == 0 {
                     free.push(to);

@@ -43,6 +43,6 @@ pub use check::check;
 pub use clock::{Clock, longest};
 pub use model::{Action, Model, State};
 pub use rules::TimedProperty;
-pub use section::{Timed, TimedImpossibility};
 pub(crate) use section::Section;
+pub use section::{Timed, TimedImpossibility};
 pub use watch::{Figure, Watch};

@@ -141,7 +141,9 @@ impl Model {
     /// The robots of a state.
     pub(super) fn nodes<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a Node> + Clone {
         let robots = self.scenario.robots.len();
-        state.nodes[..robots].iter().map(|&number| self.nodes.value(number))
+        state.nodes[..robots]
+            .iter()
+            .map(|&number| self.nodes.value(number))
     }
 
     /// A robot of a state, by its place.
@@ -163,8 +165,15 @@ impl Model {
             return;
         }
         let robots = self.scenario.robots.len();
-        let corners = if self.timed.clock.drifts() { 1 << robots } else { 1 };
-        actions.extend((0..corners).map(Action::Tick));
+        let corners = if self.timed.clock.drifts() {
+            1 << robots
+        } else {
+            1
+        };
+        let must_arrive = |flight: Flight| flight.ticks == self.timed.delay_ticks;
+        if self.scenario.channel.loss || !state.channel.flights().any(must_arrive) {
+            actions.extend((0..corners).map(Action::Tick));
+        }
         actions.extend(state.channel.flights().map(Action::Deliver));
         if state.watch == Watch::Off {
             self.failures(state, actions);
@@ -175,15 +184,21 @@ impl Model {
     /// joined, and opens the corridor as soon as it may.
     fn leader_event(&self, state: &State) -> Option<Event> {
         let robot = self.node(state, self.timed.leader).robot.as_ref()?;
-        let Phase::Leading(leading) = robot.phase() else { return None };
+        let Phase::Leading(leading) = robot.phase() else {
+            return None;
+        };
         if state.left.commands > 0 {
             let free = |member: &&Member| {
                 member.has_joined() && member.outstanding.is_none() && member.order.is_none()
             };
-            if let (Some(member), Some(task)) =
-                (leading.members.iter().find(free), self.scenario.request.tasks.iter().next())
-            {
-                return Some(Event::CommandManeuver { follower: member.station, task });
+            if let (Some(member), Some(task)) = (
+                leading.members.iter().find(free),
+                self.scenario.request.tasks.iter().next(),
+            ) {
+                return Some(Event::CommandManeuver {
+                    follower: member.station,
+                    task,
+                });
             }
         }
         let may_open = self.scenario.corridor
@@ -200,7 +215,9 @@ impl Model {
             if state.left.crashes > 0 && node.robot.is_some() && (leads || running.is_some()) {
                 actions.push(Action::Crash(i));
             }
-            if state.left.disturbances > 0 && let Some(maneuver) = running {
+            if state.left.disturbances > 0
+                && let Some(maneuver) = running
+            {
                 actions.push(Action::Local(i, Event::ManeuverFailed(maneuver)));
             }
         }
@@ -220,7 +237,8 @@ impl Model {
             Action::Deliver(flight) => {
                 next.channel.take(flight);
                 let Transmission { to, message, .. } = flight.transmission;
-                if self.robot_step(&mut next, to, Cause::Message(message)) {
+                let is_ignored = self.robot_step(&mut next, to, Cause::Message(message));
+                if is_ignored && self.scenario.channel.loss {
                     // It might as well never have arrived.
                     return None;
                 }
@@ -254,7 +272,11 @@ impl Model {
         next.channel.tick(self.timed.delay_ticks);
         for i in (0..).take(self.scenario.robots.len()) {
             let clock = &self.timed.clock;
-            let elapsed = if fast & 1 << i == 0 { clock.slow } else { clock.fast };
+            let elapsed = if fast & 1 << i == 0 {
+                clock.slow
+            } else {
+                clock.fast
+            };
             self.robot_step(next, i, Cause::Elapsed(elapsed));
         }
     }
@@ -271,7 +293,9 @@ impl Model {
                 }
             }
             Watch::LeaderDown(ticks) => {
-                if robots().any(|(b, n)| b.actuation.running.is_some() && n.actuation.running.is_none()) {
+                if robots()
+                    .any(|(b, n)| b.actuation.running.is_some() && n.actuation.running.is_none())
+                {
                     longest.note(Measure::Stopped, ticks);
                 }
                 if robots().any(|(b, n)| rules::is_following(b) && !rules::is_following(n)) {
@@ -288,7 +312,9 @@ impl Model {
 
     /// Lets a robot take a step; whether that changed nothing.
     fn robot_step(&self, next: &mut State, i: u8, cause: Cause) -> bool {
-        let Some(step) = self.step(next.nodes[usize::from(i)], cause) else { return true };
+        let Some(step) = self.step(next.nodes[usize::from(i)], cause) else {
+            return true;
+        };
         next.nodes[usize::from(i)] = step.after;
         if !step.is_valid {
             next.broken.add(Broken::INVALID);
@@ -299,7 +325,11 @@ impl Model {
                 if receiver.robot.is_some()
                     && concerns(self.message(message), receiver.persisted.station)
                 {
-                    next.channel.send(Transmission { from: i, to, message });
+                    next.channel.send(Transmission {
+                        from: i,
+                        to,
+                        message,
+                    });
                 }
             }
         }
@@ -317,7 +347,10 @@ impl Model {
             Output::SendRmcm(rmcm) => Some(Message::Rmcm(rmcm)),
             _ => None,
         });
-        let mut held = Held { config: &self.scenario.config, robot };
+        let mut held = Held {
+            config: &self.scenario.config,
+            robot,
+        };
         let step = Step {
             sends: sends.map(|message| self.message_number(message)).collect(),
             is_ignored: outputs.ignored().is_some(),
@@ -334,7 +367,9 @@ impl Model {
             Cause::Message(number) => self.message(number).input(),
             Cause::Event(event) => Input::Local(event),
         };
-        self.nodes.value(node).step(&*self.rules, &self.scenario.config, input)
+        self.nodes
+            .value(node)
+            .step(&*self.rules, &self.scenario.config, input)
     }
 
     /// The number of a message.
@@ -353,11 +388,21 @@ impl Model {
             Action::Tick(fast) => all
                 .map(|i| {
                     let clock = &self.timed.clock;
-                    (i, Cause::Elapsed(if fast & 1 << i == 0 { clock.slow } else { clock.fast }))
+                    (
+                        i,
+                        Cause::Elapsed(if fast & 1 << i == 0 {
+                            clock.slow
+                        } else {
+                            clock.fast
+                        }),
+                    )
                 })
                 .collect(),
             Action::Deliver(flight) => {
-                vec![(flight.transmission.to, Cause::Message(flight.transmission.message))]
+                vec![(
+                    flight.transmission.to,
+                    Cause::Message(flight.transmission.message),
+                )]
             }
             Action::Local(i, event) => vec![(i, Cause::Event(event))],
             Action::Crash(_) => Vec::new(),
@@ -379,10 +424,13 @@ impl Model {
             return;
         }
         for node in &mut state.nodes[..robots] {
-            *node = self.nodes.number(self.nodes.value(*node).renamed(&mut ranks));
+            *node = self
+                .nodes
+                .number(self.nodes.value(*node).renamed(&mut ranks));
         }
-        state.channel =
-            state.channel.map(|message| self.message_number(self.message(message).renamed(&mut ranks)));
+        state.channel = state
+            .channel
+            .map(|message| self.message_number(self.message(message).renamed(&mut ranks)));
     }
 }
 

@@ -21,7 +21,14 @@ pub enum TimedProperty {
 
 impl TimedProperty {
     /// All of them, in order.
-    pub const ALL: [Self; 6] = [Self::I10, Self::I11, Self::I12, Self::I16, Self::L1, Self::L5];
+    pub const ALL: [Self; 6] = [
+        Self::I10,
+        Self::I11,
+        Self::I12,
+        Self::I16,
+        Self::L1,
+        Self::L5,
+    ];
 
     /// The property's id.
     #[must_use]
@@ -39,7 +46,9 @@ impl TimedProperty {
     /// The property of this id.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|property| property.name() == name)
+        Self::ALL
+            .into_iter()
+            .find(|property| property.name() == name)
     }
 
     /// What the property speaks about: of every state, or that something comes in time.
@@ -55,7 +64,9 @@ impl TimedProperty {
     #[must_use]
     pub const fn statement(self) -> &'static str {
         match self {
-            Self::I10 => "while the lease on a follower stands, it has not fallen back for lack of contact",
+            Self::I10 => {
+                "while the lease on a follower stands, it has not fallen back for lack of contact"
+            }
             Self::I11 => "after a follower's own failure the corridor closes within the bound",
             Self::I12 => "time can always pass, and never stands still for ever",
             Self::I16 => "no timer has more time left than it was started with, and none stays due",
@@ -77,7 +88,7 @@ impl TimedProperty {
     }
 }
 
-/// A set of facts about the runs explored: properties that were broken, and premises that were met.
+/// The properties that a step has broken.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Broken(u8);
 
@@ -103,22 +114,30 @@ impl Broken {
 }
 
 pub(super) fn is_requesting(node: &Node) -> bool {
-    node.robot.as_ref().is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
+    node.robot
+        .as_ref()
+        .is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
 }
 
 pub(super) fn is_following(node: &Node) -> bool {
-    node.robot.as_ref().is_some_and(|robot| matches!(robot.phase(), Phase::Following(_)))
+    node.robot
+        .as_ref()
+        .is_some_and(|robot| matches!(robot.phase(), Phase::Following(_)))
 }
 
 /// Whether a robot follows in `session` without having lost contact.
 fn has_contact(node: &Node, session: SessionId) -> bool {
-    let Some(robot) = &node.robot else { return false };
+    let Some(robot) = &node.robot else {
+        return false;
+    };
     matches!(robot.phase(), Phase::Following(following)
         if following.session == session && matches!(following.contact, Contact::Fresh(_)))
 }
 
 fn has_lost_contact(node: &Node) -> bool {
-    let Some(robot) = &node.robot else { return false };
+    let Some(robot) = &node.robot else {
+        return false;
+    };
     matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost())
 }
 
@@ -129,7 +148,10 @@ fn leases(node: &Node) -> impl Iterator<Item = (SessionId, StationId)> {
         _ => None,
     });
     leading.into_iter().flat_map(|(session, leading)| {
-        let stands = leading.members.iter().filter(|member| matches!(member.lease, Lease::Stands(_)));
+        let stands = leading
+            .members
+            .iter()
+            .filter(|member| matches!(member.lease, Lease::Stands(_)));
         stands.map(move |member| (session, member.station))
     })
 }
@@ -144,7 +166,10 @@ pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
     };
     // A robot may act on what it was told last until it is told of the tick: so the leader's lease
     // before the tick is held against the follower after it.
-    check(TimedProperty::I10, lease_theorem(model, before, after) && lease_theorem(model, after, after));
+    check(
+        TimedProperty::I10,
+        lease_theorem(model, before, after) && lease_theorem(model, after, after),
+    );
     check(TimedProperty::I12, model.nodes(after).all(can_progress));
     let over = |ticks: u8, measure: Measure| {
         let timed = model.timed();
@@ -154,14 +179,25 @@ pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
         Watch::Off => {}
         Watch::Request(ticks) => check(TimedProperty::L1, !over(ticks, Measure::Roles)),
         Watch::LeaderDown(ticks) => {
-            let running = model.nodes(after).any(|node| node.actuation.running.is_some());
-            check(TimedProperty::L5, !(running && over(ticks, Measure::Stopped)));
+            let running = model
+                .nodes(after)
+                .any(|node| node.actuation.running.is_some());
+            check(
+                TimedProperty::L5,
+                !(running && over(ticks, Measure::Stopped)),
+            );
             let following = model.nodes(after).any(is_following);
-            check(TimedProperty::L5, !(following && over(ticks, Measure::Left)));
+            check(
+                TimedProperty::L5,
+                !(following && over(ticks, Measure::Left)),
+            );
         }
         Watch::FollowerFailed(ticks) => {
             let open = model.nodes(after).any(|node| node.actuation.corridor_open);
-            check(TimedProperty::I11, !(open && over(ticks, Measure::CorridorClosed)));
+            check(
+                TimedProperty::I11,
+                !(open && over(ticks, Measure::CorridorClosed)),
+            );
         }
     }
     broken
@@ -170,15 +206,24 @@ pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
 /// I10, of the leaders of one state and the followers of another. Nothing but lack of contact and
 /// crashes takes a follower out of a session in this model.
 fn lease_theorem(model: &Model, leaders: &State, followers: &State) -> bool {
-    model.nodes(leaders).flat_map(leases).all(|(session, station)| {
-        let follower = model.nodes(followers).find(|node| node.persisted.station == station);
-        follower.is_none_or(|node| node.robot.is_none() || has_contact(node, session))
-    })
+    model
+        .nodes(leaders)
+        .flat_map(leases)
+        .all(|(session, station)| {
+            let follower = model
+                .nodes(followers)
+                .find(|node| node.persisted.station == station);
+            follower.is_none_or(|node| node.robot.is_none() || has_contact(node, session))
+        })
 }
 
 /// Whoever has a part in a session waits for a time, and not in vain for a message.
 fn can_progress(node: &Node) -> bool {
-    node.is_idle() || node.robot.as_ref().is_none_or(|robot| robot.next_due().is_some())
+    node.is_idle()
+        || node
+            .robot
+            .as_ref()
+            .is_none_or(|robot| robot.next_due().is_some())
 }
 
 /// Whether nothing more is to be learned from a run.
@@ -197,7 +242,8 @@ pub(super) fn is_over(model: &Model, state: &State) -> bool {
     }
 }
 
-/// What of the premises of the properties a state meets; those with two parts have two bits.
+/// What of the premises of the properties was met; some have two parts.
+#[expect(clippy::struct_excessive_bools, reason = "each is an independent fact")]
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(super) struct Premises {
     lease_stands: bool,
@@ -217,11 +263,20 @@ impl Premises {
         match state.watch() {
             Watch::FollowerFailed(0) => self.corridor_failure |= leader.actuation.corridor_open,
             Watch::LeaderDown(0) => {
-                self.crash |= model.nodes(state).any(|node| node.actuation.running.is_some());
+                self.crash |= model
+                    .nodes(state)
+                    .any(|node| node.actuation.running.is_some());
             }
-            Watch::Off if leader.is_idle() => self.gave_up |= leader.robot.is_some(),
-            Watch::Off => self.roles = true,
             _ => {}
+        }
+    }
+
+    /// Adds what a step meets.
+    pub(super) fn note_step(&mut self, model: &Model, before: &State, after: &State) {
+        if let (Watch::Request(_), Watch::Off) = (before.watch(), after.watch()) {
+            let gave_up = model.node(after, model.timed().leader).is_idle();
+            self.gave_up |= gave_up;
+            self.roles |= !gave_up;
         }
     }
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::clock::Clock;
 use super::rules::TimedProperty;
-use crate::scenario::RobotSetup;
+use crate::scenario::{Bounds, Channel, RobotSetup};
 
 /// The file's form of the section.
 #[derive(Clone, Copy, Deserialize)]
@@ -36,7 +36,9 @@ pub struct Timed {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum TimedImpossibility {
     /// The tick is too long or zero.
-    #[error("a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, for robots are told of time once a tick")]
+    #[error(
+        "a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, for robots are told of time once a tick"
+    )]
     Tick {
         /// Of the section.
         tick: u32,
@@ -44,7 +46,9 @@ pub enum TimedImpossibility {
         delay_max: u32,
     },
     /// The delay is no number of ticks, or too many.
-    #[error("messages under way for up to {delay} ms: between 0 and 8 ticks of {tick} ms are possible")]
+    #[error(
+        "messages under way for up to {delay} ms: between 0 and 8 ticks of {tick} ms are possible"
+    )]
     Delay {
         /// Of the section.
         delay: u32,
@@ -52,7 +56,9 @@ pub enum TimedImpossibility {
         tick: u32,
     },
     /// The drift does not show.
-    #[error("a drift of {drift_ppm} ppm is less than 1 ms in a tick of {tick} ms: it would not show")]
+    #[error(
+        "a drift of {drift_ppm} ppm is less than 1 ms in a tick of {tick} ms: it would not show"
+    )]
     Drift {
         /// Of the settings.
         drift_ppm: u32,
@@ -63,7 +69,9 @@ pub enum TimedImpossibility {
     #[error("a timed scenario has one robot that detects, not {0}")]
     Detectors(usize),
     /// What the timed model has no use for.
-    #[error("a timed scenario bounds for how long messages are delayed, not how many: leave out '{0}'")]
+    #[error(
+        "'{0}' has no place in a timed scenario: 'delay_ms' bounds for how long messages are under way, a run begins with its one detection, and crashes are for good"
+    )]
     Untimed(&'static str),
     /// An unknown property.
     #[error("no timed property '{0}': I10, I11, I12, I16, L1, L5")]
@@ -76,6 +84,8 @@ impl Section {
         self,
         settings: &Settings,
         robots: &[RobotSetup],
+        bounds: &Bounds,
+        channel: Channel,
     ) -> Result<Timed, (&'static str, TimedImpossibility)> {
         use TimedImpossibility as I;
         let (tick, delay, drift_ppm) = (self.tick_ms, self.delay_ms, settings.drift_ppm);
@@ -94,6 +104,14 @@ impl Section {
             let detectors = robots.iter().filter(|robot| robot.detects).count();
             return Err(("robots", I::Detectors(detectors)));
         };
+        let without_meaning = [
+            ("delayed", channel.delayed),
+            ("detections", bounds.detections),
+            ("restarts", bounds.restarts),
+        ];
+        if let Some((key, _)) = without_meaning.into_iter().find(|(_, bound)| *bound > 0) {
+            return Err((key, I::Untimed(key)));
+        }
         Ok(Timed {
             clock,
             delay: Millis(delay),
