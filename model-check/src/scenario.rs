@@ -322,7 +322,7 @@ impl File {
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
         let mut timed = None;
         if let Some(section) = self.timed {
-            let (settings, bounds) = (config.settings(), &self.bounds);
+            let (settings, bounds) = (config.settings(), self.bounds);
             let checked = section.check(settings, &self.robots, bounds, self.channel);
             let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
             checked.properties = all_named(&self.properties, TimedProperty::named, |name| {
@@ -353,12 +353,12 @@ impl File {
 /// The properties of these names.
 fn all_named<P>(
     names: &[toml::Spanned<String>],
-    named: impl Fn(&str) -> Option<P>,
+    known: impl Fn(&str) -> Option<P>,
     unknown: impl Fn(String) -> Impossibility,
 ) -> Result<Vec<P>, Located> {
     let property = |name: &toml::Spanned<String>| {
         let place = Place::Offset(name.span().start);
-        named(name.get_ref()).ok_or_else(|| at(place, unknown(name.get_ref().clone())))
+        known(name.get_ref()).ok_or_else(|| at(place, unknown(name.get_ref().clone())))
     };
     names.iter().map(property).collect()
 }

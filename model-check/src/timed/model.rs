@@ -232,6 +232,7 @@ impl Model {
         longest: &mut Longest,
     ) -> Option<State> {
         let mut next = state.clone();
+        next.broken = Broken::NOTHING;
         match action {
             Action::Tick(fast) => self.tick(&mut next, fast),
             Action::Deliver(flight) => {

@@ -30,6 +30,10 @@ impl TimedProperty {
         Self::L5,
     ];
 
+    /// Those that say that something comes in time. A run in which it does not is not followed any
+    /// further, for it might never come.
+    pub(super) const IN_TIME: [Self; 3] = [Self::I11, Self::L1, Self::L5];
+
     /// The property's id.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -106,10 +110,6 @@ impl Broken {
 
     pub(super) const fn has(self, property: TimedProperty) -> bool {
         self.0 & Self::of(property).0 != 0
-    }
-
-    pub(super) fn is_nothing(self) -> bool {
-        self == Self::NOTHING
     }
 }
 
@@ -228,7 +228,10 @@ fn can_progress(node: &Node) -> bool {
 
 /// Whether nothing more is to be learned from a run.
 pub(super) fn is_over(model: &Model, state: &State) -> bool {
-    if !state.broken.is_nothing() {
+    if TimedProperty::IN_TIME
+        .iter()
+        .any(|&late| state.broken.has(late))
+    {
         return true;
     }
     let leader = model.node(state, model.timed().leader);

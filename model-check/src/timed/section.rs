@@ -84,7 +84,7 @@ impl Section {
         self,
         settings: &Settings,
         robots: &[RobotSetup],
-        bounds: &Bounds,
+        bounds: Bounds,
         channel: Channel,
     ) -> Result<Timed, (&'static str, TimedImpossibility)> {
         use TimedImpossibility as I;

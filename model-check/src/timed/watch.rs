@@ -89,7 +89,7 @@ impl Longest {
     }
 
     /// The figures in milliseconds, with their bounds.
-    pub(super) fn figures(&self, clock: &Clock, config: &Config, delay: Millis) -> Vec<Figure> {
+    pub(super) fn figures(self, clock: &Clock, config: &Config, delay: Millis) -> Vec<Figure> {
         let figure = |measure: Measure| Figure {
             name: measure.name().to_owned(),
             ms: self.0[measure as usize].map(|ticks| clock.millis(ticks).0),
