@@ -5,6 +5,7 @@
 mod check;
 mod codec;
 mod demo;
+mod explore;
 mod fsm;
 mod run;
 
@@ -34,6 +35,8 @@ enum Command {
     Run(run::Arguments),
     /// Check scenarios exhaustively against the properties of the protocol.
     Check(check::Arguments),
+    /// Walk through the states of a scenario in a browser.
+    Explore(explore::Arguments),
     /// Print the state diagram of the protocol, drawn from what the transition function does.
     Fsm(fsm::Arguments),
     /// Convert messages between octets and JSON.
@@ -76,6 +79,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Explore(arguments) => explore::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Codec(command) => codec::run(&command),
     };

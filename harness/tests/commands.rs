@@ -42,6 +42,17 @@ fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
         let (ms, bound_ms) = (figure["ms"].as_u64(), figure["bound_ms"].as_u64());
         assert!(ms > Some(0) && ms <= bound_ms, "{figure}");
     }
+    assert_refused(
+        &run(&[
+            "check",
+            "timed-pair",
+            "--export",
+            "dot",
+            "--output",
+            "no-graph.dot",
+        ]),
+        "'timed-pair' is a timed scenario",
+    );
     // What was found before the limit, and by which timers it is bounded.
     let output = run(&["check", "timed-pair", "--max-states", "1000"]);
     assert_eq!(output.status.code(), Some(3));

@@ -9,12 +9,15 @@ use std::time::{Duration, Instant};
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
+use crate::fair::{LeadsTo, leads_to};
+use crate::fairness::Runs;
 use crate::graph::{Graph, Limit};
 use crate::model::{Action, Delivery, Model, State};
 use crate::network::Transmission;
-use crate::properties::{Kind, PropertyId};
-use crate::report::{ChartStep, CutOff, PropertyReport, ScenarioReport, Verdict};
-use crate::scenario::{Scenario, Size};
+use crate::properties::{Kind, PropertyId, View};
+use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
+use crate::scenario::{RobotSetup, Scenario, Size};
+use crate::sequence::{ChartStep, Fate, Place};
 
 /// How far and with what a check may go.
 #[derive(Clone, Debug)]
@@ -48,6 +51,8 @@ pub struct Progress {
     pub checked: usize,
     /// Distinct states that the kit's own exploration has found.
     pub explored: usize,
+    /// How many of the latter are still to be expanded.
+    pub frontier: usize,
     /// Steps from the initial state to the farthest of the latter.
     pub depth: usize,
     /// How many there will be in the end, where the scenario's file says so.
@@ -65,11 +70,12 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
         states: options.states_max,
         time: options.time_max,
     };
-    let graph = Graph::build(model, limit, &mut |explored, depth| {
+    let graph = Graph::build(model, limit, &mut |reached| {
         watch(Progress {
             checked: stateright.unique_state_count(),
-            explored,
-            depth,
+            explored: reached.states,
+            frontier: reached.frontier,
+            depth: reached.depth,
             expected,
         });
         // What the graph alone can tell is not asked for, or it would still be looked for.
@@ -81,6 +87,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
         watch(Progress {
             checked: stateright.unique_state_count(),
             explored,
+            frontier: 0,
             depth,
             expected,
         });
@@ -101,6 +108,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
     ScenarioReport {
         name: scenario.name.clone(),
         summary: scenario.summary.clone(),
+        robots: names(scenario),
         unique_states: size.unique_states,
         transitions: graph.transitions(),
         depth: size.depth,
@@ -112,7 +120,8 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
             .map(|expected| expected == size),
         properties: findings.all(),
         figures: Vec::new(),
-        assumptions: assumptions(scenario),
+        assumptions: assumptions(scenario, size.unique_states),
+        transitions_taken: model.transitions_taken(),
         seconds: start.elapsed().as_secs_f64(),
     }
 }
@@ -200,12 +209,13 @@ impl Findings<'_> {
     }
 
     fn rule(&self, i: usize, id: PropertyId) -> PropertyReport {
-        let counterexample = match id {
-            PropertyId::L7 => self
-                .graph
-                .stuck(self.model)
-                .map(|path| chart(self.model, path)),
-            _ => self.checked.counterexamples[i].clone(),
+        let (counterexample, repeats_after) = match id {
+            PropertyId::L7 => (self.stuck(), None),
+            _ if id.kind() == Kind::L => match self.lasso(id) {
+                Some((chart, repeats_after)) => (Some(chart), Some(repeats_after)),
+                None => (None, None),
+            },
+            _ => (self.checked.counterexamples[i].clone(), None),
         };
         let verdict = match (&counterexample, self.cut_off) {
             (Some(_), _) => Verdict::Violated,
@@ -215,6 +225,7 @@ impl Findings<'_> {
         let kind = match id.kind() {
             Kind::S => "S",
             Kind::T => "T",
+            Kind::L => "L",
         };
         PropertyReport {
             id: id.to_string(),
@@ -222,6 +233,50 @@ impl Findings<'_> {
             verdict,
             statement: id.statement().to_owned(),
             counterexample: counterexample.unwrap_or_default(),
+            repeats_after,
+        }
+    }
+
+    /// A run into a state from which the robots cannot all get idle any more.
+    fn stuck(&self) -> Option<Vec<ChartStep>> {
+        let runs = self.runs();
+        let stem = self.graph.run_to(self.graph.stuck()?);
+        Some(chart(self.model, runs.along(&stem, &[])))
+    }
+
+    /// A fair run that breaks a liveness property, and how many steps of it come before its cycle.
+    /// Notes the property's premise where it is met.
+    fn lasso(&self, id: PropertyId) -> Option<(Vec<ChartStep>, usize)> {
+        let rule = id.liveness_rule()?;
+        if self.cut_off.is_some() {
+            return None;
+        }
+        let runs = self.runs();
+        let view = |state| View {
+            model: self.model,
+            state: self.graph.state(state),
+        };
+        for subject in rule.subjects.among(self.model.scenario().robots.len()) {
+            let from = |state| (rule.from)(&view(state), subject);
+            // What comes after a broken step property was not explored.
+            let to = |state| (rule.to)(&view(state), subject) || view(state).state.is_broken();
+            match leads_to(&runs, runs.fairness(), from, to) {
+                LeadsTo::Vacuous => {}
+                LeadsTo::Holds => self.model.note_premise(id),
+                LeadsTo::Broken(lasso) => {
+                    self.model.note_premise(id);
+                    let run = runs.along(&lasso.stem, &lasso.cycle);
+                    return Some((chart(self.model, run), lasso.stem.len() - 1));
+                }
+            }
+        }
+        None
+    }
+
+    const fn runs(&self) -> Runs<'_> {
+        Runs {
+            model: self.model,
+            graph: self.graph,
         }
     }
 
@@ -238,11 +293,12 @@ impl Findings<'_> {
             verdict,
             statement: premise.to_owned(),
             counterexample: Vec::new(),
+            repeats_after: None,
         })
     }
 }
 
-fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<ChartStep> {
+pub(crate) fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<ChartStep> {
     path.into_iter()
         .filter_map(|(state, action)| {
             let action = action?;
@@ -250,47 +306,74 @@ fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<ChartStep> {
             let outputs = step.map_or_else(Vec::new, |step| {
                 step.outputs().iter().map(ToString::to_string).collect()
             });
+            let (place, action) = placed(model, action);
             Some(ChartStep {
-                action: describe(model, action),
+                place,
+                action,
                 outputs,
             })
         })
         .collect()
 }
 
-/// An action in words.
-#[must_use]
-pub fn describe(model: &Model, action: Action) -> String {
-    let station = |i: u8| model.scenario().robots[usize::from(i)].station;
-    let way = |Transmission { from, to, message }, arrow| {
-        format!(
-            "{} {arrow} {}: {}",
-            station(from),
-            station(to),
-            model.message(message).input()
-        )
+/// An action in words, with its place in a chart.
+pub(crate) fn placed(model: &Model, action: Action) -> (Place, String) {
+    let between = |Transmission { from, to, message }, fate| {
+        let place = Place::Between {
+            from: from.into(),
+            to: to.into(),
+            fate,
+        };
+        (place, model.message(message).input().to_string())
     };
+    let at = |robot: u8, what: String| (Place::At(robot.into()), what);
     match action {
         Action::Deliver { transmission, how } => {
-            let how = match how {
-                Delivery::AtOnce => "",
-                Delivery::Late => " (late)",
-                Delivery::LateAndAgain => " (late, and not for the last time)",
+            let fate = match how {
+                Delivery::AtOnce => Fate::Arrives,
+                Delivery::Late => Fate::ArrivesLate,
+                Delivery::LateAndAgain => Fate::ArrivesLateAndAgain,
             };
-            format!("{}{how}", way(transmission, "->"))
+            between(transmission, fate)
         }
-        Action::Lose(transmission) => format!("{} (lost)", way(transmission, "-x")),
-        Action::Delay(transmission) => format!("{} (delayed)", way(transmission, "-~")),
-        Action::Expire(i, timer) => format!("{}: timer {timer} expires", station(i)),
-        Action::Local(i, event) => format!("{}: {event}", station(i)),
-        Action::Crash(i) => format!("{} crashes", station(i)),
-        Action::Restart(i) => format!("{} boots again", station(i)),
+        Action::Lose(transmission) => between(transmission, Fate::Lost),
+        Action::Delay(transmission) => between(transmission, Fate::Delayed),
+        Action::Expire(robot, timer) => at(robot, format!("timer {timer} expires")),
+        Action::Local(robot, event) => at(robot, event.to_string()),
+        Action::Crash(robot) => at(robot, "crashes".to_owned()),
+        Action::Restart(robot) => at(robot, "boots again".to_owned()),
     }
 }
 
-fn assumptions(scenario: &Scenario) -> Vec<String> {
+/// An action in one line.
+pub(crate) fn label(model: &Model, action: Action) -> String {
+    let (place, action) = placed(model, action);
+    let step = ChartStep {
+        place,
+        action,
+        outputs: Vec::new(),
+    };
+    step.line(&names(model.scenario()))
+}
+
+/// The robots' names in charts.
+#[must_use]
+pub fn names(scenario: &Scenario) -> Vec<String> {
+    let name = |robot: &RobotSetup| format!("robot {}", robot.station);
+    scenario.robots.iter().map(name).collect()
+}
+
+/// The probability that any two of so many states share a 64-bit fingerprint, where fingerprints are as
+/// good as random; an upper bound (the union bound over all pairs).
+#[expect(clippy::cast_precision_loss, reason = "an estimate")]
+fn collision_probability(states: usize) -> f64 {
+    let states = states as f64;
+    (states * (states - 1.0) / 2.0) / 2_f64.powi(64)
+}
+
+fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
     let channel = scenario.channel;
-    vec![
+    let mut assumptions = vec![
         "untimed: any armed timer may expire at any moment, so verdicts hold for all timer settings"
             .to_owned(),
         format!("at most: {}", scenario.bounds),
@@ -304,28 +387,70 @@ fn assumptions(scenario: &Scenario) -> Vec<String> {
         "a crash stops the robot's body; station ids and boot counters survive it".to_owned(),
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),
-        "stateright tells states apart by 64-bit fingerprints".to_owned(),
-    ]
+        format!(
+            "stateright tells states apart by 64-bit fingerprints: that any two of these share one \
+             has a probability of {:.0e}; the kit's own exploration compares whole states",
+            collision_probability(states)
+        ),
+    ];
+    if scenario.properties.iter().any(|id| id.kind() == Kind::L) {
+        assumptions.push(
+            "L: weakly fair: an armed timer expires at some time, unless it is stopped or restarted \
+             again and again; a message on air is delivered, lost or delayed at some time"
+                .to_owned(),
+        );
+    }
+    if scenario.cooperative {
+        assumptions.push(
+            "cooperative: an RMCM arrives; of RAM of one kind that are sent one way again and again, \
+             some arrive; no timer that guards against silence runs out; applications give their \
+             commands, finish maneuvers, and end the task once one is completed, all at some time"
+                .to_owned(),
+        );
+    }
+    assumptions
 }
 
 // stateright wants a plain function for each property; these are them.
 
-fn holds<const N: usize>(model: &Model, state: &State) -> bool {
+pub(crate) fn holds<const N: usize>(model: &Model, state: &State) -> bool {
     let id = PropertyId::ALL[N];
-    !Model::is_broken(state, id) && model.state_rule_holds(state, id)
+    !Model::breaks(state, id) && model.state_rule_holds(state, id)
 }
 
-macro_rules! per_property {
-    ($($n:literal $name:literal),*) => {
-        const HOLDS: [fn(&Model, &State) -> bool; PropertyId::ALL.len()] = [$(holds::<$n>),*];
-        const NAMES: [&str; PropertyId::ALL.len()] = [$($name),*];
+/// One such function for each property, in the order of [`PropertyId::ALL`].
+macro_rules! for_each_property {
+    ($f:ident) => {
+        for_each_property!($f: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23)
+    };
+    ($f:ident: $($n:literal)*) => {
+        [$($f::<$n>),*]
     };
 }
+pub(crate) use for_each_property;
 
-per_property!(
-    0 "I1", 1 "I2", 2 "I3", 3 "I4", 4 "I5", 5 "I6", 6 "I7", 7 "I8", 8 "I9", 9 "I11", 10 "I12",
-    11 "I13", 12 "I14", 13 "I15", 14 "I16", 15 "I17", 16 "I18", 17 "L7"
-);
+const HOLDS: [fn(&Model, &State) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);
+
+/// Their names, which stateright wants to be static.
+const NAMES: [&str; PropertyId::ALL.len()] = [
+    "I1", "I2", "I3", "I4", "I5", "I6", "I7", "I8", "I9", "I11", "I12", "I13", "I14", "I15", "I16",
+    "I17", "I18", "L1", "L2", "L3", "L4", "L5", "L6", "L7",
+];
+
+/// The properties of a scenario that stateright can check, each with its condition from `conditions`.
+pub(crate) fn checked_properties<M: stateright::Model>(
+    scenario: &Scenario,
+    conditions: &[fn(&M, &M::State) -> bool; PropertyId::ALL.len()],
+) -> Vec<Property<M>> {
+    let by_state_or_step = |id: &&PropertyId| id.state_rule().is_some() || id.step_rule().is_some();
+    let ids = scenario.properties.iter().filter(by_state_or_step);
+    ids.map(|&id| Property {
+        expectation: Expectation::Always,
+        name: NAMES[id as usize],
+        condition: conditions[id as usize],
+    })
+    .collect()
+}
 
 impl stateright::Model for Model {
     type State = State;
@@ -344,24 +469,11 @@ impl stateright::Model for Model {
     }
 
     fn properties(&self) -> Vec<Property<Self>> {
-        let by_state_or_step =
-            |id: &PropertyId| id.state_rule().is_some() || id.step_rule().is_some();
-        let ids = self
-            .scenario()
-            .properties
-            .iter()
-            .copied()
-            .filter(by_state_or_step);
-        ids.map(|id| Property {
-            expectation: Expectation::Always,
-            name: NAMES[id as usize],
-            condition: HOLDS[id as usize],
-        })
-        .collect()
+        checked_properties(self.scenario(), &HOLDS)
     }
 
     fn format_action(&self, action: &Action) -> String {
-        describe(self, *action)
+        label(self, *action)
     }
 }
 

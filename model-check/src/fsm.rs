@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use crossguard_protocol::{Role, State};
 
-use crate::universe::{Mode, Universe};
+use crate::transitions::{Mode, Transitions};
 
 /// The form of a diagram.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -19,16 +19,16 @@ pub enum Format {
     Dot,
 }
 
-/// The diagram of what a robot has been seen to do.
+/// The diagram of what robots have been seen to do.
 #[must_use]
-pub fn diagram(universe: &Universe, format: Format) -> String {
-    let modes: BTreeSet<Mode> = universe
-        .edges
+pub fn diagram(transitions: &Transitions, format: Format) -> String {
+    let modes: BTreeSet<Mode> = transitions
+        .0
         .keys()
         .flat_map(|&(from, to)| [from, to])
         .collect();
-    let edges: BTreeMap<(Mode, Mode), Vec<String>> = universe
-        .edges
+    let edges: BTreeMap<(Mode, Mode), Vec<String>> = transitions
+        .0
         .iter()
         .map(|(way, labels)| (*way, condense(labels)))
         .collect();

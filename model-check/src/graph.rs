@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use rustc_hash::FxBuildHasher;
 
-use crate::model::{Action, Model, State};
+use crate::model::{Model, State};
 use crate::report::CutOff;
 
 /// How far a graph may grow.
@@ -27,6 +27,15 @@ impl Limit {
     }
 }
 
+/// How far an exploration is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reached {
+    pub(crate) states: usize,
+    /// How many of them are still to be expanded.
+    pub(crate) frontier: usize,
+    pub(crate) depth: usize,
+}
+
 /// Every reachable state and every transition between them.
 pub(crate) struct Graph {
     states: Vec<State>,
@@ -43,12 +52,12 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// Explores `model` from its initial state, breadth first. `watch` is told states and depth, and
-    /// says whether to stop.
+    /// Explores `model` from its initial state, breadth first. `watch` is told how far it is, and says
+    /// whether to stop.
     pub(crate) fn build(
         model: &Model,
         limit: Limit,
-        watch: &mut dyn FnMut(usize, usize) -> bool,
+        watch: &mut dyn FnMut(Reached) -> bool,
     ) -> Self {
         let start = Instant::now();
         let initial = model.initial();
@@ -71,7 +80,7 @@ impl Graph {
                 (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
             }
             if at % 16_384 == 0 {
-                graph.cut_off = if watch(graph.states.len(), graph.depth) {
+                graph.cut_off = if watch(graph.reached(at)) {
                     Some(CutOff::FoundBroken)
                 } else {
                     limit.reached(graph.states.len(), start.elapsed())
@@ -109,6 +118,14 @@ impl Graph {
         graph
     }
 
+    fn reached(&self, expanded: usize) -> Reached {
+        Reached {
+            states: self.states.len(),
+            frontier: self.states.len() - expanded,
+            depth: self.depth,
+        }
+    }
+
     pub(crate) fn states(&self) -> usize {
         self.states.len()
     }
@@ -124,6 +141,29 @@ impl Graph {
 
     pub(crate) const fn cut_off(&self) -> Option<CutOff> {
         self.cut_off
+    }
+
+    pub(crate) fn state(&self, number: u32) -> &State {
+        &self.states[number as usize]
+    }
+
+    /// The number of `next`, which is a successor of state `number`.
+    pub(crate) fn successor_number(&self, number: u32, next: &State) -> u32 {
+        let number = number as usize;
+        let mut targets = self.targets[self.starts[number]..self.starts[number + 1]].iter();
+        *targets
+            .find(|&&target| self.state(target) == next)
+            .expect("it is a successor")
+    }
+
+    /// A shortest run from the initial state, both ends included.
+    pub(crate) fn run_to(&self, number: u32) -> Vec<u32> {
+        let mut run = vec![number];
+        while run[run.len() - 1] != 0 {
+            run.push(self.parents[run[run.len() - 1] as usize]);
+        }
+        run.reverse();
+        run
     }
 
     /// For each state, whether it can reach one that satisfies `goal`.
@@ -157,34 +197,9 @@ impl Graph {
         reached
     }
 
-    /// A shortest run into a state from which the robots cannot all get idle any more.
-    pub(crate) fn stuck(&self, model: &Model) -> Option<Vec<(State, Option<Action>)>> {
+    /// A state from which the robots cannot all get idle any more, as near as possible.
+    pub(crate) fn stuck(&self) -> Option<u32> {
         let stuck = self.resettable.iter().position(|&resettable| !resettable)?;
-        let mut path = vec![stuck];
-        while path[path.len() - 1] != 0 {
-            path.push(self.parents[path[path.len() - 1]] as usize);
-        }
-        path.reverse();
-        let states = path.iter().map(|&state| &self.states[state]);
-        let nexts = states.clone().skip(1).map(Some).chain([None]);
-        let with_action = |(state, next): (&State, Option<&State>)| {
-            (
-                state.clone(),
-                next.and_then(|next| action_between(model, state, next)),
-            )
-        };
-        Some(states.zip(nexts).map(with_action).collect())
+        Some(u32::try_from(stuck).expect("fewer than 2^32 states"))
     }
-}
-
-/// An action that leads from one state to the other.
-fn action_between(model: &Model, from: &State, to: &State) -> Option<Action> {
-    let mut actions = Vec::new();
-    model.actions_in(from, &mut actions);
-    let leads_there = |&action: &Action| {
-        model
-            .successor(from, action)
-            .is_some_and(|(next, _)| next == *to)
-    };
-    actions.into_iter().find(leads_there)
 }

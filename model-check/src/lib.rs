@@ -4,9 +4,9 @@
 //!   scenarios/*.toml ──► scenario ──► model ◄── crossguard_protocol::Robot::step
 //!                                       │
 //!                        ┌──────────────┴──────────────┐
-//!                    stateright                      graph
-//!               properties of states           facts about all runs
-//!                and of single steps             (reset is reachable)
+//!                    stateright                      graph ──► fair
+//!               properties of states           facts about all runs: reset is
+//!                and of single steps           reachable, leads-to under fairness
 //!                        └──────────────┬──────────────┘
 //!                                     check ──► report
 //! ```
@@ -18,6 +18,10 @@
 
 mod canonical;
 pub mod check;
+pub mod explore;
+pub mod export;
+pub mod fair;
+mod fairness;
 pub mod fsm;
 mod graph;
 pub mod history;
@@ -26,8 +30,11 @@ pub mod model;
 pub mod network;
 pub mod node;
 pub mod properties;
+pub mod replay;
 pub mod report;
 pub mod scenario;
+pub mod sequence;
 mod steps;
 pub mod timed;
+pub mod transitions;
 pub mod universe;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use crossguard_protocol::{
-    Availability, Coordination, Event, Farewell, Input, Outputs, Phase, Ram, Rmcm, Robot,
+    Availability, Coordination, Event, Farewell, Input, Member, Outputs, Phase, Ram, Rmcm, Robot,
     StationId, Timer, Unavailability,
 };
 
@@ -18,8 +18,9 @@ use crate::intern::Interner;
 use crate::network::{Message, Network, Transmission};
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::{PropertyId, StepView, View};
-use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
+use crate::scenario::{Bounds, MAX_ROBOTS, PSEUDONYM_STEP, Scenario};
 use crate::steps::{Cause, Step, Steps, judge_historic};
+use crate::transitions::Transitions;
 
 /// A global state: numbers of interned parts, and what may still happen.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -37,6 +38,13 @@ impl State {
     #[must_use]
     pub const fn left(&self) -> Bounds {
         self.left
+    }
+
+    /// Whether the step into this state broke a step property. What might come after it is not
+    /// explored.
+    #[must_use]
+    pub const fn is_broken(&self) -> bool {
+        self.broken != 0
     }
 }
 
@@ -107,6 +115,11 @@ impl RobotStep<'_> {
     pub const fn outputs(&self) -> &Outputs {
         &self.step.outputs
     }
+
+    /// The timers that the step armed, whether or not they had been armed before.
+    pub(crate) fn restarted(&self) -> impl Iterator<Item = Timer> {
+        self.step.restarted.iter().copied()
+    }
 }
 
 impl Model {
@@ -157,6 +170,11 @@ impl Model {
             .map(|&number| self.0.steps.nodes.value(number))
     }
 
+    /// The robot at this place of the scenario in a state.
+    pub(crate) fn node(&self, state: &State, place: usize) -> &Node {
+        self.0.steps.nodes.value(state.nodes[place])
+    }
+
     /// The history of a state.
     #[must_use]
     pub fn history(&self, state: &State) -> &History {
@@ -171,7 +189,7 @@ impl Model {
 
     /// Whether the step into this state broke a step property.
     #[must_use]
-    pub fn is_broken(state: &State, property: PropertyId) -> bool {
+    pub fn breaks(state: &State, property: PropertyId) -> bool {
         state.broken & property.bit() != 0
     }
 
@@ -231,21 +249,29 @@ impl Model {
         if state.broken != 0 {
             return;
         }
-        if let Some(transmission) = state.network.next_on_air() {
-            self.fates(state, transmission, actions);
-            return;
+        match state.network.next_on_air() {
+            Some(transmission) => self.fates(state, transmission, actions),
+            None => self.actions_off_air(state, actions),
         }
+    }
+
+    /// Everything that may happen in `state` once nothing is on air any more.
+    pub(crate) fn actions_off_air(&self, state: &State, actions: &mut Vec<Action>) {
         for transmission in state.network.delayed() {
             for how in [Delivery::Late, Delivery::LateAndAgain] {
                 actions.push(Action::Deliver { transmission, how });
             }
-            actions.push(Action::Lose(transmission));
+            if state.left.losses != Some(0) {
+                actions.push(Action::Lose(transmission));
+            }
         }
         for (i, node) in (0..).zip(self.nodes(state)) {
             match &node.robot {
                 Some(robot) => {
                     for (timer, _) in robot.timers().iter() {
-                        actions.push(Action::Expire(i, *timer));
+                        if !self.0.scenario.cooperative || !guards_against_silence(*timer) {
+                            actions.push(Action::Expire(i, *timer));
+                        }
                     }
                     self.local_events(state, i, robot, actions);
                     if state.left.crashes > 0 {
@@ -265,7 +291,11 @@ impl Model {
             transmission,
             how: Delivery::AtOnce,
         });
-        if channel.loss {
+        let is_rmcm = matches!(self.message(transmission.message), Message::Rmcm(_));
+        if self.0.scenario.cooperative && is_rmcm {
+            return;
+        }
+        if channel.loss && state.left.losses != Some(0) {
             actions.push(Action::Lose(transmission));
         }
         if state
@@ -293,12 +323,20 @@ impl Model {
             push(Event::AvailabilityChanged(Availability::Available));
         }
         if left.disturbances > 0 {
-            push(Event::IdentityChanged(StationId(robot.station().0 + 100)));
+            push(Event::IdentityChanged(StationId(
+                robot.station().0 + PSEUDONYM_STEP,
+            )));
         }
         match robot.phase() {
             Phase::Idle => {}
             Phase::Leading(leading) => {
-                push(Event::TaskCompleted);
+                if left.disturbances > 0 {
+                    push(Event::LeaveRequested);
+                }
+                let is_completed = leading.members.iter().any(Member::has_completed);
+                if is_completed || !scenario.cooperative {
+                    push(Event::TaskCompleted);
+                }
                 if left.commands > 0 {
                     for member in leading.members.iter() {
                         for task in scenario.request.tasks.iter() {
@@ -322,6 +360,9 @@ impl Model {
                     if left.disturbances > 0 {
                         push(Event::ManeuverFailed(maneuver.id));
                     }
+                }
+                if matches!(robot.phase(), Phase::Requesting(_)) && !scenario.cooperative {
+                    push(Event::TaskCompleted);
                 }
                 if left.disturbances > 0 {
                     push(Event::LeaveRequested);
@@ -353,12 +394,15 @@ impl Model {
                 }
                 Some(step)
             }
-            Action::Lose(transmission) if next.network.next_on_air() == Some(transmission) => {
-                next.network.take_off_air();
-                None
-            }
             Action::Lose(transmission) => {
-                next.network.forget(transmission);
+                if let Some(left) = &mut next.left.losses {
+                    *left -= 1;
+                }
+                if next.network.next_on_air() == Some(transmission) {
+                    next.network.take_off_air();
+                } else {
+                    next.network.forget(transmission);
+                }
                 None
             }
             Action::Delay(transmission) => {
@@ -430,10 +474,29 @@ impl Model {
             next.history = self.0.histories.number(view.history_after());
         }
         next.broken |= broken;
+        if !step.taken.load(Ordering::Relaxed) {
+            step.taken.store(true, Ordering::Relaxed);
+        }
         self.note_premises(premises);
         self.transmit(next, i, step);
         next.nodes[i] = step.after;
         Some(RobotStep { robot: i, step })
+    }
+
+    /// The transitions of the state diagram that robots have taken so far.
+    #[must_use]
+    pub fn transitions_taken(&self) -> Transitions {
+        let mut taken = Transitions::default();
+        for (before, step) in self.0.steps.taken() {
+            let after = self.0.steps.nodes.value(step.after);
+            taken.note(before, step.input, after);
+        }
+        taken
+    }
+
+    /// Notes that the premise of a property has been met.
+    pub(crate) fn note_premise(&self, property: PropertyId) {
+        self.note_premises(property.bit());
     }
 
     fn note_premises(&self, met: u32) {
@@ -516,6 +579,12 @@ pub(crate) fn concerns(message: &Message, receiver: StationId) -> bool {
             by_farewell || by_coordination
         }
     }
+}
+
+/// Whether a timer does not run out when what is sent arrives and everybody does their part. The
+/// others pace the robot's own work.
+const fn guards_against_silence(timer: Timer) -> bool {
+    !matches!(timer, Timer::Ram | Timer::Selection | Timer::Farewell)
 }
 
 /// Takes an event off what may still happen.

@@ -1,9 +1,13 @@
 //! A robot in the model: its protocol state, and what its body has been told to do.
 
+use std::fmt;
+
 use crossguard_protocol::{
     Config, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming, Robot,
     StationId, Timer,
 };
+
+use smallvec::SmallVec;
 
 use crate::canonical::Renamable;
 
@@ -143,6 +147,32 @@ impl Node {
     pub fn untimed(&self) -> Self {
         self.renamed(&mut ForgetDurations)
     }
+
+    /// The timers that the last step from a node without durations has armed.
+    pub(crate) fn restarted_timers(&self) -> SmallVec<[Timer; 4]> {
+        let timers = self.robot.as_ref().map(Robot::timers).unwrap_or_default();
+        let restarted = timers.iter().filter(|(_, left)| *left != FORGOTTEN);
+        restarted.map(|(timer, _)| *timer).collect()
+    }
+}
+
+impl fmt::Display for Node {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(robot) = &self.robot else {
+            return f.write_str("down");
+        };
+        write!(f, "{robot}")?;
+        if let Some(maneuver) = self.actuation.running {
+            write!(f, "; its body executes {maneuver}")?;
+        }
+        if self.actuation.corridor_open {
+            f.write_str("; the corridor is open")?;
+        }
+        let timers = robot.timers();
+        let timers = timers.iter().map(|(timer, _)| timer.to_string());
+        let timers: SmallVec<[String; 4]> = timers.collect();
+        write!(f, "; timers: {}", timers.join(", "))
+    }
 }
 
 impl Renamable for Node {
@@ -162,11 +192,14 @@ impl Renamable for Node {
     }
 }
 
+/// What an armed timer has left in a node without durations.
+const FORGOTTEN: Millis = Millis(1);
+
 struct ForgetDurations;
 
 impl Renaming for ForgetDurations {
     fn countdown(&mut self, _timer: Timer, _left: Millis) -> Millis {
-        Millis(1)
+        FORGOTTEN
     }
 }
 

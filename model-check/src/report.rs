@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
+use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
+use crate::transitions::Transitions;
 
 /// What came of checking one scenario.
 #[derive(Clone, Debug, Serialize)]
@@ -11,6 +13,8 @@ pub struct ScenarioReport {
     pub name: String,
     /// What it is about.
     pub summary: String,
+    /// The robots' names, as charts have them.
+    pub robots: Vec<String>,
     /// Distinct states, up to renaming of numbers.
     pub unique_states: usize,
     /// Transitions between distinct states.
@@ -35,6 +39,9 @@ pub struct ScenarioReport {
     pub figures: Vec<Figure>,
     /// What the verdicts assume.
     pub assumptions: Vec<String>,
+    /// The transitions of the state diagram that robots took.
+    #[serde(skip)]
+    pub transitions_taken: Transitions,
 }
 
 /// What cut an exploration off.
@@ -65,6 +72,10 @@ pub struct PropertyReport {
     /// A run that breaks the property.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub counterexample: Vec<ChartStep>,
+    /// Where the run is one without end: how many of its steps come before those that are repeated
+    /// for ever. With none left to repeat, nothing happens any more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeats_after: Option<usize>,
 }
 
 /// What was found.
@@ -81,15 +92,6 @@ pub enum Verdict {
     Unreachable,
     /// The exploration was cut off before it could tell.
     Incomplete,
-}
-
-/// One step of a counterexample.
-#[derive(Clone, Debug, Serialize)]
-pub struct ChartStep {
-    /// What happened.
-    pub action: String,
-    /// What the robot that took the step put out.
-    pub outputs: Vec<String>,
 }
 
 impl ScenarioReport {
@@ -109,6 +111,17 @@ impl ScenarioReport {
             .iter()
             .find(|property| property.id == id)
             .map(|property| property.verdict)
+    }
+
+    /// The chart of the run that breaks a property; `None` where nothing does.
+    #[must_use]
+    pub fn chart<'a>(&'a self, property: &'a PropertyReport) -> Option<Chart<'a>> {
+        (!property.counterexample.is_empty()).then_some(Chart {
+            title: &property.statement,
+            robots: &self.robots,
+            steps: &property.counterexample,
+            repeats_after: property.repeats_after,
+        })
     }
 
     /// The ids of the properties that are broken.

@@ -21,6 +21,12 @@ use crate::timed::{Section, Timed, TimedImpossibility, TimedProperty};
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 4;
 
+/// How many robots a cooperative scenario may have.
+const MAX_COOPERATIVE_ROBOTS: usize = 3;
+
+/// By how much a robot's station id grows when it changes its pseudonym.
+pub(crate) const PSEUDONYM_STEP: u32 = 100;
+
 /// A scenario, checked.
 #[derive(Clone, Debug)]
 pub struct Scenario {
@@ -38,6 +44,10 @@ pub struct Scenario {
     pub corridor: bool,
     /// What the radio channel does.
     pub channel: Channel,
+    /// Whether everything around the robots does its part, which L3 assumes: an RMCM arrives, of the
+    /// RAM that are sent again and again some arrive, no timer that guards against silence runs out,
+    /// and applications command, finish, and end the task once it is completed.
+    pub cooperative: bool,
     /// The configuration of every robot.
     pub config: Config,
     /// The properties to check; none where the scenario is timed.
@@ -77,13 +87,15 @@ pub struct Bounds {
     pub detections: u8,
     /// A leader's application gives a command.
     pub commands: u8,
-    /// An application's disturbance: a maneuver fails, a robot that does not lead leaves, a robot
-    /// becomes unavailable, or a robot changes its pseudonym. To become available again costs nothing.
+    /// An application's disturbance: a maneuver fails, a robot leaves, becomes
+    /// unavailable, or changes its pseudonym. To become available again costs nothing.
     pub disturbances: u8,
     /// A robot crashes.
     pub crashes: u8,
     /// A crashed robot boots again.
     pub restarts: u8,
+    /// A message gets lost on its way to one receiver; any number of times where nothing is said.
+    pub losses: Option<u8>,
 }
 
 /// What the radio channel does.
@@ -109,6 +121,8 @@ struct File {
     bounds: Bounds,
     #[serde(default)]
     corridor: bool,
+    #[serde(default)]
+    cooperative: bool,
     channel: Channel,
     #[serde(default)]
     protocol: Settings,
@@ -188,6 +202,15 @@ pub enum Impossibility {
     /// Too many messages delayed.
     #[error("{0} messages delayed at a time: at most {MAX_DELAYED} are possible")]
     Delayed(u8),
+    /// Too many robots to tell all their messages apart.
+    #[error("{0} robots in a cooperative scenario: at most {MAX_COOPERATIVE_ROBOTS} are possible")]
+    Cooperative(usize),
+    /// Two robots whose pseudonyms could not be told apart.
+    #[error("station ids {0} and {1} must not differ by a multiple of {PSEUDONYM_STEP}")]
+    SamePseudonyms(StationId, StationId),
+    /// A property that assumes what the scenario does not.
+    #[error("L3 speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
+    NotCooperative,
     /// An unknown property.
     #[error("no property '{0}': {list}", list = PropertyId::list())]
     Property(String),
@@ -199,18 +222,33 @@ pub enum Impossibility {
     Timed(#[from] TimedImpossibility),
 }
 
-/// The scenarios that come with the kit.
-const SHIPPED: [(&str, &str); 7] = [
+/// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
+const SHIPPED: [(&str, &str); 11] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
+    (
+        "leader-crash",
+        include_str!("../scenarios/leader-crash.toml"),
+    ),
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
+    ("bilateral", include_str!("../scenarios/bilateral.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
     ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
     ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
+    ("wrap", include_str!("../scenarios/wrap.toml")),
+    ("stable", include_str!("../scenarios/stable.toml")),
 ];
 
+/// How many of the shipped scenarios take seconds.
+const QUICK: usize = 11;
+
 impl Scenario {
+    /// The names of the shipped scenarios that take seconds.
+    pub fn quick() -> impl Iterator<Item = &'static str> {
+        Self::shipped().take(QUICK)
+    }
+
     /// The names of the shipped scenarios.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
         SHIPPED.iter().map(|(name, _)| *name)
@@ -237,6 +275,15 @@ impl Scenario {
             cause,
         })?;
         Self::parse(name, &text)
+    }
+
+    /// The place of the robot that has, or had before it changed its pseudonym, this station id.
+    #[must_use]
+    pub fn place_of(&self, station: StationId) -> Option<usize> {
+        let base = |id: StationId| id.0 % PSEUDONYM_STEP;
+        self.robots
+            .iter()
+            .position(|robot| base(robot.station) == base(station))
     }
 
     /// Reads a scenario from its text; `file` is what errors call it.
@@ -303,15 +350,21 @@ impl File {
             return Err(at(Place::Key("robots"), I::Robots(robots)));
         }
         for (i, robot) in self.robots.iter().enumerate() {
-            if self.robots[..i]
-                .iter()
-                .any(|other| other.station == robot.station)
-            {
-                return Err(at(Place::Key("robots"), I::SameStation(robot.station)));
+            let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
+            for other in self.robots[..i].iter().map(|other| other.station) {
+                if other == one {
+                    return Err(at(Place::Key("robots"), I::SameStation(one)));
+                }
+                if pseudonym(other) == pseudonym(one) {
+                    return Err(at(Place::Key("robots"), I::SamePseudonyms(other, one)));
+                }
             }
         }
         if !self.robots.iter().any(|robot| robot.detects) {
             return Err(at(Place::Key("robots"), I::NobodyDetects));
+        }
+        if self.cooperative && robots > MAX_COOPERATIVE_ROBOTS {
+            return Err(at(Place::Key("cooperative"), I::Cooperative(robots)));
         }
         let delayed = self.channel.delayed;
         if usize::from(delayed) > MAX_DELAYED {
@@ -322,17 +375,25 @@ impl File {
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
         let mut timed = None;
         if let Some(section) = self.timed {
-            let (settings, bounds) = (config.settings(), self.bounds);
-            let checked = section.check(settings, &self.robots, bounds, self.channel);
+            let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
             let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
-            checked.properties = all_named(&self.properties, TimedProperty::named, |name| {
-                TimedImpossibility::Property(name).into()
+            if self.cooperative {
+                let cause = TimedImpossibility::Untimed("cooperative");
+                return Err(at(Place::Key("cooperative"), cause));
+            }
+            checked.properties = all_named(&self.properties, |name| {
+                let unknown = || TimedImpossibility::Property(name.to_owned());
+                TimedProperty::named(name).ok_or_else(|| unknown().into())
             })?;
             timed = Some(checked);
         }
         let properties = match timed {
             Some(_) => Vec::new(),
-            None => all_named(&self.properties, |name| name.parse().ok(), I::Property)?,
+            None => all_named(&self.properties, |name| match name.parse() {
+                Ok(PropertyId::L3) if !self.cooperative => Err(I::NotCooperative),
+                Ok(property) => Ok(property),
+                Err(()) => Err(I::Property(name.to_owned())),
+            })?,
         };
         Ok(Scenario {
             name: self.name,
@@ -342,6 +403,7 @@ impl File {
             bounds: self.bounds,
             corridor: self.corridor,
             channel: self.channel,
+            cooperative: self.cooperative,
             config,
             timed,
             properties,
@@ -353,12 +415,10 @@ impl File {
 /// The properties of these names.
 fn all_named<P>(
     names: &[toml::Spanned<String>],
-    known: impl Fn(&str) -> Option<P>,
-    unknown: impl Fn(String) -> Impossibility,
+    named: impl Fn(&str) -> Result<P, Impossibility>,
 ) -> Result<Vec<P>, Located> {
     let property = |name: &toml::Spanned<String>| {
-        let place = Place::Offset(name.span().start);
-        known(name.get_ref()).ok_or_else(|| at(place, unknown(name.get_ref().clone())))
+        named(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
     };
     names.iter().map(property).collect()
 }
@@ -416,8 +476,18 @@ impl Hash for Bounds {
             disturbances,
             crashes,
             restarts,
+            losses,
         } = *self;
-        state.write(&[detections, commands, disturbances, crashes, restarts]);
+        // A bound of 255 losses and none at all may share a hash.
+        let losses = losses.unwrap_or(u8::MAX);
+        state.write(&[
+            detections,
+            commands,
+            disturbances,
+            crashes,
+            restarts,
+            losses,
+        ]);
     }
 }
 
@@ -429,6 +499,7 @@ impl fmt::Display for Bounds {
             ("disturbances", self.disturbances),
             ("crashes", self.crashes),
             ("restarts", self.restarts),
+            ("losses", self.losses.unwrap_or_default()),
         ];
         let allowed: Vec<_> = bounds
             .iter()

@@ -4,6 +4,8 @@
 //! exploration. So each pair is put through the transition function once, judged once, and looked up
 //! from then on.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crossguard_protocol::{Config, Event, Input, Output, Outputs, Timer};
 use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
@@ -33,6 +35,8 @@ pub(crate) struct Step {
     pub(crate) after: u32,
     /// The messages that it sends.
     pub(crate) sends: SmallVec<[u16; 2]>,
+    /// The timers that it armed, whether or not they had been armed before.
+    pub(crate) restarted: SmallVec<[Timer; 4]>,
     /// Whether it changed nothing.
     pub(crate) is_ignored: bool,
     /// Whether what it means depends on the history, or changes it.
@@ -41,6 +45,8 @@ pub(crate) struct Step {
     pub(crate) premises: u32,
     /// One bit for each step property that it breaks, as far as it depends on no history.
     pub(crate) broken: u32,
+    /// Whether it has been taken, and not only looked at.
+    pub(crate) taken: AtomicBool,
 }
 
 /// All nodes, messages and steps that have occurred.
@@ -81,6 +87,15 @@ impl Steps {
         Some(&self.computed[number as usize])
     }
 
+    /// The steps that have been taken, each with the node before it.
+    pub(crate) fn taken(&self) -> impl Iterator<Item = (&Node, &Step)> {
+        let steps = self.numbers.iter().map(|entry| {
+            let before = self.nodes.value(entry.key().0);
+            (before, &self.computed[*entry.value() as usize])
+        });
+        steps.filter(|(_, step)| step.taken.load(Ordering::Relaxed))
+    }
+
     fn compute(
         &self,
         config: &Config,
@@ -110,11 +125,13 @@ impl Steps {
             input,
             outputs,
             sends: self.sends(&after, &outputs),
+            restarted: after.restarted_timers(),
             is_ignored: outputs.ignored().is_some(),
             is_historic,
             premises,
             broken,
             after: self.nodes.number(after.untimed()),
+            taken: AtomicBool::new(false),
         })
     }
 

@@ -6,27 +6,25 @@
 //! carry the robot only asks whether they are its own, known, newer or older, so one of each kind
 //! stands for all.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use crossguard_protocol::{
     Answer, Availability, Command, Config, Confirmation, Coordination, Decimetres, Event, Failure,
     Farewell, Followers, Heartbeat, HelpRequest, Input, OfferNumber, Phase, Progress, Ram,
-    Rejection, Report, RequestId, Rmcm, Robot, Role, SessionId, SessionNumber, Settings, State,
-    StationId, TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
+    Rejection, Report, RequestId, Rmcm, Robot, SessionId, SessionNumber, Settings, StationId,
+    TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
 };
 
 use crate::canonical::{Names, Ranks, Renamable};
 use crate::model::concerns;
 use crate::network::Message;
 use crate::node::{Node, Protocol};
+use crate::transitions::Transitions;
 
 /// The robot, its two peers, and a station that is none of them.
 const ME: StationId = StationId(2);
 const PEERS: [StationId; 2] = [StationId(1), StationId(3)];
 const STRANGER: StationId = StationId(9);
-
-/// What a robot is doing: its role and the state of the paper's model.
-pub type Mode = (Role, State);
 
 /// What was found out about one robot among any others.
 #[derive(Clone, Debug, Default)]
@@ -35,8 +33,8 @@ pub struct Universe {
     pub states: usize,
     /// Steps: every input in every state.
     pub steps: usize,
-    /// Which inputs lead from one mode to another.
-    pub edges: BTreeMap<(Mode, Mode), BTreeSet<String>>,
+    /// The transitions of the state diagram.
+    pub transitions: Transitions,
     /// Steps after which the state was not valid, or that were ignored and changed something.
     pub invalid: Vec<String>,
     /// Messages that the model leaves out because they concern nobody, and that had an effect.
@@ -149,14 +147,6 @@ fn canonical(node: &Node) -> Node {
     }
 }
 
-fn mode(node: &Node) -> Mode {
-    node.robot
-        .as_ref()
-        .map_or((Role::None, State::Idle), |robot| {
-            (robot.role(), robot.state())
-        })
-}
-
 impl Universe {
     fn judge(&mut self, config: &Config, before: &Node, input: Input, after: &Node, ignored: bool) {
         let valid = after
@@ -174,54 +164,7 @@ impl Universe {
         if message.is_some_and(|message| !concerns(&message, ME)) && !ignored {
             self.wrongly_left_out.push(format!("{input} in {before:?}"));
         }
-        let (from, to) = (mode(before), mode(after));
-        if from != to
-            && let Some(label) = label(input)
-        {
-            self.edges.entry((from, to)).or_default().insert(label);
-        }
-    }
-}
-
-/// A transition's label: the kind of its input. `None` for a RAM with a farewell and more, which does
-/// two things one after the other.
-fn label(input: Input) -> Option<String> {
-    let name = |debug: String| {
-        debug
-            .split(['(', ' '])
-            .next()
-            .unwrap_or_default()
-            .to_owned()
-    };
-    Some(match input {
-        Input::Ram { ram, .. } => match (ram.coordination, ram.farewell) {
-            (part, None) => format!("RAM {}", part_name(part)),
-            (Coordination::None, Some(Farewell::Ended(_))) => "RAM ended".to_owned(),
-            (Coordination::None, Some(Farewell::Left(_))) => "RAM left".to_owned(),
-            (_, Some(_)) => return None,
-        },
-        Input::Rmcm(Rmcm::Command(_)) => "RMCM command".to_owned(),
-        Input::Rmcm(Rmcm::Answer(_)) => "RMCM acknowledgement".to_owned(),
-        Input::Elapsed(_) => "time".to_owned(),
-        Input::Expired(timer) => format!("timer {}", name(format!("{timer:?}"))),
-        Input::Local(Event::AvailabilityChanged(_)) => "unavailable".to_owned(),
-        Input::Local(event) => name(format!("{event:?}")),
-    })
-}
-
-fn part_name(coordination: Coordination) -> &'static str {
-    match coordination {
-        Coordination::None => "none",
-        Coordination::NeedHelp { .. } => "needHelp",
-        Coordination::OfferHelp { .. } => "offerHelp",
-        Coordination::Leader { .. } => "leader",
-        Coordination::Follower { last, .. } => match last.map(|last| last.progress) {
-            None => "follower",
-            Some(Progress::Executing) => "executing",
-            Some(Progress::Completed) => "completed",
-            Some(Progress::Failed(_)) => "failed",
-            Some(Progress::SafeIdle) => "safeIdle",
-        },
+        self.transitions.note(before, input, after);
     }
 }
 

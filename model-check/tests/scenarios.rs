@@ -22,29 +22,33 @@ fn assert_verified(name: &str) {
     );
 }
 
-#[test]
-fn pair() {
-    assert_verified("pair");
+macro_rules! verified {
+    ($($test:ident $scenario:literal),*) => {
+        $(
+            #[test]
+            fn $test() {
+                assert_verified($scenario);
+            }
+        )*
+
+        const VERIFIED: &[&str] = &[$($scenario),*];
+    };
 }
 
-#[test]
-fn pair_reboot() {
-    assert_verified("pair-reboot");
-}
+verified!(
+    pair "pair", contention "contention", pair_reboot "pair-reboot", leader_crash "leader-crash",
+    offer_race "offer-race", bilateral "bilateral", trio "trio", wrap "wrap", stable "stable"
+);
 
 #[test]
-fn contention() {
-    assert_verified("contention");
-}
-
-#[test]
-fn offer_race() {
-    assert_verified("offer-race");
-}
-
-#[test]
-fn trio() {
-    assert_verified("trio");
+fn every_shipped_scenario_is_verified_here() {
+    // Those that are timed are verified in `timed.rs`.
+    let untimed = |name: &&str| Scenario::load(name).unwrap().timed.is_none();
+    assert!(
+        Scenario::shipped()
+            .filter(untimed)
+            .eq(VERIFIED.iter().copied())
+    );
 }
 
 #[test]

@@ -5,6 +5,7 @@ use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::properties::PropertyId::{self, *};
+use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::Verdict;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
@@ -28,6 +29,31 @@ fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[Prop
             !property.counterexample.is_empty(),
             "{id} without a counterexample"
         );
+    }
+}
+
+/// Asserts that these properties, and no others, break in a scenario without delayed messages when
+/// `rules` takes the place of the protocol.
+fn assert_breaks_alone(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
+    let mut scenario = Scenario::load(scenario).unwrap();
+    scenario.channel.delayed = 0;
+    scenario.expected = None;
+    let model = Model::with_rules(scenario, rules);
+    let report = check(&model, &Options::default(), &mut |_| ());
+    let violated: Vec<_> = report.violated().collect();
+    let expected: Vec<_> = properties.iter().map(ToString::to_string).collect();
+    assert_eq!(violated, expected);
+    for property in &report.properties {
+        // What breaks without the rule is a run that the protocol does not have.
+        if let Some(replay) = Replay::of(&report, property) {
+            let protocol = Model::new(model.scenario().clone());
+            assert!(replay.is_broken(&replay.follow(&model)), "{replay:#?}");
+            assert!(!replay.is_broken(&replay.follow(&protocol)), "{replay:#?}");
+        }
+        let is_run_without_end = property.kind == "L" && property.id != "L7";
+        if property.verdict == Verdict::Violated && is_run_without_end {
+            assert!(property.repeats_after.unwrap() <= property.counterexample.len());
+        }
     }
 }
 
@@ -326,21 +352,89 @@ impl Rules for FollowersWaitForEver {
 
 #[test]
 fn without_timers_a_follower_of_a_crashed_leader_is_stuck() {
-    let text = include_str!("../scenarios/pair-reboot.toml").replace("restarts = 1", "");
-    let text = text.split("[expected]").next().unwrap();
-    let scenario = Scenario::parse("leader crashes for good", text).unwrap();
-    let report = check(
-        &Model::with_rules(scenario, FollowersWaitForEver),
-        &Options::default(),
-        &mut |_| (),
-    );
-    let violated: Vec<_> = report.violated().collect();
-    for property in ["I12", "L7"] {
-        assert!(
-            violated.contains(&property),
-            "{property} should break, not {violated:?}"
-        );
+    assert_breaks_alone("leader-crash", FollowersWaitForEver, &[I12, L4, L5, L7]);
+}
+
+/// Timers of these kinds never expire in robots of that kind.
+struct WaitsForEver {
+    who: fn(&Phase) -> bool,
+    timer: fn(&Timer) -> bool,
+}
+
+impl Rules for WaitsForEver {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let Input::Expired(timer) = input
+            && (self.who)(robot.phase())
+            && (self.timer)(&timer)
+        {
+            return [Output::Ignored(Ignored::TimerNotArmed)]
+                .into_iter()
+                .collect();
+        }
+        robot.step(config, input)
     }
+}
+
+#[test]
+fn without_a_limit_a_request_that_nobody_hears_never_ends() {
+    let rules = WaitsForEver {
+        who: |phase| matches!(phase, Phase::Requesting(_)),
+        timer: |timer| matches!(timer, Timer::Help | Timer::IdentityLock),
+    };
+    assert_breaks_alone("pair", rules, &[L1]);
+}
+
+#[test]
+fn without_repeats_a_lost_command_stays_outstanding() {
+    let rules = WaitsForEver {
+        // The identity lock of either would end the session, and with it the command.
+        who: |phase| matches!(phase, Phase::Leading(_) | Phase::Following(_)),
+        timer: |timer| matches!(timer, Timer::Acknowledgement(_) | Timer::IdentityLock),
+    };
+    assert_breaks_alone("pair", rules, &[L2]);
+}
+
+/// A requester does not listen to others, and does not give up.
+struct InsistsOnItsRequest;
+
+impl Rules for InsistsOnItsRequest {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let is_deaf = match input {
+            Input::Ram { ram, .. } => matches!(ram.coordination, Coordination::NeedHelp { .. }),
+            Input::Expired(Timer::Help | Timer::IdentityLock) => true,
+            _ => false,
+        };
+        if is_deaf && matches!(robot.phase(), Phase::Requesting(_)) {
+            return [Output::Ignored(Ignored::LowerPrecedence)]
+                .into_iter()
+                .collect();
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn two_requesters_of_whom_neither_yields_wait_for_ever() {
+    assert_breaks_alone("contention", InsistsOnItsRequest, &[L1, L6]);
+}
+
+/// A leader does not read the progress in its followers' RAM.
+struct ReadsNoProgress;
+
+impl Rules for ReadsNoProgress {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let Input::Ram { ram, .. } = &mut input
+            && let Coordination::Follower { last, .. } = &mut ram.coordination
+        {
+            *last = None;
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn without_progress_in_ram_no_task_is_ever_completed() {
+    assert_breaks_alone("stable", ReadsNoProgress, &[L3, L7]);
 }
 
 /// A command is repeated once more than it may be.

@@ -1,1 +1,46 @@
-//! stub
+//! The proofs of Crossguard: harnesses that Kani proves, over the laws of the crates that own the
+//! types.
+//!
+//! ```text
+//!  laws of protocol and codec ◄── harnesses here ◄── cargo kani: every value
+//!                             ◄──                ◄── tests/harnesses.rs: random values
+//!                             ◄── tests: proptest, with shrinking; sweeps over all values
+//! ```
+//!
+//! A harness chooses symbolic values, states its bound by `kani::assume`, calls a law, and marks
+//! with `kani::cover!` each class of outcomes that must be reachable. In an ordinary build `kani`
+//! is the [`stand_in`], which makes a harness a function that runs with random values.
+//!
+//! `harnesses.toml` lists all harnesses, and `tests/harnesses.rs` compares it with this crate.
+
+mod harness;
+pub mod protocol;
+#[cfg(not(all(kani, not(feature = "stand-in"))))]
+pub mod stand_in;
+mod symbolic;
+
+#[cfg(all(kani, not(feature = "stand-in")))]
+pub(crate) use ::kani;
+pub use harness::Harness;
+#[cfg(not(all(kani, not(feature = "stand-in"))))]
+pub(crate) use stand_in as kani;
+pub use symbolic::Symbolic;
+
+/// All harnesses, in the order of `harnesses.toml`.
+#[cfg(not(all(kani, not(feature = "stand-in"))))]
+pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
+    [
+        protocol::numbers::HARNESSES,
+        protocol::lists::HARNESSES,
+        protocol::lease::HARNESSES,
+        protocol::boot::HARNESSES,
+        protocol::idle::HARNESSES,
+        protocol::requesting::HARNESSES,
+        protocol::offering::HARNESSES,
+        protocol::following::HARNESSES,
+        protocol::leading::HARNESSES,
+        protocol::timers::HARNESSES,
+    ]
+    .into_iter()
+    .flatten()
+}

@@ -114,8 +114,9 @@ pub enum Inequality {
     OfferWithinHelp,
     /// `3 * ram_period <= t_farewell`: a farewell survives two lost RAM.
     FarewellRepeated,
-    /// `t_help + t_farewell + t_exec < t_lock` for each task that the robot can do: the lock
-    /// outlasts the shortest useful session.
+    /// `t_help + t_farewell + t_exec < t_lock` for each task that the robot can do, and
+    /// `t_help + t_farewell < t_lock` if it can do none: the lock outlasts the shortest useful
+    /// session.
     LockOutlastsTask,
     /// `t_lock / ram_period < 32768`: two heartbeats of a session are less than half the number
     /// space apart.
@@ -168,12 +169,14 @@ impl Inequality {
             Self::SelectionWithinOffer => "t_select < t_offer",
             Self::OfferWithinHelp => "t_offer <= t_help",
             Self::FarewellRepeated => "3 * ram_period <= t_farewell",
-            Self::LockOutlastsTask => "t_help + t_farewell + t_exec < t_lock for every capability",
+            Self::LockOutlastsTask => {
+                "t_help + t_farewell + t_exec < t_lock for every capability, t_exec 0 for none"
+            }
             Self::HeartbeatsInNumberSpace => "t_lock / ram_period < 32768",
         }
     }
 
-    fn holds(self, s: &Settings) -> bool {
+    pub(crate) fn holds(self, s: &Settings) -> bool {
         let thrice_period = s.ram_period.0.saturating_mul(3);
         match self {
             Self::TimerInRange => {
@@ -205,10 +208,13 @@ impl Inequality {
             Self::SelectionWithinOffer => s.t_select < s.t_offer,
             Self::OfferWithinHelp => s.t_offer <= s.t_help,
             Self::FarewellRepeated => thrice_period <= s.t_farewell.0,
-            Self::LockOutlastsTask => s.capabilities.iter().all(|task| {
+            Self::LockOutlastsTask => {
                 let session = s.t_help.saturating_add(s.t_farewell);
-                session.saturating_add(s.t_exec[task.value() as usize]) < s.t_lock
-            }),
+                let outlasts = |task: TaskType| {
+                    session.saturating_add(s.t_exec[task.value() as usize]) < s.t_lock
+                };
+                session < s.t_lock && s.capabilities.iter().all(outlasts)
+            }
             Self::HeartbeatsInNumberSpace => s.t_lock.0 / s.ram_period.0 < Heartbeat::HALF_SPACE,
         }
     }
@@ -244,6 +250,12 @@ impl Config {
             Some(broken) => Err(BrokenInequality(broken)),
             None => Ok(Self(settings)),
         }
+    }
+
+    /// The configuration of `settings` that satisfy some of the inequalities.
+    #[cfg(feature = "laws")]
+    pub(crate) const fn unchecked(settings: Settings) -> Self {
+        Self(settings)
     }
 
     /// The settings.
@@ -363,5 +375,17 @@ mod tests {
             broken(|s| s.t_exec[1] = Millis(86_400_000)),
             Some(Inequality::LockOutlastsTask)
         );
+    }
+
+    #[test]
+    fn the_lock_outlasts_the_farewell_of_a_robot_that_can_do_nothing() {
+        let lock = |t_lock| {
+            broken(|s| {
+                s.capabilities = TaskSet::EMPTY;
+                s.t_lock = Millis(t_lock);
+            })
+        };
+        assert_eq!(lock(11_001), None);
+        assert_eq!(lock(11_000), Some(Inequality::LockOutlastsTask));
     }
 }

@@ -10,8 +10,20 @@ use crate::output::{
     CorridorClosure, Disengagement, EndReason, GoneReason, Ignored, Maneuver, Notice, Output,
     ReleaseReason, StopReason,
 };
+use crate::state::Robot;
 use crate::task::{Availability, FallbackPolicy, HelpRequest, TaskSet, Unavailability, Urgency};
 use crate::time::Millis;
+
+impl Display for Robot {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (state, role) = (self.state(), self.role());
+        write!(f, "{state:?}, {role}, {}", self.availability())?;
+        if let Some(session) = self.session() {
+            write!(f, ", session {session}")?;
+        }
+        write!(f, "; says: {}", self.ram())
+    }
+}
 
 /// Writes the name of an enum's variant as words: `LowBattery` as `low battery`.
 struct Words<T>(T);

@@ -4,7 +4,6 @@ use core::cmp::Reverse;
 
 use crate::id::{OfferNumber, SessionId, StationId};
 use crate::list::List;
-use crate::message::Farewell;
 use crate::output::{EndReason, Ignored, Notice, Output, ReleaseReason};
 use crate::robot::{Effect, Step};
 use crate::state::{Leading, Lease, Member, Offer, Offering, Phase, Requesting, Robot};
@@ -74,10 +73,7 @@ impl Robot {
             capabilities,
             reservation,
         });
-        if self.farewell() == Some(Farewell::Left(session)) {
-            // It comes back; to go on saying that it left would undo the offer.
-            self.farewell = None;
-        }
+        self.withdraw_farewell(session);
         step.out.notify(Notice::Offering(session));
         step.out.push(Output::SendRam);
         Ok(())

@@ -20,12 +20,18 @@ impl Robot {
             return Err(Ignored::InSession);
         }
         self.may_join()?;
-        self.open_session(step, request)
+        let number = SessionNumber(self.issue_number()?);
+        self.open_session(step, number, request);
+        Ok(())
     }
 
     /// Opens a session with a number that was never used before.
-    pub(crate) fn open_session(&mut self, step: &mut Step, request: HelpRequest) -> Effect {
-        let number = SessionNumber(self.issue_number()?);
+    pub(crate) fn open_session(
+        &mut self,
+        step: &mut Step,
+        number: SessionNumber,
+        request: HelpRequest,
+    ) {
         self.phase = Phase::Requesting(Requesting {
             number,
             request,
@@ -33,8 +39,10 @@ impl Robot {
             help: Countdown::armed(step.config.settings().t_help),
             selection: Countdown::OFF,
         });
+        // Somebody may have asked about this number before it was given out, and been told that no
+        // such session exists.
+        self.withdraw_farewell(self.own_session(number));
         step.out.push(Output::SendRam);
-        Ok(())
     }
 
     /// Whether the robot itself stands in the way of taking part in a session.

@@ -47,6 +47,9 @@ mod id;
 mod identity;
 mod idle;
 mod input;
+#[cfg(feature = "laws")]
+#[doc(hidden)]
+pub mod laws;
 mod list;
 mod maneuver;
 mod message;

@@ -72,6 +72,12 @@ impl<T: Copy, const N: usize> List<T, N> {
         self.0.iter_mut().map_while(Option::as_mut)
     }
 
+    /// The list of these slots, dense or not.
+    #[cfg(feature = "laws")]
+    pub(crate) const fn of_slots(slots: [Option<T>; N]) -> Self {
+        Self(slots)
+    }
+
     /// Whether no item stands behind a gap; true for every list that this type's methods made.
     pub(crate) fn is_dense(&self) -> bool {
         self.0

@@ -1,6 +1,6 @@
 //! Stage 4, Maneuver execution: commands, acknowledgements, repetition, progress.
 
-use crate::id::{ManeuverId, RequestId, SessionId, StationId};
+use crate::id::{ManeuverId, RequestId, SessionId, SessionNumber, StationId};
 use crate::message::{
     Answer, Command, Failure, Farewell, Progress, Rejection, Report, Rmcm, Verdict,
 };
@@ -38,8 +38,10 @@ impl Robot {
         let first = step.config.settings().first_request;
         if member.next_request.distance_from(first) >= RequestId::MAX_PER_SESSION {
             // A new session, and with it a new number space, before half of this one is used.
+            let number = SessionNumber(self.issue_number()?);
             self.end_session(step, EndReason::Renewed);
-            return self.open_session(step, request);
+            self.open_session(step, number, request);
+            return Ok(());
         }
         let outstanding = Outstanding {
             request: member.next_request,
@@ -287,10 +289,14 @@ impl Following {
             step.out.push(answer(Verdict::Accepted));
             return Ok(());
         }
-        if self
-            .newest_request()
-            .is_some_and(|newest| !command.request.is_newer_than(newest))
-        {
+        // Newer than both: after a leap of more than half the number space, which no leader makes, a
+        // number can be newer than what was refused and older than what was accepted.
+        let answered = [
+            self.refused.map(|refused| refused.request),
+            self.job.map(|job| job.request),
+        ];
+        let is_new = |answered: RequestId| command.request.is_newer_than(answered);
+        if !answered.into_iter().flatten().all(is_new) {
             return Err(Ignored::OldCommand);
         }
         self.renew_contact(step);

@@ -14,7 +14,7 @@ use crate::time::Millis;
 /// A renaming of what states and messages hold. What a method is not given stays as it is.
 ///
 /// The renamed state is a valid one if the renaming keeps the order of the heartbeats of each
-/// session, is injective on the numbers of each station and boot, maps
+/// session and keeps them less than half the number space apart, is injective on the numbers of each station and boot, maps
 /// [`Robot::next_number`] above all of them, and makes no timer due.
 pub trait Renaming {
     /// The time that an armed timer has left.

@@ -146,7 +146,7 @@ impl Robot {
     }
 
     /// Brings what depends on the whole state in line with it.
-    fn settle(&mut self, step: &mut Step) {
+    pub(crate) fn settle(&mut self, step: &mut Step) {
         self.settle_corridor(step);
         self.settle_identity(step);
         if !self.is_bound() {
@@ -290,7 +290,18 @@ impl Robot {
         self.identity
     }
 
-    /// The session that it names as over.
+    /// The session that its farewell names as over.
+    pub(crate) const fn farewell_session(&self) -> Option<SessionId> {
+        match self.farewell {
+            None => None,
+            Some(standing) => Some(match standing.farewell {
+                Farewell::Ended(number) => self.own_session(number),
+                Farewell::Left(session) => session,
+            }),
+        }
+    }
+
+    /// What it names as over.
     #[must_use]
     pub fn farewell(&self) -> Option<Farewell> {
         self.farewell.map(|standing| standing.farewell)

@@ -78,7 +78,7 @@ impl Robot {
         let next_ram = self.ram.left().unwrap_or(Millis::ZERO);
         match &mut self.phase {
             Phase::Leading(leading) if leading.number == session.number => {
-                if echo.is_newer_than(leading.heartbeat) {
+                if !leading.can_have_sent(echo) {
                     return Err(Ignored::EchoFromFuture);
                 }
                 let age = leading.age_of(step.config, echo, next_ram);
@@ -154,6 +154,24 @@ impl Robot {
 }
 
 impl Leading {
+    /// Whether `heartbeat` is the newest or less than half the number space older, as every one of
+    /// the session is.
+    pub(crate) const fn can_have_sent(&self, heartbeat: Heartbeat) -> bool {
+        (self.heartbeat.distance_from(heartbeat) as u32) < Heartbeat::HALF_SPACE
+    }
+
+    /// A follower whose newest echo this leader will not be able to put in order in `periods`.
+    pub(crate) fn follower_out_of_order(&self, periods: u16) -> Option<StationId> {
+        let lag = |echoed| u32::from(self.heartbeat.distance_from(echoed)) + u32::from(periods);
+        let out_of_order = |member: &&Member| {
+            member
+                .echoed
+                .is_some_and(|e| lag(e) >= Heartbeat::HALF_SPACE)
+        };
+        let member = self.members.iter().find(out_of_order)?;
+        Some(member.station)
+    }
+
     /// How long ago `heartbeat` can have been sent at the earliest, where the next RAM is due in
     /// `next_ram`. Heartbeats count periods, so this is never less than the true age.
     #[must_use]

@@ -314,6 +314,13 @@ impl Member {
     pub const fn has_joined(&self) -> bool {
         self.echoed.is_some()
     }
+
+    /// Whether the follower has completed its newest acknowledged command.
+    #[must_use]
+    pub fn has_completed(&self) -> bool {
+        self.order
+            .is_some_and(|order| order.progress == Some(Progress::Completed))
+    }
 }
 
 impl Lease {
@@ -321,6 +328,12 @@ impl Lease {
     #[must_use]
     pub const fn stands(self) -> bool {
         matches!(self, Self::Stands(_))
+    }
+
+    /// The time that is left of the lease, or of the time without one.
+    pub(crate) const fn countdown(self) -> Countdown {
+        let (Self::Stands(left) | Self::Expired(left)) = self;
+        left
     }
 }
 
@@ -361,5 +374,11 @@ impl Contact {
     #[must_use]
     pub const fn is_lost(self) -> bool {
         matches!(self, Self::Lost(_))
+    }
+
+    /// The time that is left of `T_safety` or `T_leave`.
+    pub(crate) const fn countdown(self) -> Countdown {
+        let (Self::Fresh(left) | Self::Lost(left)) = self;
+        left
     }
 }

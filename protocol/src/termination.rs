@@ -154,6 +154,13 @@ impl Robot {
         self.say_farewell(step, Farewell::Ended(session.number))
     }
 
+    /// The robot takes part in `session`: to go on saying that it is over would undo that.
+    pub(crate) fn withdraw_farewell(&mut self, session: SessionId) {
+        if self.farewell_session() == Some(session) {
+            self.farewell = None;
+        }
+    }
+
     /// `T_farewell` ran out.
     pub(crate) fn farewell_expired(&mut self) {
         self.farewell = None;

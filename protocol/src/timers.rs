@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::input::Timer;
 use crate::list::List;
-use crate::output::{Ignored, Output};
+use crate::output::{GoneReason, Ignored, Output};
 use crate::robot::{Effect, Step};
 use crate::state::{Contact, Identity, Lease, Member, Phase, Robot};
 use crate::time::{Countdown, Millis};
@@ -94,29 +94,41 @@ impl Robot {
             Some(left) => elapsed.saturating_sub(left),
             None => Millis::ZERO,
         };
-        visit_countdowns!(&mut *self, iter_mut, (mut), |_, countdown: &mut Countdown| {
-            countdown.elapse(elapsed);
-        });
+        self.advance(elapsed);
         // Every timer that fires is dropped or armed anew with at least 1 ms, so this ends.
         while let Some(timer) = self.first_due() {
             self.fire(step, timer, late);
         }
     }
 
+    /// Lets all countdowns run; none fires yet.
+    pub(crate) fn advance(&mut self, elapsed: Millis) {
+        visit_countdowns!(self, iter_mut, (mut), |_, countdown: &mut Countdown| {
+            countdown.elapse(elapsed);
+        });
+    }
+
+    /// The time that `timer` has left, `None` when it is not armed.
+    pub(crate) fn time_left(&self, timer: Timer) -> Option<Millis> {
+        let mut left = None;
+        visit_countdowns!(self, iter, (), |other, countdown: &Countdown| {
+            if other == timer {
+                left = countdown.left();
+            }
+        });
+        left
+    }
+
     /// One timer expires, whatever time it has left.
     pub(crate) fn expire(&mut self, step: &mut Step, timer: Timer) -> Effect {
-        let mut armed = false;
-        visit_countdowns!(&*self, iter, (), |other, countdown: &Countdown| {
-            armed |= other == timer && countdown.is_armed();
-        });
-        if !armed {
+        if self.time_left(timer).is_none() {
             return Err(Ignored::TimerNotArmed);
         }
         self.fire(step, timer, Millis::ZERO);
         Ok(())
     }
 
-    fn fire(&mut self, step: &mut Step, timer: Timer, late: Millis) {
+    pub(crate) fn fire(&mut self, step: &mut Step, timer: Timer, late: Millis) {
         match timer {
             Timer::Safety => self.safety_expired(step),
             Timer::Leave => self.leave_expired(step),
@@ -137,12 +149,22 @@ impl Robot {
     fn ram_expired(&mut self, step: &mut Step, late: Millis) {
         let period = step.config.settings().ram_period;
         self.ram = Countdown::armed(Millis(period.0 - late.0 % period.0));
-        if let Phase::Leading(leading) = &mut self.phase {
-            // A session ends with the identity lock, long before its periods exceed 16 bits.
-            let periods = u16::try_from(1 + late.0 / period.0).unwrap_or(u16::MAX);
-            leading.heartbeat = leading.heartbeat.after(periods);
-        }
+        // A session ends with the identity lock, long before its periods exceed 16 bits.
+        let periods = u16::try_from(1 + late.0 / period.0).unwrap_or(u16::MAX);
+        self.bump_heartbeat(step, periods);
         step.out.push(Output::SendRam);
+    }
+
+    /// Some RAM periods are over. A follower that has echoed nothing for half the number space, which
+    /// is longer than the identity may be locked, is lost whatever its other timers say.
+    fn bump_heartbeat(&mut self, step: &mut Step, periods: u16) {
+        while let Phase::Leading(leading) = &mut self.phase {
+            let Some(station) = leading.follower_out_of_order(periods) else {
+                leading.heartbeat = leading.heartbeat.after(periods);
+                return;
+            };
+            self.drop_follower(step, station, GoneReason::NoContact);
+        }
     }
 
     /// Replaces the time that every armed timer has left.
@@ -154,12 +176,21 @@ impl Robot {
         });
     }
 
-    /// Whether every armed timer has at most the time it was started with, and at least 1 ms.
+    /// How many timers are due.
+    pub(crate) fn due_timers(&self) -> usize {
+        let mut due = 0;
+        visit_countdowns!(self, iter, (), |_, countdown: &Countdown| {
+            due += usize::from(countdown.is_due());
+        });
+        due
+    }
+
+    /// Whether every armed timer has at most the time it was started with.
     pub(crate) fn timers_within_limits(&self, config: &Config) -> bool {
         let mut within = true;
         visit_countdowns!(self, iter, (), |timer, countdown: &Countdown| {
             let limit = self.timer_limit(config, timer);
-            within &= countdown.is_within(limit) && !countdown.is_due();
+            within &= countdown.is_within(limit);
         });
         within
     }

@@ -3,12 +3,15 @@
 //! [`Robot::is_valid`] holds in the initial state and is kept by every input (property I13): it is
 //! inductive, so it holds after runs of any length. The local parts of other properties are among
 //! its clauses. `model-check` checks it on every step of every scenario and for one robot against
-//! every possible message.
+//! every possible message; the crate's `laws` state that it is inductive.
+//!
+//! ```text
+//!  valid ──► parts of a step, each keeps `is_consistent` ──► settle ──► valid
+//! ```
 
 use crate::config::Config;
 use crate::help::all_distinct;
 use crate::id::RequestId;
-use crate::message::Farewell;
 use crate::state::{Following, Identity, Leading, Member, Phase, Requesting, Robot};
 use crate::task::Availability;
 
@@ -16,15 +19,35 @@ impl Robot {
     /// Whether the state is one that [`Robot::step`] can produce under `config`.
     #[must_use]
     pub fn is_valid(&self, config: &Config) -> bool {
-        // I16: every timer is within its limit; none is left due.
-        self.timers_within_limits(config)
+        self.is_consistent(config)
+            // I16: no timer is left due.
+            && self.due_timers() == 0
             // The RAM timer runs exactly while there is something to tell of a session.
             && self.ram.is_armed() == self.is_bound()
-            && self.farewell.is_none_or(|standing| standing.left.is_armed())
             // I18: the identity is locked while the robot is bound.
             && (self.identity != Identity::Unlocked) == self.is_bound()
-            && (self.identity != Identity::Expiring || matches!(self.phase, Phase::Idle))
-            && self.farewell_contradicts_nothing()
+            // I11: the corridor is open only while every required follower is engaged.
+            && match &self.phase {
+                Phase::Leading(leading) => {
+                    !leading.corridor_open || leading.corridor_obstacle(config).is_none()
+                }
+                _ => true,
+            }
+    }
+
+    /// What holds within a step too, between its parts: what is missing from it to
+    /// [`is_valid`](Self::is_valid) is what fires and what settles at the end of the step.
+    pub(crate) fn is_consistent(&self, config: &Config) -> bool {
+        // I16: every timer is within its limit.
+        self.timers_within_limits(config)
+            && self.farewell.is_none_or(|standing| standing.left.is_armed())
+            && match self.identity {
+                Identity::Unlocked => true,
+                Identity::Locked(left) => left.is_armed(),
+                Identity::Expiring => matches!(self.phase, Phase::Idle),
+            }
+            // The RAM never names the session as over that it takes part in.
+            && (self.session().is_none() || self.farewell_session() != self.session())
             && self.phase_is_valid(config)
     }
 
@@ -70,16 +93,6 @@ impl Robot {
     fn has_issued(&self, boot: u16, count: u16) -> bool {
         boot == self.boot && count < self.next_count
     }
-
-    /// The RAM never names the session as over that it takes part in.
-    fn farewell_contradicts_nothing(&self) -> bool {
-        let farewell = match self.farewell() {
-            None => None,
-            Some(Farewell::Ended(number)) => Some(self.own_session(number)),
-            Some(Farewell::Left(session)) => Some(session),
-        };
-        farewell.is_none() || farewell != self.session()
-    }
 }
 
 impl Requesting {
@@ -101,8 +114,6 @@ impl Leading {
             // I18: no two followers with the same station id.
             && all_distinct(&self.members, |member| member.station)
             && self.members.iter().all(|member| member.is_valid(config, self))
-            // I11: the corridor is open only while every required follower is engaged.
-            && (!self.corridor_open || self.corridor_obstacle(config).is_none())
     }
 }
 
@@ -114,7 +125,9 @@ impl Member {
         };
         let first = config.settings().first_request;
         self.next_request.distance_from(first) <= RequestId::MAX_PER_SESSION
-            && self.echoed.is_none_or(|echoed| !echoed.is_newer_than(leading.heartbeat))
+            && self.lease.countdown().is_armed()
+            // It echoed what this leader sent, and not so long ago that the order is in doubt.
+            && self.echoed.is_none_or(|echoed| leading.can_have_sent(echoed))
             // Commands are given only to those who have taken their role, and so is the lease.
             && (self.has_joined()
                 || (self.outstanding.is_none() && self.order.is_none() && !self.lease.stands()))
@@ -137,6 +150,7 @@ impl Following {
     fn is_valid(&self, availability: Availability) -> bool {
         // An unavailable robot executes nothing.
         (availability == Availability::Available || self.executing().is_none())
+            && self.contact.countdown().is_armed()
             // I9: once contact is lost, nothing runs until a newer command comes.
             && (!self.contact.is_lost() || self.executing().is_none())
             // I5: what was refused is newer than what was accepted.

@@ -331,3 +331,36 @@ fn a_session_is_renewed_before_half_the_request_numbers_are_used() {
         RequestId(0)
     );
 }
+
+#[test]
+fn a_session_is_not_ended_for_one_that_cannot_be_opened() {
+    let mut street = Street::new(&[ARI, GO2]);
+    // All but one of the numbers of this boot.
+    for _ in 0..u16::MAX - 1 {
+        street.step(ARI, Input::Local(Event::PedestrianDetected(escort(1))));
+        street.step(ARI, Input::Local(Event::TaskCompleted));
+        street.forget();
+    }
+    street.pass(1_000);
+    street.establish_roles(ARI, 1);
+    for _ in 0..RequestId::MAX_PER_SESSION {
+        street.tell(ARI, order(TaskType::BLOCK));
+        street.forget();
+    }
+    let ignored = street.tell(ARI, order(TaskType::BLOCK)).ignored();
+    assert_eq!(ignored, Some(Ignored::NumbersExhausted));
+    assert_eq!(street[ARI].role(), Role::Leader);
+}
+
+#[test]
+fn a_leap_of_half_the_request_numbers_is_not_newer_than_what_was_accepted() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    let unsupported = TaskType::new(9).unwrap();
+    street.hears_rmcm(GO2, command(&street, 0, TaskType::MOVE));
+    street.hears_rmcm(GO2, command(&street, 100, unsupported));
+    // Newer than the refused 100, and not newer than the accepted 0.
+    for task in [unsupported, TaskType::BLOCK] {
+        let leap = street.hears_rmcm(GO2, command(&street, 200, task));
+        assert_eq!(leap.ignored(), Some(Ignored::OldCommand));
+    }
+}

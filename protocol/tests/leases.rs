@@ -254,6 +254,38 @@ fn heartbeats_wrap_without_confusion() {
 }
 
 #[test]
+fn an_echo_from_half_the_number_space_away_was_never_sent() {
+    let mut street = Street::with_roles(&[ARI, GO2]);
+    let newest = street.leading(ARI).heartbeat;
+    let ram = echo(&street, newest.after(1 << 15).0);
+    let ignored = street.hears_ram(ARI, ram).ignored();
+    assert_eq!(ignored, Some(Ignored::EchoFromFuture));
+}
+
+#[test]
+fn a_follower_whose_echo_is_half_the_number_space_old_is_dropped() {
+    let mut street = Street::with_roles(&[ARI, GO2, SPOT]);
+    street.part(ARI, GO2);
+    street.forget();
+    // Its other timers are held back; no endpoint does that.
+    let echoed = street.leading(ARI).member(GO2).unwrap().echoed.unwrap();
+    let lag = |street: &Street| street.leading(ARI).heartbeat.distance_from(echoed);
+    while !street.has_put_out(ARI, gone(GO2)) {
+        assert!(street.leading(ARI).member(GO2).is_some());
+        assert!(u32::from(lag(&street)) < Heartbeat::HALF_SPACE);
+        street.forget();
+        street.step(ARI, Input::Expired(Timer::Ram));
+        street.step(SPOT, Input::Expired(Timer::Ram));
+    }
+    assert_eq!(u32::from(lag(&street)), Heartbeat::HALF_SPACE);
+    assert!(street.leading(ARI).member(SPOT).is_some());
+}
+
+fn gone(station: StationId) -> Output {
+    Output::Notify(Notice::FollowerGone(station, GoneReason::NoContact))
+}
+
+#[test]
 fn a_follower_that_the_leader_no_longer_lists_is_released() {
     let mut street = Street::executing(TaskType::MOVE);
     let Coordination::Leader {

@@ -221,6 +221,24 @@ fn whoever_follows_in_a_session_that_is_over_is_told_so() {
 }
 
 #[test]
+fn a_session_that_somebody_named_before_it_was_opened_is_not_named_as_over() {
+    let mut street = Street::new(&[ARI, GO2]);
+    let session = SessionId {
+        leader: ARI,
+        number: SessionNumber(street[ARI].next_number()),
+    };
+    street.hears_ram(ARI, offer_to(session));
+    assert_eq!(
+        street[ARI].farewell(),
+        Some(Farewell::Ended(session.number))
+    );
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    assert_eq!(street.session_of(ARI), session);
+    assert_eq!(street[ARI].farewell(), None);
+    assert_eq!(street[GO2].role(), Role::Helper);
+}
+
+#[test]
 fn whoever_offers_to_a_session_that_is_over_is_told_so() {
     let mut street = Street::new(&[ARI, GO2]);
     street.tell(ARI, Event::PedestrianDetected(escort(1)));

@@ -1,15 +1,21 @@
 //! `crossguard check`.
 
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_model_check::check::{Options, Progress, check};
+use crossguard_model_check::check::{Options, Progress, check, names};
 use crossguard_model_check::model::Model;
+use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::timed::{self, Figure};
+use crossguard_model_check::transitions::Transitions;
+use crossguard_model_check::{export, universe};
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
@@ -17,9 +23,12 @@ use super::{Failure, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Shipped scenarios by name, or files; all shipped ones if none is named.
+    /// Shipped scenarios by name, or files; the quick ones of the shipped if none is named.
     #[arg(value_name = "SCENARIO|FILE")]
     scenarios: Vec<String>,
+    /// Check all shipped scenarios, also those that take minutes.
+    #[arg(long, conflicts_with = "scenarios")]
+    all: bool,
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
     list: bool,
@@ -32,24 +41,60 @@ pub(super) struct Arguments {
     /// Give up a scenario after this many seconds; its verdict is then 'incomplete'.
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<u32>,
+    /// Write each counterexample to this folder: as a chart in text, Mermaid and SVG, and as JSON for
+    /// --replay.
+    #[arg(long, value_name = "FOLDER")]
+    charts: Option<PathBuf>,
+    /// Follow the run in this file, a counterexample of before, and say whether it still exists.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["export", "charts"])]
+    replay: Option<PathBuf>,
+    /// Write the state graph of the scenario instead of checking it.
+    #[arg(long, value_name = "FORMAT", requires = "output")]
+    export: Option<Format>,
+    /// The file that the state graph is written to.
+    #[arg(long, value_name = "FILE", requires = "export")]
+    output: Option<PathBuf>,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
 }
 
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Format {
+    /// A digraph of Graphviz.
+    Dot,
+    /// Aldébaran, which CADP and mCRL2 read.
+    Aut,
+}
+
 #[derive(Serialize)]
 struct Report {
     scenarios: Vec<ScenarioReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fsm_coverage: Option<Coverage>,
+}
+
+/// How much of the state diagram the scenarios reach together.
+#[derive(Serialize)]
+struct Coverage {
+    reached: usize,
+    of: usize,
+    not_reached: Vec<String>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
-    let names: Vec<&str> = if arguments.scenarios.is_empty() {
+    if let Some(file) = &arguments.replay {
+        return replay_one(arguments, file);
+    }
+    let names: Vec<&str> = if !arguments.scenarios.is_empty() {
+        arguments.scenarios.iter().map(String::as_str).collect()
+    } else if arguments.all {
         Scenario::shipped().collect()
     } else {
-        arguments.scenarios.iter().map(String::as_str).collect()
+        Scenario::quick().collect()
     };
     // All are read before any is checked: a mistake in the last one should not cost the time of the
     // others.
@@ -57,15 +102,26 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .into_iter()
         .map(Scenario::load)
         .collect::<Result<Vec<_>, _>>();
+    let scenarios = scenarios.map_err(Failure::input)?;
+    if let (Some(format), Some(file)) = (arguments.export, &arguments.output) {
+        return export_one(arguments, scenarios, format, file);
+    }
     let mut report = Report {
         scenarios: Vec::new(),
+        fsm_coverage: None,
     };
-    for scenario in scenarios.map_err(Failure::input)? {
+    for scenario in scenarios {
         let checked = check_one(arguments, scenario);
+        if let Some(folder) = &arguments.charts {
+            write_charts(&checked, folder)?;
+        }
         if !arguments.json {
             print_report(&checked)?;
         }
         report.scenarios.push(checked);
+    }
+    if arguments.scenarios.is_empty() {
+        report.fsm_coverage = Some(coverage(&report.scenarios));
     }
     if arguments.json {
         print_json(&report)?;
@@ -89,24 +145,144 @@ fn list() -> Result<(), Failure> {
     Ok(())
 }
 
-fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
+fn options(arguments: &Arguments) -> Options {
     let defaults = Options::default();
-    let options = Options {
+    Options {
         threads: arguments.threads.unwrap_or(defaults.threads),
         states_max: arguments.max_states.map(NonZeroUsize::get),
         time_max: arguments
             .timeout
             .map(|seconds| Duration::from_secs(seconds.into())),
         ..defaults
-    };
+    }
+}
+
+fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
     let bar = progress_bar(arguments.json, &scenario);
     let mut watch = |progress| show(&bar, progress);
     let report = match timed::Model::new(scenario.clone()) {
-        Some(model) => timed::check(&model, &options, &mut watch),
-        None => check(&Model::new(scenario), &options, &mut watch),
+        Some(model) => timed::check(&model, &options(arguments), &mut watch),
+        None => check(&Model::new(scenario), &options(arguments), &mut watch),
     };
     bar.finish_and_clear();
     report
+}
+
+/// A scenario for what only the untimed model can do.
+pub(super) fn untimed(scenario: Scenario) -> Result<Scenario, Failure> {
+    if scenario.timed.is_some() {
+        let name = &scenario.name;
+        return Err(Failure::input(format!(
+            "'{name}' is a timed scenario: it can be checked, and nothing else"
+        )));
+    }
+    Ok(scenario)
+}
+
+/// How much of the state diagram these scenarios reach together.
+fn coverage(scenarios: &[ScenarioReport]) -> Coverage {
+    let all = universe::explore(&universe::config()).transitions;
+    let mut taken = Transitions::default();
+    for scenario in scenarios {
+        taken.add(&scenario.transitions_taken);
+    }
+    let not_reached = all.not_in(&taken);
+    Coverage {
+        reached: all.count() - not_reached.len(),
+        of: all.count(),
+        not_reached,
+    }
+}
+
+fn export_one(
+    arguments: &Arguments,
+    scenarios: Vec<Scenario>,
+    format: Format,
+    file: &Path,
+) -> Result<(), Failure> {
+    let Ok([scenario]) = <[Scenario; 1]>::try_from(scenarios) else {
+        return Err(Failure::input("--export wants one scenario"));
+    };
+    let format = match format {
+        Format::Dot => export::Format::Dot,
+        Format::Aut => export::Format::Aut,
+    };
+    let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
+    let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
+    let model = Model::new(untimed(scenario)?);
+    let cut_off = export::export(&model, &options(arguments), format, &mut to).map_err(cannot)?;
+    to.flush().map_err(cannot)?;
+    match cut_off {
+        None => Ok(()),
+        Some(_) => Err(Failure::Incomplete),
+    }
+}
+
+fn replay_one(arguments: &Arguments, file: &Path) -> Result<(), Failure> {
+    let cannot =
+        |cause: &dyn std::fmt::Display| Failure::input(format!("{}: {cause}", file.display()));
+    let text = std::fs::read_to_string(file).map_err(|cause| cannot(&cause))?;
+    let replay: Replay = serde_json::from_str(&text).map_err(|cause| cannot(&cause))?;
+    let name = match arguments.scenarios.as_slice() {
+        [] => &replay.scenario,
+        [name] => name,
+        _ => return Err(Failure::input("--replay wants one scenario")),
+    };
+    let scenario = Scenario::load(name).map_err(Failure::input)?;
+    let model = Model::new(untimed(scenario)?);
+    let line = |step: usize| {
+        let robots = names(model.scenario());
+        format!("{}. {}", step + 1, replay.steps[step].line(&robots))
+    };
+    match replay.follow(&model) {
+        Followed::StoppedAt(step) => print(format_args!(
+            "The run of {} in {name} does not exist any more: this cannot happen now:\n  {}",
+            replay.property,
+            line(step)
+        )),
+        Followed::OtherwiseAt(step, outputs) => print(format_args!(
+            "The run of {} in {name} does not exist any more: after\n  {}\nthe robot now puts out: {}",
+            replay.property,
+            line(step),
+            outputs.join(", ")
+        )),
+        followed @ Followed::ToTheEnd(_) if replay.is_broken(&followed) => {
+            print(format_args!(
+                "The run of {} in {name} still exists as it was.",
+                replay.property
+            ))?;
+            Err(Failure::Wrong)
+        }
+        Followed::ToTheEnd(_) => print(format_args!(
+            "The run of {} in {name} exists, and does not break it any more.",
+            replay.property
+        )),
+    }
+}
+
+fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
+    for property in &report.properties {
+        let Some(chart) = report.chart(property) else {
+            continue;
+        };
+        let name = format!("{}-{}", report.name, property.id);
+        let mut forms = vec![
+            ("txt", chart.text()),
+            ("mmd", chart.mermaid()),
+            ("svg", chart.svg()),
+        ];
+        if let Some(replay) = Replay::of(report, property) {
+            let json = serde_json::to_string_pretty(&replay).map_err(Failure::input)?;
+            forms.push(("json", json));
+        }
+        for (extension, text) in forms {
+            let path = folder.join(format!("{name}.{extension}"));
+            std::fs::create_dir_all(folder)
+                .and_then(|()| std::fs::write(&path, text))
+                .map_err(|cause| Failure::input(format!("{}: {cause}", path.display())))?;
+        }
+    }
+    Ok(())
 }
 
 fn progress_bar(is_json: bool, scenario: &Scenario) -> ProgressBar {
@@ -129,7 +305,11 @@ fn show(bar: &ProgressBar, progress: Progress) {
     }
     // The slower of the two explorations says how far the check is.
     bar.set_position(progress.checked.min(progress.explored) as u64);
-    bar.set_prefix(format!("depth {}", progress.depth));
+    bar.set_prefix(format!(
+        "frontier {}, depth {}",
+        HumanCount(progress.frontier as u64),
+        progress.depth
+    ));
 }
 
 fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
@@ -173,7 +353,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
     }
     print_figures(&report.figures)?;
     for property in &report.properties {
-        print_counterexample(property)?;
+        print_counterexample(report, property)?;
     }
     print("  assuming:")?;
     for assumption in &report.assumptions {
@@ -209,16 +389,13 @@ const fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-fn print_counterexample(property: &PropertyReport) -> Result<(), Failure> {
-    if property.counterexample.is_empty() {
+fn print_counterexample(report: &ScenarioReport, property: &PropertyReport) -> Result<(), Failure> {
+    let Some(chart) = report.chart(property) else {
         return Ok(());
-    }
+    };
     print(format_args!("  {} is broken by:", property.id))?;
-    for (i, step) in property.counterexample.iter().enumerate() {
-        print(format_args!("  {:>4}. {}", i + 1, step.action))?;
-        for output in &step.outputs {
-            print(format_args!("          {output}"))?;
-        }
+    for line in chart.text().lines() {
+        print(format_args!("  {line}"))?;
     }
     Ok(())
 }
@@ -246,5 +423,15 @@ fn summarize(report: &Report) -> Result<(), Failure> {
     print(format_args!(
         "{verified} of {scenarios} scenarios verified exhaustively, {} states in all.",
         HumanCount(states as u64)
-    ))
+    ))?;
+    if let Some(coverage) = &report.fsm_coverage {
+        let Coverage { reached, of, .. } = coverage;
+        print(format_args!(
+            "{reached} of the {of} transitions of the state diagram were taken in them."
+        ))?;
+        for transition in &coverage.not_reached {
+            print(format_args!("  not taken: {transition}"))?;
+        }
+    }
+    Ok(())
 }

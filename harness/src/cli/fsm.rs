@@ -29,19 +29,16 @@ struct Transition {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let universe = universe::explore(&universe::config());
+    let transitions = universe::explore(&universe::config()).transitions;
     match arguments.format {
-        Format::Mermaid => print(fsm::diagram(&universe, fsm::Format::Mermaid).trim_end()),
-        Format::Dot => print(fsm::diagram(&universe, fsm::Format::Dot).trim_end()),
+        Format::Mermaid => print(fsm::diagram(&transitions, fsm::Format::Mermaid).trim_end()),
+        Format::Dot => print(fsm::diagram(&transitions, fsm::Format::Dot).trim_end()),
         Format::Json => {
-            let transitions = universe
-                .edges
-                .iter()
-                .map(|((from, to), labels)| Transition {
-                    from: fsm::name(*from),
-                    to: fsm::name(*to),
-                    on: labels.iter().cloned().collect(),
-                });
+            let transitions = transitions.0.iter().map(|((from, to), labels)| Transition {
+                from: fsm::name(*from),
+                to: fsm::name(*to),
+                on: labels.iter().cloned().collect(),
+            });
             print_json(&transitions.collect::<Vec<_>>())
         }
     }

@@ -286,7 +286,7 @@ impl Console<'_> {
             Some(Line::Order(tell)) => running.order(tell.into()),
             Some(Line::Wait(time)) => self.hold = Some(Hold::Time(now + time)),
             Some(Line::Until(state, time)) => self.hold = Some(Hold::State(state, now + time)),
-            Some(Line::Status) => self.say(&status(&self.robot)),
+            Some(Line::Status) => self.say(&self.robot.to_string()),
             Some(Line::Help) => self.say(HELP),
             Some(Line::Quit) => return Ok(true),
             Some(Line::Blank) | None => {}
@@ -302,17 +302,6 @@ impl Console<'_> {
             None => Ok(()),
         }
     }
-}
-
-fn status(robot: &Robot) -> String {
-    let session = robot
-        .session()
-        .map_or_else(String::new, |session| format!(", session {session}"));
-    let (state, role, availability) = (robot.state(), robot.role(), robot.availability());
-    format!(
-        "{state:?}, {role}, {availability}{session}; says: {}",
-        robot.ram()
-    )
 }
 
 /// Set when the process is told to stop.

@@ -1,6 +1,6 @@
 //! I8: the leader counts `(s,q)` as completed only if the follower finished it.
 
-use crossguard_protocol::{ManeuverId, Progress, StationId};
+use crossguard_protocol::{ManeuverId, StationId};
 
 use super::{StateRule, View};
 
@@ -9,9 +9,7 @@ pub(super) const RULE: StateRule = StateRule { holds, premise };
 fn completed<'a>(view: &View<'a>) -> impl Iterator<Item = (StationId, ManeuverId)> + use<'a> {
     view.leaders().flat_map(|(session, leading)| {
         leading.members.iter().filter_map(move |member| {
-            let order = member
-                .order
-                .filter(|order| order.progress == Some(Progress::Completed))?;
+            let order = member.order.filter(|_| member.has_completed())?;
             Some((
                 member.station,
                 ManeuverId {

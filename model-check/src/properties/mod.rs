@@ -20,6 +20,12 @@ mod i15_reboot;
 mod i16_limits;
 mod i17_independent_followers;
 mod i18_identity;
+mod l1_help_ends;
+mod l2_commands_end;
+mod l3_help_helps;
+mod l4_ended_is_left;
+mod l5_crash_is_survived;
+mod l6_requesters_agree;
 
 use std::fmt;
 use std::str::FromStr;
@@ -55,6 +61,12 @@ pub enum PropertyId {
     I16,
     I17,
     I18,
+    L1,
+    L2,
+    L3,
+    L4,
+    L5,
+    L6,
     L7,
 }
 
@@ -65,6 +77,8 @@ pub enum Kind {
     S,
     /// Of every transition.
     T,
+    /// Liveness: of every fair run.
+    L,
 }
 
 /// Something that holds of every reachable state that meets its premise.
@@ -83,9 +97,46 @@ pub(crate) struct StepRule {
     pub(crate) looks_back: bool,
 }
 
+/// Whom a liveness property speaks about, one at a time.
+#[derive(Clone, Copy)]
+pub(crate) enum Subjects {
+    /// Each robot.
+    Robots,
+    /// Each two robots, either way round.
+    Pairs,
+}
+
+/// One of them, by their places in the scenario; `other` means nothing where only one is meant.
+#[derive(Clone, Copy)]
+pub(crate) struct Subject {
+    pub(crate) robot: usize,
+    pub(crate) other: usize,
+}
+
+impl Subjects {
+    pub(crate) fn among(self, robots: usize) -> Vec<Subject> {
+        let pairs = (0..robots).flat_map(|robot| (0..robots).map(move |other| (robot, other)));
+        pairs
+            .filter(|(robot, other)| match self {
+                Self::Robots => robot == other,
+                Self::Pairs => robot != other,
+            })
+            .map(|(robot, other)| Subject { robot, other })
+            .collect()
+    }
+}
+
+/// Something that leads to something on every fair run.
+#[derive(Clone, Copy)]
+pub(crate) struct LivenessRule {
+    pub(crate) subjects: Subjects,
+    pub(crate) from: fn(&View, Subject) -> bool,
+    pub(crate) to: fn(&View, Subject) -> bool,
+}
+
 impl PropertyId {
     /// All properties, in order.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 24] = [
         Self::I1,
         Self::I2,
         Self::I3,
@@ -103,6 +154,12 @@ impl PropertyId {
         Self::I16,
         Self::I17,
         Self::I18,
+        Self::L1,
+        Self::L2,
+        Self::L3,
+        Self::L4,
+        Self::L5,
+        Self::L6,
         Self::L7,
     ];
 
@@ -111,6 +168,7 @@ impl PropertyId {
     pub const fn kind(self) -> Kind {
         match self {
             Self::I5 | Self::I7 | Self::I17 => Kind::T,
+            Self::L1 | Self::L2 | Self::L3 | Self::L4 | Self::L5 | Self::L6 => Kind::L,
             _ => Kind::S,
         }
     }
@@ -136,6 +194,12 @@ impl PropertyId {
             Self::I16 => "commands are repeated at most N_ack times",
             Self::I17 => "dropping one follower leaves the others' records unchanged",
             Self::I18 => "members of a session differ in station id; the identity is locked",
+            Self::L1 => "HelpRequested leads to RoleEstablished or Idle",
+            Self::L2 => "an outstanding command leads to acknowledged or given up",
+            Self::L3 => "where all around it cooperate, a request leads to a completed task",
+            Self::L4 => "an ended session leads to every former member being idle",
+            Self::L5 => "a leader's crash for good leads to its followers being stopped and idle",
+            Self::L6 => "two requesters at once lead to one that leads, or to both being idle",
             Self::L7 => "from every state, all robots idle can be reached",
         }
     }
@@ -159,6 +223,12 @@ impl PropertyId {
             Self::I15 => "a robot that crashed in a role has a role again",
             Self::I16 => "a command has been repeated N_ack times",
             Self::I17 => "a follower is dropped while another one stays",
+            Self::L1 => "a robot is in HelpRequested",
+            Self::L2 => "a command is outstanding",
+            Self::L3 => "a robot asks for help",
+            Self::L4 => "a robot follows in a session that nobody leads",
+            Self::L5 => "a robot follows one that has crashed for good",
+            Self::L6 => "two robots ask for help",
         })
     }
 
@@ -175,7 +245,7 @@ impl PropertyId {
             Self::I15 => Some(i15_reboot::RULE),
             Self::I16 => Some(i16_limits::RULE),
             Self::I18 => Some(i18_identity::RULE),
-            Self::I3 | Self::I4 | Self::I5 | Self::I7 | Self::I13 | Self::I17 | Self::L7 => None,
+            _ => None,
         }
     }
 
@@ -187,6 +257,18 @@ impl PropertyId {
             Self::I7 => Some(i07_stray_answer::RULE),
             Self::I13 => Some(i13_total::RULE),
             Self::I17 => Some(i17_independent_followers::RULE),
+            _ => None,
+        }
+    }
+
+    pub(crate) const fn liveness_rule(self) -> Option<LivenessRule> {
+        match self {
+            Self::L1 => Some(l1_help_ends::RULE),
+            Self::L2 => Some(l2_commands_end::RULE),
+            Self::L3 => Some(l3_help_helps::RULE),
+            Self::L4 => Some(l4_ended_is_left::RULE),
+            Self::L5 => Some(l5_crash_is_survived::RULE),
+            Self::L6 => Some(l6_requesters_agree::RULE),
             _ => None,
         }
     }
@@ -222,6 +304,12 @@ impl fmt::Display for PropertyId {
             Self::I16 => "I16",
             Self::I17 => "I17",
             Self::I18 => "I18",
+            Self::L1 => "L1",
+            Self::L2 => "L2",
+            Self::L3 => "L3",
+            Self::L4 => "L4",
+            Self::L5 => "L5",
+            Self::L6 => "L6",
             Self::L7 => "L7",
         })
     }
@@ -248,6 +336,11 @@ pub struct View<'a> {
 impl<'a> View<'a> {
     fn nodes(&self) -> impl Iterator<Item = &'a Node> + Clone + use<'a> {
         self.model.nodes(self.state)
+    }
+
+    /// The robot at this place of the scenario.
+    fn node(&self, place: usize) -> &'a Node {
+        self.model.node(self.state, place)
     }
 
     /// The robots that are up.
@@ -336,6 +429,13 @@ impl<'a> StepView<'a> {
 fn leading_of(node: &Node) -> Option<&Leading> {
     match node.robot.as_ref()?.phase() {
         Phase::Leading(leading) => Some(leading),
+        _ => None,
+    }
+}
+
+fn following_of(node: &Node) -> Option<&Following> {
+    match node.robot.as_ref()?.phase() {
+        Phase::Following(following) => Some(following),
         _ => None,
     }
 }

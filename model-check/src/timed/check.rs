@@ -8,10 +8,12 @@ use super::explore::Explored;
 use super::model::{Action, Model, State};
 use super::rules::TimedProperty;
 use super::watch::Longest;
-use crate::check::{Options, Progress};
-use crate::network::Message;
-use crate::report::{ChartStep, PropertyReport, ScenarioReport, Verdict};
+use crate::check::{Options, Progress, names};
+use crate::network::Transmission;
+use crate::report::{PropertyReport, ScenarioReport, Verdict};
 use crate::scenario::Size;
+use crate::sequence::{ChartStep, Fate, Place};
+use crate::transitions::Transitions;
 
 /// Checks a timed model. `watch` is told now and then how far it is. Of the options, the limits on
 /// states and time count; one thread explores.
@@ -29,6 +31,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
     ScenarioReport {
         name: scenario.name.clone(),
         summary: scenario.summary.clone(),
+        robots: names(scenario),
         unique_states: size.unique_states,
         transitions: explored.transitions,
         depth: size.depth,
@@ -46,6 +49,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
             .longest
             .figures(&timed.clock, &scenario.config, timed.delay),
         assumptions: assumptions(model),
+        transitions_taken: Transitions::default(),
         seconds: start.elapsed().as_secs_f64(),
     }
 }
@@ -63,6 +67,7 @@ fn rule(model: &Model, explored: &Explored, id: TimedProperty) -> PropertyReport
         verdict,
         statement: id.statement().to_owned(),
         counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
+        repeats_after: None,
     }
 }
 
@@ -78,29 +83,24 @@ fn premise(explored: &Explored, id: TimedProperty) -> Option<PropertyReport> {
         verdict,
         statement: premise.to_owned(),
         counterexample: Vec::new(),
+        repeats_after: None,
     })
 }
 
-/// A run as a chart: at each step the time, what happened, and what the robots put out.
+/// A run as a chart: what happened at which time, and what the robots put out.
 fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
     let mut state = model.initial();
     let mut actions = Vec::new();
-    let mut ticks = 0;
+    let mut time = 0;
     let mut steps = Vec::new();
     for &place in path {
         actions.clear();
         model.actions_in(&state, &mut actions);
         let action = actions[usize::from(place)];
-        ticks += u32::from(matches!(action, Action::Tick(_)));
-        let time = ticks * model.timed().clock.tick.0;
-        let outputs = model.outputs(&state, action);
-        steps.push(ChartStep {
-            action: format!("{time:>5} ms  {}", describe(model, &state, action)),
-            outputs: outputs
-                .iter()
-                .flat_map(|(i, outputs)| lines(model, *i, outputs))
-                .collect(),
-        });
+        if matches!(action, Action::Tick(_)) {
+            time += model.timed().clock.tick.0;
+        }
+        steps.extend(steps_of(model, &state, action, time));
         let Some(next) = model.successor(&state, action, &mut Longest::default()) else {
             break;
         };
@@ -109,50 +109,44 @@ fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
     steps
 }
 
-fn lines(model: &Model, robot: u8, outputs: &Outputs) -> Vec<String> {
-    let station = model.scenario().robots[usize::from(robot)].station;
-    outputs
-        .iter()
-        .map(|output| format!("{station}: {output}"))
-        .collect()
-}
-
-/// An action in words.
-fn describe(model: &Model, state: &State, action: Action) -> String {
-    let robots = &model.scenario().robots;
-    let station = |i: u8| robots[usize::from(i)].station;
-    match action {
-        Action::Tick(fast) => {
-            let clock = &model.timed().clock;
-            let shown = (0..)
-                .zip(robots)
-                .filter(|(i, _)| model.node(state, *i).robot.is_some());
-            let shown = shown.map(|(i, robot)| {
-                let elapsed = if fast & 1 << i == 0 {
-                    clock.slow
-                } else {
-                    clock.fast
-                };
-                format!("{} of {} ms", robot.station, elapsed.0)
-            });
-            format!("a tick: {}", shown.collect::<Vec<_>>().join(", "))
-        }
+/// What an action is in a chart; a tick is a step of each robot.
+fn steps_of(model: &Model, state: &State, action: Action, time: u32) -> Vec<ChartStep> {
+    let at = |robot: u8, what: String, outputs: &[String]| ChartStep {
+        place: Place::At(robot.into()),
+        action: format!("at {time} ms: {what}"),
+        outputs: outputs.to_vec(),
+    };
+    let lines = |outputs: &Outputs| outputs.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let steps = model.outputs(state, action).into_iter();
+    let step = |(robot, outputs): (u8, Outputs)| match action {
         Action::Deliver(flight) => {
-            let way = flight.transmission;
+            let Transmission { from, to, message } = flight.transmission;
             let delay = model.timed().clock.millis(flight.ticks).0;
-            let message = match model.message(way.message) {
-                Message::Ram(ram) => ram.to_string(),
-                Message::Rmcm(rmcm) => rmcm.to_string(),
+            let input = model.message(message).input();
+            let fate = if delay == 0 {
+                Fate::Arrives
+            } else {
+                Fate::ArrivesLate
             };
-            format!(
-                "{} -> {}: {message} (after {delay} ms)",
-                station(way.from),
-                station(way.to)
-            )
+            ChartStep {
+                place: Place::Between {
+                    from: from.into(),
+                    to: to.into(),
+                    fate,
+                },
+                action: format!("at {time} ms, after {delay} ms: {input}"),
+                outputs: lines(&outputs),
+            }
         }
-        Action::Local(i, event) => format!("{}: {event}", station(i)),
-        Action::Crash(i) => format!("{} crashes for good", station(i)),
-    }
+        Action::Local(_, event) => at(robot, event.to_string(), &lines(&outputs)),
+        Action::Tick(fast) => {
+            let elapsed = model.timed().clock.elapsed(fast, robot).0;
+            let what = format!("its clock shows {elapsed} ms more");
+            at(robot, what, &lines(&outputs))
+        }
+        Action::Crash(_) => at(robot, "crashes for good".to_owned(), &[]),
+    };
+    steps.map(step).collect()
 }
 
 fn assumptions(model: &Model) -> Vec<String> {

@@ -33,6 +33,16 @@ impl Clock {
         self.slow != self.fast
     }
 
+    /// What the clock of the robot at `place` shows of a tick in which the clocks of the robots in
+    /// `fast`, one bit each, are fast.
+    pub(super) const fn elapsed(&self, fast: u8, place: u8) -> Millis {
+        if fast & 1 << place == 0 {
+            self.slow
+        } else {
+            self.fast
+        }
+    }
+
     /// True time of so many ticks.
     #[must_use]
     pub const fn millis(&self, ticks: u8) -> Millis {

@@ -41,7 +41,7 @@ impl Explored {
                 (explored.depth, level_ends) = (explored.depth + 1, numbers.len());
             }
             if at % 16_384 == 0 {
-                explored.cut_off = explored.progress(model, options, start, watch);
+                explored.cut_off = explored.progress(model, options, start, waiting.len(), watch);
                 if explored.cut_off.is_some() {
                     return explored;
                 }
@@ -114,12 +114,14 @@ impl Explored {
         model: &Model,
         options: &Options,
         start: Instant,
+        frontier: usize,
         watch: &mut dyn FnMut(Progress),
     ) -> Option<CutOff> {
         let states = self.states();
         watch(Progress {
             checked: states,
             explored: states,
+            frontier,
             depth: self.depth,
             expected: model.scenario().expected.map(|size| size.unique_states),
         });

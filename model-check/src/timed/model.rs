@@ -272,12 +272,7 @@ impl Model {
         next.watch.tick();
         next.channel.tick(self.timed.delay_ticks);
         for i in (0..).take(self.scenario.robots.len()) {
-            let clock = &self.timed.clock;
-            let elapsed = if fast & 1 << i == 0 {
-                clock.slow
-            } else {
-                clock.fast
-            };
+            let elapsed = self.timed.clock.elapsed(fast, i);
             self.robot_step(next, i, Cause::Elapsed(elapsed));
         }
     }
@@ -387,17 +382,7 @@ impl Model {
         let all = (0..).take(self.scenario.robots.len());
         let causes: Vec<(u8, Cause)> = match action {
             Action::Tick(fast) => all
-                .map(|i| {
-                    let clock = &self.timed.clock;
-                    (
-                        i,
-                        Cause::Elapsed(if fast & 1 << i == 0 {
-                            clock.slow
-                        } else {
-                            clock.fast
-                        }),
-                    )
-                })
+                .map(|i| (i, Cause::Elapsed(self.timed.clock.elapsed(fast, i))))
                 .collect(),
             Action::Deliver(flight) => {
                 vec![(
@@ -406,7 +391,7 @@ impl Model {
                 )]
             }
             Action::Local(i, event) => vec![(i, Cause::Event(event))],
-            Action::Crash(_) => Vec::new(),
+            Action::Crash(i) => return vec![(i, Outputs::default())],
         };
         let outputs = |(i, cause)| Some((i, self.compute(state.nodes[usize::from(i)], cause)?.1));
         causes.into_iter().filter_map(outputs).collect()

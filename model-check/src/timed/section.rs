@@ -70,7 +70,7 @@ pub enum TimedImpossibility {
     Detectors(usize),
     /// What the timed model has no use for.
     #[error(
-        "'{0}' has no place in a timed scenario: 'delay_ms' bounds for how long messages are under way, a run begins with its one detection, and crashes are for good"
+        "'{0}' has no place in a timed scenario: 'delay_ms' bounds for how long messages are under way, messages get lost without number, a run begins with its one detection, and crashes are for good"
     )]
     Untimed(&'static str),
     /// An unknown property.
@@ -108,6 +108,7 @@ impl Section {
             ("delayed", channel.delayed),
             ("detections", bounds.detections),
             ("restarts", bounds.restarts),
+            ("losses", bounds.losses.map_or(0, |_| 1)),
         ];
         if let Some((key, _)) = without_meaning.into_iter().find(|(_, bound)| *bound > 0) {
             return Err((key, I::Untimed(key)));

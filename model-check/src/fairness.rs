@@ -1,0 +1,259 @@
+//! The graph of a model as a system under fairness: which transitions belong to which class.
+//!
+//! A robot's timer is treated *weakly* fair: an armed timer expires at some time, unless it is
+//! stopped or restarted again and again. A timer that a step restarts counts as taken in that step, so
+//! that a safety timer which heartbeats keep restarting need never expire. What becomes of a message
+//! on air is decided at some time. These hold of every robot that keeps its own time.
+//!
+//! In a cooperative scenario there is more: delivery is *strongly* fair for each way and kind of
+//! message, so that of what is sent again and again something arrives; and applications do at some
+//! time what is theirs to do.
+
+use crossguard_protocol::{Coordination, Event, StationId, Timer};
+
+use crate::fair::{Classes, Edge, Fairness, System};
+use crate::graph::Graph;
+use crate::model::{Action, Delivery, Model, State};
+use crate::network::{Message, Transmission};
+use crate::scenario::Scenario;
+
+/// Timers of which a robot has one.
+const OWN_TIMERS: u32 = 8;
+/// Timers of which a leader has one per follower.
+const TIMERS_PER_FOLLOWER: u32 = 4;
+/// Events of the application that are treated fair.
+const EVENTS: u32 = 3;
+/// Kinds of RAM that are told apart.
+const RAM_KINDS: u32 = 5;
+
+/// Numbers for the classes of a scenario's transitions.
+#[derive(Clone, Copy)]
+struct Numbers<'a> {
+    scenario: &'a Scenario,
+}
+
+impl Numbers<'_> {
+    fn robots(self) -> u32 {
+        u32::try_from(self.scenario.robots.len()).expect("at most MAX_ROBOTS")
+    }
+
+    fn timers_per_robot(self) -> u32 {
+        OWN_TIMERS + TIMERS_PER_FOLLOWER * self.robots()
+    }
+
+    fn place(self, station: StationId) -> u32 {
+        let place = self.scenario.place_of(station).expect("a robot's station");
+        u32::try_from(place).expect("at most MAX_ROBOTS")
+    }
+
+    fn timer(self, robot: u32, timer: Timer) -> Classes {
+        let of_follower =
+            |kind: u32, station| OWN_TIMERS + TIMERS_PER_FOLLOWER * self.place(station) + kind;
+        let number = match timer {
+            Timer::Safety => 0,
+            Timer::Leave => 1,
+            Timer::Help => 2,
+            Timer::Selection => 3,
+            Timer::Reservation => 4,
+            Timer::IdentityLock => 5,
+            Timer::Farewell => 6,
+            Timer::Ram => 7,
+            Timer::Lease(station) => of_follower(0, station),
+            Timer::Lost(station) => of_follower(1, station),
+            Timer::Execution(station) => of_follower(2, station),
+            Timer::Acknowledgement(station) => of_follower(3, station),
+        };
+        Classes::one(robot * self.timers_per_robot() + number)
+    }
+
+    fn all_timers(self) -> Classes {
+        let count = self.robots() * self.timers_per_robot();
+        (0..count).fold(Classes::NONE, |all, number| all | Classes::one(number))
+    }
+
+    fn on_air(self) -> u32 {
+        self.robots() * self.timers_per_robot()
+    }
+
+    fn event(self, robot: u32, event: Event) -> Option<Classes> {
+        let number = match event {
+            Event::CommandManeuver { .. } => 0,
+            Event::ManeuverCompleted(_) => 1,
+            Event::TaskCompleted => 2,
+            _ => return None,
+        };
+        Some(Classes::one(self.on_air() + 1 + robot * EVENTS + number))
+    }
+
+    fn all_events(self) -> Classes {
+        let first = self.on_air() + 1;
+        (first..first + self.robots() * EVENTS)
+            .fold(Classes::NONE, |all, number| all | Classes::one(number))
+    }
+
+    fn delivery(self, transmission: Transmission, message: &Message) -> Option<Classes> {
+        let Message::Ram(ram) = message else {
+            return None;
+        };
+        let kind = match ram.coordination {
+            Coordination::None => 0,
+            Coordination::NeedHelp { .. } => 1,
+            Coordination::OfferHelp { .. } => 2,
+            Coordination::Leader { .. } => 3,
+            Coordination::Follower { .. } => 4,
+        };
+        let way = u32::from(transmission.from) * self.robots() + u32::from(transmission.to);
+        let first = self.on_air() + 1 + self.robots() * EVENTS;
+        Some(Classes::one(first + way * RAM_KINDS + kind))
+    }
+
+    fn all_deliveries(self) -> Classes {
+        let first = self.on_air() + 1 + self.robots() * EVENTS;
+        (first..first + self.robots() * self.robots() * RAM_KINDS)
+            .fold(Classes::NONE, |all, number| all | Classes::one(number))
+    }
+}
+
+/// The graph of a model, with its classes.
+pub(crate) struct Runs<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) graph: &'a Graph,
+}
+
+impl Runs<'_> {
+    fn numbers(&self) -> Numbers<'_> {
+        Numbers {
+            scenario: self.model.scenario(),
+        }
+    }
+
+    /// What the scenario assumes.
+    pub(crate) fn fairness(&self) -> Fairness {
+        let numbers = self.numbers();
+        let own = numbers.all_timers() | Classes::one(numbers.on_air());
+        if self.model.scenario().cooperative {
+            Fairness {
+                weak: own | numbers.all_events(),
+                strong: numbers.all_deliveries(),
+            }
+        } else {
+            Fairness {
+                weak: own,
+                strong: Classes::NONE,
+            }
+        }
+    }
+
+    /// The classes that an action is enabled in where it is possible.
+    fn classes(&self, action: Action) -> Classes {
+        let numbers = self.numbers();
+        let cooperative = self.model.scenario().cooperative;
+        let on_air = Classes::one(numbers.on_air());
+        match action {
+            Action::Deliver {
+                transmission,
+                how: Delivery::AtOnce,
+            } if cooperative => {
+                let message = self.model.message(transmission.message);
+                on_air | numbers.delivery(transmission, message).unwrap_or_default()
+            }
+            Action::Deliver {
+                how: Delivery::AtOnce,
+                ..
+            }
+            | Action::Lose(_)
+            | Action::Delay(_) => on_air,
+            Action::Expire(robot, timer) => numbers.timer(robot.into(), timer),
+            Action::Local(robot, event) if cooperative => {
+                numbers.event(robot.into(), event).unwrap_or_default()
+            }
+            Action::Local(..) | Action::Deliver { .. } | Action::Crash(_) | Action::Restart(_) => {
+                Classes::NONE
+            }
+        }
+    }
+
+    /// What is enabled in a state but for messages on air, whose fate is decided first. A timer goes on
+    /// running while they are on their way.
+    fn enabled_off_air(&self, state: &State) -> Classes {
+        let mut actions = Vec::new();
+        self.model.actions_off_air(state, &mut actions);
+        let is_possible = |action: &Action| match action {
+            Action::Local(..) => self.model.successor(state, *action).is_some(),
+            _ => true,
+        };
+        actions
+            .into_iter()
+            .map(|action| (action, self.classes(action)))
+            .filter(|(action, classes)| !classes.is_empty() && is_possible(action))
+            .fold(Classes::NONE, |all, (_, classes)| all | classes)
+    }
+
+    /// Every action that is possible in a state, with the transition that it makes.
+    pub(crate) fn transitions(&self, state: u32) -> Vec<(Action, Edge)> {
+        let from = self.graph.state(state);
+        let mut actions = Vec::new();
+        self.model.actions_in(from, &mut actions);
+        actions
+            .into_iter()
+            .filter_map(|action| {
+                let (next, step) = self.model.successor(from, action)?;
+                let restarted = step.map_or(Classes::NONE, |step| {
+                    let robot = u32::try_from(step.robot).expect("at most MAX_ROBOTS");
+                    step.restarted().fold(Classes::NONE, |all, timer| {
+                        all | self.numbers().timer(robot, timer)
+                    })
+                });
+                let edge = Edge {
+                    to: self.graph.successor_number(state, &next),
+                    taken: self.classes(action) | restarted,
+                };
+                Some((action, edge))
+            })
+            .collect()
+    }
+
+    /// A run along these states, with the action that leads to the next one.
+    pub(crate) fn along(&self, stem: &[u32], cycle: &[Edge]) -> Vec<(State, Option<Action>)> {
+        let leads_to = |from: u32, to: u32, taken: Option<Classes>| {
+            self.transitions(from)
+                .into_iter()
+                .find(|(_, edge)| edge.to == to && taken.is_none_or(|taken| edge.taken == taken))
+                .map(|(action, _)| action)
+        };
+        let mut run: Vec<(State, Option<Action>)> = stem
+            .windows(2)
+            .map(|pair| {
+                let action = leads_to(pair[0], pair[1], None);
+                (self.graph.state(pair[0]).clone(), action)
+            })
+            .collect();
+        let mut at = stem[stem.len() - 1];
+        for edge in cycle {
+            let action = leads_to(at, edge.to, Some(edge.taken));
+            run.push((self.graph.state(at).clone(), action));
+            at = edge.to;
+        }
+        run.push((self.graph.state(at).clone(), None));
+        run
+    }
+}
+
+impl System for Runs<'_> {
+    fn states(&self) -> u32 {
+        u32::try_from(self.graph.states()).expect("fewer than 2^32 states")
+    }
+
+    fn expand(&self, state: u32, edges: &mut Vec<Edge>) -> Classes {
+        let mut enabled = self.enabled_off_air(self.graph.state(state));
+        for (action, edge) in self.transitions(state) {
+            enabled |= self.classes(action);
+            edges.push(edge);
+        }
+        enabled
+    }
+
+    fn run_to(&self, state: u32) -> Vec<u32> {
+        self.graph.run_to(state)
+    }
+}

@@ -1,0 +1,16 @@
+//! L1: `HelpRequested` leads to `RoleEstablished` or `Idle`.
+
+use crossguard_protocol::State;
+
+use super::{LivenessRule, Subject, Subjects, View};
+
+pub(super) const RULE: LivenessRule = LivenessRule {
+    subjects: Subjects::Robots,
+    from: in_help_requested,
+    to: |view, subject| !in_help_requested(view, subject),
+};
+
+fn in_help_requested(view: &View, Subject { robot, .. }: Subject) -> bool {
+    let robot = view.node(robot).robot.as_ref();
+    robot.is_some_and(|robot| robot.state() == State::HelpRequested)
+}

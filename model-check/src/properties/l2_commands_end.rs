@@ -1,0 +1,19 @@
+//! L2: an outstanding command leads to acknowledged or given up.
+
+use super::{LivenessRule, Subject, Subjects, View, leading_of};
+
+pub(super) const RULE: LivenessRule = LivenessRule {
+    subjects: Subjects::Pairs,
+    from: is_outstanding,
+    to: |view, subject| !is_outstanding(view, subject),
+};
+
+fn is_outstanding(view: &View, Subject { robot, other }: Subject) -> bool {
+    let scenario = view.model.scenario();
+    leading_of(view.node(robot)).is_some_and(|leading| {
+        let mut members = leading.members.iter();
+        members.any(|member| {
+            scenario.place_of(member.station) == Some(other) && member.outstanding.is_some()
+        })
+    })
+}

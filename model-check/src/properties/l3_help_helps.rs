@@ -1,0 +1,23 @@
+//! L3: if the network is reliable and a helper is available, a request leads to a completed task.
+//!
+//! What that means here is said by [`Scenario::cooperative`](crate::scenario::Scenario::cooperative).
+
+use crossguard_protocol::{Member, Phase};
+
+use super::{LivenessRule, Subject, Subjects, View, leading_of};
+
+pub(super) const RULE: LivenessRule = LivenessRule {
+    subjects: Subjects::Robots,
+    from: asks,
+    to: has_completed,
+};
+
+fn asks(view: &View, Subject { robot, .. }: Subject) -> bool {
+    let robot = view.node(robot).robot.as_ref();
+    robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
+}
+
+fn has_completed(view: &View, Subject { robot, .. }: Subject) -> bool {
+    leading_of(view.node(robot))
+        .is_some_and(|leading| leading.members.iter().any(Member::has_completed))
+}

@@ -1,0 +1,92 @@
+//! Runs in files: a counterexample that can be followed again, after the protocol has changed.
+
+use serde::{Deserialize, Serialize};
+
+use crate::check::placed;
+use crate::model::{Action, Model, State};
+use crate::properties::{Kind, PropertyId};
+use crate::report::{PropertyReport, ScenarioReport};
+use crate::sequence::ChartStep;
+
+/// A run through a scenario.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Replay {
+    /// The scenario's name.
+    pub scenario: String,
+    /// The property that it broke.
+    pub property: String,
+    /// What happens, in order.
+    pub steps: Vec<ChartStep>,
+    /// How many steps come before those that are repeated for ever, where the run is without end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repeats_after: Option<usize>,
+}
+
+/// How far a run can be followed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Followed {
+    /// What happens in this step cannot happen any more; steps are counted from 0.
+    StoppedAt(usize),
+    /// What the robot puts out in this step is something else now.
+    OtherwiseAt(usize, Vec<String>),
+    /// To the end, where these properties of states or steps are broken.
+    ToTheEnd(Vec<PropertyId>),
+}
+
+impl Replay {
+    /// The counterexample of a property; `None` where it has none, or where that is not one run: L7
+    /// speaks about all that may follow. A run of a timed scenario is followed by its chart only.
+    #[must_use]
+    pub fn of(report: &ScenarioReport, property: &PropertyReport) -> Option<Self> {
+        let is_run = !property.counterexample.is_empty() && property.id != "L7";
+        let is_run = is_run && report.figures.is_empty();
+        is_run.then(|| Self {
+            scenario: report.name.clone(),
+            property: property.id.clone(),
+            steps: property.counterexample.clone(),
+            repeats_after: property.repeats_after,
+        })
+    }
+
+    /// Whether the run still breaks its property. A liveness property is taken to be broken if the run
+    /// exists as it was.
+    #[must_use]
+    pub fn is_broken(&self, followed: &Followed) -> bool {
+        match (followed, self.property.parse::<PropertyId>()) {
+            (Followed::ToTheEnd(broken), Ok(id)) => id.kind() == Kind::L || broken.contains(&id),
+            _ => false,
+        }
+    }
+
+    /// Follows the run through a model.
+    #[must_use]
+    pub fn follow(&self, model: &Model) -> Followed {
+        let mut state = model.initial();
+        for (i, step) in self.steps.iter().enumerate() {
+            let Some((next, outputs)) = take(model, &state, step) else {
+                return Followed::StoppedAt(i);
+            };
+            if outputs != step.outputs {
+                return Followed::OtherwiseAt(i, outputs);
+            }
+            state = next;
+        }
+        let properties = model.scenario().properties.iter().copied();
+        let is_broken =
+            |id: &PropertyId| Model::breaks(&state, *id) || !model.state_rule_holds(&state, *id);
+        Followed::ToTheEnd(properties.filter(is_broken).collect())
+    }
+}
+
+/// What comes of a step, with what is put out in it; `None` where it is not possible.
+fn take(model: &Model, state: &State, step: &ChartStep) -> Option<(State, Vec<String>)> {
+    let mut actions = Vec::new();
+    model.actions_in(state, &mut actions);
+    let is_meant = |action: &Action| placed(model, *action) == (step.place, step.action.clone());
+    let (next, taken) = model.successor(state, actions.into_iter().find(is_meant)?)?;
+    let outputs = taken.map_or_else(Vec::new, |taken| {
+        taken.outputs().iter().map(ToString::to_string).collect()
+    });
+    Some((next, outputs))
+}

@@ -1,0 +1,373 @@
+//! Counterexamples as numbered sequence charts: as text, as Mermaid, as SVG.
+
+use std::fmt::Write as _;
+
+use serde::{Deserialize, Serialize};
+
+/// One step of a run.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct ChartStep {
+    /// Where in the chart it stands.
+    pub place: Place,
+    /// What happened.
+    pub action: String,
+    /// What the robot that took the step put out.
+    pub outputs: Vec<String>,
+}
+
+/// Where in a chart something stands. Robots are named by their places in the scenario, from 0.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Place {
+    /// At one robot.
+    At(usize),
+    /// On the way from one robot to another.
+    Between {
+        /// The sender.
+        from: usize,
+        /// The receiver.
+        to: usize,
+        /// What becomes of the message.
+        fate: Fate,
+    },
+}
+
+/// What becomes of a message.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Fate {
+    /// It arrives at once.
+    Arrives,
+    /// It arrives late.
+    ArrivesLate,
+    /// It arrives late, and not for the last time.
+    ArrivesLateAndAgain,
+    /// It is lost.
+    Lost,
+    /// It is delayed.
+    Delayed,
+}
+
+impl Fate {
+    const fn remark(self) -> &'static str {
+        match self {
+            Self::Arrives => "",
+            Self::ArrivesLate => " (late)",
+            Self::ArrivesLateAndAgain => " (late, and not for the last time)",
+            Self::Lost => " (lost)",
+            Self::Delayed => " (delayed)",
+        }
+    }
+
+    /// Whether the message reaches its receiver in this step.
+    const fn arrives(self) -> bool {
+        !matches!(self, Self::Lost | Self::Delayed)
+    }
+}
+
+/// A run, to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Chart<'a> {
+    /// What it shows.
+    pub title: &'a str,
+    /// The robots' names.
+    pub robots: &'a [String],
+    /// What happens, in order.
+    pub steps: &'a [ChartStep],
+    /// How many steps come before those that are repeated for ever, where the run is without end.
+    pub repeats_after: Option<usize>,
+}
+
+impl ChartStep {
+    /// What happened, in one line.
+    #[must_use]
+    pub fn line(&self, robots: &[String]) -> String {
+        match self.place {
+            Place::At(robot) => format!("{}: {}", robots[robot], self.action),
+            Place::Between { from, to, fate } => {
+                let arrow = if fate.arrives() { "->" } else { "-x" };
+                let (from, to) = (&robots[from], &robots[to]);
+                format!("{from} {arrow} {to}: {}{}", self.action, fate.remark())
+            }
+        }
+    }
+
+    /// The robot that the step is one of: the receiver of a message.
+    const fn robot(&self) -> usize {
+        match self.place {
+            Place::At(robot) | Place::Between { to: robot, .. } => robot,
+        }
+    }
+}
+
+const FOR_EVER: &str = "from here on for ever";
+const NOTHING_MORE: &str = "and then nothing happens any more";
+
+impl Chart<'_> {
+    /// What stands before the step of this number, if the run without end turns there.
+    fn turn(&self, step: usize) -> Option<&'static str> {
+        (self.repeats_after == Some(step)).then_some(if step == self.steps.len() {
+            NOTHING_MORE
+        } else {
+            FOR_EVER
+        })
+    }
+
+    /// Numbered lines.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for (i, step) in self.steps.iter().enumerate() {
+            if let Some(turn) = self.turn(i) {
+                let _ = writeln!(text, "      {turn}:");
+            }
+            let _ = writeln!(text, "{:>4}. {}", i + 1, step.line(self.robots));
+            for output in &step.outputs {
+                let _ = writeln!(text, "        {}: {output}", self.robots[step.robot()]);
+            }
+        }
+        if let Some(turn) = self.turn(self.steps.len()) {
+            let _ = writeln!(text, "      {turn}.");
+        }
+        text
+    }
+
+    /// A Mermaid sequence diagram.
+    #[must_use]
+    pub fn mermaid(&self) -> String {
+        let mut chart = "sequenceDiagram\n    autonumber\n".to_owned();
+        for (i, name) in self.robots.iter().enumerate() {
+            let _ = writeln!(chart, "    participant r{i} as {name}");
+        }
+        let everywhere = format!("r0,r{}", self.robots.len() - 1);
+        for (i, step) in self.steps.iter().enumerate() {
+            if let Some(turn) = self.turn(i) {
+                let _ = writeln!(chart, "    Note over {everywhere}: {turn}");
+            }
+            let what = escaped(&step.action);
+            let _ = match step.place {
+                Place::At(robot) => writeln!(chart, "    Note over r{robot}: {what}"),
+                Place::Between { from, to, fate } => {
+                    let arrow = match fate {
+                        Fate::Lost => "-x",
+                        Fate::Delayed => "--)",
+                        _ => "->>",
+                    };
+                    writeln!(chart, "    r{from}{arrow}r{to}: {what}{}", fate.remark())
+                }
+            };
+            if !step.outputs.is_empty() {
+                let outputs: Vec<_> = step.outputs.iter().map(|output| escaped(output)).collect();
+                let _ = writeln!(
+                    chart,
+                    "    Note over r{}: {}",
+                    step.robot(),
+                    outputs.join("<br>")
+                );
+            }
+        }
+        let last = self.turn(self.steps.len()).unwrap_or(self.title);
+        let _ = writeln!(chart, "    Note over {everywhere}: {}", escaped(last));
+        chart
+    }
+
+    /// A picture.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let mut drawing = Drawing {
+            rows: String::new(),
+            y: 60,
+        };
+        for (i, step) in self.steps.iter().enumerate() {
+            if let Some(turn) = self.turn(i) {
+                drawing.turn(turn);
+            }
+            drawing.step(i + 1, step);
+        }
+        if let Some(turn) = self.turn(self.steps.len()) {
+            drawing.turn(turn);
+        }
+        drawing.finish(self.title, self.robots)
+    }
+}
+
+/// Mermaid ends a statement at a semicolon, and takes a hash for the begin of a character's code.
+fn escaped(text: &str) -> String {
+    text.replace('#', "#35;").replace(';', "#59;")
+}
+
+/// A picture in the making, from top to bottom; in pixels.
+struct Drawing {
+    rows: String,
+    y: usize,
+}
+
+impl Drawing {
+    const LANE: usize = 420;
+    const LINE: usize = 17;
+    const STYLE: &'static str = "text{font:13px sans-serif;fill:#222;paint-order:stroke;stroke:#fff;\
+        stroke-width:4px}.name{font-weight:bold}\
+        .number{fill:#888;font-size:11px}.output{fill:#0a5}.turn{fill:#a00;font-weight:bold}\
+        line{stroke:#bbb}.message{stroke:#222;stroke-width:1.3}.lost{stroke:#c00}\
+        .delayed{stroke:#c80}.late{stroke:#06c}path{fill:none}";
+
+    const fn x(lane: usize) -> usize {
+        Self::LANE / 2 + lane * Self::LANE
+    }
+
+    fn step(&mut self, number: usize, step: &ChartStep) {
+        self.y += Self::LINE + 6;
+        let y = self.y;
+        let _ = write!(
+            self.rows,
+            "<text class='number' x='8' y='{y}'>{number}</text>"
+        );
+        match step.place {
+            Place::At(robot) => self.note("", robot, &step.action),
+            Place::Between { from, to, fate } => {
+                let text = format!("{}{}", step.action, fate.remark());
+                let middle = usize::midpoint(Self::x(from), Self::x(to));
+                let _ = write!(
+                    self.rows,
+                    "<text x='{middle}' y='{y}' text-anchor='middle'>{}</text>",
+                    markup(&text)
+                );
+                self.y += 7;
+                self.arrow(from, to, fate);
+                self.y += 4;
+            }
+        }
+        for output in &step.outputs {
+            self.y += Self::LINE;
+            self.note("output", step.robot(), output);
+        }
+        self.rows.push('\n');
+    }
+
+    fn note(&mut self, class: &str, robot: usize, text: &str) {
+        let (x, y) = (Self::x(robot), self.y);
+        let _ = write!(
+            self.rows,
+            "<text class='{class}' x='{x}' y='{y}' text-anchor='middle'>{}</text>",
+            markup(text)
+        );
+    }
+
+    /// An arrow that ends at its receiver, or before it where the message does not arrive.
+    fn arrow(&mut self, from: usize, to: usize, fate: Fate) {
+        let class = match fate {
+            Fate::Arrives => "message",
+            Fate::ArrivesLate | Fate::ArrivesLateAndAgain => "message late",
+            Fate::Lost => "message lost",
+            Fate::Delayed => "message delayed",
+        };
+        let (start, goal, y) = (Self::x(from), Self::x(to), self.y);
+        let back = |x: usize, by: usize| if goal > start { x - by } else { x + by };
+        let end = if fate.arrives() {
+            goal
+        } else {
+            back(goal, 120)
+        };
+        let tail = back(end, 8);
+        let head = match fate {
+            Fate::Lost => {
+                let (above, below) = (y - 5, y + 5);
+                format!("M{tail} {above}L{end} {below}M{tail} {below}L{end} {above}")
+            }
+            _ => format!("M{tail} {}L{end} {y}L{tail} {}", y - 5, y + 5),
+        };
+        let _ = write!(
+            self.rows,
+            "<line class='{class}' x1='{start}' y1='{y}' x2='{end}' y2='{y}'/>\
+             <path class='{class}' d='{head}'/>"
+        );
+    }
+
+    fn turn(&mut self, text: &str) {
+        self.y += Self::LINE + 8;
+        let y = self.y;
+        let _ = writeln!(self.rows, "<text class='turn' x='8' y='{y}'>{text}</text>");
+    }
+
+    fn finish(self, title: &str, robots: &[String]) -> String {
+        let (width, height) = (Self::LANE * robots.len(), self.y + 30);
+        let mut lanes = String::new();
+        for (i, name) in robots.iter().enumerate() {
+            let (x, bottom, name) = (Self::x(i), self.y + 20, markup(name));
+            let _ = writeln!(
+                lanes,
+                "<line x1='{x}' y1='56' x2='{x}' y2='{bottom}'/>\
+                 <text class='name' x='{x}' y='48' text-anchor='middle'>{name}</text>"
+            );
+        }
+        format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='{width}' height='{height}' \
+             viewBox='0 0 {width} {height}'>\n<style>{}</style>\n\
+             <rect width='100%' height='100%' fill='#fff'/>\n\
+             <text class='name' x='8' y='20'>{}</text>\n{lanes}{}</svg>\n",
+            Self::STYLE,
+            markup(title),
+            self.rows
+        )
+    }
+}
+
+fn markup(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn steps() -> Vec<ChartStep> {
+        let between = |from, to, fate| Place::Between { from, to, fate };
+        let step = |place, action: &str, outputs: &[&str]| ChartStep {
+            place,
+            action: action.to_owned(),
+            outputs: outputs.iter().map(ToString::to_string).collect(),
+        };
+        vec![
+            step(Place::At(0), "pedestrian detected", &["send RAM"]),
+            step(between(0, 1, Fate::Lost), "RAM needHelp 1#1.0", &[]),
+            step(between(1, 0, Fate::ArrivesLate), "RAM <none>; & so on", &[]),
+        ]
+    }
+
+    fn with_chart<T>(repeats_after: Option<usize>, look: impl Fn(Chart) -> T) -> T {
+        let robots = ["ARI".to_owned(), "Go2".to_owned()];
+        look(Chart {
+            title: "L1",
+            robots: &robots,
+            steps: &steps(),
+            repeats_after,
+        })
+    }
+
+    #[test]
+    fn the_text_is_numbered_and_says_what_is_repeated() {
+        let text = with_chart(Some(2), |chart| chart.text());
+        let expected = "   1. ARI: pedestrian detected\n        ARI: send RAM\n   \
+                        2. ARI -x Go2: RAM needHelp 1#1.0 (lost)\n      from here on for ever:\n   \
+                        3. Go2 -> ARI: RAM <none>; & so on (late)\n";
+        assert_eq!(text, expected);
+        let text = with_chart(Some(3), |chart| chart.text());
+        assert!(text.ends_with("and then nothing happens any more.\n"));
+    }
+
+    #[test]
+    fn in_mermaid_nothing_of_a_text_is_taken_for_syntax() {
+        let chart = with_chart(None, |chart| chart.mermaid());
+        assert!(chart.contains("    r0-xr1: RAM needHelp 1#35;1.0 (lost)\n"));
+        assert!(chart.contains("RAM <none>#59; & so on"));
+        assert!(chart.ends_with("Note over r0,r1: L1\n"));
+    }
+
+    #[test]
+    fn in_svg_nothing_of_a_text_is_taken_for_markup() {
+        let svg = with_chart(Some(1), |chart| chart.svg());
+        assert!(svg.contains("RAM &lt;none>; &amp; so on (late)"));
+        assert_eq!(svg.matches("class='turn'").count(), 1);
+        assert_eq!(svg.matches("class='message lost'").count(), 2);
+    }
+}

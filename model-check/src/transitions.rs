@@ -1,0 +1,110 @@
+//! The transitions of the state diagram that robots are seen to take.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crossguard_protocol::{Coordination, Event, Farewell, Input, Progress, Rmcm, Role, State};
+
+use crate::node::Node;
+
+/// What a robot is doing: its role and the state of the paper's model.
+pub type Mode = (Role, State);
+
+/// Which inputs have led from one mode to another.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Transitions(pub BTreeMap<(Mode, Mode), BTreeSet<String>>);
+
+impl Transitions {
+    /// Notes a step, if it leads to another mode.
+    pub(crate) fn note(&mut self, before: &Node, input: Input, after: &Node) {
+        let (from, to) = (mode(before), mode(after));
+        if from != to
+            && let Some(label) = label(input)
+        {
+            self.0.entry((from, to)).or_default().insert(label);
+        }
+    }
+
+    /// Adds the transitions of `other`.
+    pub fn add(&mut self, other: &Self) {
+        for (way, labels) in &other.0 {
+            self.0
+                .entry(*way)
+                .or_default()
+                .extend(labels.iter().cloned());
+        }
+    }
+
+    /// How many there are, each input counted.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.0.values().map(BTreeSet::len).sum()
+    }
+
+    /// Those of them that are not in `other`, as `from --> to: input`.
+    #[must_use]
+    pub fn not_in(&self, other: &Self) -> Vec<String> {
+        let name = crate::fsm::name;
+        let missing = |way: &(Mode, Mode), label: &String| {
+            other
+                .0
+                .get(way)
+                .is_none_or(|labels| !labels.contains(label))
+        };
+        self.0
+            .iter()
+            .flat_map(|(way, labels)| labels.iter().map(move |label| (way, label)))
+            .filter(|(way, label)| missing(way, label))
+            .map(|((from, to), label)| format!("{} --> {}: {label}", name(*from), name(*to)))
+            .collect()
+    }
+}
+
+fn mode(node: &Node) -> Mode {
+    node.robot
+        .as_ref()
+        .map_or((Role::None, State::Idle), |robot| {
+            (robot.role(), robot.state())
+        })
+}
+
+/// A transition's label: the kind of its input. `None` for a RAM with a farewell and more, which does
+/// two things one after the other.
+fn label(input: Input) -> Option<String> {
+    let name = |debug: String| {
+        debug
+            .split(['(', ' '])
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    Some(match input {
+        Input::Ram { ram, .. } => match (ram.coordination, ram.farewell) {
+            (part, None) => format!("RAM {}", part_name(part)),
+            (Coordination::None, Some(Farewell::Ended(_))) => "RAM ended".to_owned(),
+            (Coordination::None, Some(Farewell::Left(_))) => "RAM left".to_owned(),
+            (_, Some(_)) => return None,
+        },
+        Input::Rmcm(Rmcm::Command(_)) => "RMCM command".to_owned(),
+        Input::Rmcm(Rmcm::Answer(_)) => "RMCM acknowledgement".to_owned(),
+        Input::Elapsed(_) => "time".to_owned(),
+        Input::Expired(timer) => format!("timer {}", name(format!("{timer:?}"))),
+        Input::Local(Event::AvailabilityChanged(_)) => "unavailable".to_owned(),
+        Input::Local(event) => name(format!("{event:?}")),
+    })
+}
+
+fn part_name(coordination: Coordination) -> &'static str {
+    match coordination {
+        Coordination::None => "none",
+        Coordination::NeedHelp { .. } => "needHelp",
+        Coordination::OfferHelp { .. } => "offerHelp",
+        Coordination::Leader { .. } => "leader",
+        Coordination::Follower { last, .. } => match last.map(|last| last.progress) {
+            None => "follower",
+            Some(Progress::Executing) => "executing",
+            Some(Progress::Completed) => "completed",
+            Some(Progress::Failed(_)) => "failed",
+            Some(Progress::SafeIdle) => "safeIdle",
+        },
+    }
+}

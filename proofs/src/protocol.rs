@@ -1,0 +1,16 @@
+//! Harnesses of the laws of `crossguard-protocol`.
+//!
+//! Those of the transition function start from every valid state, whether it can be reached or not,
+//! under every configuration whose numbers are in range. Each has one kind of input in one stage.
+
+pub mod boot;
+pub mod following;
+pub mod idle;
+pub mod leading;
+pub mod lease;
+pub mod lists;
+pub mod numbers;
+pub mod offering;
+pub mod requesting;
+mod stage;
+pub mod timers;

@@ -1,0 +1,48 @@
+//! The arithmetic of leases.
+
+use crossguard_protocol::laws::arbitrary::Stage;
+use crossguard_protocol::laws::lease::{self as laws, Clocks};
+use crossguard_protocol::{Config, Heartbeat, Millis, Settings};
+
+use super::stage::any_valid;
+use crate::harness::harnesses;
+use crate::kani;
+
+/// The longest time of the harnesses, in milliseconds: a bound that keeps products small.
+const LONGEST: u32 = 65_535;
+
+fn any_time() -> u32 {
+    kani::any::<u16>().into()
+}
+
+harnesses! {
+    /// All timers and clocks up to 65 s, with the default drift.
+    #[unwind(17)]
+    #[solver(cadical)]
+    fn the_lease_ends_before_safety() {
+        let settings = Settings {
+            t_lease: Millis(any_time()),
+            delay_max: Millis(any_time()),
+            t_safety: Millis(any_time()),
+            ..Settings::default()
+        };
+        let clocks = Clocks { real: any_time(), leader: any_time(), follower: any_time() };
+        kani::assume(clocks.are_within(settings.drift_ppm));
+        laws::the_lease_ends_before_safety(&settings, clocks);
+        kani::cover!(clocks.follower > clocks.leader, "the follower's clock is ahead");
+        kani::cover!(clocks.leader > settings.t_lease.0, "the lease has ended");
+    }
+
+    /// All leaders with the default configuration, all heartbeats, up to 65 s at once.
+    #[unwind(17)]
+    #[solver(cadical)]
+    fn heartbeats_age_as_time_passes() {
+        let config = Config::default();
+        let robot = any_valid(&config, Stage::Leading, 1);
+        let (heartbeat, elapsed) = (Heartbeat(kani::any()), Millis(any_time()));
+        laws::heartbeats_age_as_time_passes(&config, &robot, heartbeat, elapsed);
+        kani::cover!(robot.next_ram().is_some_and(|left| left < elapsed), "late");
+        kani::cover!(robot.next_ram().is_some_and(|left| left > elapsed), "not yet");
+        kani::cover!(elapsed.0 == LONGEST, "the longest time");
+    }
+}

@@ -1,0 +1,53 @@
+//! Lists of up to four numbers: all lists.
+
+use crossguard_protocol::laws::lists::{self as laws, Numbers};
+
+use crate::harness::harnesses;
+use crate::kani;
+
+fn any_list() -> Numbers {
+    let length: usize = usize::from(kani::any::<u8>() % 5);
+    laws::numbers(kani::any(), length)
+}
+
+harnesses! {
+    /// All lists.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_list_holds_what_it_was_made_of() {
+        let length = usize::from(kani::any::<u8>() % 5);
+        laws::holds_what_it_was_made_of(kani::any(), length);
+        kani::cover!(length == 0, "empty");
+        kani::cover!(length == 4, "full");
+    }
+
+    /// All lists and items.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_push_appends() {
+        let (list, item) = (any_list(), kani::any());
+        laws::pushes_to_the_end(list, item);
+        kani::cover!(list.len() == 4, "full");
+        kani::cover!(list.is_empty(), "empty");
+    }
+
+    /// All lists and items.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_removal_closes_the_gap() {
+        let (list, item) = (any_list(), kani::any());
+        laws::removes_the_first(list, item);
+        kani::cover!(list.iter().any(|&present| present == item), "removed");
+        kani::cover!(!list.iter().any(|&present| present == item), "not there");
+    }
+
+    /// All sorted lists and items.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_ranked_insertion_keeps_the_best() {
+        let (list, item) = (any_list(), kani::any());
+        laws::inserts_by_rank(list, item);
+        kani::cover!(list.len() == 4, "full");
+        kani::cover!(list.is_empty(), "empty");
+    }
+}

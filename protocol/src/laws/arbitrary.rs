@@ -1,0 +1,201 @@
+//! Arbitrary configurations, states and inputs: everything that the types can hold.
+//!
+//! Nothing here makes a value valid; [`Robot::is_valid`](crate::Robot::is_valid) and [`config`]'s premise do that. Hints let
+//! a random source build values that go together: the robot is station [`ME`], in its first boot.
+
+mod input;
+mod message;
+mod state;
+
+use super::Source;
+use crate::config::{Config, Inequality, Settings};
+use crate::id::{
+    Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, SessionNumber, StationId,
+    UniqueNumber,
+};
+use crate::list::List;
+use crate::task::{
+    Availability, FallbackPolicy, HelpRequest, TaskSet, TaskType, Unavailability, Urgency,
+};
+use crate::time::Millis;
+
+pub use input::{Happening, Kind, event, input, timer};
+pub use message::{answer, command, ram};
+pub use state::{Stage, robot};
+
+/// The station id that hints give the robot.
+pub const ME: u32 = 1;
+/// The station id that hints give its first peer; the others follow.
+pub const PEER: u32 = 2;
+/// The boot counter that hints give.
+const BOOT: u16 = 1;
+/// The heartbeat that hints give.
+const HEARTBEAT: u16 = 3;
+/// The request number that hints give.
+const REQUEST: u8 = 1;
+
+/// A configuration in which every timer is within its range, so are the repeats and the drift, and a
+/// farewell fits under the identity lock. The other inequalities may be broken: a law that holds here holds for every [`Config`].
+///
+/// `None` where a number is out of its range.
+pub fn config(source: &mut impl Source) -> Option<Config> {
+    let hints = Settings::default();
+    let mut time = |hint: Millis| Millis(source.number(u32::MAX, hint.0));
+    let settings = Settings {
+        ram_period: time(hints.ram_period),
+        t_select: time(hints.t_select),
+        t_offer: time(hints.t_offer),
+        t_help: time(hints.t_help),
+        t_ack: time(hints.t_ack),
+        t_safety: time(hints.t_safety),
+        t_lease: time(hints.t_lease),
+        t_leave: time(hints.t_leave),
+        t_farewell: time(hints.t_farewell),
+        t_lock: time(hints.t_lock),
+        delay_max: time(hints.delay_max),
+        t_exec: hints.t_exec.map(time),
+        n_ack: source.u8(hints.n_ack),
+        drift_ppm: source.number(u32::MAX, hints.drift_ppm),
+        capabilities: task_set(source),
+        guarding: task_set(source),
+        fallback: hints.fallback.map(|_| fallback_policy(source)),
+        first_request: RequestId(source.u8(REQUEST)),
+        first_heartbeat: Heartbeat(source.u16(0)),
+    };
+    let ranges = [
+        Inequality::TimerInRange,
+        Inequality::RepeatsInRange,
+        Inequality::DriftInRange,
+    ];
+    let within = ranges.iter().all(|range| range.holds(&settings))
+        // Part of `LockOutlastsTask`.
+        && settings.t_farewell < settings.t_lock;
+    within.then_some(Config::unchecked(settings))
+}
+
+/// One of `choices` alternatives, counted from 0.
+fn choice(source: &mut impl Source, choices: u32) -> u32 {
+    source.number(choices - 1, choices)
+}
+
+/// A value, or none.
+fn option<S: Source, T>(source: &mut S, value: impl FnOnce(&mut S) -> T) -> Option<T> {
+    likely(source, None, value)
+}
+
+/// A value, or none, which the hint says to be more interesting.
+fn likely<S: Source, T>(
+    source: &mut S,
+    hint: Option<bool>,
+    value: impl FnOnce(&mut S) -> T,
+) -> Option<T> {
+    source.likely(hint).then(|| value(source))
+}
+
+/// A list of at most `max` items, without gaps.
+fn list<S: Source, T: Copy, const N: usize>(
+    source: &mut S,
+    max: usize,
+    item: impl Fn(&mut S, u32) -> T,
+) -> List<T, N> {
+    let mut items = [None; N];
+    let mut goes_on = true;
+    for (i, slot) in (0..).zip(items.iter_mut().take(max)) {
+        goes_on &= source.likely((i == 0).then_some(true));
+        if goes_on {
+            *slot = Some(item(source, i));
+        }
+    }
+    List::of_slots(items)
+}
+
+fn station(source: &mut impl Source, hint: u32) -> StationId {
+    StationId(source.number(u32::MAX, hint))
+}
+
+fn number(source: &mut impl Source) -> UniqueNumber {
+    UniqueNumber {
+        boot: source.u16(BOOT),
+        count: source.u16(0),
+    }
+}
+
+fn session(source: &mut impl Source, leader: u32) -> SessionId {
+    SessionId {
+        leader: station(source, leader),
+        number: session_number(source),
+    }
+}
+
+fn session_number(source: &mut impl Source) -> SessionNumber {
+    SessionNumber(number(source))
+}
+
+fn offer_number(source: &mut impl Source) -> OfferNumber {
+    OfferNumber(number(source))
+}
+
+fn heartbeat(source: &mut impl Source) -> Heartbeat {
+    Heartbeat(source.u16(HEARTBEAT))
+}
+
+fn request_id(source: &mut impl Source) -> RequestId {
+    RequestId(source.u8(REQUEST))
+}
+
+fn maneuver_id(source: &mut impl Source) -> ManeuverId {
+    ManeuverId {
+        session: session(source, PEER),
+        request: request_id(source),
+    }
+}
+
+fn task(source: &mut impl Source) -> TaskType {
+    // There are 16 task types, so the default is never taken.
+    u8::try_from(choice(source, 16))
+        .ok()
+        .and_then(TaskType::new)
+        .unwrap_or(TaskType::MOVE)
+}
+
+fn task_set(source: &mut impl Source) -> TaskSet {
+    TaskSet(source.u16(0b111))
+}
+
+fn help_request(source: &mut impl Source) -> HelpRequest {
+    HelpRequest {
+        urgency: match choice(source, 4) {
+            0 => Urgency::Low,
+            1 => Urgency::Medium,
+            2 => Urgency::High,
+            _ => Urgency::Emergency,
+        },
+        followers: source.u8(3),
+        tasks: task_set(source),
+    }
+}
+
+fn unavailability(source: &mut impl Source) -> Unavailability {
+    match choice(source, 5) {
+        0 => Unavailability::LowBattery,
+        1 => Unavailability::Teleoperated,
+        2 => Unavailability::EmergencyStop,
+        3 => Unavailability::LocalFault,
+        _ => Unavailability::NotSafe,
+    }
+}
+
+fn availability(source: &mut impl Source) -> Availability {
+    match source.number(1, 0) {
+        0 => Availability::Available,
+        _ => Availability::Unavailable(unavailability(source)),
+    }
+}
+
+fn fallback_policy(source: &mut impl Source) -> FallbackPolicy {
+    match choice(source, 3) {
+        0 => FallbackPolicy::StopInPlace,
+        1 => FallbackPolicy::GoToSafePosition,
+        _ => FallbackPolicy::HoldUntilClear,
+    }
+}

@@ -1,0 +1,147 @@
+//! Arbitrary inputs, by kind.
+
+use super::{
+    ME, PEER, Source, answer, availability, choice, command, help_request, maneuver_id, ram,
+    station, task,
+};
+use crate::input::{Decimetres, Event, Input, Timer};
+use crate::message::Rmcm;
+use crate::time::Millis;
+
+/// The kinds of inputs, one for each way through the transition function.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// A RAM of a robot without a part in a session.
+    RamNone,
+    /// A RAM that asks for help.
+    RamNeedHelp,
+    /// A RAM that offers help.
+    RamOfferHelp,
+    /// A RAM of a leader.
+    RamLeader,
+    /// A RAM of a follower.
+    RamFollower,
+    /// A command.
+    Command,
+    /// An answer to a command.
+    Answer,
+    /// Elapsed time.
+    Elapsed,
+    /// The expiry of a timer.
+    Expired,
+    /// An event of the application.
+    Local(Happening),
+}
+
+/// The kinds of events.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Happening {
+    /// [`Event::PedestrianDetected`].
+    PedestrianDetected,
+    /// [`Event::CommandManeuver`].
+    CommandManeuver,
+    /// [`Event::ManeuverCompleted`] or [`Event::ManeuverFailed`].
+    ManeuverEnded,
+    /// [`Event::TaskCompleted`] or [`Event::LeaveRequested`].
+    SessionEnded,
+    /// [`Event::AvailabilityChanged`].
+    AvailabilityChanged,
+    /// [`Event::OpenCorridor`] or [`Event::CloseCorridor`].
+    Corridor,
+    /// [`Event::IdentityChanged`].
+    IdentityChanged,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 16] = [
+        Self::RamNone,
+        Self::RamNeedHelp,
+        Self::RamOfferHelp,
+        Self::RamLeader,
+        Self::RamFollower,
+        Self::Command,
+        Self::Answer,
+        Self::Elapsed,
+        Self::Expired,
+        Self::Local(Happening::PedestrianDetected),
+        Self::Local(Happening::CommandManeuver),
+        Self::Local(Happening::ManeuverEnded),
+        Self::Local(Happening::SessionEnded),
+        Self::Local(Happening::AvailabilityChanged),
+        Self::Local(Happening::Corridor),
+        Self::Local(Happening::IdentityChanged),
+    ];
+}
+
+/// Any input of this kind.
+pub fn input(source: &mut impl Source, kind: Kind) -> Input {
+    let part = match kind {
+        Kind::RamNone => 0,
+        Kind::RamNeedHelp => 1,
+        Kind::RamOfferHelp => 2,
+        Kind::RamLeader => 3,
+        Kind::RamFollower => 4,
+        Kind::Command => return Input::Rmcm(Rmcm::Command(command(source))),
+        Kind::Answer => return Input::Rmcm(Rmcm::Answer(answer(source))),
+        Kind::Elapsed => return Input::Elapsed(Millis(source.number(u32::MAX, 100))),
+        Kind::Expired => return Input::Expired(timer(source)),
+        Kind::Local(happening) => return Input::Local(event(source, happening)),
+    };
+    Input::Ram {
+        ram: ram(source, part),
+        distance: Decimetres(source.u16(40)),
+    }
+}
+
+/// Any event of this kind.
+pub fn event(source: &mut impl Source, happening: Happening) -> Event {
+    match happening {
+        Happening::PedestrianDetected => Event::PedestrianDetected(help_request(source)),
+        Happening::CommandManeuver => Event::CommandManeuver {
+            follower: station(source, PEER),
+            task: task(source),
+        },
+        Happening::ManeuverEnded => {
+            if source.flag() {
+                Event::ManeuverFailed(maneuver_id(source))
+            } else {
+                Event::ManeuverCompleted(maneuver_id(source))
+            }
+        }
+        Happening::SessionEnded => {
+            if source.flag() {
+                Event::LeaveRequested
+            } else {
+                Event::TaskCompleted
+            }
+        }
+        Happening::AvailabilityChanged => Event::AvailabilityChanged(availability(source)),
+        Happening::Corridor => {
+            if source.flag() {
+                Event::CloseCorridor
+            } else {
+                Event::OpenCorridor
+            }
+        }
+        Happening::IdentityChanged => Event::IdentityChanged(station(source, ME)),
+    }
+}
+
+/// Any timer.
+pub fn timer(source: &mut impl Source) -> Timer {
+    match choice(source, 12) {
+        0 => Timer::Safety,
+        1 => Timer::Leave,
+        2 => Timer::Lease(station(source, PEER)),
+        3 => Timer::Lost(station(source, PEER)),
+        4 => Timer::Execution(station(source, PEER)),
+        5 => Timer::Acknowledgement(station(source, PEER)),
+        6 => Timer::Help,
+        7 => Timer::Selection,
+        8 => Timer::Reservation,
+        9 => Timer::IdentityLock,
+        10 => Timer::Farewell,
+        _ => Timer::Ram,
+    }
+}

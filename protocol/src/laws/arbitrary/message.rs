@@ -1,0 +1,115 @@
+//! Arbitrary messages.
+
+use super::{
+    ME, PEER, Source, choice, heartbeat, help_request, list, number, offer_number, option,
+    request_id, session, session_number, station, task, task_set, unavailability,
+};
+use crate::MAX_FOLLOWERS;
+use crate::id::SessionNumber;
+use crate::message::{
+    Answer, Command, Confirmation, Coordination, Failure, Farewell, Progress, Ram, Rejection,
+    Report, Verdict,
+};
+
+/// A RAM whose part in a session is of this kind: 0 none, 1 `needHelp`, 2 `offerHelp`, 3 leader, 4
+/// follower.
+pub fn ram(source: &mut impl Source, kind: u32) -> Ram {
+    let station = station(source, PEER);
+    Ram {
+        station,
+        coordination: coordination(source, kind),
+        farewell: option(source, |s| farewell(s, PEER)),
+    }
+}
+
+fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
+    match kind {
+        0 => Coordination::None,
+        1 => Coordination::NeedHelp {
+            number: session_number(source),
+            request: help_request(source),
+        },
+        2 => Coordination::OfferHelp {
+            session: session(source, ME),
+            offer: offer_number(source),
+            capabilities: task_set(source),
+        },
+        3 => Coordination::Leader {
+            number: session_number(source),
+            heartbeat: heartbeat(source),
+            followers: list(source, MAX_FOLLOWERS, |s, i| Confirmation {
+                station: station(s, ME + i),
+                offer: offer_number(s),
+            }),
+        },
+        _ => Coordination::Follower {
+            session: session(source, ME),
+            echo: heartbeat(source),
+            last: option(source, |s| Report {
+                request: request_id(s),
+                progress: progress(s, u32::MAX),
+            }),
+        },
+    }
+}
+
+/// A farewell; hints let a message name the session of `leader`.
+pub(super) fn farewell(source: &mut impl Source, leader: u32) -> Farewell {
+    if source.flag() {
+        Farewell::Left(session(source, if leader == PEER { ME } else { PEER }))
+    } else {
+        Farewell::Ended(SessionNumber(number(source)))
+    }
+}
+
+/// The hint for [`Progress::Executing`].
+pub(super) const EXECUTING: u32 = 0;
+
+pub(super) fn progress(source: &mut impl Source, hint: u32) -> Progress {
+    match source.number(3, hint) {
+        EXECUTING => Progress::Executing,
+        1 => Progress::Completed,
+        2 => Progress::Failed(failure(source)),
+        _ => Progress::SafeIdle,
+    }
+}
+
+fn failure(source: &mut impl Source) -> Failure {
+    match choice(source, 3) {
+        0 => Failure::Maneuver,
+        1 => Failure::Unavailable(unavailability(source)),
+        _ => Failure::ExecutionLimit,
+    }
+}
+
+pub(super) fn rejection(source: &mut impl Source) -> Rejection {
+    if source.flag() {
+        Rejection::Unavailable(unavailability(source))
+    } else {
+        Rejection::UnsupportedTask
+    }
+}
+
+/// A command.
+pub fn command(source: &mut impl Source) -> Command {
+    Command {
+        session: session(source, PEER),
+        to: station(source, ME),
+        request: request_id(source),
+        task: task(source),
+    }
+}
+
+/// An answer.
+pub fn answer(source: &mut impl Source) -> Answer {
+    Answer {
+        from: station(source, PEER),
+        session: session(source, ME),
+        request: request_id(source),
+        verdict: if source.flag() {
+            Verdict::Rejected(rejection(source))
+        } else {
+            Verdict::Accepted
+        },
+    }
+}

@@ -1,0 +1,205 @@
+//! Arbitrary states, valid or not.
+
+use super::message::{EXECUTING, farewell, progress, rejection};
+use super::{
+    BOOT, ME, PEER, REQUEST, Source, availability, choice, heartbeat, help_request, likely, list,
+    number, offer_number, option, request_id, session, session_number, station, task, task_set,
+};
+use crate::config::Config;
+use crate::id::{OfferNumber, RequestId, SessionNumber, StationId};
+use crate::input::Decimetres;
+use crate::message::Progress;
+use crate::state::{
+    Contact, Following, Identity, Job, Leading, Lease, Member, Offer, Offering, Order, Outstanding,
+    Phase, Refusal, Requesting, Robot, StandingFarewell,
+};
+use crate::task::HelpRequest;
+use crate::time::{Countdown, Millis};
+
+/// The stages of a robot, which are the variants of [`Phase`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Stage {
+    /// [`Phase::Idle`].
+    Idle,
+    /// [`Phase::Requesting`].
+    Requesting,
+    /// [`Phase::Offering`].
+    Offering,
+    /// [`Phase::Leading`].
+    Leading,
+    /// [`Phase::Following`].
+    Following,
+}
+
+impl Stage {
+    /// All stages.
+    pub const ALL: [Self; 5] = [
+        Self::Idle,
+        Self::Requesting,
+        Self::Offering,
+        Self::Leading,
+        Self::Following,
+    ];
+}
+
+/// Any state in this stage, with at most `peers` offers or followers. `config` is for hints.
+pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: usize) -> Robot {
+    let settings = config.settings();
+    Robot {
+        station: station(source, ME),
+        boot: source.u16(BOOT),
+        next_count: source.u16(BOOT),
+        availability: availability(source),
+        identity: match choice(source, 3) {
+            0 => Identity::Unlocked,
+            1 => Identity::Locked(countdown(source, config.t_lock_session())),
+            _ => Identity::Expiring,
+        },
+        ram: armed_or_off(source, settings.ram_period),
+        farewell: option(source, |s| StandingFarewell {
+            farewell: farewell(s, ME),
+            left: countdown(s, settings.t_farewell),
+        }),
+        phase: phase(source, config, stage, peers),
+    }
+}
+
+/// Any countdown. Hints keep it within `limit`.
+fn countdown(source: &mut impl Source, limit: Millis) -> Countdown {
+    let hint = source.number(limit.0, limit.0);
+    let left = source.number(u32::MAX, hint);
+    Countdown::from(Some(left).filter(|&left| left < u32::MAX))
+}
+
+/// Any countdown, often off.
+fn armed_or_off(source: &mut impl Source, limit: Millis) -> Countdown {
+    armed_if(source, None, limit)
+}
+
+/// Any countdown, off more often where the hint says so.
+fn armed_if(source: &mut impl Source, hint: Option<bool>, limit: Millis) -> Countdown {
+    let armed = countdown(source, limit);
+    if source.likely(hint) {
+        armed
+    } else {
+        Countdown::OFF
+    }
+}
+
+fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: usize) -> Phase {
+    let settings = config.settings();
+    match stage {
+        Stage::Idle => Phase::Idle,
+        Stage::Requesting => Phase::Requesting(Requesting {
+            number: SessionNumber(number(source)),
+            request: help_request(source),
+            offers: list(source, peers, |s, i| offer(s, PEER + i)),
+            help: countdown(source, settings.t_help),
+            selection: armed_or_off(source, settings.t_select),
+        }),
+        Stage::Offering => Phase::Offering(Offering {
+            session: session(source, PEER),
+            number: OfferNumber(number(source)),
+            capabilities: task_set(source),
+            reservation: countdown(source, settings.t_offer),
+        }),
+        Stage::Leading => Phase::Leading(leading(source, config, peers)),
+        Stage::Following => Phase::Following(following(source, config)),
+    }
+}
+
+fn offer(source: &mut impl Source, hint: u32) -> Offer {
+    Offer {
+        station: station(source, hint),
+        number: offer_number(source),
+        capabilities: task_set(source),
+        distance: Decimetres(source.u16(u16::try_from(hint).unwrap_or(0))),
+    }
+}
+
+fn leading(source: &mut impl Source, config: &Config, peers: usize) -> Leading {
+    // Hints: that all followers are engaged, so that the corridor can be open.
+    let engaged = source.flag();
+    let members = list(source, peers, |s, i| member(s, config, PEER + i, engaged));
+    let followers = u8::try_from(members.len()).unwrap_or(1);
+    Leading {
+        number: session_number(source),
+        request: HelpRequest {
+            followers: source.u8(followers),
+            ..help_request(source)
+        },
+        heartbeat: heartbeat(source),
+        members,
+        corridor_open: source.likely((!engaged).then_some(false)),
+    }
+}
+
+fn member(source: &mut impl Source, config: &Config, hint: u32, engaged: bool) -> Member {
+    let settings = config.settings();
+    let station: StationId = station(source, hint);
+    let echoed = likely(source, engaged.then_some(true), heartbeat);
+    // Who has not joined has no lease and no command.
+    let unless_joined = echoed.is_none().then_some(false);
+    let if_engaged = unless_joined.or(engaged.then_some(true));
+    let unless_engaged = unless_joined.or(engaged.then_some(false));
+    // The number space is used up now and then.
+    let used = if source.likely(Some(false)) {
+        RequestId::MAX_PER_SESSION
+    } else {
+        1
+    };
+    Member {
+        station,
+        offer: offer_number(source),
+        echoed,
+        lease: if source.likely(if_engaged) {
+            Lease::Stands(countdown(source, settings.t_lease))
+        } else {
+            Lease::Expired(countdown(source, config.t_lost()))
+        },
+        next_request: RequestId(source.u8(REQUEST + used)),
+        outstanding: likely(source, unless_engaged, |s| Outstanding {
+            request: request_id(s),
+            task: task(s),
+            repeats: s.u8(settings.n_ack.saturating_sub(1)),
+            acknowledgement: countdown(s, settings.t_ack),
+        }),
+        order: likely(source, if_engaged, |s| order(s, config, engaged)),
+    }
+}
+
+fn order(source: &mut impl Source, config: &Config, engaged: bool) -> Order {
+    let (request, task) = (RequestId(source.u8(REQUEST)), task(source));
+    let hint = if engaged { EXECUTING } else { u32::MAX };
+    let progress = option(source, |s| progress(s, hint));
+    let is_running = progress.is_none_or(Progress::is_running);
+    Order {
+        request,
+        task,
+        progress,
+        execution: armed_if(source, Some(is_running), config.t_exec(task)),
+    }
+}
+
+fn following(source: &mut impl Source, config: &Config) -> Following {
+    let settings = config.settings();
+    Following {
+        session: session(source, PEER),
+        offer: offer_number(source),
+        heard: heartbeat(source),
+        contact: if source.flag() {
+            Contact::Lost(countdown(source, settings.t_leave))
+        } else {
+            Contact::Fresh(countdown(source, settings.t_safety))
+        },
+        job: option(source, |s| Job {
+            request: request_id(s),
+            task: task(s),
+            progress: progress(s, u32::MAX),
+        }),
+        refused: option(source, |s| Refusal {
+            request: request_id(s).next(),
+            reason: rejection(s),
+        }),
+    }
+}

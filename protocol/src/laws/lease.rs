@@ -1,0 +1,94 @@
+//! Laws of the lease: the arithmetic under the lease theorem (property I10).
+//!
+//! What one step does with leases and contact is among the laws of [`steps`](super::steps).
+
+use crate::config::{Config, Inequality, Settings};
+use crate::id::Heartbeat;
+use crate::input::Timer;
+use crate::state::{Phase, Robot};
+use crate::time::Millis;
+
+use super::timers::fire;
+
+/// How far two clocks have come since the leader sent a heartbeat, all in milliseconds.
+#[derive(Clone, Copy, Debug)]
+pub struct Clocks {
+    /// True time.
+    pub real: u32,
+    /// By the leader's clock, which counts the lease.
+    pub leader: u32,
+    /// By the follower's clock, which counts `T_safety`. It hears the heartbeat later than it was
+    /// sent, so this is the most that it can have counted.
+    pub follower: u32,
+}
+
+impl Clocks {
+    /// Whether both clocks are within `drift_ppm` of true time, to the millisecond that they count.
+    #[must_use]
+    pub fn are_within(self, drift_ppm: u32) -> bool {
+        let within = |clock: u32| {
+            let (clock, real) = (u64::from(clock) * 1_000_000, u64::from(self.real));
+            let drift = u64::from(drift_ppm);
+            clock <= real * (1_000_000 + drift) && clock >= real * (1_000_000 - drift)
+        };
+        within(self.leader) && within(self.follower)
+    }
+}
+
+/// While the lease stands, and for as long as the endpoint may be late to say that it does not, the
+/// follower's `T_safety` has not run out, whatever the two clocks do.
+///
+/// The premise is [`Inequality::LeaseWithinSafety`].
+pub fn the_lease_ends_before_safety(settings: &Settings, clocks: Clocks) {
+    let premise = [
+        Inequality::TimerInRange,
+        Inequality::DriftInRange,
+        Inequality::LeaseWithinSafety,
+    ]
+    .iter()
+    .all(|inequality| inequality.holds(settings));
+    if !premise || !clocks.are_within(settings.drift_ppm) {
+        return;
+    }
+    let lease_ends = settings.t_lease.saturating_add(settings.delay_max);
+    if Millis(clocks.leader) <= lease_ends {
+        assert!(Millis(clocks.follower) < settings.t_safety);
+    }
+}
+
+/// The age of a heartbeat grows exactly as time passes, also when the RAM of several periods are
+/// late: so a lease that starts with it is never too long, and never loses time.
+///
+/// `robot` is a leader whose followers are not out of order.
+pub fn heartbeats_age_as_time_passes(
+    config: &Config,
+    robot: &Robot,
+    heartbeat: Heartbeat,
+    elapsed: Millis,
+) {
+    let (Some(before), Some(left)) = (age_of(config, robot, heartbeat), robot.next_ram()) else {
+        return;
+    };
+    let mut after = robot.clone();
+    after.advance(elapsed);
+    if after.next_ram() == Some(Millis::ZERO) {
+        after = fire(config, &after, Timer::Ram, elapsed.saturating_sub(left)).after;
+    }
+    let Some(age) = age_of(config, &after, heartbeat) else {
+        return;
+    };
+    // Up to the age that the number space can tell.
+    let period = config.settings().ram_period;
+    let longest = u64::from(u16::MAX) * u64::from(period.0);
+    let expected = u64::from(before.0) + u64::from(elapsed.0);
+    if expected < longest {
+        assert!(u64::from(age.0) == expected);
+    }
+}
+
+fn age_of(config: &Config, robot: &Robot, heartbeat: Heartbeat) -> Option<Millis> {
+    match robot.phase() {
+        Phase::Leading(leading) => Some(leading.age_of(config, heartbeat, robot.next_ram()?)),
+        _ => None,
+    }
+}
