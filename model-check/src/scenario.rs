@@ -415,10 +415,10 @@ impl File {
 /// The properties of these names.
 fn all_named<P>(
     names: &[toml::Spanned<String>],
-    named: impl Fn(&str) -> Result<P, Impossibility>,
+    parse: impl Fn(&str) -> Result<P, Impossibility>,
 ) -> Result<Vec<P>, Located> {
     let property = |name: &toml::Spanned<String>| {
-        named(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
+        parse(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
     };
     names.iter().map(property).collect()
 }
