@@ -24,7 +24,7 @@ pub struct ScenarioReport {
     /// Time for both explorations.
     pub seconds: f64,
     /// Whether every reachable state was visited, by stateright and by the kit's own exploration,
-    /// and both found the same number.
+    /// and both found the same number. A timed scenario is explored by the latter alone.
     pub exhaustive: bool,
     /// Why it was not, where it was not.
     #[serde(skip_serializing_if = "Option::is_none")]

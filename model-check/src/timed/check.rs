@@ -174,10 +174,11 @@ fn assumptions(model: &Model) -> Vec<String> {
             timed.delay.0,
         ),
         format!("at most: {}; one failure in a run, after the request", scenario.bounds),
-        "maneuvers last longer than a run, and no application ends a session or closes the corridor"
+        "applications command, and open the corridor, as soon as they may; none ends a session or closes the corridor, and no maneuver ends by itself"
             .to_owned(),
         "no run lasts as long as T_lock or T_exec".to_owned(),
         "figures and bounds are true time, and of these timers; a crash stops the robot's body".to_owned(),
+        "one exploration, by the kit itself, which tells states apart exactly".to_owned(),
         "heartbeats are counted from the oldest one in a state; states that differ in the names of sessions and offers alone count as one"
             .to_owned(),
     ]

@@ -27,6 +27,10 @@
 //!   leaves out nothing.
 //! - *Timers that are held.* The identity lock and `T_exec` last longer than anything that is
 //!   measured, and are held at their start: no run is as long as they are.
+//! - *Repeated messages.* The same message sent anew while it is still under way is one message, sent
+//!   last. Nothing is delivered twice; the untimed model does that.
+//! - *Applications* do at once what they may: command, open the corridor. That loses nothing of the
+//!   figures: a corridor that opens later is not open longer.
 //! - *Heartbeats* are counted from the oldest that occurs in a state, which keeps their distances.
 
 mod channel;
