@@ -20,6 +20,7 @@
 mod generated;
 mod view;
 
+pub use crate::uper::{Decoded, decode, encode};
 pub use generated::{
     crossguard_cdd as cdd, crossguard_common as common, crossguard_ram as ram,
     crossguard_rmcm as rmcm, crossguard_vam as vam,

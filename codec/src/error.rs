@@ -6,6 +6,7 @@ use crossguard_protocol::{MAX_FOLLOWERS, SessionId, StationId};
 use thiserror::Error;
 
 use crate::asn1::ram::HelpStatus;
+use crate::core::{self, Fault, Uper};
 use crate::state::TaskProgression;
 
 /// Why octets are not a message.
@@ -70,54 +71,23 @@ pub enum DecodeError {
     /// The message breaks a rule that its encoding does not show.
     #[error(transparent)]
     Rule(#[from] BrokenRule),
+    /// The core takes the message and the reference does not, which differential tests exclude.
+    #[error("core and reference disagree on the message")]
+    Disagreement,
 }
 
-/// What is wrong with the bits of a field.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
-#[non_exhaustive]
-pub enum Fault {
-    /// The message ends too early.
-    #[error("the message ends within it")]
-    Truncated,
-    /// A number that the type does not have.
-    #[error("{number} is not within {min}..{max}")]
-    Value {
-        /// The number.
-        number: i128,
-        /// The smallest one of the type.
-        min: i128,
-        /// The largest one of the type.
-        max: i128,
-    },
-    /// A list or string of a size that the type does not have.
-    #[error("its size is not within {min}..{max}")]
-    Size {
-        /// The smallest size of the type.
-        min: usize,
-        /// The largest size of the type.
-        max: usize,
-    },
-    /// A size or number behind an extension marker; this crate uses only those before it.
-    #[error("its size or value is behind an extension marker, which is not supported")]
-    BeyondRoot,
-    /// An alternative of a CHOICE or ENUMERATED that this crate does not know; a newer one may.
-    #[error("its alternative is unknown")]
-    UnknownAlternative,
-    /// A length that is zero, has a shorter form, or does not fit what it is the length of.
-    #[error("its length determinant is wrong")]
-    Length,
-    /// The extension bit is set, and no extension addition is present.
-    #[error("it announces extension additions and has none")]
-    NoAddition,
-    /// More than 64 extension additions.
-    #[error("it has more than 64 extension additions, which is not supported")]
-    TooManyAdditions,
-    /// Padding that is not zero.
-    #[error("its padding is not zero")]
-    Padding,
-    /// A kind of type that no module of this crate uses.
-    #[error("its type is not supported")]
-    Unsupported,
+impl DecodeError {
+    /// The error of the core, with the names of the fields of `T`.
+    pub(crate) fn of_core<T: Uper>(error: core::Error) -> Self {
+        match error.fault {
+            Fault::Trailing { octets: count } => Self::TrailingOctets { count },
+            fault => Self::Malformed {
+                field: FieldPath(error.names(T::FIELDS).collect()),
+                bit: error.bit,
+                fault,
+            },
+        }
+    }
 }
 
 /// A rule that holds for a message beyond what its encoding shows. Fields are in the spelling of
@@ -185,6 +155,25 @@ pub enum EncodeError {
     /// The message breaks a rule that its encoding does not show.
     #[error(transparent)]
     Rule(#[from] BrokenRule),
+    /// A field is one that no receiver takes: a list is too long, or its size or value is behind an
+    /// extension marker.
+    #[error("{field}: {fault}")]
+    Malformed {
+        /// The field.
+        field: FieldPath,
+        /// What is wrong with it.
+        fault: Fault,
+    },
+}
+
+impl EncodeError {
+    /// The error of the core, with the names of the fields of `T`.
+    pub(crate) fn of_core<T: Uper>(error: core::Error) -> Self {
+        Self::Malformed {
+            field: FieldPath(error.names(T::FIELDS).collect()),
+            fault: error.fault,
+        }
+    }
 }
 
 /// Why a message contradicts itself or says what no message can.

@@ -11,6 +11,8 @@
 //!
 //! - `asn1/*.asn` in this crate are the messages, as ASN.1 modules that any compiler takes; [`asn1`]
 //!   holds the types that follow from them.
+//! - [`core`] is the codec of RAM and RMCM bit by bit, without heap, with its laws; it
+//!   decides what is a message.
 //! - [`encode`] and [`decode`] are strict: exactly the canonical unaligned PER encodings of valid
 //!   messages are accepted, extension additions of newer senders are skipped, and everything else is
 //!   an error that names the field.
@@ -48,6 +50,7 @@
 
 pub mod asn1;
 mod containers;
+pub mod core;
 mod distance;
 mod error;
 mod identifiers;
@@ -60,12 +63,13 @@ mod uper;
 mod view;
 mod wire;
 
+pub use crate::core::Fault;
+pub use crate::core::cdd::{PATH_HISTORY_MAX, PATH_PREDICTION_MAX};
 pub use containers::position_of;
 pub use distance::distance;
-pub use error::{BrokenRule, DecodeError, EncodeError, Fault, FieldPath, ViewError};
+pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
 pub use identifiers::{IdentifierClash, Identifiers, MessageIdentifiers};
 pub use message::{Message, Pdu, Received, decode, encode};
-pub use rules::{PATH_HISTORY_MAX, PATH_PREDICTION_MAX};
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
 pub use state::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, JobRole,

@@ -1,4 +1,6 @@
-//! Whole messages as octets: header first, then the strict codec, then the rules.
+//! Whole messages as octets: the header first, then the codec. Octets of a RAM and an RMCM go through
+//! the [core](crate::core), which decides what is one; those of a VAM through the reference and its
+//! rules.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,10 +8,10 @@ use crate::asn1::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B, StationId};
 use crate::asn1::ram::RAM;
 use crate::asn1::rmcm::RMCM;
 use crate::asn1::vam::VAM;
-use crate::error::{BrokenRule, DecodeError, EncodeError};
+use crate::error::{DecodeError, EncodeError};
 use crate::identifiers::Identifiers;
 use crate::size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
-use crate::{rules, uper};
+use crate::{core, rules, uper};
 
 /// A complete message that this crate encodes and decodes: [`RAM`], [`RMCM`] or [`VAM`].
 pub trait Pdu: rasn::Encode + rasn::Decode + sealed::Sealed {
@@ -24,13 +26,63 @@ pub trait Pdu: rasn::Encode + rasn::Decode + sealed::Sealed {
 }
 
 mod sealed {
-    use super::BrokenRule;
+    use super::{DecodeError, EncodeError, Received};
 
-    /// Keeps the set of messages closed, and the rules out of sight.
-    pub trait Sealed {
-        fn check_rules(&self) -> Result<(), BrokenRule>;
+    /// Keeps the set of messages closed, and their codec out of sight.
+    pub trait Sealed: Sized {
+        fn to_octets(&self) -> Result<Vec<u8>, EncodeError>;
+        fn from_octets(octets: &[u8]) -> Result<Received<Self>, DecodeError>;
     }
 }
+
+/// The codec of a message that the core has.
+macro_rules! by_the_core {
+    ($message:ty, $core:ty) => {
+        impl sealed::Sealed for $message {
+            fn to_octets(&self) -> Result<Vec<u8>, EncodeError> {
+                let octets = uper::encode(self)?;
+                // What the core does not take, no receiver does.
+                let accepted = core::decode::<$core>(&octets);
+                accepted.map_err(EncodeError::of_core::<$core>)?;
+                Ok(octets)
+            }
+
+            fn from_octets(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
+                let decoded = core::decode::<$core>(octets);
+                let (value, extended) = decoded.map_err(DecodeError::of_core::<$core>)?;
+                let message = Self::try_from(&value)?;
+                Ok(Received { message, extended })
+            }
+        }
+
+        /// By way of the encoding, on which core and reference agree.
+        impl TryFrom<&$core> for $message {
+            type Error = DecodeError;
+
+            fn try_from(value: &$core) -> Result<Self, DecodeError> {
+                let mut buffer = [0; core::max_octets::<$core>()];
+                let length = core::encode(value, &mut buffer);
+                let length = length.map_err(DecodeError::of_core::<$core>)?;
+                rasn::uper::decode(&buffer[..length]).map_err(|_| DecodeError::Disagreement)
+            }
+        }
+
+        /// By way of the encoding, on which core and reference agree.
+        impl TryFrom<&$message> for $core {
+            type Error = EncodeError;
+
+            fn try_from(message: &$message) -> Result<Self, EncodeError> {
+                let octets = uper::encode(message)?;
+                let decoded = core::decode(&octets);
+                let (value, _) = decoded.map_err(EncodeError::of_core::<$core>)?;
+                Ok(value)
+            }
+        }
+    };
+}
+
+by_the_core!(RAM, core::ram::RAM);
+by_the_core!(RMCM, core::rmcm::RMCM);
 
 impl Pdu for RAM {
     const NAME: &'static str = "RAM";
@@ -40,12 +92,6 @@ impl Pdu for RAM {
     }
     fn expected_header(identifiers: &Identifiers) -> (u8, u8) {
         (identifiers.ram.protocol_version, identifiers.ram.message_id)
-    }
-}
-
-impl sealed::Sealed for RAM {
-    fn check_rules(&self) -> Result<(), BrokenRule> {
-        rules::check_ram(self)
     }
 }
 
@@ -63,12 +109,6 @@ impl Pdu for RMCM {
     }
 }
 
-impl sealed::Sealed for RMCM {
-    fn check_rules(&self) -> Result<(), BrokenRule> {
-        Ok(())
-    }
-}
-
 impl Pdu for VAM {
     const NAME: &'static str = "VAM";
     const LEN_MAX: usize = MESSAGE_LEN_MAX;
@@ -82,8 +122,16 @@ impl Pdu for VAM {
 }
 
 impl sealed::Sealed for VAM {
-    fn check_rules(&self) -> Result<(), BrokenRule> {
-        rules::check_vam(self)
+    fn to_octets(&self) -> Result<Vec<u8>, EncodeError> {
+        rules::check_vam(self)?;
+        uper::encode(self)
+    }
+
+    fn from_octets(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
+        let uper::Decoded { value, extended } = uper::decode::<Self>(octets)?;
+        rules::check_vam(&value)?;
+        let message = value;
+        Ok(Received { message, extended })
     }
 }
 
@@ -120,8 +168,7 @@ pub fn encode<M: Pdu>(identifiers: &Identifiers, message: &M) -> Result<Vec<u8>,
     if id_found != message_id {
         return Err(header("messageId", id_found, message_id));
     }
-    message.check_rules()?;
-    uper::encode(message)
+    message.to_octets()
 }
 
 /// The message whose canonical encoding `octets` are.
@@ -151,12 +198,7 @@ pub fn decode<M: Pdu>(
             known,
         });
     }
-    let decoded = uper::decode::<M>(octets)?;
-    decoded.value.check_rules()?;
-    Ok(Received {
-        message: decoded.value,
-        extended: decoded.extended,
-    })
+    M::from_octets(octets)
 }
 
 /// The header that begins every message, in six octets that need no decoder (TS 102 894-2,

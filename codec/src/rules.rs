@@ -1,26 +1,17 @@
-//! Limits of RAM, RMCM and VAM that their encodings do not show, for senders and receivers alike.
+//! Limits of a VAM that its encoding does not show, for senders and receivers alike. Those of RAM and
+//! RMCM are in the types of the [core](crate::core).
 //!
 //! - Sizes and values behind an extension marker are not used: a list of the common data dictionary
 //!   has no more items than its root allows, so a message has a largest size. The decoder refuses
 //!   them at the bit where they begin; here they are refused before they are encoded.
-//! - The motion prediction of a RAM has at most 10 points of path history and 10 of path prediction.
-//!   40 and 16, as in a VAM, would make it twice as large, and the low-frequency container has the
-//!   path history as well.
 //! - The bounding box of a cluster is a rectangle, a circle or a polygon (TS 102 894-2,
 //!   `VruClusterInformation`; an inner subtype constraint, which PER does not see).
 
 use rasn::types::BitString;
 
 use crate::asn1::cdd::{PathHistory, PathPoint, Shape, VruClusterInformation};
-use crate::asn1::ram::RAM;
 use crate::asn1::vam::{VAM, VruMotionPredictionContainer};
 use crate::error::BrokenRule;
-
-/// How many points the path history in the motion prediction of a RAM has at most.
-pub const PATH_HISTORY_MAX: usize = 10;
-
-/// How many points the path prediction of a RAM has at most.
-pub const PATH_PREDICTION_MAX: usize = 10;
 
 type Checked = Result<(), BrokenRule>;
 
@@ -29,27 +20,6 @@ fn at_most(field: &'static str, found: usize, max: usize) -> Checked {
         return Err(BrokenRule::TooMany { field, found, max });
     }
     Ok(())
-}
-
-/// Checks a RAM.
-pub(crate) fn check_ram(ram: &RAM) -> Checked {
-    let parameters = &ram.ram.ram_parameters;
-    if let Some(slow) = &parameters.robot_low_frequency_container {
-        check_path_points(&slow.path_history)?;
-    }
-    if let Some(cluster) = &parameters.vru_cluster_information_container {
-        check_cluster(&cluster.vru_cluster_information)?;
-    }
-    let Some(prediction) = &parameters.vru_motion_prediction_container else {
-        return Ok(());
-    };
-    if let Some(PathHistory(points)) = &prediction.path_history {
-        at_most("pathHistory", points.len(), PATH_HISTORY_MAX)?;
-    }
-    if let Some(points) = &prediction.path_prediction {
-        at_most("pathPrediction", points.0.len(), PATH_PREDICTION_MAX)?;
-    }
-    check_prediction(prediction)
 }
 
 /// Checks a VAM.

@@ -18,18 +18,25 @@ mod source;
 use rasn::error::{DecodeErrorKind, EncodeErrorKind};
 use rasn::types::BitString;
 
-use crate::error::{DecodeError, EncodeError, Fault, FieldPath};
+use crate::core::Fault;
+use crate::error::{DecodeError, EncodeError, FieldPath};
 use decoder::Decoder;
 use source::{Rejected, Skipped, Source};
 
 /// A decoded value, and how many SEQUENCEs in it had unknown extension additions.
-pub(crate) struct Decoded<T> {
-    pub(crate) value: T,
-    pub(crate) extended: usize,
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Decoded<T> {
+    /// The value.
+    pub value: T,
+    /// How many SEQUENCEs had additions, which were skipped.
+    pub extended: usize,
 }
 
 /// The canonical encoding of `value`, padded to whole octets.
-pub(crate) fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError> {
+///
+/// # Errors
+/// When a number or size is not one of its type.
+pub fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError> {
     rasn::uper::encode(value).map_err(|error| match &*error.kind {
         EncodeErrorKind::ValueConstraintNotSatisfied { value, expected } => EncodeError::Value {
             number: i64::try_from(value).unwrap_or(i64::MAX),
@@ -48,7 +55,10 @@ pub(crate) fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError>
 }
 
 /// The value whose canonical encoding `octets` are, but for unknown extension additions.
-pub(crate) fn decode<T>(octets: &[u8]) -> Result<Decoded<T>, DecodeError>
+///
+/// # Errors
+/// Why the octets are not such an encoding, and which field says so.
+pub fn decode<T>(octets: &[u8]) -> Result<Decoded<T>, DecodeError>
 where
     T: rasn::Decode + rasn::Encode,
 {

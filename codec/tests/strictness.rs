@@ -78,7 +78,7 @@ where
             let is_promised = matches!(
                 error,
                 DecodeError::Malformed {
-                    fault: Fault::BeyondRoot,
+                    fault: Fault::BeyondRoot | Fault::TooMany { .. } | Fault::AbsentAlternative,
                     ..
                 } | DecodeError::Rule(_)
                     | DecodeError::MessageId { .. }
@@ -239,7 +239,11 @@ fn a_component_that_spells_out_its_default_is_refused() {
     assert_eq!(bits.matches(&altitude).count(), 1);
     let octets = from_bits(&bits.replace(&altitude, &unavailable));
     let error = decode_checked::<RMCM>(&octets).unwrap_err();
-    assert!(matches!(error, DecodeError::NotCanonical { .. }), "{error}");
+    let DecodeError::Malformed { field, fault, .. } = error else {
+        panic!("{error}");
+    };
+    assert_eq!(fault, Fault::DefaultSpelledOut);
+    assert_eq!(field.names().last(), Some("altitude"));
 }
 
 #[test]

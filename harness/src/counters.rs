@@ -60,6 +60,8 @@ impl From<&DecodeError> for Cause {
                 Fault::Truncated => "truncated",
                 Fault::Value { .. } => "value out of range",
                 Fault::Size { .. } | Fault::BeyondRoot => "size out of range",
+                Fault::TooMany { .. } | Fault::AbsentAlternative => "broken rule",
+                Fault::DefaultSpelledOut => "not canonical",
                 Fault::UnknownAlternative => "unknown alternative",
                 Fault::Padding => "padding not zero",
                 _ => "malformed extension",

@@ -29,6 +29,7 @@ mod intern;
 pub mod model;
 pub mod network;
 pub mod node;
+pub mod paper;
 pub mod properties;
 pub mod replay;
 pub mod report;
@@ -38,3 +39,14 @@ mod steps;
 pub mod timed;
 pub mod transitions;
 pub mod universe;
+
+/// How many distinct states a scenario has, by the kit's own exploration alone. It says nothing about
+/// what must hold of them; [`check::check`] does.
+#[must_use]
+pub fn count_states(model: &model::Model) -> usize {
+    let unlimited = graph::Limit {
+        states: None,
+        time: None,
+    };
+    graph::Graph::build(model, unlimited, &mut |_| false).states()
+}

@@ -9,8 +9,8 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use crossguard_protocol::{
-    BrokenInequality, Config, HelpRequest, Inequality, MAX_FOLLOWERS, Settings, StationId, TaskSet,
-    TaskType, Urgency,
+    Availability, BrokenInequality, Config, Event, HelpRequest, Inequality, MAX_FOLLOWERS,
+    Settings, StationId, TaskSet, TaskType, Urgency,
 };
 use serde::{Deserialize, Serialize};
 
@@ -96,6 +96,26 @@ pub struct Bounds {
     pub restarts: u8,
     /// A message gets lost on its way to one receiver; any number of times where nothing is said.
     pub losses: Option<u8>,
+}
+
+impl Bounds {
+    /// Takes an event off what may still happen.
+    pub(crate) fn spend(&mut self, event: Event) {
+        let bound = match event {
+            Event::PedestrianDetected(_) => &mut self.detections,
+            Event::CommandManeuver { .. } => &mut self.commands,
+            Event::ManeuverFailed(_)
+            | Event::LeaveRequested
+            | Event::AvailabilityChanged(Availability::Unavailable(_))
+            | Event::IdentityChanged(_) => &mut self.disturbances,
+            Event::ManeuverCompleted(_)
+            | Event::TaskCompleted
+            | Event::AvailabilityChanged(Availability::Available)
+            | Event::OpenCorridor
+            | Event::CloseCorridor => return,
+        };
+        *bound -= 1;
+    }
 }
 
 /// What the radio channel does.
@@ -223,7 +243,7 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 11] = [
+const SHIPPED: [(&str, &str); 12] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -238,6 +258,10 @@ const SHIPPED: [(&str, &str); 11] = [
     ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
     ("wrap", include_str!("../scenarios/wrap.toml")),
     ("stable", include_str!("../scenarios/stable.toml")),
+    (
+        "team-of-four",
+        include_str!("../scenarios/team-of-four.toml"),
+    ),
 ];
 
 /// How many of the shipped scenarios take seconds.

@@ -9,7 +9,7 @@ use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag,
 use rasn::{Codec, Decode};
 
 use super::source::{Rejected, Source};
-use crate::error::Fault;
+use crate::core::Fault;
 
 type Result<T> = std::result::Result<T, Rejected>;
 
@@ -131,10 +131,15 @@ impl rasn::Decoder for Decoder<'_, '_> {
         let (Some(&min), Some(&max)) = bounds.start_and_end() else {
             return self.unsupported();
         };
-        let Ok(values) = u64::try_from(max - min + 1) else {
+        let (Ok(values), Ok(min), Ok(max)) = (
+            u64::try_from(max - min + 1),
+            i64::try_from(min),
+            i64::try_from(max),
+        ) else {
             return self.unsupported();
         };
-        let number = min + i128::from(self.source.bits(width(values))?);
+        let offset = self.source.bits(width(values))?;
+        let number = min.checked_add_unsigned(offset).unwrap_or(i64::MAX);
         let fault = || {
             self.source
                 .reject_at(start, Fault::Value { number, min, max })

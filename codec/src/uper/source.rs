@@ -2,7 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use crate::error::Fault;
+use crate::core::Fault;
 
 /// Error of the rasn traits. It carries the field; what is wrong is kept in the source.
 pub(super) type Rejected = rasn::error::DecodeError;

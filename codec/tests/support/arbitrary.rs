@@ -21,6 +21,12 @@ pub fn message<M: Pdu>(identifiers: &Identifiers, seed: u64) -> M {
     M::decode(&mut Imagination { seed, forced }).expect("every type is supported")
 }
 
+/// A value of any type that `seed` stands for.
+pub fn any<T: Decode>(seed: u64) -> T {
+    let forced = Vec::new();
+    T::decode(&mut Imagination { seed, forced }).expect("every type is supported")
+}
+
 /// The RAM that `seed` stands for, cut down to what the rules allow.
 pub fn ram(identifiers: &Identifiers, seed: u64) -> RAM {
     lawful(message(identifiers, seed))

@@ -6,6 +6,7 @@
 )]
 
 pub mod arbitrary;
+pub mod core;
 pub mod samples;
 pub mod views;
 

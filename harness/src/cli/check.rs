@@ -10,9 +10,10 @@ use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use crossguard_model_check::check::{Options, Progress, check, names};
 use crossguard_model_check::model::Model;
+use crossguard_model_check::paper;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
-use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::scenario::{Scenario, ScenarioError};
 use crossguard_model_check::timed::{self, Figure};
 use crossguard_model_check::transitions::Transitions;
 use crossguard_model_check::{export, universe};
@@ -24,6 +25,7 @@ use super::{Failure, print, print_json, shows_progress};
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Shipped scenarios by name, or files; the quick ones of the shipped if none is named.
+    /// 'paper-literal' is the paper's text word for word, which must fail.
     #[arg(value_name = "SCENARIO|FILE")]
     scenarios: Vec<String>,
     /// Check all shipped scenarios, also those that take minutes.
@@ -92,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()
     } else if arguments.all {
-        Scenario::shipped().collect()
+        Scenario::shipped().chain([paper::NAME]).collect()
     } else {
         Scenario::quick().collect()
     };
@@ -100,7 +102,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // others.
     let scenarios = names
         .into_iter()
-        .map(Scenario::load)
+        .map(Subject::load)
         .collect::<Result<Vec<_>, _>>();
     let scenarios = scenarios.map_err(Failure::input)?;
     if let (Some(format), Some(file)) = (arguments.export, &arguments.output) {
@@ -110,8 +112,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         scenarios: Vec::new(),
         fsm_coverage: None,
     };
-    for scenario in scenarios {
-        let checked = check_one(arguments, scenario);
+    for subject in scenarios {
+        let checked = match subject {
+            Subject::Scenario(scenario) => check_one(arguments, *scenario),
+            Subject::PaperLiteral => paper::check(),
+        };
         if let Some(folder) = &arguments.charts {
             write_charts(&checked, folder)?;
         }
@@ -128,7 +133,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         summarize(&report)?;
     }
-    if report.scenarios.iter().any(ScenarioReport::failed) {
+    if report.scenarios.iter().any(is_wrong) {
         Err(Failure::Wrong)
     } else if report.scenarios.iter().any(|scenario| !scenario.exhaustive) {
         Err(Failure::Incomplete)
@@ -137,12 +142,36 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// What can be checked.
+enum Subject {
+    Scenario(Box<Scenario>),
+    PaperLiteral,
+}
+
+impl Subject {
+    fn load(name: &str) -> Result<Self, ScenarioError> {
+        if name == paper::NAME {
+            return Ok(Self::PaperLiteral);
+        }
+        Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
+    }
+}
+
+/// Whether something was found that should not be; the paper's text must fail, and in full.
+fn is_wrong(report: &ScenarioReport) -> bool {
+    if paper::made(report) {
+        !paper::fails_as_it_must(report)
+    } else {
+        report.failed()
+    }
+}
+
 fn list() -> Result<(), Failure> {
     for name in Scenario::shipped() {
         let scenario = Scenario::load(name).map_err(Failure::input)?;
         print(format_args!("{name:<14} {}", scenario.summary))?;
     }
-    Ok(())
+    print(format_args!("{:<14} {}", paper::NAME, paper::SUMMARY))
 }
 
 fn options(arguments: &Arguments) -> Options {
@@ -196,11 +225,11 @@ fn coverage(scenarios: &[ScenarioReport]) -> Coverage {
 
 fn export_one(
     arguments: &Arguments,
-    scenarios: Vec<Scenario>,
+    subjects: Vec<Subject>,
     format: Format,
     file: &Path,
 ) -> Result<(), Failure> {
-    let Ok([scenario]) = <[Scenario; 1]>::try_from(scenarios) else {
+    let Ok([Subject::Scenario(scenario)]) = <[Subject; 1]>::try_from(subjects) else {
         return Err(Failure::input("--export wants one scenario"));
     };
     let format = match format {
@@ -209,7 +238,7 @@ fn export_one(
     };
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
     let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
-    let model = Model::new(untimed(scenario)?);
+    let model = Model::new(untimed(*scenario)?);
     let cut_off = export::export(&model, &options(arguments), format, &mut to).map_err(cannot)?;
     to.flush().map_err(cannot)?;
     match cut_off {
@@ -271,7 +300,10 @@ fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
             ("mmd", chart.mermaid()),
             ("svg", chart.svg()),
         ];
-        if let Some(replay) = Replay::of(report, property) {
+        // What is no run of the protocol cannot be followed.
+        if !paper::made(report)
+            && let Some(replay) = Replay::of(report, property)
+        {
             let json = serde_json::to_string_pretty(&replay).map_err(Failure::input)?;
             forms.push(("json", json));
         }
@@ -343,7 +375,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         };
         table.add_row([
             &property.id,
-            verdict(property.verdict),
+            verdict(report, property.verdict),
             &property.statement,
             premise,
         ]);
@@ -379,8 +411,9 @@ fn print_figures(figures: &[Figure]) -> Result<(), Failure> {
     Ok(())
 }
 
-const fn verdict(verdict: Verdict) -> &'static str {
+fn verdict(report: &ScenarioReport, verdict: Verdict) -> &'static str {
     match verdict {
+        Verdict::Violated if paper::fails_as_it_must(report) => "violated, as it must be",
         Verdict::Holds => "holds",
         Verdict::Reachable => "reachable",
         Verdict::Violated => "VIOLATED",
@@ -413,15 +446,27 @@ fn words(name: &str) -> String {
 }
 
 fn summarize(report: &Report) -> Result<(), Failure> {
-    let scenarios = report.scenarios.len();
-    let verified = report
-        .scenarios
+    let (literal, scenarios): (Vec<_>, Vec<_>) =
+        report.scenarios.iter().partition(|r| paper::made(r));
+    for literal in literal {
+        let how = if is_wrong(literal) {
+            "does not fail as it must"
+        } else {
+            "fails as it must"
+        };
+        print(format_args!("{} {how}.", literal.name))?;
+    }
+    if scenarios.is_empty() {
+        return Ok(());
+    }
+    let verified = scenarios
         .iter()
         .filter(|r| r.exhaustive && !r.failed())
         .count();
-    let states: usize = report.scenarios.iter().map(|r| r.unique_states).sum();
+    let states: usize = scenarios.iter().map(|r| r.unique_states).sum();
     print(format_args!(
-        "{verified} of {scenarios} scenarios verified exhaustively, {} states in all.",
+        "{verified} of {} scenarios verified exhaustively, {} states in all.",
+        scenarios.len(),
         HumanCount(states as u64)
     ))?;
     if let Some(coverage) = &report.fsm_coverage {

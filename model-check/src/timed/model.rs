@@ -25,8 +25,7 @@ use super::rules::{self, Broken};
 use super::watch::{Longest, Measure, Watch};
 use crate::canonical::{Ranks, Renamable};
 use crate::intern::Interner;
-use crate::model::concerns;
-use crate::network::{Message, Transmission};
+use crate::network::{Message, Transmission, concerns};
 use crate::node::{Node, Protocol, Rules};
 use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
 

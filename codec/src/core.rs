@@ -1,0 +1,166 @@
+//! RAM and RMCM bit by bit: the codec that runs on the robots and that Kani proves.
+//!
+//! A value of these types is valid by construction, so encoding cannot fail, and a decoder accepts
+//! exactly the canonical unaligned PER encodings (ITU-T X.691) of such values, with or without unknown
+//! extension additions. Nothing here needs a heap or the standard library, and nothing panics.
+//!
+//! ```text
+//!               notation: asn1!{ BasicContainer ::= SEQUENCE { .. } }
+//!                  │ makes
+//!   octets ──► Reader ──► Uper::read   ──► value ──► Uper::encode ──► Writer ──► octets
+//!                  └── Error: field, bit, fault              arbitrary ◄── Source
+//! ```
+//!
+//! - [`cdd`], [`common`], [`vam`], [`ram`] and [`rmcm`] declare the types of the module of that name
+//!   in `asn1/*.asn`, in its notation. Sizes, names and arbitrary values follow from the same lines.
+//! - [`laws`] are properties of these types as functions, for Kani, proptest and sweeps alike.
+//!
+//! The rasn types of [`asn1`](crate::asn1) are the reference: differential tests compare the two on
+//! values and on octets. An alternative of an ENUMERATED or CHOICE that a newer sender may know is an
+//! error, as it is there: a message that says something unknown where the protocol reads is not half
+//! understood.
+
+#![allow(
+    clippy::cast_lossless,
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "there is no `From` in constants; what is cast fits, which the laws show"
+)]
+#![allow(
+    clippy::items_after_statements,
+    reason = "assertions stand in front of what they are for"
+)]
+
+pub mod cdd;
+pub mod common;
+mod error;
+pub mod laws;
+mod list;
+mod notation;
+mod open_type;
+pub mod ram;
+mod reader;
+pub mod rmcm;
+mod source;
+pub mod vam;
+mod writer;
+
+pub use error::{Error, Fault, Field};
+pub use list::SequenceOf;
+pub use reader::{Outer, Read, Reader};
+pub use source::Source;
+pub use writer::Writer;
+
+/// A type with a canonical unaligned PER encoding (ITU-T X.691).
+pub trait Uper: Copy + Eq {
+    /// How many bits the longest encoding has.
+    const MAX_BITS: u32;
+    /// The value whose every number is the lowest one, every list the shortest, every CHOICE the
+    /// first alternative, and without what is OPTIONAL.
+    const LOWEST: Self;
+    /// The names of what it consists of, for [`Error::names`].
+    const FIELDS: &'static [Field] = &[];
+
+    /// Writes the encoding.
+    #[must_use]
+    fn encode<'a>(&self, writer: Writer<'a>) -> Writer<'a>;
+
+    /// Reads the value that the next bits encode into `self`, which holds [`LOWEST`](Self::LOWEST) and
+    /// keeps what is not there: nothing that is absent is copied.
+    ///
+    /// # Errors
+    /// Which field they do not encode, and why. `self` holds some value then.
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error>;
+
+    /// The value that the next bits encode, and the reader behind it.
+    ///
+    /// # Errors
+    /// Which field they do not encode, and why.
+    #[inline]
+    fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+        let mut value = Self::LOWEST;
+        let reader = value.read(reader)?;
+        Ok((value, reader))
+    }
+
+    /// Any value, as the source wants.
+    fn arbitrary<S: Source>(source: &mut S) -> Self;
+}
+
+/// Octets of the longest encoding of `T` as a message of its own.
+#[must_use]
+pub const fn max_octets<T: Uper>() -> usize {
+    match T::MAX_BITS.div_ceil(8) {
+        0 => 1,
+        octets => octets as usize,
+    }
+}
+
+/// Encodes `value` into the front of `buffer`, and tells how many octets that takes.
+///
+/// # Errors
+/// [`Fault::BufferFull`]; with [`max_octets`] the buffer has room for every value.
+pub fn encode<T: Uper>(value: &T, buffer: &mut [u8]) -> Result<usize, Error> {
+    value.encode(Writer::new(buffer)).finish()
+}
+
+/// The value whose encoding `octets` are, and how many SEQUENCEs in it had unknown extension
+/// additions.
+///
+/// # Errors
+/// Which field is wrong, and why.
+pub fn decode<T: Uper>(octets: &[u8]) -> Result<(T, usize), Error> {
+    let mut value = T::LOWEST;
+    let reader = value.read(Reader::new(octets))?.padding(0)?;
+    match reader.left() / 8 {
+        0 => Ok((value, reader.extended())),
+        octets => Err(Error::at(reader.position(), Fault::Trailing { octets })),
+    }
+}
+
+/// Bits of an integer from `min` to `max`, of a size, or of an index (X.691 clause 11.5). There are at
+/// most 2^32 of them.
+pub(crate) const fn width(min: i64, max: i64) -> u32 {
+    64 - (max - min).leading_zeros()
+}
+
+/// NULL has no bits (X.691 clause 18).
+pub type Null = ();
+
+impl Uper for Null {
+    const MAX_BITS: u32 = 0;
+    const LOWEST: Self = ();
+
+    fn encode<'a>(&self, writer: Writer<'a>) -> Writer<'a> {
+        writer
+    }
+
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
+        Ok(reader)
+    }
+
+    fn arbitrary<S: Source>(_: &mut S) -> Self {}
+}
+
+/// BOOLEAN is one bit (X.691 clause 12).
+impl Uper for bool {
+    const MAX_BITS: u32 = 1;
+    const LOWEST: Self = false;
+
+    #[inline]
+    fn encode<'a>(&self, writer: Writer<'a>) -> Writer<'a> {
+        writer.bits(u32::from(*self), 1)
+    }
+
+    #[inline]
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
+        let behind;
+        (*self, behind) = reader.bit()?;
+        Ok(behind)
+    }
+
+    fn arbitrary<S: Source>(source: &mut S) -> Self {
+        source.flip()
+    }
+}

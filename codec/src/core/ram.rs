@@ -1,0 +1,301 @@
+//! The robot awareness message. `asn1/Crossguard-RAM.asn`.
+
+use super::cdd::{
+    AccelerationComponent, BasicContainer, Curvature, DriveDirection, ExteriorLights,
+    GenerationDeltaTime, ItsPduHeader, ObjectDimensionValue, PathPoint, Speed, StationId,
+    Wgs84Angle, YawRate,
+};
+use super::common::{
+    CoordinationSession, OfferNumber, RequestId, SessionNumber, TaskProgression, TaskSet,
+    UnavailabilityReason,
+};
+use super::notation::prelude::*;
+use super::vam::{VruClusterInformationContainer, VruMotionPredictionContainer};
+
+asn1! {
+    /// Robot awareness message.
+    RAM ::= SEQUENCE {
+        header ItsPduHeader,
+        ram    RobotAwareness
+    }
+}
+
+asn1! {
+    /// Payload of a RAM.
+    RobotAwareness ::= SEQUENCE {
+        generation_delta_time GenerationDeltaTime,
+        ram_parameters        RamParameters
+    }
+}
+
+asn1! {
+    /// Containers of a RAM. Sizes and values behind an extension marker of the dictionary are not
+    /// used, and in the motion prediction path history and path prediction have at most 10 points
+    /// each. Both hold for senders and receivers and keep a RAM well below what one packet can
+    /// carry.
+    RamParameters ::= SEQUENCE {
+        basic_container                           BasicContainer,
+        robot_high_frequency_container            RobotHighFrequencyContainer,
+        robot_low_frequency_container             RobotLowFrequencyContainer OPTIONAL,
+        robot_status_container                    RobotStatusContainer,
+        robot_leader_follower_operation_container RobotLeaderFollowerOperationContainer OPTIONAL,
+        vru_cluster_information_container         VruClusterInformationContainer OPTIONAL,
+        vru_motion_prediction_container           VruMotionPredictionContainer OPTIONAL,
+        ...
+    }
+}
+
+asn1! {
+    /// What changes quickly: the motion, and the size, which changes with the posture. Heading is
+    /// the direction of motion, orientation that of the body, where it differs.
+    RobotHighFrequencyContainer ::= SEQUENCE {
+        heading                   Wgs84Angle,
+        speed                     Speed,
+        drive_direction           DriveDirection,
+        longitudinal_acceleration AccelerationComponent,
+        robot_dimensions          RobotDimensions,
+        curvature                 Curvature OPTIONAL,
+        yaw_rate                  YawRate OPTIONAL,
+        lateral_acceleration      AccelerationComponent OPTIONAL,
+        vertical_acceleration     AccelerationComponent OPTIONAL,
+        orientation               Wgs84Angle OPTIONAL,
+        ...
+    }
+}
+
+asn1! {
+    /// Box around the robot and what it carries.
+    RobotDimensions ::= SEQUENCE {
+        length ObjectDimensionValue,
+        width  ObjectDimensionValue,
+        height ObjectDimensionValue
+    }
+}
+
+asn1! {
+    /// Positions that the robot came from, newest first, each relative to the one before it.
+    RobotPathHistory ::= SEQUENCE (SIZE(0..23)) OF PathPoint
+}
+
+asn1! {
+    /// What changes slowly.
+    RobotLowFrequencyContainer ::= SEQUENCE {
+        capabilities    RobotCapabilities,
+        supported_tasks TaskSet,
+        path_history    RobotPathHistory,
+        exterior_lights ExteriorLights OPTIONAL,
+        signals_shown   SignalsShown OPTIONAL,
+        ...
+    }
+}
+
+asn1! {
+    /// What the robot can do besides maneuvers. Bits without a name are zero and ignored.
+    RobotCapabilities ::= BIT STRING (SIZE(8)) as u8
+}
+
+asn1! {
+    /// What the robot shows to the people around it, and by which means.
+    SignalsShown ::= SEQUENCE {
+        to_vehicles    PublicSignal,
+        to_pedestrians PublicSignal,
+        means          SignalMeans,
+        ...
+    }
+}
+
+asn1! {
+    /// A signal that people understand.
+    PublicSignal ::= ENUMERATED { None, Stop, Go, Caution, ... }
+}
+
+asn1! {
+    /// How a signal is shown. Bits without a name are zero and ignored.
+    SignalMeans ::= BIT STRING (SIZE(8)) as u8
+}
+
+asn1! {
+    /// What the robot is and how it is. unavailability is present while the robot takes no part in
+    /// coordination. `helpStatus` goes with the operation container: `needHelp` with a requester,
+    /// `offerHelp` with a helper, `roleConfirmed` with a leader or a follower, none with none of
+    /// these.
+    RobotStatusContainer ::= SEQUENCE {
+        robot_category       RobotCategory,
+        operational_job_role OperationalJobRole,
+        task_progression     TaskProgression,
+        battery_status       BatteryStatus,
+        control_mode         ControlMode,
+        help_status          HelpStatus,
+        unavailability       UnavailabilityReason OPTIONAL,
+        ...
+    }
+}
+
+asn1! {
+    /// Build of the robot.
+    RobotCategory ::= ENUMERATED {
+        Unknown, Humanoid, Quadruped, Wheeled, Tracked, Aerial, Other, ...
+    }
+}
+
+asn1! {
+    /// Job that the robot is there for.
+    OperationalJobRole ::= ENUMERATED {
+        None, TrafficGuard, Escort, Patrol, Delivery, Maintenance, Other, ...
+    }
+}
+
+asn1! {
+    /// Battery of the robot.
+    BatteryStatus ::= SEQUENCE {
+        state_of_charge StateOfCharge,
+        charging        bool,
+        ...
+    }
+}
+
+asn1! {
+    /// 1 % of the usable capacity.
+    StateOfCharge ::= INTEGER (0..101) as u8
+}
+
+asn1! {
+    /// Who or what steers the robot.
+    ControlMode ::= ENUMERATED {
+        Autonomous, Teleoperated, EmergencyStop, Fault, Unavailable, ...
+    }
+}
+
+asn1! {
+    /// Stage of help between robots.
+    HelpStatus ::= ENUMERATED { None, NeedHelp, OfferHelp, RoleConfirmed, ... }
+}
+
+asn1! {
+    /// The sender's part in a session, and a session that it names as over.
+    RobotLeaderFollowerOperationContainer ::= SEQUENCE {
+        role     SessionRole OPTIONAL,
+        farewell SessionFarewell OPTIONAL,
+        ...
+    }
+}
+
+asn1! {
+    /// Part in a session. The session of a requester and of a leader is the sender's own.
+    SessionRole ::= CHOICE {
+        Requester RequesterRole,
+        Helper    HelperRole,
+        Leader    LeaderRole,
+        Follower  FollowerRole,
+        ...
+    }
+}
+
+asn1! {
+    /// How many followers are asked for.
+    RequestedFollowers ::= INTEGER (1..4) as u8
+}
+
+asn1! {
+    /// Has opened a session and asks for followers who can do these tasks.
+    RequesterRole ::= SEQUENCE {
+        session         CoordinationSession,
+        urgency         RequestUrgency,
+        follower_count  RequestedFollowers,
+        requested_tasks TaskSet,
+        ...
+    }
+}
+
+asn1! {
+    /// How urgent a request is: nobody waits yet, a pedestrian waits, a pedestrian who needs more
+    /// help than others waits, a pedestrian is on the road.
+    RequestUrgency ::= ENUMERATED { Low, Medium, High, Emergency }
+}
+
+asn1! {
+    /// Offers to join the session of a requester, with the tasks that it can do of those asked for.
+    HelperRole ::= SEQUENCE {
+        session      CoordinationSession,
+        offer_number OfferNumber,
+        capabilities TaskSet,
+        ...
+    }
+}
+
+asn1! {
+    /// The followers of a session.
+    ConfirmedFollowers ::= SEQUENCE (SIZE(1..4)) OF ConfirmedFollower
+}
+
+asn1! {
+    /// Leads a session. Whoever is not among the followers has no part in it.
+    LeaderRole ::= SEQUENCE {
+        session   CoordinationSession,
+        heartbeat Heartbeat,
+        followers ConfirmedFollowers,
+        ...
+    }
+}
+
+asn1! {
+    /// Number that grows by one for every RAM period of a session: a serial number modulo 65536.
+    Heartbeat ::= INTEGER (0..65_535) is u16
+}
+
+asn1! {
+    /// A follower, and its offer that the leader accepts.
+    ConfirmedFollower ::= SEQUENCE {
+        station_id   StationId,
+        offer_number OfferNumber
+    }
+}
+
+asn1! {
+    /// Follows in a session: the newest heartbeat that it heard, the newest command that it
+    /// accepted.
+    FollowerRole ::= SEQUENCE {
+        session        CoordinationSession,
+        heartbeat_echo Heartbeat,
+        last_command   CommandReport OPTIONAL,
+        ...
+    }
+}
+
+asn1! {
+    /// How far a follower is with a command. The status container's `taskProgression` says the
+    /// same.
+    CommandReport ::= SEQUENCE {
+        request_id RequestId,
+        progress   CommandProgress
+    }
+}
+
+asn1! {
+    /// Every progress but executing is final for its command.
+    CommandProgress ::= CHOICE {
+        Executing Null,
+        Completed Null,
+        Failed    FailureReason,
+        SafeIdle  Null,
+        ...
+    }
+}
+
+asn1! {
+    /// Why a maneuver ended without success: it could not be done, or the robot became unavailable.
+    FailureReason ::= CHOICE {
+        Maneuver    Null,
+        Unavailable UnavailabilityReason,
+        ...
+    }
+}
+
+asn1! {
+    /// Names a session as over: the sender's own has ended, or it has left that of another station.
+    SessionFarewell ::= CHOICE {
+        Ended SessionNumber,
+        Left  CoordinationSession,
+        ...
+    }
+}

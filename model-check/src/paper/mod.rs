@@ -1,0 +1,266 @@
+//! The paper's text taken word for word, and why it is not enough.
+//!
+//! This is a model of the wording of *Multi-Robot Coordination in V2X Environments* (Arockiasamy,
+//! Vinel; arXiv 2605.06662), not of the protocol that robots run: four states, `helpStatus` in RAM
+//! without a session, `requestID` and `jobAdviceID` in RMCM, completion read from RAM, fallback to
+//! Idle on a safety timeout, release by a RAM with `none`. It must fail, and [`check`] shows where.
+//!
+//! ```text
+//!   robot ──► model ──► stateright ──► counterexamples ──┬──► report
+//!               ▲                                        ├──► page (doc/paper-literal.md)
+//!            hazards (P0..P12) ◄── texts                 └──► story (stories/*.json)
+//! ```
+//!
+//! Where the text leaves something open, the model takes the most literal reading:
+//!
+//! - an `offerHelp` names nobody, and a requester takes the first that it hears;
+//! - a leader's RAM names its follower, a follower takes commands of the leader that named it, and
+//!   each RMCM addressed to it is acknowledged and executed;
+//! - an RMCM is sent once; nothing is said of repetition;
+//! - an acknowledgement is for the outstanding command if the `jobAdviceID` is its `requestID`, and a
+//!   leader counts `requestID`s from 0 in each task;
+//! - the safety timeout of a follower is held off by RMCM, takes it to Idle, and stops its maneuver;
+//! - a leader in `ManeuverExecuting` that hears `completed` from its follower takes its command as
+//!   completed; nothing else in a follower's RAM changes a leader;
+//! - only a robot in Idle answers a `needHelp`; no time limit is given for any state.
+
+mod hazards;
+mod model;
+mod page;
+mod robot;
+mod story;
+mod texts;
+
+use std::time::Instant;
+
+use stateright::{Checker, Model as _};
+
+pub use hazards::{Hazard, Text};
+pub use page::page;
+pub use story::{Happening, Link, Message, Party, Step, Story, stories};
+
+use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
+use crate::transitions::Transitions;
+use model::{Action, Cast, Question, World};
+
+/// The name of the report.
+pub const NAME: &str = "paper-literal";
+
+/// What it is about, in one line.
+pub const SUMMARY: &str =
+    "the paper's text word for word; it must fail, and shows why each rule is there";
+
+/// A humanoid and a robot dog: everything that two robots can do.
+const PAIR: Cast = Cast {
+    names: &["ARI", "Go2"],
+    detecting: 2,
+    detections: 2,
+    commands: 2,
+    crashes: 1,
+    delay: true,
+};
+
+/// A second humanoid comes along; up to the roles.
+const TRIO: Cast = Cast {
+    names: &["ARI", "Go2", "NAO"],
+    detecting: 2,
+    detections: 2,
+    commands: 0,
+    crashes: 0,
+    delay: false,
+};
+
+/// A run that brings a hazard about.
+struct Counterexample {
+    hazard: Hazard,
+    cast: Cast,
+    /// Each action with the world before and after it.
+    steps: Vec<Transition>,
+}
+
+struct Transition {
+    before: World,
+    action: Action,
+    after: World,
+}
+
+/// What stateright found in one cast, of everything that can happen.
+struct Exploration {
+    unique_states: usize,
+    transitions: usize,
+    depth: usize,
+    is_p0_broken: bool,
+    is_crossing_found: bool,
+}
+
+/// Explores the model of the paper's wording.
+///
+/// It always explores everything: the model is small.
+#[must_use]
+pub fn check() -> ScenarioReport {
+    let start = Instant::now();
+    let explored = [PAIR, TRIO].map(explore);
+    let found = counterexamples();
+    let is_p0_broken = explored.iter().any(|e| e.is_p0_broken);
+    let sum = |count: fn(&Exploration) -> usize| explored.iter().map(count).sum();
+    let is_crossing_found = explored.iter().any(|e| e.is_crossing_found);
+    let mut properties = what_holds(is_p0_broken, is_crossing_found);
+    properties.extend(Hazard::ALL.map(|hazard| hazard_report(hazard, &found)));
+    ScenarioReport {
+        name: NAME.to_owned(),
+        summary: SUMMARY.to_owned(),
+        robots: TRIO.names.iter().map(|&name| name.to_owned()).collect(),
+        unique_states: sum(|e| e.unique_states),
+        transitions: sum(|e| e.transitions),
+        depth: explored.iter().map(|e| e.depth).max().unwrap_or(0),
+        seconds: start.elapsed().as_secs_f64(),
+        exhaustive: !is_p0_broken,
+        // stateright stops when it has found all there is to be found.
+        cut_off: is_p0_broken.then_some(CutOff::FoundBroken),
+        size_as_expected: None,
+        properties,
+        figures: Vec::new(),
+        assumptions: assumptions(),
+        // It is another state diagram.
+        transitions_taken: Transitions::default(),
+    }
+}
+
+/// Whether the report is that of [`check`]; no scenario can have its properties.
+#[must_use]
+pub fn made(report: &ScenarioReport) -> bool {
+    report.verdict(hazards::HOLDS).is_some()
+}
+
+/// Whether exactly P1 to P12 are violated in a report of [`check`], as they must be.
+#[must_use]
+pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
+    let fine = [hazards::HOLDS, hazards::PREMISE].map(|id| report.verdict(id))
+        == [Some(Verdict::Holds), Some(Verdict::Reachable)];
+    let must_fail = Hazard::ALL.map(|hazard| hazard.text().id);
+    report.exhaustive && fine && report.violated().eq(must_fail)
+}
+
+const fn verdict(holds: bool) -> Verdict {
+    if holds {
+        Verdict::Holds
+    } else {
+        Verdict::Violated
+    }
+}
+
+/// P0 and its premise: the model is not one in which anything can happen, or nothing.
+fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport> {
+    let premise = if is_crossing_found {
+        Verdict::Reachable
+    } else {
+        Verdict::Unreachable
+    };
+    let report = |id: &str, kind: &str, verdict, statement: &str| PropertyReport {
+        id: id.to_owned(),
+        kind: kind.to_owned(),
+        verdict,
+        statement: statement.to_owned(),
+        counterexample: Vec::new(),
+        repeats_after: None,
+    };
+    vec![
+        report(
+            hazards::HOLDS,
+            "S",
+            verdict(!is_p0_broken),
+            "a follower starts only what its leader commanded it",
+        ),
+        report(
+            hazards::PREMISE,
+            "premise",
+            premise,
+            "a crossing of two maneuvers goes well, and all robots are idle again",
+        ),
+    ]
+}
+
+fn hazard_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport {
+    let text = hazard.text();
+    let counterexample = found.iter().find(|found| found.hazard == hazard);
+    PropertyReport {
+        id: text.id.to_owned(),
+        kind: if hazard.is_without_end() { "L" } else { "S" }.to_owned(),
+        verdict: verdict(counterexample.is_none()),
+        statement: text.statement.to_owned(),
+        counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
+        repeats_after: counterexample.and_then(Counterexample::repeats_after),
+    }
+}
+
+fn assumptions() -> Vec<String> {
+    let mut assumptions = vec![
+        "P1 to P12 must be violated: each is why the protocol has a rule that the paper's text lacks"
+            .to_owned(),
+        "the paper's text as the kit's design retells it; what that leaves open is read literally"
+            .to_owned(),
+        "untimed: the safety timeout of a follower may run out at any moment".to_owned(),
+    ];
+    for cast in [PAIR, TRIO] {
+        assumptions.push(format!(
+            "{}: at most {} detections, {} commands, {} breakdowns; {} RAM delayed at a time",
+            cast.names.join(", "),
+            cast.detections,
+            cast.commands,
+            cast.crashes,
+            u8::from(cast.delay),
+        ));
+    }
+    assumptions
+}
+
+fn explore(cast: Cast) -> Exploration {
+    let hazard = None;
+    let checker = Question { cast, hazard }.checker().spawn_bfs().join();
+    Exploration {
+        unique_states: checker.unique_state_count(),
+        // What stateright counts has the initial state in it.
+        transitions: checker.state_count() - 1,
+        depth: checker.max_depth(),
+        is_p0_broken: checker.discovery(hazards::HOLDS).is_some(),
+        is_crossing_found: checker.discovery(hazards::PREMISE).is_some(),
+    }
+}
+
+/// The shortest counterexample of each hazard that can be brought about, in order.
+fn counterexamples() -> Vec<Counterexample> {
+    Hazard::ALL.into_iter().filter_map(find).collect()
+}
+
+fn find(hazard: Hazard) -> Option<Counterexample> {
+    let cast = match hazard {
+        Hazard::P7 => TRIO,
+        _ => PAIR,
+    };
+    let question = Question {
+        cast,
+        hazard: Some(hazard),
+    };
+    // One thread: of equally short counterexamples it always finds the same.
+    let checker = question.checker().threads(1).spawn_bfs().join();
+    let path = checker.discovery(hazard.text().id)?.into_vec();
+    let transition = |pair: &[(World, Option<Action>)]| {
+        Some(Transition {
+            before: pair[0].0.clone(),
+            action: pair[0].1?,
+            after: pair[1].0.clone(),
+        })
+    };
+    Some(Counterexample {
+        hazard,
+        cast,
+        steps: path.windows(2).filter_map(transition).collect(),
+    })
+}
+
+impl Counterexample {
+    /// Where it is that somebody waits for ever: after the last step nothing happens any more.
+    fn repeats_after(&self) -> Option<usize> {
+        self.hazard.is_without_end().then_some(self.steps.len())
+    }
+}

@@ -1,0 +1,343 @@
+//! Robots of the paper's wording, their radio channel and their applications, for stateright.
+//!
+//! RAM are periodic, so a robot may hear another one's *current* RAM at any moment, or not for a
+//! while; one RAM at a time may be delayed. An RMCM is sent once; it arrives after any time, also
+//! repeatedly, or gets lost. At most one of a kind is under way on each link.
+
+use std::fmt;
+
+use crossguard_protocol::State as Stage;
+use stateright::Property;
+
+use super::hazards::{self, Hazard};
+use super::robot::{Command, Input, Place, Ram, Rmcm, Robot};
+
+/// Robots, and how often what may happen to them in one run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cast {
+    /// Names; the station id of a robot is its place, counted from 1.
+    pub(super) names: &'static [&'static str],
+    /// The first so many robots may detect the pedestrian.
+    pub(super) detecting: usize,
+    /// How often a pedestrian is detected, by any of them.
+    pub(super) detections: u8,
+    pub(super) commands: u8,
+    /// How many robots break down for good.
+    pub(super) crashes: u8,
+    /// Whether a RAM may be delayed.
+    pub(super) delay: bool,
+}
+
+/// What stateright is asked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Question {
+    pub(super) cast: Cast,
+    /// The hazard to find, or what holds.
+    pub(super) hazard: Option<Hazard>,
+}
+
+/// A message under way.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) struct Flight {
+    pub(super) from: Place,
+    pub(super) to: Place,
+    pub(super) kind: Kind,
+}
+
+/// What a message under way is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) enum Kind {
+    Ram,
+    Command,
+    Acknowledgement,
+}
+
+/// What a message under way says.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Content {
+    Ram(Ram),
+    Rmcm(Rmcm),
+}
+
+/// What happens.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Action {
+    Detect(Place),
+    /// The current, periodic RAM is heard.
+    Hear {
+        from: Place,
+        to: Place,
+    },
+    Command(Place),
+    /// A message under way arrives; `again` if a copy of it stays under way.
+    Arrive {
+        flight: Flight,
+        again: bool,
+    },
+    Finish(Place),
+    CompleteTask(Place),
+    SafetyTimeout(Place),
+    /// The current, periodic RAM is delayed.
+    Delay {
+        from: Place,
+        to: Place,
+    },
+    Lose(Flight),
+    Crash(Place),
+}
+
+/// Robots, messages under way, and what the properties remember.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(super) struct World {
+    /// `None` where a robot has broken down.
+    pub(super) robots: Vec<Option<Robot>>,
+    /// In order, at most one for each flight.
+    pub(super) flying: Vec<(Flight, Content)>,
+    pub(super) memory: Memory,
+    detections: u8,
+    crashes: u8,
+}
+
+/// What the properties remember; sets of commands are bits by serial number.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub(super) struct Memory {
+    /// How many commands were given.
+    pub(super) given: u8,
+    pub(super) started: u8,
+    pub(super) fallen_back: u8,
+    pub(super) finished: u8,
+    /// Hazards that the newest step has brought about, by their place in the list.
+    pub(super) brought_about: u16,
+}
+
+impl World {
+    pub(super) fn robots(&self) -> impl Iterator<Item = (Place, &Robot)> + Clone {
+        self.robots
+            .iter()
+            .enumerate()
+            .filter_map(|(i, robot)| Some((i, robot.as_ref()?)))
+    }
+
+    pub(super) fn robot(&self, place: Place) -> Option<&Robot> {
+        self.robots[place].as_ref()
+    }
+
+    pub(super) fn content(&self, flight: Flight) -> Option<Content> {
+        let found = self.flying.iter().find(|(other, _)| *other == flight)?;
+        Some(found.1)
+    }
+
+    /// Whether nothing goes on by itself: nothing is under way, no timeout and no maneuver runs, no
+    /// application has anything to say, and no RAM tells anybody anything new.
+    pub(super) fn is_stuck(&self) -> bool {
+        let acts = |robot: &Robot| robot.leader().is_some() || robot.may_command();
+        self.flying.is_empty()
+            && !self.robots().any(|(_, robot)| acts(robot))
+            && self.telling_links().next().is_none()
+    }
+
+    /// The links on which the sender's current RAM would change the receiver.
+    pub(super) fn telling_links(&self) -> impl Iterator<Item = (Place, Place)> {
+        self.links()
+            .filter(|&(from, to)| self.told(from, to) != self.robots[to])
+    }
+
+    /// From every robot to every other.
+    pub(super) fn links(&self) -> impl Iterator<Item = (Place, Place)> {
+        self.robots().flat_map(move |(from, _)| {
+            let others = self.robots().filter(move |(to, _)| *to != from);
+            others.map(move |(to, _)| (from, to))
+        })
+    }
+
+    /// The robot at `to` if it heard the current RAM of the robot at `from`.
+    pub(super) fn told(&self, from: Place, to: Place) -> Option<Robot> {
+        let mut robot = self.robots[to]?;
+        robot.step(to, Input::Ram(from, self.robots[from]?.ram()));
+        Some(robot)
+    }
+
+    fn send(&mut self, from: Place, to: Place, content: Content) -> Option<()> {
+        let kind = content.kind();
+        let flight = Flight { from, to, kind };
+        let place = self.flying.binary_search_by_key(&flight, |(f, _)| *f);
+        self.flying.insert(place.err()?, (flight, content));
+        Some(())
+    }
+
+    fn land(&mut self, flight: Flight) {
+        self.flying.retain(|(other, _)| *other != flight);
+    }
+
+    /// A robot's step, what it sends, and what the properties remember of it.
+    fn step(&mut self, place: Place, input: Input) -> Option<()> {
+        let before = self.clone();
+        let robot = self.robots[place].as_mut()?;
+        let sent = robot.step(place, input);
+        let after = *robot;
+        let partner = match sent {
+            Some(Rmcm::Command(_)) => after.follower(),
+            Some(Rmcm::Acknowledgement(_)) => after.leader(),
+            None => None,
+        };
+        if let (Some(to), Some(rmcm)) = (partner, sent) {
+            self.send(place, to, Content::Rmcm(rmcm))?;
+        }
+        self.memory.brought_about = hazards::brought_about(&before, place, input, &after);
+        self.remember(&before, place, input, sent);
+        Some(())
+    }
+
+    fn remember(&mut self, before: &Self, place: Place, input: Input, sent: Option<Rmcm>) {
+        let bit = |command: Option<Command>| command.map_or(0, |command| 1 << command.serial);
+        let executed = before.robot(place).and_then(Robot::executing);
+        match (input, sent) {
+            (Input::SafetyTimeout, _) => self.memory.fallen_back |= bit(executed),
+            (Input::Finished, _) => self.memory.finished |= bit(executed),
+            (_, Some(Rmcm::Command(_))) => self.memory.given += 1,
+            (_, Some(Rmcm::Acknowledgement(command))) => self.memory.started |= bit(Some(command)),
+            _ => {}
+        }
+    }
+}
+
+impl Content {
+    const fn kind(self) -> Kind {
+        match self {
+            Self::Ram(_) => Kind::Ram,
+            Self::Rmcm(Rmcm::Command(_)) => Kind::Command,
+            Self::Rmcm(Rmcm::Acknowledgement(_)) => Kind::Acknowledgement,
+        }
+    }
+}
+
+impl fmt::Display for Content {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ram(ram) => ram.fmt(f),
+            Self::Rmcm(rmcm) => rmcm.fmt(f),
+        }
+    }
+}
+
+impl Cast {
+    fn local_actions(&self, world: &World, actions: &mut Vec<Action>) {
+        for (place, robot) in world.robots() {
+            if robot.state == Stage::Idle
+                && place < self.detecting
+                && world.detections < self.detections
+            {
+                actions.push(Action::Detect(place));
+            }
+            if robot.may_command() && world.memory.given < self.commands {
+                actions.push(Action::Command(place));
+            }
+            if robot.executing().is_some() {
+                actions.push(Action::Finish(place));
+            }
+            if robot.may_complete_task() {
+                actions.push(Action::CompleteTask(place));
+            }
+            if robot.leader().is_some() {
+                actions.push(Action::SafetyTimeout(place));
+            }
+        }
+    }
+
+    fn channel_actions(&self, world: &World, actions: &mut Vec<Action>) {
+        let hears = |(from, to)| Action::Hear { from, to };
+        actions.extend(world.telling_links().map(hears));
+        for &(flight, _) in &world.flying {
+            if world.robot(flight.to).is_some() {
+                let arrive = |again| Action::Arrive { flight, again };
+                actions.extend([arrive(false), arrive(true)]);
+            }
+        }
+        for &(flight, _) in &world.flying {
+            actions.push(Action::Lose(flight));
+        }
+        let is_delayed = |(flight, _): &(Flight, Content)| flight.kind == Kind::Ram;
+        if self.delay && !world.flying.iter().any(is_delayed) {
+            for (from, _) in world.robots() {
+                let others = world.robots().filter(|(to, _)| *to != from);
+                actions.extend(others.map(|(to, _)| Action::Delay { from, to }));
+            }
+        }
+    }
+}
+
+fn successor(world: &World, action: Action) -> Option<World> {
+    let mut next = world.clone();
+    next.memory.brought_about = 0;
+    match action {
+        Action::Detect(place) => {
+            next.detections += 1;
+            next.step(place, Input::Detected)?;
+        }
+        Action::Hear { from, to } => {
+            let ram = world.robot(from)?.ram();
+            next.step(to, Input::Ram(from, ram))?;
+        }
+        Action::Command(place) => next.step(place, Input::Commanded(world.memory.given))?,
+        Action::Arrive { flight, again } => {
+            if !again {
+                next.land(flight);
+            }
+            next.step(flight.to, world.content(flight)?.input(flight.from))?;
+        }
+        Action::Finish(place) => next.step(place, Input::Finished)?,
+        Action::CompleteTask(place) => next.step(place, Input::TaskCompleted)?,
+        Action::SafetyTimeout(place) => next.step(place, Input::SafetyTimeout)?,
+        Action::Delay { from, to } => {
+            let ram = world.robot(from)?.ram();
+            next.send(from, to, Content::Ram(ram))?;
+        }
+        Action::Lose(flight) => next.land(flight),
+        Action::Crash(place) => {
+            next.crashes += 1;
+            next.robots[place] = None;
+        }
+    }
+    Some(next)
+}
+
+impl Content {
+    const fn input(self, from: Place) -> Input {
+        match self {
+            Self::Ram(ram) => Input::Ram(from, ram),
+            Self::Rmcm(rmcm) => Input::Rmcm(from, rmcm),
+        }
+    }
+}
+
+impl stateright::Model for Question {
+    type State = World;
+    type Action = Action;
+
+    fn init_states(&self) -> Vec<World> {
+        vec![World {
+            robots: vec![Some(Robot::IDLE); self.cast.names.len()],
+            flying: Vec::new(),
+            memory: Memory::default(),
+            detections: 0,
+            crashes: 0,
+        }]
+    }
+
+    fn actions(&self, world: &World, actions: &mut Vec<Action>) {
+        // Of equally short counterexamples the first in this order is found.
+        self.cast.channel_actions(world, actions);
+        self.cast.local_actions(world, actions);
+        if world.crashes < self.cast.crashes {
+            actions.extend(world.robots().map(|(place, _)| Action::Crash(place)));
+        }
+    }
+
+    fn next_state(&self, world: &World, action: Action) -> Option<World> {
+        successor(world, action)
+    }
+
+    fn properties(&self) -> Vec<Property<Self>> {
+        hazards::properties(self)
+    }
+}

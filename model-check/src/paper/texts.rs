@@ -1,0 +1,91 @@
+//! The hazards in words.
+
+use super::hazards::{Hazard, Text};
+
+/// In the order of [`Hazard::ALL`].
+pub(super) const TEXTS: [Text; Hazard::ALL.len()] = [
+    Text {
+        id: "P1",
+        title: "late acknowledgement after fallback",
+        statement: "a leader counts a command as accepted only while the follower has not fallen back from it",
+        explanation: "The follower accepts the command, its acknowledgement is late, and before it arrives the safety timeout takes the follower back to Idle. The acknowledgement still matches the outstanding requestID, so the leader goes to ManeuverExecuting and would send the pedestrian onto a road that nobody guards.",
+        closed_by: "Leases and the corridor: the leader's lease ends before the follower can fall back, the corridor is open only while the lease stands and progress is reported, and a fallback is reported as `safeIdle` of that very command, which is final (I9, I10, I11).",
+    },
+    Text {
+        id: "P2",
+        title: "completion from a stale RAM",
+        statement: "what a leader counts as completed, the follower finished",
+        explanation: "Completion is read from the follower's RAM, and that RAM does not say of which command. A RAM with `completed` from the command before, still on its way, completes the newer command the moment it arrives; the leader goes on while the follower is in the middle of its maneuver.",
+        closed_by: "A follower's RAM carries (session, last requestID, progress), so that a stale RAM can complete only what is completed (I8).",
+    },
+    Text {
+        id: "P3",
+        title: "release that is the idle default",
+        statement: "a maneuver that the leader counts on is not stopped by a release that the leader did not mean",
+        explanation: "The release is a RAM with `none`, which is also what every idle robot sends all the time. A RAM from before the session, delayed on its way, releases the follower in the middle of its maneuver; the leader knows nothing of it and counts on the maneuver.",
+        closed_by: "The end of a session is announced by naming it. A bare `none` ends nothing, and a message of another session never changes a role (I2, I14).",
+    },
+    Text {
+        id: "P4",
+        title: "safety timeout that aborts a long move",
+        statement: "the safety timeout does not stop a maneuver while the leader is heard",
+        explanation: "The text does not say which message holds the safety timeout off; taken by the word it is the RMCM. A `move` takes 21.6 s and needs no second RMCM, so the timeout stops it half-way over the road although the leader is there and its RAM are heard.",
+        closed_by: "Keep-alive: each RAM of a leader carries a heartbeat number, and T_safety restarts on each newer heartbeat of the follower's own session, not on commands alone (I10).",
+    },
+    Text {
+        id: "P5",
+        title: "two requesters that wait for each other",
+        statement: "of two requesters that hear each other, one gets to lead or both give up",
+        explanation: "Two robots detect a pedestrian at the same time. Each asks for help and waits for an offer; a robot that asks does not offer. They hear each other's `needHelp` for ever.",
+        closed_by: "Requests are totally ordered by urgency and station id; who hears a preceding request withdraws its own and offers instead (L6).",
+    },
+    Text {
+        id: "P6",
+        title: "duplicated command that is executed twice",
+        statement: "a command is started at most once",
+        explanation: "The radio delivers a command twice. The follower acknowledges and starts it both times: the second start begins a maneuver anew that is half done or done.",
+        closed_by: "requestIDs are compared as serial numbers within the session. A repeated command is acknowledged again and never executed again; an older one changes nothing (I4, I5).",
+    },
+    Text {
+        id: "P7",
+        title: "two leaders of one follower",
+        statement: "a follower has one leader",
+        explanation: "`offerHelp` names nobody. Two requesters hear the same offer, and each takes the helper as its follower. It can follow one of them; the other one leads nobody and does not know it.",
+        closed_by: "An offer names the session that it is for, and a helper is reserved for that one; a leader commands only who has joined (I1, I2).",
+    },
+    Text {
+        id: "P8",
+        title: "request without end",
+        statement: "a request for help comes to an end",
+        explanation: "No time limit is given for HelpRequested. A requester that nobody can help asks for ever: it neither tells its application nor becomes free to help others.",
+        closed_by: "HelpRequested ends at T_help at the latest, and the application is told (L1).",
+    },
+    Text {
+        id: "P9",
+        title: "offer without end",
+        statement: "an offer of help comes to an end",
+        explanation: "A helper offers, and the requester breaks down before it confirms. The helper stays in HelpRequested for ever: it answers no other request.",
+        closed_by: "A helper reserves itself for T_offer, no longer (L1).",
+    },
+    Text {
+        id: "P10",
+        title: "lost command that is waited for for ever",
+        statement: "a command is acknowledged or given up",
+        explanation: "One RMCM gets lost. The text knows no repetition, so nobody says anything more: the follower's safety timeout takes it to Idle, the leader waits for the acknowledgement for ever, and with it the pedestrian at the kerb.",
+        closed_by: "The leader repeats the same command after T_ack, at most N_ack times, then treats the follower as lost (I16, L2).",
+    },
+    Text {
+        id: "P11",
+        title: "acknowledgement of an earlier session",
+        statement: "an acknowledgement counts only for the command that it answers",
+        explanation: "Neither requestID nor jobAdviceID says of which session it is, and every leader counts from the same number. A late offer from the crossing before makes its robot a follower of this one, and a copy of the acknowledgement of command 0 from the crossing before acknowledges command 0 of this one, which nobody has heard.",
+        closed_by: "Every RMCM carries the session (leader, session number), and session numbers never repeat, not even after a reboot (I6, I7, I15).",
+    },
+    Text {
+        id: "P12",
+        title: "follower that broke down and is counted on for ever",
+        statement: "a leader does not count for ever on a follower that is gone",
+        explanation: "The follower breaks down in the middle of its maneuver. The leader waits for a RAM with `completed`, and nothing tells it that no RAM comes any more: it stays in ManeuverExecuting for ever, and the pedestrian is on the road.",
+        closed_by: "The lease on a follower runs out t_lease after the newest heartbeat that it echoed, and the corridor closes; T_exec bounds every maneuver, and a follower without a lease is dropped (I10, I11).",
+    },
+];
