@@ -243,7 +243,7 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 12] = [
+const SHIPPED: [(&str, &str); 13] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -261,6 +261,10 @@ const SHIPPED: [(&str, &str); 12] = [
     (
         "team-of-four",
         include_str!("../scenarios/team-of-four.toml"),
+    ),
+    (
+        "timed-in-use",
+        include_str!("../scenarios/timed-in-use.toml"),
     ),
 ];
 

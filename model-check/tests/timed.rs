@@ -89,6 +89,21 @@ fn a_leader_with_two_followers_keeps_every_property_and_bound() {
 }
 
 #[test]
+#[ignore = "takes half a minute: cargo test --release -p crossguard-model-check --test timed -- --ignored"]
+fn a_pair_with_the_timers_in_use_keeps_every_property_and_bound() {
+    let report = run_shipped("timed-in-use");
+    assert_eq!(
+        figures(&report),
+        [
+            (Some(3_000), 3_100),
+            (Some(2_000), 2_100),
+            (Some(7_000), 7_200),
+            (Some(1_800), 1_900),
+        ]
+    );
+}
+
+#[test]
 fn each_figure_follows_its_timer() {
     // Roles or given up, follower stopped, follower idle; as shipped: 220, 275, 440 ms.
     let cases = [
