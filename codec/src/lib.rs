@@ -19,6 +19,7 @@
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
 //!   map to and from the protocol's view.
+//! - [`geonet`] has the headers under a message, `GeoNetworking` and BTP-B.
 //! - [`Identifiers`] holds what no standard has assigned.
 //!
 //! ```
@@ -53,6 +54,7 @@ mod containers;
 pub mod core;
 mod distance;
 mod error;
+pub mod geonet;
 mod identifiers;
 mod message;
 mod rules;

@@ -2,6 +2,11 @@
 
 mod support;
 
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
 use serde_json::Value;
 use support::*;
 
@@ -27,6 +32,45 @@ fn check_reports_every_property_of_a_scenario_as_json() {
             assert_eq!(verdict, expected, "{property}");
         }
     }
+}
+
+#[test]
+fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
+    let output = run(&["check", "timed-pair", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let report = json(&output);
+    let scenario = &report["scenarios"][0];
+    assert_eq!(scenario["exhaustive"], true);
+    let figures = scenario["figures"].as_array().unwrap();
+    assert_eq!(figures.len(), 4);
+    for figure in figures {
+        let (ms, bound_ms) = (figure["ms"].as_u64(), figure["bound_ms"].as_u64());
+        assert!(ms > Some(0) && ms <= bound_ms, "{figure}");
+    }
+    assert_refused(
+        &run(&[
+            "check",
+            "timed-pair",
+            "--export",
+            "dot",
+            "--output",
+            "no-graph.dot",
+        ]),
+        "'timed-pair' is a timed scenario",
+    );
+    // What was found before the limit, and by which timers it is bounded.
+    let output = run(&["check", "timed-pair", "--max-states", "1000"]);
+    assert_eq!(output.status.code(), Some(3));
+    let text = stdout(&output);
+    assert!(
+        text.contains("from a request to roles or to giving up"),
+        "{text}"
+    );
+    assert!(text.contains("by calculation at most 242 ms"), "{text}");
+    assert!(
+        text.contains("each shows 50 or 60 ms of each tick"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -62,6 +106,136 @@ fn a_scenario_of_ones_own_is_checked_and_a_property_that_is_put_to_no_test_is_a_
         run(&["check", path.to_str().unwrap()]).status.code(),
         Some(0)
     );
+}
+
+/// A scenario of a few hundred states.
+fn small_scenario(properties: &str) -> String {
+    format!(
+        "name = 'small'\nsummary = 'nobody is commanded'\nproperties = [{properties}]\n\
+         [[robots]]\nstation = 1\ndetects = true\n[[robots]]\nstation = 2\n\
+         [request]\nfollowers = 1\ntasks = ['move']\n[bounds]\ndetections = 1\n\
+         [channel]\ndelayed = 0\nloss = true\n"
+    )
+}
+
+#[test]
+fn the_state_graph_is_exported_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scenario, file) = (
+        folder.path().join("small.toml"),
+        folder.path().join("graph"),
+    );
+    std::fs::write(&scenario, small_scenario("'I2'")).unwrap();
+    let (scenario, file) = (scenario.to_str().unwrap(), file.to_str().unwrap());
+    let states = json(&run(&["check", scenario, "--json"]))["scenarios"][0]["unique_states"]
+        .as_u64()
+        .unwrap();
+
+    let export = |format: &str, more: &[&str]| {
+        let arguments = ["check", scenario, "--export", format, "--output", file];
+        run(&[&arguments[..], more].concat())
+    };
+    assert_eq!(export("aut", &[]).status.code(), Some(0));
+    let graph = std::fs::read_to_string(file).unwrap();
+    let header = graph.lines().next().unwrap();
+    let transitions = graph.lines().count() - 1;
+    assert_eq!(header, format!("des (0, {transitions}, {states})"));
+    assert!(
+        graph.contains("\"robot 1 -x robot 2: RAM needHelp"),
+        "{header}"
+    );
+
+    assert_eq!(export("dot", &[]).status.code(), Some(0));
+    let graph = std::fs::read_to_string(file).unwrap();
+    assert!(graph.starts_with("digraph \"small\" {\n"));
+    assert_eq!(graph.lines().count() - 2, transitions);
+
+    assert_eq!(
+        export("dot", &["--max-states", "10"]).status.code(),
+        Some(3)
+    );
+    assert_eq!(std::fs::read_to_string(file).unwrap(), "");
+    let two = [
+        "check", scenario, "pair", "--export", "dot", "--output", file,
+    ];
+    assert_refused(&run(&two), "--export wants one scenario");
+}
+
+#[test]
+fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scenario, file) = (
+        folder.path().join("small.toml"),
+        folder.path().join("run.json"),
+    );
+    std::fs::write(&scenario, small_scenario("'I2'")).unwrap();
+    let (scenario, file) = (scenario.to_str().unwrap(), file.to_str().unwrap());
+    let detected = "pedestrian detected (1 x move, medium urgency)";
+    let follow = |outputs: &str, last: &str| {
+        let text = format!(
+            "{{\"scenario\": \"small\", \"property\": \"I2\", \"steps\": [\
+             {{\"place\": {{\"at\": 0}}, \"action\": \"{detected}\", \"outputs\": [{outputs}]}},\
+             {{\"place\": {{\"between\": {{\"from\": 0, \"to\": 1, \"fate\": \"lost\"}}}}, \
+             \"action\": \"{last}\", \"outputs\": []}}]}}"
+        );
+        std::fs::write(file, text).unwrap();
+        run(&["check", scenario, "--replay", file])
+    };
+    let lost = "RAM needHelp 1#1.0 (1 x move, medium urgency) from 1";
+    let cases = [
+        (
+            "\"send RAM\", \"lock identity\"",
+            lost,
+            "exists, and does not break it any more",
+        ),
+        (
+            "\"send RAM\"",
+            lost,
+            "the robot now puts out: send RAM, lock identity",
+        ),
+        (
+            "\"send RAM\", \"lock identity\"",
+            "RAM none from 1",
+            "this cannot happen now",
+        ),
+    ];
+    for (outputs, last, expected) in cases {
+        let output = follow(outputs, last);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stdout(&output).contains(expected), "{}", stdout(&output));
+    }
+    std::fs::write(file, "{").unwrap();
+    assert_refused(&run(&["check", scenario, "--replay", file]), "run.json");
+}
+
+#[test]
+fn the_explorer_serves_states_in_words_and_says_why_it_cannot() {
+    let address = format!("127.0.0.1:{}", two_free_ports());
+    let mut child = crossguard(&["explore", "pair", "--address", &address])
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let deadline = Instant::now() + Duration::from_secs(20);
+    let page = loop {
+        if let Ok(mut socket) = TcpStream::connect(&address) {
+            let request = "GET /.states/0 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+            socket.write_all(request.as_bytes()).unwrap();
+            let mut page = String::new();
+            socket.read_to_string(&mut page).unwrap();
+            break page;
+        }
+        assert!(Instant::now() < deadline, "nobody listens");
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert!(
+        page.contains("HelpRequested, requester, available, session 1#1.0"),
+        "{page}"
+    );
+    assert!(page.contains("<svg"), "{page}");
+    let second = run(&["explore", "pair", "--address", &address]);
+    assert_refused(&second, "Address already in use");
+    child.kill().unwrap();
+    child.wait().unwrap();
 }
 
 #[test]

@@ -1,31 +1,31 @@
 //! Each counterexample that the checker finds in the paper's wording, told to real endpoints: they
 //! survive it.
 //!
-//! The stories are `model-check/replays/*.json`; a test there keeps them what the checker finds.
+//! The stories are `model-check/stories/*.json`; a test there keeps them what the checker finds.
 
-mod replay;
+mod story;
 
 use std::path::Path;
 
 use crossguard_harness::endpoint::Act;
-use crossguard_model_check::paper::{Hazard, Replay};
+use crossguard_model_check::paper::{Hazard, Story};
 use crossguard_protocol::{EndReason, Ignored, Notice, Progress, ReleaseReason, Role, State};
-use replay::Street;
+use story::Street;
 
 const ARI: u32 = 1;
 const GO2: u32 = 2;
 
-fn story(id: &str) -> Replay {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model-check/replays");
+fn story(id: &str) -> Story {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model-check/stories");
     let text = std::fs::read_to_string(folder.join(format!("{id}.json"))).unwrap();
     serde_json::from_str(&text).unwrap()
 }
 
 /// Tells a story up to its end, and looks.
 fn told(id: &str, look: impl FnOnce(&Street)) -> Street {
-    let replay = story(id);
-    let mut street = Street::new(&replay);
-    for step in &replay.steps {
+    let story = story(id);
+    let mut street = Street::new(&story);
+    for step in &story.steps {
         street.take(step);
     }
     look(&street);

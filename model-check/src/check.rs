@@ -119,6 +119,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
             .filter(|_| cut_off.is_none())
             .map(|expected| expected == size),
         properties: findings.all(),
+        figures: Vec::new(),
         assumptions: assumptions(scenario, size.unique_states),
         transitions_taken: model.transitions_taken(),
         seconds: start.elapsed().as_secs_f64(),
@@ -383,6 +384,8 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
         ),
         format!("commands are repeated at most {} times", scenario.config.settings().n_ack),
         "all robots are equally far apart, and know all tasks that are asked for".to_owned(),
+        "of the receivers of one message that is not delayed, those listed first hear it first"
+            .to_owned(),
         "a crash stops the robot's body; station ids and boot counters survive it".to_owned(),
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),

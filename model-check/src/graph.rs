@@ -1,8 +1,9 @@
 //! The whole state graph, for facts about runs that stateright's exploration does not establish.
 
-use std::collections::HashMap;
+use std::hash::BuildHasher;
 use std::time::{Duration, Instant};
 
+use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
 use crate::model::{Model, State};
@@ -16,14 +17,14 @@ pub(crate) struct Limit {
 }
 
 impl Limit {
-    fn reached(&self, states: usize, time: Duration) -> Option<CutOff> {
-        if self.states.is_some_and(|max| states >= max) {
-            Some(CutOff::StateLimit)
-        } else if self.time.is_some_and(|max| time >= max) {
-            Some(CutOff::TimeLimit)
-        } else {
-            None
-        }
+    fn states_reached(&self, states: usize) -> Option<CutOff> {
+        let reached = self.states.is_some_and(|max| states >= max);
+        reached.then_some(CutOff::StateLimit)
+    }
+
+    fn time_reached(&self, time: Duration) -> Option<CutOff> {
+        let reached = self.time.is_some_and(|max| time >= max);
+        reached.then_some(CutOff::TimeLimit)
     }
 }
 
@@ -61,8 +62,10 @@ impl Graph {
     ) -> Self {
         let start = Instant::now();
         let initial = model.initial();
-        let mut numbers: HashMap<State, u32, FxBuildHasher> = HashMap::default();
-        numbers.insert(initial.clone(), 0);
+        let hash = |state: &State| FxBuildHasher.hash_one(state);
+        // Numbers of states, by what the states are; each state is stored once.
+        let mut numbers: HashTable<u32> = HashTable::new();
+        numbers.insert_unique(hash(&initial), 0, |_| 0);
         let mut graph = Self {
             states: vec![initial],
             parents: vec![0],
@@ -79,15 +82,14 @@ impl Graph {
             if at == level_ends {
                 (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
             }
+            graph.cut_off = limit.states_reached(graph.states.len());
             if at % 16_384 == 0 {
-                graph.cut_off = if watch(graph.reached(at)) {
-                    Some(CutOff::FoundBroken)
-                } else {
-                    limit.reached(graph.states.len(), start.elapsed())
-                };
-                if graph.cut_off.is_some() {
-                    return graph;
-                }
+                let has_to_stop = watch(graph.reached(at)).then_some(CutOff::FoundBroken);
+                let out_of_time = limit.time_reached(start.elapsed());
+                graph.cut_off = graph.cut_off.or(has_to_stop).or(out_of_time);
+            }
+            if graph.cut_off.is_some() {
+                return graph;
             }
             let state = graph.states[at].clone();
             actions.clear();
@@ -97,9 +99,14 @@ impl Graph {
                 let Some((next, _)) = model.successor(&state, action) else {
                     continue;
                 };
-                let fresh = u32::try_from(graph.states.len()).expect("fewer than 2^32 states");
-                let number = *numbers.entry(next).or_insert_with_key(|next| {
-                    graph.states.push(next.clone());
+                let hashed = hash(&next);
+                let known = numbers.find(hashed, |&number| graph.states[number as usize] == next);
+                let number = known.copied().unwrap_or_else(|| {
+                    let fresh = u32::try_from(graph.states.len()).expect("fewer than 2^32 states");
+                    numbers.insert_unique(hashed, fresh, |&number| {
+                        hash(&graph.states[number as usize])
+                    });
+                    graph.states.push(next);
                     graph
                         .parents
                         .push(u32::try_from(at).expect("fewer than 2^32 states"));

@@ -20,6 +20,21 @@ pub(crate) struct Interner<T> {
 }
 
 impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
+    /// The number of `value`, a new one if it was not seen before.
+    ///
+    /// # Panics
+    /// When 2^32 values are exceeded, far beyond what fits in memory.
+    pub(crate) fn number(&self, value: T) -> u32 {
+        self.number_with(value, Names::of)
+    }
+
+    /// The names that occur in a value.
+    pub(crate) fn names(&self, number: u32) -> &Names {
+        &self.values[number as usize].1
+    }
+}
+
+impl<T: Clone + Eq + Hash> Interner<T> {
     pub(crate) fn new() -> Self {
         Self {
             values: boxcar::Vec::new(),
@@ -27,15 +42,16 @@ impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
         }
     }
 
-    /// The number of `value`, a new one if it was not seen before.
-    ///
-    /// # Panics
-    /// When 2^32 values are exceeded, far beyond what fits in memory.
-    pub(crate) fn number(&self, value: T) -> u32 {
+    /// The same for a value in which no names occur.
+    pub(crate) fn number_nameless(&self, value: T) -> u32 {
+        self.number_with(value, |_| Names::default())
+    }
+
+    fn number_with(&self, value: T, names: impl FnOnce(&T) -> Names) -> u32 {
         if let Some(number) = self.numbers.get(&value) {
             return *number;
         }
-        let names = Names::of(&value);
+        let names = names(&value);
         match self.numbers.entry(value) {
             Entry::Occupied(known) => *known.get(),
             Entry::Vacant(vacant) => {
@@ -50,10 +66,5 @@ impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
     /// The value of a number that [`Interner::number`] gave out.
     pub(crate) fn value(&self, number: u32) -> &T {
         &self.values[number as usize].0
-    }
-
-    /// The names that occur in it.
-    pub(crate) fn names(&self, number: u32) -> &Names {
-        &self.values[number as usize].1
     }
 }

@@ -36,5 +36,17 @@ pub mod report;
 pub mod scenario;
 pub mod sequence;
 mod steps;
+pub mod timed;
 pub mod transitions;
 pub mod universe;
+
+/// How many distinct states a scenario has, by the kit's own exploration alone. It says nothing about
+/// what must hold of them; [`check::check`] does.
+#[must_use]
+pub fn count_states(model: &model::Model) -> usize {
+    let unlimited = graph::Limit {
+        states: None,
+        time: None,
+    };
+    graph::Graph::build(model, unlimited, &mut |_| false).states()
+}

@@ -8,14 +8,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use crossguard_protocol::{
-    Availability, Coordination, Event, Farewell, Input, Member, Outputs, Phase, Ram, Rmcm, Robot,
-    StationId, Timer, Unavailability,
+    Availability, Event, Input, Member, Outputs, Phase, Robot, StationId, Timer, Unavailability,
 };
 
 use crate::canonical::{Ranks, Renamable};
 use crate::history::History;
 use crate::intern::Interner;
-use crate::network::{Message, Network, Transmission};
+use crate::network::{Message, Network, Transmission, concerns};
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::{PropertyId, StepView, View};
 use crate::scenario::{Bounds, MAX_ROBOTS, PSEUDONYM_STEP, Scenario};
@@ -30,6 +29,12 @@ pub struct State {
     /// One bit per step property that the step into this state broke.
     broken: u32,
     left: Bounds,
+    network: u32,
+}
+
+/// A state that is being made up, its network not interned yet.
+struct Draft {
+    state: State,
     network: Network,
 }
 
@@ -91,6 +96,7 @@ struct Shared {
     scenario: Scenario,
     steps: Steps,
     histories: Interner<History>,
+    networks: Interner<Network>,
     /// One bit per property whose premise has been met.
     premises_met: AtomicU32,
 }
@@ -112,7 +118,7 @@ impl RobotStep<'_> {
 
     /// What the robot put out.
     #[must_use]
-    pub const fn outputs(&self) -> &Outputs {
+    pub fn outputs(&self) -> &Outputs {
         &self.step.outputs
     }
 
@@ -136,6 +142,7 @@ impl Model {
             scenario,
             steps: Steps::new(Box::new(rules)),
             histories: Interner::new(),
+            networks: Interner::new(),
             premises_met: AtomicU32::new(0),
         }))
     }
@@ -158,8 +165,12 @@ impl Model {
             history: self.0.histories.number(History::default()),
             broken: 0,
             left: self.0.scenario.bounds,
-            network: Network::EMPTY,
+            network: self.0.networks.number_nameless(Network::EMPTY),
         }
+    }
+
+    fn network(&self, state: &State) -> &Network {
+        self.0.networks.value(state.network)
     }
 
     /// The robots of a state.
@@ -229,12 +240,12 @@ impl Model {
                     .any(|(timer, _)| effective(i, Cause::Timer(*timer)))
             })
         });
+        let network = self.network(state);
         by_timer
-            || state
-                .network
+            || network
                 .next_on_air()
                 .into_iter()
-                .chain(state.network.delayed())
+                .chain(network.delayed())
                 .any(|t| effective(t.to.into(), Cause::Message(t.message)))
     }
 
@@ -249,7 +260,7 @@ impl Model {
         if state.broken != 0 {
             return;
         }
-        match state.network.next_on_air() {
+        match self.network(state).next_on_air() {
             Some(transmission) => self.fates(state, transmission, actions),
             None => self.actions_off_air(state, actions),
         }
@@ -257,7 +268,7 @@ impl Model {
 
     /// Everything that may happen in `state` once nothing is on air any more.
     pub(crate) fn actions_off_air(&self, state: &State, actions: &mut Vec<Action>) {
-        for transmission in state.network.delayed() {
+        for transmission in self.network(state).delayed() {
             for how in [Delivery::Late, Delivery::LateAndAgain] {
                 actions.push(Action::Deliver { transmission, how });
             }
@@ -298,8 +309,8 @@ impl Model {
         if channel.loss && state.left.losses != Some(0) {
             actions.push(Action::Lose(transmission));
         }
-        if state
-            .network
+        if self
+            .network(state)
             .can_delay(transmission, usize::from(channel.delayed))
         {
             actions.push(Action::Delay(transmission));
@@ -379,7 +390,10 @@ impl Model {
         state: &State,
         action: Action,
     ) -> Option<(State, Option<RobotStep<'_>>)> {
-        let mut next = state.clone();
+        let mut next = Draft {
+            state: state.clone(),
+            network: *self.network(state),
+        };
         let step = match action {
             Action::Deliver { transmission, how } => {
                 match how {
@@ -395,7 +409,7 @@ impl Model {
                 Some(step)
             }
             Action::Lose(transmission) => {
-                if let Some(left) = &mut next.left.losses {
+                if let Some(left) = &mut next.state.left.losses {
                     *left -= 1;
                 }
                 if next.network.next_on_air() == Some(transmission) {
@@ -414,7 +428,7 @@ impl Model {
                 Some(self.robot_step(&mut next, i.into(), Cause::Timer(timer))?)
             }
             Action::Local(i, event) => {
-                spend(&mut next.left, event);
+                next.state.left.spend(event);
                 let step = self.robot_step(&mut next, i.into(), Cause::Event(event))?;
                 if step.step.is_ignored {
                     return None;
@@ -422,24 +436,23 @@ impl Model {
                 Some(step)
             }
             Action::Crash(i) => {
-                next.left.crashes -= 1;
-                self.crash(&mut next, i.into());
+                next.state.left.crashes -= 1;
+                self.crash(&mut next.state, i.into());
                 None
             }
             Action::Restart(i) => {
-                next.left.restarts -= 1;
+                next.state.left.restarts -= 1;
                 let node = self
                     .0
                     .steps
                     .nodes
-                    .value(next.nodes[usize::from(i)])
+                    .value(next.state.nodes[usize::from(i)])
                     .restarted();
-                next.nodes[usize::from(i)] = self.0.steps.nodes.number(node);
+                next.state.nodes[usize::from(i)] = self.0.steps.nodes.number(node);
                 None
             }
         };
-        self.canonicalize(&mut next);
-        Some((next, step))
+        Some((self.canonical(next), step))
     }
 
     fn crash(&self, next: &mut State, i: usize) {
@@ -452,17 +465,17 @@ impl Model {
         next.nodes[i] = self.0.steps.nodes.number(node.crashed());
     }
 
-    fn robot_step(&self, next: &mut State, i: usize, cause: Cause) -> Option<RobotStep<'_>> {
+    fn robot_step(&self, next: &mut Draft, i: usize, cause: Cause) -> Option<RobotStep<'_>> {
         let Shared {
             scenario, steps, ..
         } = &*self.0;
-        let before = next.nodes[i];
+        let before = next.state.nodes[i];
         let step = steps.step(&scenario.config, &scenario.properties, before, cause)?;
         let (mut premises, mut broken) = (step.premises, step.broken);
         if step.is_historic {
             let view = StepView {
                 config: &scenario.config,
-                history: self.0.histories.value(next.history),
+                history: self.0.histories.value(next.state.history),
                 before: steps.nodes.value(before),
                 after: steps.nodes.value(step.after),
                 input: step.input,
@@ -471,15 +484,15 @@ impl Model {
             let historic = judge_historic(&scenario.properties, &view);
             premises |= historic.0;
             broken |= historic.1;
-            next.history = self.0.histories.number(view.history_after());
+            next.state.history = self.0.histories.number(view.history_after());
         }
-        next.broken |= broken;
+        next.state.broken |= broken;
         if !step.taken.load(Ordering::Relaxed) {
             step.taken.store(true, Ordering::Relaxed);
         }
         self.note_premises(premises);
         self.transmit(next, i, step);
-        next.nodes[i] = step.after;
+        next.state.nodes[i] = step.after;
         Some(RobotStep { robot: i, step })
     }
 
@@ -505,11 +518,11 @@ impl Model {
         }
     }
 
-    fn transmit(&self, next: &mut State, from: usize, step: &Step) {
+    fn transmit(&self, next: &mut Draft, from: usize, step: &Step) {
         for &number in &step.sends {
             let message = self.message(number);
             for to in (0..self.0.scenario.robots.len()).filter(|&to| to != from) {
-                let receiver = self.0.steps.nodes.value(next.nodes[to]);
+                let receiver = self.0.steps.nodes.value(next.state.nodes[to]);
                 if receiver.robot.is_some() && concerns(message, receiver.persisted.station) {
                     let place = |i: usize| u8::try_from(i).expect("at most MAX_ROBOTS");
                     let (from, to) = (place(from), place(to));
@@ -523,61 +536,44 @@ impl Model {
         }
     }
 
-    fn canonicalize(&self, state: &mut State) {
+    /// The state of all those that differ from the draft in names alone.
+    fn canonical(&self, draft: Draft) -> State {
+        let Draft {
+            mut state,
+            mut network,
+        } = draft;
         let robots = self.0.scenario.robots.len();
         let mut ranks = Ranks::default();
         for &node in &state.nodes[..robots] {
             ranks.add(self.0.steps.nodes.names(node));
         }
-        for message in state.network.messages() {
+        for message in network.messages() {
             ranks.add(self.0.steps.messages.names(message.into()));
         }
         ranks.add(self.0.histories.names(state.history));
-        if !ranks.rank() {
-            return;
+        if ranks.rank() {
+            self.rename(&mut state, &mut network, &mut ranks);
         }
+        state.network = self.0.networks.number_nameless(network);
+        state
+    }
+
+    fn rename(&self, state: &mut State, network: &mut Network, ranks: &mut Ranks) {
+        let robots = self.0.scenario.robots.len();
         for node in &mut state.nodes[..robots] {
             *node = self
                 .0
                 .steps
                 .nodes
-                .number(self.0.steps.nodes.value(*node).renamed(&mut ranks));
+                .number(self.0.steps.nodes.value(*node).renamed(ranks));
         }
-        state.network = state.network.map(|message| {
+        *network = network.map(|message| {
             self.0
                 .steps
-                .message_number(self.message(message).renamed(&mut ranks))
+                .message_number(self.message(message).renamed(ranks))
         });
-        let history = self.0.histories.value(state.history).renamed(&mut ranks);
+        let history = self.0.histories.value(state.history).renamed(ranks);
         state.history = self.0.histories.number(history);
-    }
-}
-
-/// Whether a message can have any effect on the receiver, whatever its state. Every robot within
-/// reach hears every message; those that are ignored in every state are left out of the model. That
-/// they are ignored is checked in [`universe`](crate::universe).
-pub(crate) fn concerns(message: &Message, receiver: StationId) -> bool {
-    match message {
-        Message::Rmcm(Rmcm::Command(command)) => command.to == receiver,
-        Message::Rmcm(Rmcm::Answer(answer)) => answer.session.leader == receiver,
-        Message::Ram(Ram {
-            coordination,
-            farewell,
-            ..
-        }) => {
-            let by_farewell = match farewell {
-                None => false,
-                Some(Farewell::Ended(_)) => true,
-                Some(Farewell::Left(session)) => session.leader == receiver,
-            };
-            let by_coordination = match coordination {
-                Coordination::None => false,
-                Coordination::NeedHelp { .. } | Coordination::Leader { .. } => true,
-                Coordination::OfferHelp { session, .. }
-                | Coordination::Follower { session, .. } => session.leader == receiver,
-            };
-            by_farewell || by_coordination
-        }
     }
 }
 
@@ -585,22 +581,4 @@ pub(crate) fn concerns(message: &Message, receiver: StationId) -> bool {
 /// others pace the robot's own work.
 const fn guards_against_silence(timer: Timer) -> bool {
     !matches!(timer, Timer::Ram | Timer::Selection | Timer::Farewell)
-}
-
-/// Takes an event off what may still happen.
-fn spend(left: &mut Bounds, event: Event) {
-    let bound = match event {
-        Event::PedestrianDetected(_) => &mut left.detections,
-        Event::CommandManeuver { .. } => &mut left.commands,
-        Event::ManeuverFailed(_)
-        | Event::LeaveRequested
-        | Event::AvailabilityChanged(Availability::Unavailable(_))
-        | Event::IdentityChanged(_) => &mut left.disturbances,
-        Event::ManeuverCompleted(_)
-        | Event::TaskCompleted
-        | Event::AvailabilityChanged(Availability::Available)
-        | Event::OpenCorridor
-        | Event::CloseCorridor => return,
-    };
-    *bound -= 1;
 }

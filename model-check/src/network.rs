@@ -9,7 +9,9 @@
 //! before anything else happens; that leaves out nothing, because whatever might happen in between
 //! can as well happen before or after to a delayed message.
 
-use crossguard_protocol::{Decimetres, Input, Ram, Renaming, Rmcm};
+use crossguard_protocol::{
+    Coordination, Decimetres, Farewell, Input, Ram, Renaming, Rmcm, StationId,
+};
 
 use crate::canonical::Renamable;
 
@@ -179,6 +181,34 @@ impl Network {
 
     fn sort(&mut self) {
         self.delayed.sort_unstable();
+    }
+}
+
+/// Whether a message can have any effect on the receiver, whatever its state. Every robot within
+/// reach hears every message; those that are ignored in every state are left out of the model. That
+/// they are ignored is checked in [`universe`](crate::universe).
+pub(crate) fn concerns(message: &Message, receiver: StationId) -> bool {
+    match message {
+        Message::Rmcm(Rmcm::Command(command)) => command.to == receiver,
+        Message::Rmcm(Rmcm::Answer(answer)) => answer.session.leader == receiver,
+        Message::Ram(Ram {
+            coordination,
+            farewell,
+            ..
+        }) => {
+            let by_farewell = match farewell {
+                None => false,
+                Some(Farewell::Ended(_)) => true,
+                Some(Farewell::Left(session)) => session.leader == receiver,
+            };
+            let by_coordination = match coordination {
+                Coordination::None => false,
+                Coordination::NeedHelp { .. } | Coordination::Leader { .. } => true,
+                Coordination::OfferHelp { session, .. }
+                | Coordination::Follower { session, .. } => session.leader == receiver,
+            };
+            by_farewell || by_coordination
+        }
     }
 }
 

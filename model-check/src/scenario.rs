@@ -9,13 +9,14 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use crossguard_protocol::{
-    BrokenInequality, Config, HelpRequest, Inequality, MAX_FOLLOWERS, Settings, StationId, TaskSet,
-    TaskType, Urgency,
+    Availability, BrokenInequality, Config, Event, HelpRequest, Inequality, MAX_FOLLOWERS,
+    Settings, StationId, TaskSet, TaskType, Urgency,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
+use crate::timed::{Section, Timed, TimedImpossibility, TimedProperty};
 
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 4;
@@ -49,8 +50,10 @@ pub struct Scenario {
     pub cooperative: bool,
     /// The configuration of every robot.
     pub config: Config,
-    /// The properties to check.
+    /// The properties to check; none where the scenario is timed.
     pub properties: Vec<PropertyId>,
+    /// What makes it a timed scenario, with the properties to check then.
+    pub timed: Option<Timed>,
     /// What an exploration must find, where the file says so.
     pub expected: Option<Size>,
 }
@@ -95,12 +98,33 @@ pub struct Bounds {
     pub losses: Option<u8>,
 }
 
+impl Bounds {
+    /// Takes an event off what may still happen.
+    pub(crate) fn spend(&mut self, event: Event) {
+        let bound = match event {
+            Event::PedestrianDetected(_) => &mut self.detections,
+            Event::CommandManeuver { .. } => &mut self.commands,
+            Event::ManeuverFailed(_)
+            | Event::LeaveRequested
+            | Event::AvailabilityChanged(Availability::Unavailable(_))
+            | Event::IdentityChanged(_) => &mut self.disturbances,
+            Event::ManeuverCompleted(_)
+            | Event::TaskCompleted
+            | Event::AvailabilityChanged(Availability::Available)
+            | Event::OpenCorridor
+            | Event::CloseCorridor => return,
+        };
+        *bound -= 1;
+    }
+}
+
 /// What the radio channel does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Channel {
     /// How many messages may be delayed at a time; each may arrive late, in any order, more than
-    /// once, or never.
+    /// once, or never. A timed scenario bounds for how long instead.
+    #[serde(default)]
     pub delayed: u8,
     /// Whether a message may get lost on its way to one receiver and reach another.
     pub loss: bool,
@@ -122,6 +146,7 @@ struct File {
     channel: Channel,
     #[serde(default)]
     protocol: Settings,
+    timed: Option<Section>,
     properties: Vec<toml::Spanned<String>>,
     expected: Option<Size>,
 }
@@ -212,10 +237,13 @@ pub enum Impossibility {
     /// The protocol's settings contradict each other.
     #[error(transparent)]
     Settings(#[from] BrokenInequality),
+    /// What is wrong with the time of a timed scenario.
+    #[error(transparent)]
+    Timed(#[from] TimedImpossibility),
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 9] = [
+const SHIPPED: [(&str, &str); 13] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -226,12 +254,22 @@ const SHIPPED: [(&str, &str); 9] = [
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
     ("bilateral", include_str!("../scenarios/bilateral.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
+    ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
+    ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
     ("wrap", include_str!("../scenarios/wrap.toml")),
     ("stable", include_str!("../scenarios/stable.toml")),
+    (
+        "team-of-four",
+        include_str!("../scenarios/team-of-four.toml"),
+    ),
+    (
+        "timed-in-use",
+        include_str!("../scenarios/timed-in-use.toml"),
+    ),
 ];
 
 /// How many of the shipped scenarios take seconds.
-const QUICK: usize = 9;
+const QUICK: usize = 11;
 
 impl Scenario {
     /// The names of the shipped scenarios that take seconds.
@@ -363,18 +401,28 @@ impl File {
         let request = self.request.check()?;
         let config = Config::new(self.protocol)
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
-        let mut properties = Vec::new();
-        for name in self.properties {
-            let place = Place::Offset(name.span().start);
-            let name = name.into_inner();
-            match name.parse() {
-                Ok(PropertyId::L3) if !self.cooperative => {
-                    return Err(at(place, I::NotCooperative));
-                }
-                Ok(property) => properties.push(property),
-                Err(()) => return Err(at(place, I::Property(name))),
+        let mut timed = None;
+        if let Some(section) = self.timed {
+            let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
+            let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
+            if self.cooperative {
+                let cause = TimedImpossibility::Untimed("cooperative");
+                return Err(at(Place::Key("cooperative"), cause));
             }
+            checked.properties = all_named(&self.properties, |name| {
+                let unknown = || TimedImpossibility::Property(name.to_owned());
+                TimedProperty::named(name).ok_or_else(|| unknown().into())
+            })?;
+            timed = Some(checked);
         }
+        let properties = match timed {
+            Some(_) => Vec::new(),
+            None => all_named(&self.properties, |name| match name.parse() {
+                Ok(PropertyId::L3) if !self.cooperative => Err(I::NotCooperative),
+                Ok(property) => Ok(property),
+                Err(()) => Err(I::Property(name.to_owned())),
+            })?,
+        };
         Ok(Scenario {
             name: self.name,
             summary: self.summary,
@@ -385,10 +433,22 @@ impl File {
             channel: self.channel,
             cooperative: self.cooperative,
             config,
+            timed,
             properties,
             expected: self.expected,
         })
     }
+}
+
+/// The properties of these names.
+fn all_named<P>(
+    names: &[toml::Spanned<String>],
+    parse: impl Fn(&str) -> Result<P, Impossibility>,
+) -> Result<Vec<P>, Located> {
+    let property = |name: &toml::Spanned<String>| {
+        parse(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
+    };
+    names.iter().map(property).collect()
 }
 
 /// The key whose line a broken inequality is reported at: the first timer in its formula.

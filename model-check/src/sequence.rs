@@ -193,7 +193,15 @@ impl Chart<'_> {
 
 /// Mermaid ends a statement at a semicolon, and takes a hash for the begin of a character's code.
 fn escaped(text: &str) -> String {
-    text.replace('#', "#35;").replace(';', "#59;")
+    let mut escaped = String::new();
+    for c in text.chars() {
+        match c {
+            '#' => escaped.push_str("#35;"),
+            ';' => escaped.push_str("#59;"),
+            _ => escaped.push(c),
+        }
+    }
+    escaped
 }
 
 /// A picture in the making, from top to bottom; in pixels.

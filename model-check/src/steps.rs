@@ -4,6 +4,7 @@
 //! exploration. So each pair is put through the transition function once, judged once, and looked up
 //! from then on.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crossguard_protocol::{Config, Event, Input, Output, Outputs, Timer};
@@ -29,8 +30,8 @@ pub(crate) enum Cause {
 pub(crate) struct Step {
     /// What it took in.
     pub(crate) input: Input,
-    /// What it put out.
-    pub(crate) outputs: Outputs,
+    /// What it put out. Many steps put out the same.
+    pub(crate) outputs: Arc<Outputs>,
     /// The node after the step, without durations.
     pub(crate) after: u32,
     /// The messages that it sends.
@@ -55,6 +56,7 @@ pub(crate) struct Steps {
     pub(crate) nodes: Interner<Node>,
     pub(crate) messages: Interner<Message>,
     computed: boxcar::Vec<Step>,
+    outputs: DashMap<Outputs, Arc<Outputs>, FxBuildHasher>,
     numbers: DashMap<(u32, Cause), u32, FxBuildHasher>,
 }
 
@@ -65,6 +67,7 @@ impl Steps {
             nodes: Interner::new(),
             messages: Interner::new(),
             computed: boxcar::Vec::new(),
+            outputs: DashMap::default(),
             numbers: DashMap::default(),
         }
     }
@@ -123,7 +126,7 @@ impl Steps {
         let (premises, broken) = judge(properties, &view, is_historic);
         Some(Step {
             input,
-            outputs,
+            outputs: self.shared(&outputs),
             sends: self.sends(&after, &outputs),
             restarted: after.restarted_timers(),
             is_ignored: outputs.ignored().is_some(),
@@ -133,6 +136,11 @@ impl Steps {
             after: self.nodes.number(after.untimed()),
             taken: AtomicBool::new(false),
         })
+    }
+
+    fn shared(&self, outputs: &Outputs) -> Arc<Outputs> {
+        let known = self.outputs.entry(*outputs);
+        Arc::clone(&known.or_insert_with(|| Arc::new(*outputs)))
     }
 
     fn sends(&self, sender: &Node, outputs: &Outputs) -> SmallVec<[u16; 2]> {

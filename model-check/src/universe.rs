@@ -16,8 +16,8 @@ use crossguard_protocol::{
 };
 
 use crate::canonical::{Names, Ranks, Renamable};
-use crate::model::concerns;
 use crate::network::Message;
+use crate::network::concerns;
 use crate::node::{Node, Protocol};
 use crate::transitions::Transitions;
 

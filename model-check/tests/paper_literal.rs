@@ -1,4 +1,4 @@
-//! The paper's text taken word for word fails as it must, and the page and the replay files say what
+//! The paper's text taken word for word fails as it must, and the page and the story files say what
 //! the checker finds.
 //!
 //! `CROSSGUARD_BLESS=1` writes the files anew.
@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use crossguard_model_check::paper::{Replay, check, fails_as_it_must, page, replays};
+use crossguard_model_check::paper::{Story, check, fails_as_it_must, page, stories};
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
 use serde::Serialize;
 
@@ -29,24 +29,24 @@ fn assert_is(path: &Path, text: &str) {
     );
 }
 
-/// The file of a replay: a step a line.
-fn text(replay: &Replay) -> String {
+/// The file of a story: a step a line.
+fn text(story: &Story) -> String {
     fn json(value: &impl Serialize) -> String {
         serde_json::to_string(value).unwrap()
     }
     let text = format!(
         "{{\n  \"property\": {},\n  \"title\": {},\n  \"robots\": {},\n  \"steps\": [\n    {}\n  ]\n}}\n",
-        json(&replay.property),
-        json(&replay.title),
-        json(&replay.robots),
-        replay
+        json(&story.property),
+        json(&story.title),
+        json(&story.robots),
+        story
             .steps
             .iter()
             .map(json)
             .collect::<Vec<_>>()
             .join(",\n    "),
     );
-    assert_eq!(serde_json::from_str::<Replay>(&text).unwrap(), *replay);
+    assert_eq!(serde_json::from_str::<Story>(&text).unwrap(), *story);
     text
 }
 
@@ -90,11 +90,11 @@ fn the_page_shows_what_the_checker_finds() {
 
 #[test]
 fn the_replay_files_tell_what_the_checker_finds() {
-    let replays = replays();
-    for replay in &replays {
-        let name = format!("replays/{}.json", replay.property.to_lowercase());
-        assert_is(&folder().join(name), &text(replay));
+    let stories = stories();
+    for story in &stories {
+        let name = format!("stories/{}.json", story.property.to_lowercase());
+        assert_is(&folder().join(name), &text(story));
     }
-    let files = std::fs::read_dir(folder().join("replays")).unwrap();
-    assert_eq!(files.count(), replays.len(), "a file for each hazard");
+    let files = std::fs::read_dir(folder().join("stories")).unwrap();
+    assert_eq!(files.count(), stories.len(), "a file for each hazard");
 }

@@ -67,6 +67,16 @@ fn impossible_values_are_named_with_their_line() {
             "nothing would ever happen",
         ),
         ("station = 2", "station = 1", "two robots have station id 1"),
+        (
+            "station = 2",
+            "station = 201",
+            "station ids 1 and 201 must not differ by a multiple of 100",
+        ),
+        (
+            "\"L4\"",
+            "\"L3\"",
+            "L3 speaks about cooperative scenarios only",
+        ),
     ];
     for (from, to, message) in cases {
         let error = error(from, to);

@@ -141,7 +141,9 @@ impl Member {
                     && self.order.is_none_or(|o| outstanding.request.is_newer_than(o.request))
             })
             && self.order.is_none_or(|order| {
-                issued(order.request) && order.execution.is_armed() == order.is_running()
+                issued(order.request)
+                    && order.execution.is_armed() == order.is_running()
+                    && order.execution.is_within(config.t_exec(order.task))
             })
     }
 }

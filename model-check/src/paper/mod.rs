@@ -8,7 +8,7 @@
 //! ```text
 //!   robot ──► model ──► stateright ──► counterexamples ──┬──► report
 //!               ▲                                        ├──► page (doc/paper-literal.md)
-//!            hazards (P0..P12) ◄── texts                 └──► replay (replays/*.json)
+//!            hazards (P0..P12) ◄── texts                 └──► story (stories/*.json)
 //! ```
 //!
 //! Where the text leaves something open, the model takes the most literal reading:
@@ -27,8 +27,8 @@
 mod hazards;
 mod model;
 mod page;
-mod replay;
 mod robot;
+mod story;
 mod texts;
 
 use std::time::Instant;
@@ -37,7 +37,7 @@ use stateright::{Checker, Model as _};
 
 pub use hazards::{Hazard, Text};
 pub use page::page;
-pub use replay::{Happening, Link, Message, Party, Replay, Step, replays};
+pub use story::{Happening, Link, Message, Party, Step, Story, stories};
 
 use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
 use crate::transitions::Transitions;
@@ -119,6 +119,7 @@ pub fn check() -> ScenarioReport {
         cut_off: is_p0_broken.then_some(CutOff::FoundBroken),
         size_as_expected: None,
         properties,
+        figures: Vec::new(),
         assumptions: assumptions(),
         // It is another state diagram.
         transitions_taken: Transitions::default(),

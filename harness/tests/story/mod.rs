@@ -1,4 +1,4 @@
-//! Tells the story of a replay file to endpoints that run the real protocol: real octets, virtual
+//! Tells the story of a story file to endpoints that run the real protocol: real octets, virtual
 //! time, a radio that loses and holds back what the story says.
 //!
 //! At every moment it is checked that what the paper's wording lets happen does not happen.
@@ -10,7 +10,7 @@ use crossguard_harness::counters::Cause;
 use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_harness::trace::{self, Entry, Record, Validated};
 use crossguard_harness::wire::{MessageKind, Wire, overhear};
-use crossguard_model_check::paper::{Happening, Link, Message, Replay, Step};
+use crossguard_model_check::paper::{Happening, Link, Message, Step, Story};
 use crossguard_protocol::{
     Config, Event, HelpRequest, Ignored, Input, Leading, Maneuver, ManeuverId, Phase, Progress,
     Rmcm, Robot, StationId, TaskSet, TaskType, Urgency,
@@ -50,7 +50,7 @@ pub(crate) struct Street {
 
 impl Street {
     /// The robots of the story, some time after they booted.
-    pub(crate) fn new(replay: &Replay) -> Self {
+    pub(crate) fn new(story: &Story) -> Self {
         let mut street = Self {
             config: Config::default(),
             now_ms: 0,
@@ -60,7 +60,7 @@ impl Street {
             kept: BTreeMap::new(),
             records: Vec::new(),
         };
-        for party in &replay.robots {
+        for party in &story.robots {
             street.boot(party.station, &party.name);
         }
         street.pass(STEP_MS);

@@ -1,6 +1,6 @@
 //! The physical story of a counterexample, to be told to robots that run the real protocol.
 //!
-//! A counterexample says what the robots of the paper's wording do; a replay leaves that out. It says
+//! A counterexample says what the robots of the paper's wording do; a story leaves that out. It says
 //! what happens *to* robots: detections, what applications ask for, finished maneuvers, breakdowns,
 //! and what the radio does. The radio carries everything except
 //!
@@ -17,7 +17,7 @@ use super::{Counterexample, Transition, counterexamples};
 /// The story of one counterexample.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Replay {
+pub struct Story {
     /// Id of the broken property.
     pub property: String,
     /// What happens, in a few words.
@@ -104,22 +104,22 @@ pub enum Message {
 
 /// The stories of all counterexamples, in the order of their hazards.
 #[must_use]
-pub fn replays() -> Vec<Replay> {
+pub fn stories() -> Vec<Story> {
     counterexamples()
         .iter()
-        .map(Counterexample::replay)
+        .map(Counterexample::story)
         .collect()
 }
 
 impl Counterexample {
-    fn replay(&self) -> Replay {
+    fn story(&self) -> Story {
         let text = self.hazard.text();
         let steps = self.steps.iter().enumerate().map(|(i, step)| Step {
             what: happening(&step.before, step.action),
             silent: self.silent(i),
             held: step.after.flying.iter().map(|(f, _)| message(*f)).collect(),
         });
-        Replay {
+        Story {
             property: text.id.to_owned(),
             title: text.title.to_owned(),
             robots: parties(&self.cast),
