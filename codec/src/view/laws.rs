@@ -78,11 +78,13 @@ fn is_own(report: Report) -> bool {
 }
 
 /// Whether no station is named twice, nor the leader.
-fn are_others(leader: StationId, stations: impl Iterator<Item = StationId> + Clone) -> bool {
-    stations.clone().enumerate().all(|(index, station)| {
-        let earlier = stations.clone().take(index);
-        station != leader && !earlier.into_iter().any(|other| other == station)
-    })
+fn are_others(leader: StationId, mut stations: impl Iterator<Item = StationId> + Clone) -> bool {
+    while let Some(station) = stations.next() {
+        if station == leader || stations.clone().any(|other| other == station) {
+            return false;
+        }
+    }
+    true
 }
 
 fn ram_of(view: &Ram, availability: Availability) -> Option<RAM> {
