@@ -388,4 +388,27 @@ mod tests {
         assert_eq!(lock(11_001), None);
         assert_eq!(lock(11_000), Some(Inequality::LockOutlastsTask));
     }
+
+    #[test]
+    fn a_broken_inequality_says_its_name_and_what_would_hold() {
+        use std::collections::BTreeSet;
+        use std::string::ToString;
+
+        let broken = Config::new(Settings {
+            t_lease: Settings::default().t_safety,
+            ..Settings::default()
+        })
+        .unwrap_err();
+        assert_eq!(
+            broken.to_string(),
+            "the settings break 'lease-within-safety': \
+             (t_lease + delay_max) * (1 + drift) < t_safety * (1 - drift)"
+        );
+        let texts = |text: fn(Inequality) -> &'static str| {
+            let texts: BTreeSet<_> = Inequality::ALL.into_iter().map(text).collect();
+            texts.len()
+        };
+        assert_eq!(texts(Inequality::name), Inequality::ALL.len());
+        assert_eq!(texts(Inequality::formula), Inequality::ALL.len());
+    }
 }
