@@ -36,6 +36,7 @@ pub mod report;
 pub mod scenario;
 pub mod sequence;
 mod steps;
+pub mod symmetry;
 pub mod transitions;
 pub mod universe;
 

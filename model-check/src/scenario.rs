@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
+use crate::symmetry::{Asymmetry, Claim, Wrong};
 
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 4;
@@ -35,6 +36,8 @@ pub struct Scenario {
     pub summary: String,
     /// The robots, in the order of the file.
     pub robots: Vec<RobotSetup>,
+    /// The station ids of robots of which it does not matter which is which.
+    pub symmetric: Vec<StationId>,
     /// What a robot that detects a pedestrian asks for.
     pub request: HelpRequest,
     /// How often what may happen in one run.
@@ -133,6 +136,8 @@ struct File {
     name: String,
     summary: String,
     robots: Vec<RobotSetup>,
+    #[serde(default)]
+    symmetric: Vec<toml::Spanned<StationId>>,
     request: Request,
     bounds: Bounds,
     #[serde(default)]
@@ -226,6 +231,9 @@ pub enum Impossibility {
     /// A property that assumes what the scenario does not.
     #[error("L3 speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
     NotCooperative,
+    /// Robots that are not symmetric.
+    #[error(transparent)]
+    Asymmetry(#[from] Asymmetry),
     /// An unknown property.
     #[error("no property '{0}': {list}", list = PropertyId::list())]
     Property(String),
@@ -387,6 +395,19 @@ impl File {
         let request = self.request.check()?;
         let config = Config::new(self.protocol)
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
+        let claim = Claim {
+            robots: &self.robots,
+            followers: request.followers,
+            bounds: self.bounds,
+            properties: &self.properties,
+        };
+        let symmetric = claim.check(&self.symmetric).map_err(|(wrong, cause)| {
+            let place = match wrong {
+                Wrong::At(offset) => Place::Offset(offset),
+                Wrong::Key(key) => Place::Key(key),
+            };
+            at(place, cause)
+        })?;
         let mut properties = Vec::new();
         for name in self.properties {
             let place = Place::Offset(name.span().start);
@@ -403,6 +424,7 @@ impl File {
             name: self.name,
             summary: self.summary,
             robots: self.robots,
+            symmetric,
             request,
             bounds: self.bounds,
             corridor: self.corridor,
