@@ -36,7 +36,8 @@ pub struct Scenario {
     pub summary: String,
     /// The robots, in the order of the file.
     pub robots: Vec<RobotSetup>,
-    /// The station ids of robots of which it does not matter which is which.
+    /// The station ids of the robots of which it does not matter which is which: states that differ in
+    /// that alone count as one.
     pub symmetric: Vec<StationId>,
     /// What a robot that detects a pedestrian asks for.
     pub request: HelpRequest,

@@ -18,15 +18,16 @@
 //!   offers under two station ids, and a requester that selects at all selects them all. What is left of
 //!   the order is that in which offers and members stand in their lists, and it is put right by
 //!   [`Renaming`].
+//!   The rules that a test puts in the protocol's place must not ask for more.
 //! * The receivers of one broadcast hear it in any order. If those listed first heard it first, the
 //!   scenario's order would tell symmetric robots apart.
-//! * The properties speak about all robots, or about one robot's step. Fairness does not: each robot's
-//!   timers are fair on their own, and an exchange along a run could hide that one robot always waits.
-//!   So the properties that assume it are refused.
+//! * The properties speak about all robots, or about any one robot's step. Those of runs under fairness
+//!   are refused: each robot's timers are fair on their own, and where robots change places along a run,
+//!   one of them could wait for ever unseen.
 //!
 //! An exchange is thus an automorphism of the transition system, and it keeps the properties. Then the
 //! system of the classes is bisimilar to the one of all states: a state is reachable if and only if one
-//! of its class is, and the same of L7. The state that stands for a class is the one with the smallest
+//! of its class is, and L7 holds in both or in neither. The state that stands for a class is the one with the smallest
 //! numbers of its parts, by [`Interner`](crate::intern::Interner); which it is depends on the order in
 //! which parts were first seen, how many there are does not. Names are ranked within the station that
 //! gave them out, so ranking and exchanging commute.
@@ -45,7 +46,7 @@ use crate::scenario::{Bounds, MAX_ROBOTS, RobotSetup, Scenario};
 const MAX_SYMMETRIC: usize = MAX_ROBOTS - 1;
 
 /// In how many ways they can be exchanged.
-const MAX_EXCHANGES: usize = 6;
+pub(crate) const MAX_EXCHANGES: usize = 6;
 
 /// What is wrong with the symmetry that a scenario claims.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]

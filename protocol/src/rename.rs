@@ -5,8 +5,8 @@
 //! two states that differ in such a renaming alone behave alike, and a model checker need visit only
 //! one of them. That keeps a model with unbounded counters finite without bounding the counters.
 //!
-//! Of station ids it asks which request goes before, and which of two equal offers is the better one.
-//! Stations of which neither is ever asked may be exchanged; [`Renaming::station`] says when.
+//! Of two station ids it asks which request goes before and which of two equal offers is the better one.
+//! Where neither makes a difference, stations may be exchanged; [`Renaming::station`] says when.
 
 use crate::help::rank;
 use crate::id::{Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
