@@ -14,40 +14,43 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use crossguard_codec::core::{self, Uper, max_octets};
-use crossguard_codec::{Identifiers, Pdu, asn1, decode, encode, view_of_ram, views_of_rmcm};
+use crossguard_codec::core::{self, Uper};
+use crossguard_codec::{
+    Identifiers, MESSAGE_LEN_MAX, Pdu, asn1, decode, encode, encode_into, ram_from, state_of,
+    view_of_ram, views_of_rmcm,
+};
+use crossguard_protocol::Availability;
 
-/// More octets than any message has.
-const BUFFER_LEN: usize = 1_024;
-const _: () = assert!(max_octets::<core::ram::RAM>() <= BUFFER_LEN);
-const _: () = assert!(max_octets::<core::rmcm::RMCM>() <= BUFFER_LEN);
-
-fn bench<C: Uper, M: Pdu>(criterion: &mut Criterion, name: &str, message: &M) {
+/// `value` is the message as the endpoint has it, `of_rasn` the same in the reference.
+fn bench<C, M>(criterion: &mut Criterion, name: &str, value: &C, of_rasn: &M)
+where
+    C: Uper + Pdu,
+    M: rasn::Encode + rasn::Decode,
+{
     let identifiers = Identifiers::default();
-    let octets = encode(&identifiers, message).expect("a valid message");
-    let (value, _) = core::decode::<C>(&octets).expect("a valid message");
-    let mut buffer = [0; BUFFER_LEN];
+    let octets = encode(&identifiers, value).expect("a valid message");
+    let mut buffer = [0; MESSAGE_LEN_MAX];
     let mut group = criterion.benchmark_group(format!("{name}, {} octets", octets.len()));
     group.bench_function("encode by the core", |bencher| {
-        bencher.iter(|| core::encode(black_box(&value), &mut buffer));
+        bencher.iter(|| core::encode(black_box(value), &mut buffer));
     });
     group.bench_function("decode by the core", |bencher| {
         bencher.iter(|| core::decode::<C>(black_box(&octets)));
     });
     group.bench_function("encode by rasn alone", |bencher| {
-        bencher.iter(|| rasn::uper::encode(black_box(message)));
+        bencher.iter(|| rasn::uper::encode(black_box(of_rasn)));
     });
     group.bench_function("decode by rasn alone", |bencher| {
         bencher.iter(|| rasn::uper::decode::<M>(black_box(&octets)));
     });
     group.bench_function("encode", |bencher| {
-        bencher.iter(|| encode(&identifiers, black_box(message)));
+        bencher.iter(|| encode_into(&identifiers, black_box(value), &mut buffer));
     });
     group.bench_function("decode", |bencher| {
-        bencher.iter(|| decode::<M>(&identifiers, black_box(&octets)));
+        bencher.iter(|| decode::<C>(&identifiers, black_box(&octets)));
     });
     group.finish();
-    print_ratio::<C, M>(name, &value, message, &octets);
+    print_ratio(name, value, of_rasn, &octets);
 }
 
 /// Nanoseconds of one turn: the fastest of many short runs, so that other load does not count.
@@ -64,13 +67,17 @@ fn nanoseconds<R>(mut turn: impl FnMut() -> R) -> f64 {
     fastest.as_secs_f64() * 1e9 / f64::from(TURNS)
 }
 
-fn print_ratio<C: Uper, M: Pdu>(name: &str, value: &C, message: &M, octets: &[u8]) {
-    let mut buffer = [0; BUFFER_LEN];
+fn print_ratio<C, M>(name: &str, value: &C, of_rasn: &M, octets: &[u8])
+where
+    C: Uper,
+    M: rasn::Encode + rasn::Decode,
+{
+    let mut buffer = [0; MESSAGE_LEN_MAX];
     let by_core = nanoseconds(|| core::encode(black_box(value), &mut buffer))
         + nanoseconds(|| core::decode::<C>(black_box(octets)));
-    let by_rasn = nanoseconds(|| rasn::uper::encode(black_box(message)))
+    let by_rasn = nanoseconds(|| rasn::uper::encode(black_box(of_rasn)))
         + nanoseconds(|| rasn::uper::decode::<M>(black_box(octets)));
-    let strictly = nanoseconds(|| asn1::encode(black_box(message)))
+    let strictly = nanoseconds(|| asn1::encode(black_box(of_rasn)))
         + nanoseconds(|| asn1::decode::<M>(black_box(octets)));
     println!(
         "{name}, encode and decode: core {by_core:.0} ns, rasn {by_rasn:.0} ns ({:.1} times), \
@@ -81,21 +88,36 @@ fn print_ratio<C: Uper, M: Pdu>(name: &str, value: &C, message: &M, octets: &[u8
 }
 
 fn messages(criterion: &mut Criterion) {
-    use core::{ram::RAM, rmcm::RMCM};
     let identifiers = Identifiers::default();
-    let ram = samples::typical_ram(&identifiers);
-    bench::<RAM, _>(criterion, "typical RAM", &ram);
-    let ram = samples::largest_ram(&identifiers);
-    bench::<RAM, _>(criterion, "largest RAM", &ram);
-    let rmcm = samples::typical_rmcm(&identifiers);
-    bench::<RMCM, _>(criterion, "typical RMCM", &rmcm);
-    let rmcm = samples::largest_rmcm(&identifiers);
-    bench::<RMCM, _>(criterion, "largest RMCM", &rmcm);
+    let rams = [
+        ("typical RAM", samples::typical_ram(&identifiers)),
+        ("largest RAM", samples::largest_ram(&identifiers)),
+    ];
+    for (name, ram) in rams {
+        let of_rasn = asn1::ram::RAM::try_from(&ram).expect("the two agree");
+        bench(criterion, name, &ram, &of_rasn);
+    }
+    let rmcms = [
+        ("typical RMCM", samples::typical_rmcm(&identifiers)),
+        ("largest RMCM", samples::largest_rmcm(&identifiers)),
+    ];
+    for (name, rmcm) in rmcms {
+        let of_rasn = asn1::rmcm::RMCM::try_from(&rmcm).expect("the two agree");
+        bench(criterion, name, &rmcm, &of_rasn);
+    }
 }
 
 fn views(criterion: &mut Criterion) {
     let identifiers = Identifiers::default();
     let ram = samples::typical_ram(&identifiers);
+    criterion.bench_function("a typical RAM of a view and a state", |bencher| {
+        let (state, view) = (samples::state(), samples::follower_view());
+        let available = Availability::Available;
+        bencher.iter(|| ram_from(&identifiers, black_box(&state), &view, available, 0, false));
+    });
+    criterion.bench_function("state of a typical RAM", |bencher| {
+        bencher.iter(|| state_of(black_box(&ram)));
+    });
     criterion.bench_function("view of a typical RAM", |bencher| {
         bencher.iter(|| view_of_ram(black_box(&ram)));
     });

@@ -6,9 +6,11 @@
 //! in its own for types and alternatives, and its serde view has the names of ASN.1 throughout.
 //!
 //! The types hold any number that fits their Rust type. Whether a value is within its ASN.1 range is
-//! checked where a message is [encoded](crate::encode) or [decoded](crate::decode), and by the
-//! conversions of [`si`](crate::si), which produce nothing else.
+//! checked where it is [encoded](encode) or [decoded](decode), or converted to the type of the
+//! [core](crate::core), which is what the endpoint has. RAM, RMCM and the basic container convert
+//! both ways.
 
+mod conversion;
 #[rustfmt::skip]
 #[allow(
     missing_docs,

@@ -3,26 +3,26 @@
 //! Encoding what was decoded gives the same containers again, so a state can be passed on without
 //! drifting.
 
-use rasn::types::Integer;
-
-use crate::asn1::cdd::{
-    AccelerationComponent, AccelerationConfidence, AccelerationValue, Altitude, AltitudeValue,
-    BasicContainer, Curvature, CurvatureValue, DeltaAltitude, DeltaLatitude, DeltaLongitude,
-    DeltaReferencePosition, ExteriorLights, Latitude, Longitude, ObjectDimensionValue,
-    PathDeltaTime, PathPoint, PositionConfidenceEllipse, ReferencePositionWithConfidence,
-    SemiAxisLength, Speed, SpeedConfidence, SpeedValue, TrafficParticipantType, Wgs84Angle,
-    Wgs84AngleConfidence, Wgs84AngleValue, YawRate, YawRateValue,
+use crate::core::Uper;
+use crate::core::cdd::{
+    AccelerationComponent, AccelerationConfidence, AccelerationValue, Altitude, AltitudeConfidence,
+    AltitudeValue, BasicContainer, Curvature, CurvatureConfidence, CurvatureValue, DeltaAltitude,
+    DeltaLatitude, DeltaLongitude, DeltaReferencePosition, ExteriorLights, Latitude, Longitude,
+    ObjectDimensionValue, PathDeltaTime, PathPoint, PositionConfidenceEllipse,
+    ReferencePositionWithConfidence, SemiAxisLength, Speed, SpeedConfidence, SpeedValue,
+    TrafficParticipantType, Wgs84Angle, Wgs84AngleConfidence, Wgs84AngleValue, YawRate,
+    YawRateConfidence, YawRateValue,
 };
-use crate::asn1::ram;
+use crate::core::ram::{
+    self, BatteryStatus, RobotCapabilities, RobotDimensions, RobotHighFrequencyContainer,
+    RobotLowFrequencyContainer, RobotPathHistory, StateOfCharge,
+};
 use crate::si;
 use crate::state::{
-    Battery, Capabilities, ConfidenceEllipse, Dimensions, Lights, Measurement, PastPosition,
-    Position, RobotState, SignalMeans, SignalsShown, SlowState,
+    Battery, Capabilities, ConfidenceEllipse, Dimensions, DriveDirection, Lights, Measurement,
+    PastPosition, Position, PublicSignal, RobotState, SignalMeans, SignalsShown, SlowState,
 };
-use crate::wire::{bits8, class, half_width, set8, task_set, tasks_of};
-
-/// How many points the path history of the low-frequency container has at most.
-const PATH_MAX: usize = 23;
+use crate::wire::{class, task_set, tasks_of};
 
 fn value(measurement: Option<Measurement>) -> Option<f64> {
     measurement.map(|measurement| measurement.value)
@@ -38,242 +38,258 @@ fn measurement(value: Option<f64>, confidence: Option<f64>) -> Option<Measuremen
 
 /// The basic container of a robot at `position`.
 pub(crate) fn basic_container(station_type: u8, position: &Position) -> BasicContainer {
-    let unavailable = PositionConfidenceEllipse::new(
-        SemiAxisLength(si::SEMI_AXIS.unavailable),
-        SemiAxisLength(si::SEMI_AXIS.unavailable),
-        Wgs84AngleValue(si::angle(None)),
-    );
-    let ellipse = position.ellipse.map_or(unavailable, |ellipse| {
-        PositionConfidenceEllipse::new(
-            SemiAxisLength(si::SEMI_AXIS.encode(Some(ellipse.semi_major))),
-            SemiAxisLength(si::SEMI_AXIS.encode(Some(ellipse.semi_minor))),
-            Wgs84AngleValue(si::angle(Some(ellipse.orientation))),
-        )
-    });
-    let altitude = Altitude::new(
-        AltitudeValue(si::ALTITUDE.encode(position.altitude)),
-        class(&si::ALTITUDE_CONFIDENCE, position.altitude_confidence),
-    );
-    let reference_position = ReferencePositionWithConfidence::new(
-        Latitude(si::LATITUDE.encode(position.latitude)),
-        Longitude(si::longitude(position.longitude)),
-        ellipse,
-        altitude,
-    );
-    BasicContainer::new(TrafficParticipantType(station_type), reference_position)
+    let ellipse = position.ellipse;
+    let axis = |metres| SemiAxisLength::saturating(si::SEMI_AXIS.encode(metres));
+    let ellipse = PositionConfidenceEllipse {
+        semi_major_axis_length: axis(ellipse.map(|ellipse| ellipse.semi_major)),
+        semi_minor_axis_length: axis(ellipse.map(|ellipse| ellipse.semi_minor)),
+        semi_major_axis_orientation: angle_value(ellipse.map(|ellipse| ellipse.orientation)),
+    };
+    let altitude = Altitude {
+        altitude_value: AltitudeValue::saturating(si::ALTITUDE.encode(position.altitude)),
+        altitude_confidence: class(
+            &si::ALTITUDE_CONFIDENCE,
+            position.altitude_confidence,
+            AltitudeConfidence::ALL,
+        ),
+    };
+    BasicContainer {
+        station_type: TrafficParticipantType(station_type),
+        reference_position: ReferencePositionWithConfidence {
+            latitude: Latitude::saturating(si::LATITUDE.encode(position.latitude)),
+            longitude: Longitude::saturating(si::longitude(position.longitude)),
+            position_confidence_ellipse: ellipse,
+            altitude,
+        },
+    }
 }
 
-/// Where the sender of a message with this basic container is: a RAM, an RMCM or a VAM.
+/// Where the sender of a message with this basic container is. That of a VAM converts to it.
 #[must_use]
 pub fn position_of(container: &BasicContainer) -> Position {
     let position = &container.reference_position;
     let ellipse = &position.position_confidence_ellipse;
     let ellipse = (|| {
         Some(ConfidenceEllipse {
-            semi_major: si::SEMI_AXIS.decode(ellipse.semi_major_axis_length.0)?,
-            semi_minor: si::SEMI_AXIS.decode(ellipse.semi_minor_axis_length.0)?,
-            orientation: si::angle_degrees(ellipse.semi_major_axis_orientation.0)?,
+            semi_major: si::SEMI_AXIS.decode(ellipse.semi_major_axis_length.get())?,
+            semi_minor: si::SEMI_AXIS.decode(ellipse.semi_minor_axis_length.get())?,
+            orientation: si::angle_degrees(ellipse.semi_major_axis_orientation.get())?,
         })
     })();
+    let altitude = position.altitude;
     Position {
-        latitude: si::LATITUDE.decode(position.latitude.0),
-        longitude: si::longitude_degrees(position.longitude.0),
-        altitude: si::ALTITUDE.decode(position.altitude.altitude_value.0),
+        latitude: si::LATITUDE.decode(position.latitude.get()),
+        longitude: si::longitude_degrees(position.longitude.get()),
+        altitude: si::ALTITUDE.decode(altitude.altitude_value.get()),
         ellipse,
-        altitude_confidence: half_width(
-            &si::ALTITUDE_CONFIDENCE,
-            position.altitude.altitude_confidence,
+        altitude_confidence: si::ALTITUDE_CONFIDENCE.decode(altitude.altitude_confidence as usize),
+    }
+}
+
+fn angle_value(degrees: Option<f64>) -> Wgs84AngleValue {
+    Wgs84AngleValue::saturating(si::angle(degrees))
+}
+
+fn angle(angle: Option<Measurement>) -> Wgs84Angle {
+    let confidence = si::ANGLE_CONFIDENCE.encode(confidence(angle));
+    Wgs84Angle {
+        value: angle_value(value(angle)),
+        confidence: Wgs84AngleConfidence::saturating(confidence),
+    }
+}
+
+fn angle_of(angle: Wgs84Angle) -> Option<Measurement> {
+    let confidence = si::ANGLE_CONFIDENCE.decode(angle.confidence.get());
+    measurement(si::angle_degrees(angle.value.get()), confidence)
+}
+
+fn acceleration(acceleration: Option<Measurement>) -> AccelerationComponent {
+    let number = si::ACCELERATION.encode(value(acceleration));
+    let confidence = si::ACCELERATION_CONFIDENCE.encode(confidence(acceleration));
+    AccelerationComponent {
+        value: AccelerationValue::saturating(number),
+        confidence: AccelerationConfidence::saturating(confidence),
+    }
+}
+
+fn acceleration_of(acceleration: AccelerationComponent) -> Option<Measurement> {
+    let confidence = si::ACCELERATION_CONFIDENCE.decode(acceleration.confidence.get());
+    measurement(
+        si::ACCELERATION.decode(acceleration.value.get()),
+        confidence,
+    )
+}
+
+fn speed(speed: Option<Measurement>) -> Speed {
+    let confidence = si::SPEED_CONFIDENCE.encode(confidence(speed));
+    Speed {
+        speed_value: SpeedValue::saturating(si::SPEED.encode(value(speed))),
+        speed_confidence: SpeedConfidence::saturating(confidence),
+    }
+}
+
+fn speed_of(speed: Speed) -> Option<Measurement> {
+    let confidence = si::SPEED_CONFIDENCE.decode(speed.speed_confidence.get());
+    measurement(si::SPEED.decode(speed.speed_value.get()), confidence)
+}
+
+fn curvature(curvature: Measurement) -> Curvature {
+    let number = si::CURVATURE.encode(Some(curvature.value));
+    Curvature {
+        curvature_value: CurvatureValue::saturating(number),
+        curvature_confidence: class(
+            &si::CURVATURE_CONFIDENCE,
+            curvature.confidence,
+            CurvatureConfidence::ALL,
         ),
     }
 }
 
-fn angle(angle: Option<Measurement>) -> Wgs84Angle {
-    Wgs84Angle::new(
-        Wgs84AngleValue(si::angle(value(angle))),
-        Wgs84AngleConfidence(si::ANGLE_CONFIDENCE.encode(confidence(angle))),
+fn curvature_of(curvature: Curvature) -> Option<Measurement> {
+    let class = curvature.curvature_confidence as usize;
+    measurement(
+        si::CURVATURE.decode(curvature.curvature_value.get()),
+        si::CURVATURE_CONFIDENCE.decode(class),
     )
 }
 
-fn angle_of(angle: &Wgs84Angle) -> Option<Measurement> {
-    let confidence = si::ANGLE_CONFIDENCE.decode(angle.confidence.0);
-    measurement(si::angle_degrees(angle.value.0), confidence)
+fn yaw_rate(yaw_rate: Measurement) -> YawRate {
+    YawRate {
+        yaw_rate_value: YawRateValue::saturating(si::YAW_RATE.encode(Some(yaw_rate.value))),
+        yaw_rate_confidence: class(
+            &si::YAW_RATE_CONFIDENCE,
+            yaw_rate.confidence,
+            YawRateConfidence::ALL,
+        ),
+    }
 }
 
-fn acceleration(acceleration: Option<Measurement>) -> AccelerationComponent {
-    AccelerationComponent::new(
-        AccelerationValue(si::ACCELERATION.encode(value(acceleration))),
-        AccelerationConfidence(si::ACCELERATION_CONFIDENCE.encode(confidence(acceleration))),
+fn yaw_rate_of(yaw_rate: YawRate) -> Option<Measurement> {
+    let class = yaw_rate.yaw_rate_confidence as usize;
+    measurement(
+        si::YAW_RATE.decode(yaw_rate.yaw_rate_value.get()),
+        si::YAW_RATE_CONFIDENCE.decode(class),
     )
 }
 
-fn acceleration_of(acceleration: &AccelerationComponent) -> Option<Measurement> {
-    let confidence = si::ACCELERATION_CONFIDENCE.decode(acceleration.confidence.0);
-    measurement(si::ACCELERATION.decode(acceleration.value.0), confidence)
+fn dimensions(dimensions: &Dimensions) -> RobotDimensions {
+    let dimension = |metres| ObjectDimensionValue::saturating(si::DIMENSION.encode(metres));
+    RobotDimensions {
+        length: dimension(dimensions.length),
+        width: dimension(dimensions.width),
+        height: dimension(dimensions.height),
+    }
 }
 
-pub(crate) fn high_frequency(state: &RobotState) -> ram::RobotHighFrequencyContainer {
-    let speed = Speed::new(
-        SpeedValue(si::SPEED.encode(value(state.speed))),
-        SpeedConfidence(si::SPEED_CONFIDENCE.encode(confidence(state.speed))),
-    );
-    let dimension = |metres| ObjectDimensionValue(si::DIMENSION.encode(metres));
-    let dimensions = ram::RobotDimensions::new(
-        dimension(state.dimensions.length),
-        dimension(state.dimensions.width),
-        dimension(state.dimensions.height),
-    );
-    let curvature = state.curvature.map(|curvature| {
-        Curvature::new(
-            CurvatureValue(si::CURVATURE.encode(Some(curvature.value))),
-            class(&si::CURVATURE_CONFIDENCE, curvature.confidence),
-        )
-    });
-    let yaw_rate = state.yaw_rate.map(|yaw_rate| {
-        YawRate::new(
-            YawRateValue(si::YAW_RATE.encode(Some(yaw_rate.value))),
-            class(&si::YAW_RATE_CONFIDENCE, yaw_rate.confidence),
-        )
-    });
-    ram::RobotHighFrequencyContainer::new(
-        angle(state.heading),
-        speed,
-        state.drive_direction.to_wire(),
-        acceleration(state.longitudinal_acceleration),
-        dimensions,
-        curvature,
-        yaw_rate,
-        state
-            .lateral_acceleration
-            .map(|lateral| acceleration(Some(lateral))),
-        state
-            .vertical_acceleration
-            .map(|vertical| acceleration(Some(vertical))),
-        state
+fn dimensions_of(dimensions: RobotDimensions) -> Dimensions {
+    let dimension = |number: ObjectDimensionValue| si::DIMENSION.decode(number.get());
+    Dimensions {
+        length: dimension(dimensions.length),
+        width: dimension(dimensions.width),
+        height: dimension(dimensions.height),
+    }
+}
+
+pub(crate) fn high_frequency(state: &RobotState) -> RobotHighFrequencyContainer {
+    let optional_acceleration =
+        |measured: Option<Measurement>| measured.map(|measured| acceleration(Some(measured)));
+    RobotHighFrequencyContainer {
+        heading: angle(state.heading),
+        speed: speed(state.speed),
+        drive_direction: state.drive_direction.to_wire(),
+        longitudinal_acceleration: acceleration(state.longitudinal_acceleration),
+        robot_dimensions: dimensions(&state.dimensions),
+        curvature: state.curvature.map(curvature),
+        yaw_rate: state.yaw_rate.map(yaw_rate),
+        lateral_acceleration: optional_acceleration(state.lateral_acceleration),
+        vertical_acceleration: optional_acceleration(state.vertical_acceleration),
+        orientation: state
             .orientation
             .map(|orientation| angle(Some(orientation))),
-    )
+    }
 }
 
 /// Adds to `state` what the container says.
-pub(crate) fn read_high_frequency(
-    container: &ram::RobotHighFrequencyContainer,
-    state: &mut RobotState,
-) {
-    let dimension = |metres: &ObjectDimensionValue| si::DIMENSION.decode(metres.0);
-    let speed = &container.speed;
-    state.heading = angle_of(&container.heading);
-    state.speed = measurement(
-        si::SPEED.decode(speed.speed_value.0),
-        si::SPEED_CONFIDENCE.decode(speed.speed_confidence.0),
-    );
-    state.drive_direction = crate::state::DriveDirection::from_wire(container.drive_direction);
-    state.longitudinal_acceleration = acceleration_of(&container.longitudinal_acceleration);
-    state.lateral_acceleration = container
-        .lateral_acceleration
-        .as_ref()
-        .and_then(acceleration_of);
-    state.vertical_acceleration = container
-        .vertical_acceleration
-        .as_ref()
-        .and_then(acceleration_of);
-    state.curvature = container.curvature.as_ref().and_then(|curvature| {
-        measurement(
-            si::CURVATURE.decode(curvature.curvature_value.0),
-            half_width(&si::CURVATURE_CONFIDENCE, curvature.curvature_confidence),
-        )
-    });
-    state.yaw_rate = container.yaw_rate.as_ref().and_then(|yaw_rate| {
-        measurement(
-            si::YAW_RATE.decode(yaw_rate.yaw_rate_value.0),
-            half_width(&si::YAW_RATE_CONFIDENCE, yaw_rate.yaw_rate_confidence),
-        )
-    });
-    state.orientation = container.orientation.as_ref().and_then(angle_of);
-    state.dimensions = Dimensions {
-        length: dimension(&container.robot_dimensions.length),
-        width: dimension(&container.robot_dimensions.width),
-        height: dimension(&container.robot_dimensions.height),
-    };
+pub(crate) fn read_high_frequency(container: &RobotHighFrequencyContainer, state: &mut RobotState) {
+    state.heading = angle_of(container.heading);
+    state.speed = speed_of(container.speed);
+    state.drive_direction = DriveDirection::from_wire(container.drive_direction);
+    state.longitudinal_acceleration = acceleration_of(container.longitudinal_acceleration);
+    state.lateral_acceleration = container.lateral_acceleration.and_then(acceleration_of);
+    state.vertical_acceleration = container.vertical_acceleration.and_then(acceleration_of);
+    state.curvature = container.curvature.and_then(curvature_of);
+    state.yaw_rate = container.yaw_rate.and_then(yaw_rate_of);
+    state.orientation = container.orientation.and_then(angle_of);
+    state.dimensions = dimensions_of(container.robot_dimensions);
 }
 
 /// The low-frequency container of a robot at `reference`.
-pub(crate) fn low_frequency(
-    slow: &SlowState,
-    reference: &Position,
-) -> ram::RobotLowFrequencyContainer {
-    let signals = slow.signals.map(|signals| {
-        ram::SignalsShown::new(
-            signals.to_vehicles.to_wire(),
-            signals.to_pedestrians.to_wire(),
-            ram::SignalMeans(bits8(signals.means.0)),
-        )
-    });
-    ram::RobotLowFrequencyContainer::new(
-        ram::RobotCapabilities(bits8(slow.capabilities.0)),
-        task_set(slow.supported_tasks),
-        path_history(&slow.path, reference),
-        slow.lights.map(|lights| ExteriorLights(bits8(lights.0))),
-        signals,
-    )
+pub(crate) fn low_frequency(slow: &SlowState, reference: &Position) -> RobotLowFrequencyContainer {
+    RobotLowFrequencyContainer {
+        capabilities: RobotCapabilities::new(slow.capabilities.0),
+        supported_tasks: task_set(slow.supported_tasks),
+        path_history: path_history(&slow.path, reference),
+        exterior_lights: slow.lights.map(|lights| ExteriorLights::new(lights.0)),
+        signals_shown: slow.signals.map(|signals| ram::SignalsShown {
+            to_vehicles: signals.to_vehicles.to_wire(),
+            to_pedestrians: signals.to_pedestrians.to_wire(),
+            means: ram::SignalMeans::new(signals.means.0),
+        }),
+    }
 }
 
 pub(crate) fn slow_state_of(
-    container: &ram::RobotLowFrequencyContainer,
+    container: &RobotLowFrequencyContainer,
     reference: &Position,
 ) -> SlowState {
-    let signals = container
-        .signals_shown
-        .as_ref()
-        .map(|signals| SignalsShown {
-            to_vehicles: crate::state::PublicSignal::from_wire(signals.to_vehicles),
-            to_pedestrians: crate::state::PublicSignal::from_wire(signals.to_pedestrians),
-            means: SignalMeans(set8(signals.means.0)),
-        });
+    let lights = container.exterior_lights;
     SlowState {
-        capabilities: Capabilities(set8(container.capabilities.0)),
-        supported_tasks: tasks_of(&container.supported_tasks),
+        capabilities: Capabilities(container.capabilities.bits()),
+        supported_tasks: tasks_of(container.supported_tasks),
         path: path_of(&container.path_history, reference),
-        lights: container
-            .exterior_lights
-            .as_ref()
-            .map(|lights| Lights(set8(lights.0))),
-        signals,
+        lights: lights.map(|lights| Lights(lights.bits())),
+        signals: container.signals_shown.map(|signals| SignalsShown {
+            to_vehicles: PublicSignal::from_wire(signals.to_vehicles),
+            to_pedestrians: PublicSignal::from_wire(signals.to_pedestrians),
+            means: SignalMeans(signals.means.bits()),
+        }),
     }
 }
 
 /// A path on the wire: every point relative to the one before it, the first one to the reference
 /// position. Both ends count from the positions that the receiver has, so errors do not add up.
-fn path_history(path: &[PastPosition], reference: &Position) -> Vec<PathPoint> {
-    let mut points = Vec::new();
+fn path_history(path: &[PastPosition], reference: &Position) -> RobotPathHistory {
     let mut before = quantized(reference);
-    for past in path.iter().take(PATH_MAX) {
-        let (Some(latitude), Some(longitude)) = (before.latitude, before.longitude) else {
-            break;
-        };
-        let north = si::DELTA_DEGREES.encode(Some(past.latitude - latitude));
-        let east = si::DELTA_DEGREES.encode(Some(past.longitude - longitude));
-        if north == si::DELTA_DEGREES.unavailable || east == si::DELTA_DEGREES.unavailable {
-            break;
-        }
-        let rise = past
-            .altitude
-            .zip(before.altitude)
-            .map(|(past, before)| past - before);
-        let duration = past
-            .duration
-            .and_then(|duration| si::PATH_DELTA_TIME.encode(duration));
-        let point = PathPoint::new(
-            DeltaReferencePosition::new(
-                DeltaLatitude(north),
-                DeltaLongitude(east),
-                DeltaAltitude(si::DELTA_ALTITUDE.encode(rise)),
-            ),
-            duration.map(|duration| PathDeltaTime(Integer::from(duration))),
-        );
+    let points = path.iter().map_while(|past| {
+        let point = path_point(past, &before)?;
         before = follow(&point, &before);
-        points.push(point);
+        Some(point)
+    });
+    let points = RobotPathHistory::collect(points.take(RobotPathHistory::CAPACITY));
+    // There are no more of them than fit, and none is enough.
+    points.unwrap_or(RobotPathHistory::LOWEST)
+}
+
+/// The way to `past` from the position `before` it; `None` when that is unknown or too far away.
+fn path_point(past: &PastPosition, before: &Position) -> Option<PathPoint> {
+    let north = si::DELTA_DEGREES.encode(Some(past.latitude - before.latitude?));
+    let east = si::DELTA_DEGREES.encode(Some(past.longitude - before.longitude?));
+    if north == si::DELTA_DEGREES.unavailable || east == si::DELTA_DEGREES.unavailable {
+        return None;
     }
-    points
+    let rise = past.altitude.zip(before.altitude);
+    let rise = si::DELTA_ALTITUDE.encode(rise.map(|(past, before)| past - before));
+    let duration = past
+        .duration
+        .and_then(|duration| si::PATH_DELTA_TIME.encode(duration));
+    Some(PathPoint {
+        path_position: DeltaReferencePosition {
+            delta_latitude: DeltaLatitude::saturating(north),
+            delta_longitude: DeltaLongitude::saturating(east),
+            delta_altitude: DeltaAltitude::saturating(rise),
+        },
+        path_delta_time: duration.map(PathDeltaTime::saturating),
+    })
 }
 
 fn path_of(points: &[PathPoint], reference: &Position) -> Vec<PastPosition> {
@@ -284,13 +300,13 @@ fn path_of(points: &[PathPoint], reference: &Position) -> Vec<PastPosition> {
         let (Some(latitude), Some(longitude)) = (before.latitude, before.longitude) else {
             break;
         };
-        let duration = point.path_delta_time.as_ref();
-        let duration = duration.and_then(|time| u16::try_from(&time.0).ok());
         path.push(PastPosition {
             latitude,
             longitude,
             altitude: before.altitude,
-            duration: duration.map(|time| si::PATH_DELTA_TIME.decode(time)),
+            duration: point
+                .path_delta_time
+                .map(|time| si::PATH_DELTA_TIME.decode(time.get())),
         });
     }
     path
@@ -305,9 +321,9 @@ fn quantized(position: &Position) -> Position {
 fn follow(point: &PathPoint, before: &Position) -> Position {
     let delta = &point.path_position;
     let add = |base: Option<f64>, delta: Option<f64>| base.zip(delta).map(|(a, b)| a + b);
-    let north = si::DELTA_DEGREES.decode(delta.delta_latitude.0);
-    let east = si::DELTA_DEGREES.decode(delta.delta_longitude.0);
-    let rise = si::DELTA_ALTITUDE.decode(delta.delta_altitude.0);
+    let north = si::DELTA_DEGREES.decode(delta.delta_latitude.get());
+    let east = si::DELTA_DEGREES.decode(delta.delta_longitude.get());
+    let rise = si::DELTA_ALTITUDE.decode(delta.delta_altitude.get());
     Position {
         latitude: add(before.latitude, north),
         longitude: add(before.longitude, east),
@@ -316,14 +332,17 @@ fn follow(point: &PathPoint, before: &Position) -> Position {
     }
 }
 
-pub(crate) fn battery(battery: &Battery) -> ram::BatteryStatus {
+pub(crate) fn battery(battery: &Battery) -> BatteryStatus {
     let state_of_charge = si::STATE_OF_CHARGE.encode(battery.state_of_charge);
-    ram::BatteryStatus::new(ram::StateOfCharge(state_of_charge), battery.charging)
+    BatteryStatus {
+        state_of_charge: StateOfCharge::saturating(state_of_charge),
+        charging: battery.charging,
+    }
 }
 
-pub(crate) fn battery_of(battery: &ram::BatteryStatus) -> Battery {
+pub(crate) fn battery_of(battery: BatteryStatus) -> Battery {
     Battery {
-        state_of_charge: si::STATE_OF_CHARGE.decode(battery.state_of_charge.0),
+        state_of_charge: si::STATE_OF_CHARGE.decode(battery.state_of_charge.get()),
         charging: battery.charging,
     }
 }

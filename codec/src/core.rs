@@ -16,7 +16,7 @@
 //! - [`laws`] are properties of these types as functions, for Kani, proptest and sweeps alike.
 //!
 //! The rasn types of [`asn1`](crate::asn1) are the reference: differential tests compare the two on
-//! values and on octets. An alternative of an ENUMERATED or CHOICE that a newer sender may know is an
+//! values and on octets, and the messages convert to them and from them. An alternative of an ENUMERATED or CHOICE that a newer sender may know is an
 //! error, as it is there: a message that says something unknown where the protocol reads is not half
 //! understood.
 
@@ -46,6 +46,7 @@ mod source;
 pub mod vam;
 mod writer;
 
+pub(crate) use error::Path;
 pub use error::{Error, Fault, Field};
 pub use list::SequenceOf;
 pub use reader::{Outer, Read, Reader};

@@ -5,8 +5,8 @@ use std::fmt;
 use crossguard_protocol::{MAX_FOLLOWERS, SessionId, StationId};
 use thiserror::Error;
 
-use crate::asn1::ram::HelpStatus;
-use crate::core::{self, Fault, Uper};
+use crate::core::ram::HelpStatus;
+use crate::core::{self, Fault, Field, Uper};
 use crate::state::TaskProgression;
 
 /// Why octets are not a message.
@@ -71,7 +71,8 @@ pub enum DecodeError {
     /// The message breaks a rule that its encoding does not show.
     #[error(transparent)]
     Rule(#[from] BrokenRule),
-    /// The core takes the message and the reference does not, which differential tests exclude.
+    /// The core takes the message and the reference does not, which differential tests exclude. Only
+    /// a conversion between the two says so.
     #[error("core and reference disagree on the message")]
     Disagreement,
 }
@@ -82,7 +83,7 @@ impl DecodeError {
         match error.fault {
             Fault::Trailing { octets: count } => Self::TrailingOctets { count },
             fault => Self::Malformed {
-                field: FieldPath(error.names(T::FIELDS).collect()),
+                field: FieldPath::of_core::<T>(error),
                 bit: error.bit,
                 fault,
             },
@@ -156,7 +157,7 @@ pub enum EncodeError {
     #[error(transparent)]
     Rule(#[from] BrokenRule),
     /// A field is one that no receiver takes: a list is too long, or its size or value is behind an
-    /// extension marker.
+    /// extension marker. Or the buffer ends too early.
     #[error("{field}: {fault}")]
     Malformed {
         /// The field.
@@ -170,7 +171,7 @@ impl EncodeError {
     /// The error of the core, with the names of the fields of `T`.
     pub(crate) fn of_core<T: Uper>(error: core::Error) -> Self {
         Self::Malformed {
-            field: FieldPath(error.names(T::FIELDS).collect()),
+            field: FieldPath::of_core::<T>(error),
             fault: error.fault,
         }
     }
@@ -214,9 +215,6 @@ pub enum ViewError {
     /// A leader without followers.
     #[error("a leader names no follower")]
     NoFollowers,
-    /// A leader with more followers than a session has; no decoded message has as many.
-    #[error("a leader names {0} followers, and {MAX_FOLLOWERS} can be")]
-    TooManyFollowers(usize),
     /// A leader names this follower twice, or a message commands it twice.
     #[error("station {0} is named twice")]
     NamedTwice(StationId),
@@ -235,36 +233,68 @@ pub enum ViewError {
     /// The commands of one message belong to different sessions.
     #[error("commands of sessions {0} and {1} are in one message")]
     SessionsDiffer(SessionId, SessionId),
-    /// A task type that does not exist; no decoded message has it.
-    #[error("task type {0} does not exist")]
-    TaskType(u8),
     /// The target of a command is not a place, or too far away.
     #[error("the target of the command for station {0} cannot be expressed")]
     Target(StationId),
 }
 
 /// The way from a message to one of its fields, in Rust's spelling.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct FieldPath(Vec<&'static str>);
+#[derive(Clone, Default)]
+pub struct FieldPath(Way);
+
+#[derive(Clone)]
+enum Way {
+    /// Names that nobody has read yet, so that hostile input costs no allocation.
+    OfCore(core::Path, &'static [Field]),
+    /// Names that rasn gave, outermost first.
+    Named(Vec<&'static str>),
+}
+
+impl Default for Way {
+    fn default() -> Self {
+        Self::Named(Vec::new())
+    }
+}
 
 impl FieldPath {
-    /// Goes one step further, to the field that rasn names with its type, as `Type.field`.
-    pub(crate) fn push(&mut self, qualified_name: &'static str) {
-        let name = qualified_name.rsplit('.').next().unwrap_or(qualified_name);
-        self.0.push(name);
+    fn of_core<T: Uper>(error: core::Error) -> Self {
+        Self(Way::OfCore(error.path(), T::FIELDS))
+    }
+
+    /// The field to which rasn gives these names, each with its type, as `Type.field`.
+    pub(crate) fn named(qualified_names: impl Iterator<Item = &'static str>) -> Self {
+        let names = qualified_names.map(|name| name.rsplit('.').next().unwrap_or(name));
+        Self(Way::Named(names.collect()))
     }
 
     /// The names of the fields, outermost first.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
-        self.0.iter().copied()
+        let (of_core, named) = match &self.0 {
+            Way::OfCore(path, fields) => (Some(path.names(fields)), &[][..]),
+            Way::Named(names) => (None, &names[..]),
+        };
+        of_core.into_iter().flatten().chain(named.iter().copied())
     }
 }
 
+impl PartialEq for FieldPath {
+    fn eq(&self, other: &Self) -> bool {
+        self.names().eq(other.names())
+    }
+}
+
+impl Eq for FieldPath {}
+
 impl fmt::Display for FieldPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
-            return f.write_str("message");
-        }
-        f.write_str(&self.0.join("."))
+        let mut names = self.names();
+        f.write_str(names.next().unwrap_or("message"))?;
+        names.try_for_each(|name| write!(f, ".{name}"))
+    }
+}
+
+impl fmt::Debug for FieldPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }

@@ -3,22 +3,25 @@
 //! The messages of Crossguard, from what the protocol and the application say to octets and back:
 //!
 //! ```text
-//!  crossguard_protocol::Ram ─┐                ┌─ asn1 ─┐              ┌─ uper ─┐
-//!  RobotState (SI units) ────┼── view, state ─┤  RAM   ├── message ───┤ octets │
-//!  TaskParameters ───────────┘   by si        │  RMCM  │  header,     └────────┘
-//!  crossguard_protocol::Rmcm                  └────────┘  rules
+//!  crossguard_protocol::Ram ─┐               ┌─ core ─┐             ┌────────┐
+//!  RobotState (SI units) ────┼── view ───────┤  RAM   ├── message ──┤ octets │
+//!  TaskParameters ───────────┘   by si       │  RMCM  │  header     └────────┘
+//!  crossguard_protocol::Rmcm                 └───┬────┘
+//!                                              asn1: the same of rasn, as reference and as JSON
 //! ```
 //!
-//! - `asn1/*.asn` in this crate are the messages, as ASN.1 modules that any compiler takes; [`asn1`]
-//!   holds the types that follow from them.
-//! - [`core`] is the codec of RAM and RMCM bit by bit, without heap, with its laws; it
-//!   decides what is a message.
+//! - `asn1/*.asn` in this crate are the messages, as ASN.1 modules that any compiler takes.
+//! - [`core`] has the types of RAM and RMCM that follow from them and their codec, bit by bit and
+//!   without heap, with its laws; it decides what is a message.
 //! - [`encode`] and [`decode`] are strict: exactly the canonical unaligned PER encodings of valid
 //!   messages are accepted, extension additions of newer senders are skipped, and everything else is
-//!   an error that names the field.
+//!   an error that names the field. [`encode_into`] writes to a buffer of the caller's.
+//! - [`asn1`] has the types that rasn makes of the modules: the reference that the core is compared
+//!   with, the JSON view of the core's messages, and what the core does not have, the VAM.
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
-//!   map to and from the protocol's view.
+//!   map to and from the protocol's view; [`view`] has its laws.
+//! - [`geonet`] has the headers under a message, `GeoNetworking` and BTP-B.
 //! - [`Identifiers`] holds what no standard has assigned.
 //!
 //! ```
@@ -26,7 +29,7 @@
 //!     Identifiers, Message, Position, RobotState, decode, distance, encode, ram_from, state_of,
 //!     view_of_ram,
 //! };
-//! use crossguard_codec::asn1::ram::RAM;
+//! use crossguard_codec::core::ram::RAM;
 //! use crossguard_protocol::{Availability, Decimetres, Robot, StationId};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -53,6 +56,7 @@ mod containers;
 pub mod core;
 mod distance;
 mod error;
+pub mod geonet;
 mod identifiers;
 mod message;
 mod rules;
@@ -60,7 +64,7 @@ pub mod si;
 mod size;
 mod state;
 mod uper;
-mod view;
+pub mod view;
 mod wire;
 
 pub use crate::core::Fault;
@@ -69,13 +73,14 @@ pub use containers::position_of;
 pub use distance::distance;
 pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
 pub use identifiers::{IdentifierClash, Identifiers, MessageIdentifiers};
-pub use message::{Message, Pdu, Received, decode, encode};
+pub use message::{Message, Pdu, Received, decode, encode, encode_into};
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
 pub use state::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, JobRole,
     Lights, Measurement, PastPosition, Position, PublicSignal, RobotCategory, RobotState,
     SignalMeans, SignalsShown, SlowState, TaskProgression,
 };
+#[doc(no_inline)]
 pub use view::{
     ExecutionStatus, MapPlace, Target, TaskParameters, availability_of, execution_of, map_place_of,
     ram_from, rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of, view_of_ram,

@@ -1,26 +1,26 @@
-//! Whole messages as octets: the header first, then the codec. Octets of a RAM and an RMCM go through
-//! the [core](crate::core), which decides what is one; those of a VAM through the reference and its
-//! rules.
+//! Whole messages as octets: the header first, then the codec. RAM and RMCM are those of the
+//! [core](crate::core), which is their codec; octets of a VAM go through rasn and the rules.
 
 use serde::{Deserialize, Serialize};
 
-use crate::asn1::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B, StationId};
-use crate::asn1::ram::RAM;
-use crate::asn1::rmcm::RMCM;
 use crate::asn1::vam::VAM;
-use crate::error::{DecodeError, EncodeError};
+use crate::core::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B, StationId};
+use crate::core::ram::RAM;
+use crate::core::rmcm::RMCM;
+use crate::core::{Fault, Reader, Uper};
+use crate::error::{DecodeError, EncodeError, FieldPath};
 use crate::identifiers::Identifiers;
 use crate::size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
-use crate::{core, rules, uper};
+use crate::{core, rules, uper, wire};
 
 /// A complete message that this crate encodes and decodes: [`RAM`], [`RMCM`] or [`VAM`].
-pub trait Pdu: rasn::Encode + rasn::Decode + sealed::Sealed {
+pub trait Pdu: sealed::Sealed {
     /// Name of the message.
     const NAME: &'static str;
     /// The largest encoding of the message, in octets.
     const LEN_MAX: usize;
     /// Its header.
-    fn header(&self) -> &ItsPduHeader;
+    fn header(&self) -> ItsPduHeader;
     /// `protocolVersion` and `messageId` that its header has.
     fn expected_header(identifiers: &Identifiers) -> (u8, u8);
 }
@@ -30,65 +30,58 @@ mod sealed {
 
     /// Keeps the set of messages closed, and their codec out of sight.
     pub trait Sealed: Sized {
-        fn to_octets(&self) -> Result<Vec<u8>, EncodeError>;
-        fn from_octets(octets: &[u8]) -> Result<Received<Self>, DecodeError>;
+        fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError>;
+        fn read(octets: &[u8]) -> Result<Received<Self>, DecodeError>;
     }
 }
 
-/// The codec of a message that the core has.
+/// The codec of the messages that the core has.
 macro_rules! by_the_core {
-    ($message:ty, $core:ty) => {
+    ($message:ty) => {
         impl sealed::Sealed for $message {
-            fn to_octets(&self) -> Result<Vec<u8>, EncodeError> {
-                let octets = uper::encode(self)?;
-                // What the core does not take, no receiver does.
-                let accepted = core::decode::<$core>(&octets);
-                accepted.map_err(EncodeError::of_core::<$core>)?;
-                Ok(octets)
+            fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
+                core::encode(self, buffer).map_err(EncodeError::of_core::<Self>)
             }
 
-            fn from_octets(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
-                let decoded = core::decode::<$core>(octets);
-                let (value, extended) = decoded.map_err(DecodeError::of_core::<$core>)?;
-                let message = Self::try_from(&value)?;
+            fn read(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
+                let decoded = core::decode(octets);
+                let (message, extended) = decoded.map_err(DecodeError::of_core::<Self>)?;
                 Ok(Received { message, extended })
-            }
-        }
-
-        /// By way of the encoding, on which core and reference agree.
-        impl TryFrom<&$core> for $message {
-            type Error = DecodeError;
-
-            fn try_from(value: &$core) -> Result<Self, DecodeError> {
-                let mut buffer = [0; core::max_octets::<$core>()];
-                let length = core::encode(value, &mut buffer);
-                let length = length.map_err(DecodeError::of_core::<$core>)?;
-                rasn::uper::decode(&buffer[..length]).map_err(|_| DecodeError::Disagreement)
-            }
-        }
-
-        /// By way of the encoding, on which core and reference agree.
-        impl TryFrom<&$message> for $core {
-            type Error = EncodeError;
-
-            fn try_from(message: &$message) -> Result<Self, EncodeError> {
-                let octets = uper::encode(message)?;
-                let decoded = core::decode(&octets);
-                let (value, _) = decoded.map_err(EncodeError::of_core::<$core>)?;
-                Ok(value)
             }
         }
     };
 }
 
-by_the_core!(RAM, core::ram::RAM);
-by_the_core!(RMCM, core::rmcm::RMCM);
+by_the_core!(RAM);
+by_the_core!(RMCM);
+
+impl sealed::Sealed for VAM {
+    fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
+        rules::check_vam(self)?;
+        let octets = uper::encode(self)?;
+        let Some(buffer) = buffer.get_mut(..octets.len()) else {
+            return Err(EncodeError::Malformed {
+                field: FieldPath::default(),
+                fault: Fault::BufferFull,
+            });
+        };
+        buffer.copy_from_slice(&octets);
+        Ok(octets.len())
+    }
+
+    fn read(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
+        let uper::Decoded { value, extended } = uper::decode::<Self>(octets)?;
+        rules::check_vam(&value)?;
+        let message = value;
+        Ok(Received { message, extended })
+    }
+}
 
 impl Pdu for RAM {
     const NAME: &'static str = "RAM";
     const LEN_MAX: usize = RAM_LEN_MAX;
-    fn header(&self) -> &ItsPduHeader {
-        &self.header
+    fn header(&self) -> ItsPduHeader {
+        self.header
     }
     fn expected_header(identifiers: &Identifiers) -> (u8, u8) {
         (identifiers.ram.protocol_version, identifiers.ram.message_id)
@@ -98,8 +91,8 @@ impl Pdu for RAM {
 impl Pdu for RMCM {
     const NAME: &'static str = "RMCM";
     const LEN_MAX: usize = RMCM_LEN_MAX;
-    fn header(&self) -> &ItsPduHeader {
-        &self.header
+    fn header(&self) -> ItsPduHeader {
+        self.header
     }
     fn expected_header(identifiers: &Identifiers) -> (u8, u8) {
         (
@@ -112,8 +105,12 @@ impl Pdu for RMCM {
 impl Pdu for VAM {
     const NAME: &'static str = "VAM";
     const LEN_MAX: usize = MESSAGE_LEN_MAX;
-    fn header(&self) -> &ItsPduHeader {
-        &self.header
+    fn header(&self) -> ItsPduHeader {
+        ItsPduHeader {
+            protocol_version: OrdinalNumber1B(self.header.protocol_version.0),
+            message_id: MessageId(self.header.message_id.0),
+            station_id: StationId(self.header.station_id.0),
+        }
     }
     /// Assigned by TS 103 300-3 v2.3.1.
     fn expected_header(_: &Identifiers) -> (u8, u8) {
@@ -121,22 +118,8 @@ impl Pdu for VAM {
     }
 }
 
-impl sealed::Sealed for VAM {
-    fn to_octets(&self) -> Result<Vec<u8>, EncodeError> {
-        rules::check_vam(self)?;
-        uper::encode(self)
-    }
-
-    fn from_octets(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
-        let uper::Decoded { value, extended } = uper::decode::<Self>(octets)?;
-        rules::check_vam(&value)?;
-        let message = value;
-        Ok(Received { message, extended })
-    }
-}
-
 /// A message as it was received.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Received<M> {
     /// What this crate knows of it.
     pub message: M,
@@ -148,33 +131,48 @@ pub struct Received<M> {
 /// The canonical encoding of `message`.
 ///
 /// # Errors
-/// When the header is not that of the message, a value is not one of its type, or a rule is broken.
+/// When the header is not that of the message, or a rule of a VAM is broken. Every other RAM and RMCM
+/// has an encoding.
 pub fn encode<M: Pdu>(identifiers: &Identifiers, message: &M) -> Result<Vec<u8>, EncodeError> {
+    let mut octets = vec![0; M::LEN_MAX];
+    let length = encode_into(identifiers, message, &mut octets)?;
+    octets.truncate(length);
+    Ok(octets)
+}
+
+/// Writes the canonical encoding of `message` into the front of `buffer`, and tells how many octets
+/// that takes. [`Pdu::LEN_MAX`] are enough for every message. A RAM or an RMCM takes no heap.
+///
+/// # Errors
+/// As for [`encode`], and when the buffer is too small. The buffer may have been written to.
+pub fn encode_into<M: Pdu>(
+    identifiers: &Identifiers,
+    message: &M,
+    buffer: &mut [u8],
+) -> Result<usize, EncodeError> {
     let (protocol_version, message_id) = M::expected_header(identifiers);
-    let ItsPduHeader {
-        protocol_version: OrdinalNumber1B(version_found),
-        message_id: MessageId(id_found),
-        ..
-    } = *message.header();
+    let found = message.header();
     let header = |field, found, expected| EncodeError::Header {
         message: M::NAME,
         field,
         found,
         expected,
     };
-    if version_found != protocol_version {
-        return Err(header("protocolVersion", version_found, protocol_version));
+    if found.protocol_version.0 != protocol_version {
+        let found = found.protocol_version.0;
+        return Err(header("protocolVersion", found, protocol_version));
     }
-    if id_found != message_id {
-        return Err(header("messageId", id_found, message_id));
+    if found.message_id.0 != message_id {
+        return Err(header("messageId", found.message_id.0, message_id));
     }
-    message.to_octets()
+    message.write(buffer)
 }
 
 /// The message whose canonical encoding `octets` are.
 ///
 /// Exactly the canonical encodings are accepted, with or without extension additions that this crate
-/// does not know. No input makes it panic; what it allocates is bounded by [`MESSAGE_LEN_MAX`].
+/// does not know. No input makes it panic. A RAM or an RMCM takes no heap, neither when it is accepted
+/// nor when it is refused; what a VAM allocates is bounded by [`MESSAGE_LEN_MAX`].
 ///
 /// # Errors
 /// Why the octets are not such a message, and which field says so.
@@ -182,69 +180,62 @@ pub fn decode<M: Pdu>(
     identifiers: &Identifiers,
     octets: &[u8],
 ) -> Result<Received<M>, DecodeError> {
-    let header = Header::read(octets)?;
+    let header = header_of(octets)?;
     let (known, message_id) = M::expected_header(identifiers);
-    if header.message_id != message_id {
+    if header.message_id.0 != message_id {
         return Err(DecodeError::MessageId {
-            found: header.message_id,
+            found: header.message_id.0,
             expected: M::NAME,
         });
     }
-    if header.protocol_version != known {
-        let found = header.protocol_version;
+    if header.protocol_version.0 != known {
+        let found = header.protocol_version.0;
         return Err(DecodeError::ProtocolVersion {
             message: M::NAME,
             found,
             known,
         });
     }
-    M::from_octets(octets)
+    M::read(octets)
 }
 
-/// The header that begins every message, in six octets that need no decoder (TS 102 894-2,
-/// `ItsPduHeader`).
-struct Header {
-    protocol_version: u8,
-    message_id: u8,
-}
-
-impl Header {
-    fn read(octets: &[u8]) -> Result<Self, DecodeError> {
-        let length = octets.len();
-        if length > MESSAGE_LEN_MAX {
-            return Err(DecodeError::TooLong {
-                length,
-                max: MESSAGE_LEN_MAX,
-            });
-        }
-        match *octets {
-            [protocol_version, message_id, _, _, _, _, ..] => Ok(Self {
-                protocol_version,
-                message_id,
-            }),
-            _ => Err(DecodeError::TooShort { length }),
-        }
+/// The header that begins every message.
+fn header_of(octets: &[u8]) -> Result<ItsPduHeader, DecodeError> {
+    let length = octets.len();
+    if length > MESSAGE_LEN_MAX {
+        return Err(DecodeError::TooLong {
+            length,
+            max: MESSAGE_LEN_MAX,
+        });
+    }
+    match ItsPduHeader::decode(Reader::new(octets)) {
+        Ok((header, _)) => Ok(header),
+        Err(_) => Err(DecodeError::TooShort { length }),
     }
 }
 
 /// The header of a message from `station`.
-pub(crate) fn header<M: Pdu>(identifiers: &Identifiers, station: u32) -> ItsPduHeader {
+pub(crate) fn header<M: Pdu>(
+    identifiers: &Identifiers,
+    station: crossguard_protocol::StationId,
+) -> ItsPduHeader {
     let (protocol_version, message_id) = M::expected_header(identifiers);
-    ItsPduHeader::new(
-        OrdinalNumber1B(protocol_version),
-        MessageId(message_id),
-        StationId(station),
-    )
+    ItsPduHeader {
+        protocol_version: OrdinalNumber1B(protocol_version),
+        message_id: MessageId(message_id),
+        station_id: wire::station(station),
+    }
 }
 
 /// A message of the robots, told apart by its header.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[allow(clippy::large_enum_variant, reason = "there is no heap")]
 pub enum Message {
     /// Robot awareness message.
-    Ram(Box<RAM>),
+    Ram(RAM),
     /// Robot maneuver coordination message.
-    Rmcm(Box<RMCM>),
+    Rmcm(RMCM),
 }
 
 impl Message {
@@ -254,8 +245,8 @@ impl Message {
     /// As for [`encode`].
     pub fn encode(&self, identifiers: &Identifiers) -> Result<Vec<u8>, EncodeError> {
         match self {
-            Self::Ram(ram) => encode(identifiers, &**ram),
-            Self::Rmcm(rmcm) => encode(identifiers, &**rmcm),
+            Self::Ram(ram) => encode(identifiers, ram),
+            Self::Rmcm(rmcm) => encode(identifiers, rmcm),
         }
     }
 
@@ -264,17 +255,17 @@ impl Message {
     /// # Errors
     /// As for [`decode`].
     pub fn decode(identifiers: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
-        let found = Header::read(octets)?.message_id;
+        let found = header_of(octets)?.message_id.0;
         if found == identifiers.ram.message_id {
             let Received { message, extended } = decode(identifiers, octets)?;
             Ok(Received {
-                message: Self::Ram(Box::new(message)),
+                message: Self::Ram(message),
                 extended,
             })
         } else if found == identifiers.rmcm.message_id {
             let Received { message, extended } = decode(identifiers, octets)?;
             Ok(Received {
-                message: Self::Rmcm(Box::new(message)),
+                message: Self::Rmcm(message),
                 extended,
             })
         } else {

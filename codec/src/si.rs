@@ -18,6 +18,9 @@
 //! that*.
 
 mod angle;
+#[cfg(feature = "laws")]
+#[doc(hidden)]
+pub mod laws;
 mod tables;
 mod time;
 

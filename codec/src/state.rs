@@ -6,7 +6,7 @@
 use crossguard_protocol::TaskSet;
 use serde::{Deserialize, Serialize};
 
-use crate::asn1::{cdd, common, ram};
+use crate::core::{cdd, common, ram};
 use crate::wire::{bit_set, wire_enum};
 
 /// The state of a robot. What is `None` is unavailable.
@@ -179,12 +179,12 @@ wire_enum! {
     /// Whether a robot moves forward or backward.
     DriveDirection as cdd::DriveDirection {
         /// Forward.
-        Forward = forward,
+        Forward,
         /// Backward.
-        Backward = backward,
+        Backward,
         /// Unavailable.
         #[default]
-        Unavailable = unavailable,
+        Unavailable,
     }
 }
 
@@ -193,19 +193,19 @@ wire_enum! {
     RobotCategory as ram::RobotCategory {
         /// Not known.
         #[default]
-        Unknown = unknown,
+        Unknown,
         /// Two legs, two arms.
-        Humanoid = humanoid,
+        Humanoid,
         /// Four legs.
-        Quadruped = quadruped,
+        Quadruped,
         /// Wheels.
-        Wheeled = wheeled,
+        Wheeled,
         /// Tracks.
-        Tracked = tracked,
+        Tracked,
         /// Flies.
-        Aerial = aerial,
+        Aerial,
         /// Anything else.
-        Other = other,
+        Other,
     }
 }
 
@@ -214,19 +214,19 @@ wire_enum! {
     JobRole as ram::OperationalJobRole {
         /// None.
         #[default]
-        None = none,
+        None,
         /// Holds traffic back.
-        TrafficGuard = trafficGuard,
+        TrafficGuard,
         /// Walks along with pedestrians.
-        Escort = escort,
+        Escort,
         /// Walks its rounds.
-        Patrol = patrol,
+        Patrol,
         /// Carries goods.
-        Delivery = delivery,
+        Delivery,
         /// Works on the street or its equipment.
-        Maintenance = maintenance,
+        Maintenance,
         /// Anything else.
-        Other = other,
+        Other,
     }
 }
 
@@ -235,15 +235,15 @@ wire_enum! {
     TaskProgression as common::TaskProgression {
         /// It has none.
         #[default]
-        Idle = idle,
+        Idle,
         /// It is at it.
-        Executing = executing,
+        Executing,
         /// It has finished it.
-        Completed = completed,
+        Completed,
         /// It could not do it.
-        Failed = failed,
+        Failed,
         /// It has stopped because it lost contact with its leader.
-        SafeIdle = safeIdle,
+        SafeIdle,
     }
 }
 
@@ -251,16 +251,16 @@ wire_enum! {
     /// Who or what steers a robot.
     ControlMode as ram::ControlMode {
         /// The robot itself.
-        Autonomous = autonomous,
+        Autonomous,
         /// A person.
-        Teleoperated = teleoperated,
+        Teleoperated,
         /// Nobody; the emergency stop is engaged.
-        EmergencyStop = emergencyStop,
+        EmergencyStop,
         /// Nobody; the robot has a fault.
-        Fault = fault,
+        Fault,
         /// Unavailable.
         #[default]
-        Unavailable = unavailable,
+        Unavailable,
     }
 }
 
@@ -269,13 +269,13 @@ wire_enum! {
     PublicSignal as ram::PublicSignal {
         /// None.
         #[default]
-        None = none,
+        None,
         /// Stop.
-        Stop = stop,
+        Stop,
         /// Go.
-        Go = go,
+        Go,
         /// Take care.
-        Caution = caution,
+        Caution,
     }
 }
 

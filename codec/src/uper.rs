@@ -15,6 +15,8 @@
 mod decoder;
 mod source;
 
+use std::iter;
+
 use rasn::error::{DecodeErrorKind, EncodeErrorKind};
 use rasn::types::BitString;
 
@@ -88,12 +90,14 @@ where
 
 /// What is wrong with the octets, and in which field.
 fn malformed(source: &Source<'_>, rejected: &Rejected) -> DecodeError {
-    let mut field = FieldPath::default();
     let mut kind = &*rejected.kind;
-    while let DecodeErrorKind::FieldError { name, nested } = kind {
-        field.push(name);
+    let field = FieldPath::named(iter::from_fn(|| {
+        let DecodeErrorKind::FieldError { name, nested } = kind else {
+            return None;
+        };
         kind = &*nested.kind;
-    }
+        Some(*name)
+    }));
     // Whatever rasn itself might reject is something that the modules do not use.
     let unsupported = (source.position(), Fault::Unsupported);
     let (bit, fault) = source.fault().unwrap_or(unsupported);

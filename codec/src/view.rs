@@ -10,10 +10,11 @@
 //! | RMCM | task parameters, map reference, status | [`task_parameters_of`], [`map_place_of`], [`execution_of`] |
 //! | basic container | position | [`position_of`](crate::position_of) |
 //!
-//! The mapping is lossless on everything that the transition function reads. A message that
+//! The mapping is lossless on everything that the transition function reads, which the [`laws`] say. A message that
 //! contradicts itself is refused with the contradiction, in either direction, so what one robot can
 //! say every other one understands.
 
+pub mod laws;
 mod ram;
 mod rmcm;
 mod role;

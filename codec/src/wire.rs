@@ -2,19 +2,18 @@
 //! sets, reasons.
 
 use crossguard_protocol::{
-    SessionId, SessionNumber, StationId, TaskSet, Unavailability, UniqueNumber,
+    SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
 };
-use rasn::types::{Enumerated, FixedBitString};
 
-use crate::asn1::{cdd, common};
+use crate::core::{cdd, common};
 use crate::si::Ladder;
 
-/// Defines an enumeration and its conversion to and from an ENUMERATED of the modules.
+/// Defines an enumeration and its conversion to and from an ENUMERATED that has the same names.
 macro_rules! wire_enum {
     (
         $(#[$attribute:meta])*
         $name:ident as $wire:path {
-            $($(#[$variant_attribute:meta])* $variant:ident = $wire_variant:ident,)*
+            $($(#[$variant_attribute:meta])* $variant:ident,)*
         }
     ) => {
         $(#[$attribute])*
@@ -29,14 +28,14 @@ macro_rules! wire_enum {
             pub(crate) const fn to_wire(self) -> $wire {
                 use $wire as Wire;
                 match self {
-                    $(Self::$variant => Wire::$wire_variant,)*
+                    $(Self::$variant => Wire::$variant,)*
                 }
             }
 
             pub(crate) const fn from_wire(wire: $wire) -> Self {
                 use $wire as Wire;
                 match wire {
-                    $(Wire::$wire_variant => Self::$variant,)*
+                    $(Wire::$variant => Self::$variant,)*
                 }
             }
         }
@@ -77,74 +76,80 @@ macro_rules! bit_set {
 
 pub(crate) use {bit_set, wire_enum};
 
-/// Eight bits of a set as a BIT STRING.
-pub(crate) fn bits8(set: u8) -> FixedBitString<8> {
-    let mut bits = FixedBitString::ZERO;
-    bits.data[0] = set.reverse_bits();
-    bits
-}
-
-pub(crate) fn set8(bits: FixedBitString<8>) -> u8 {
-    bits.data[0].reverse_bits()
-}
-
 /// Bit *n* stands for task type *n* on both sides.
 pub(crate) fn task_set(tasks: TaskSet) -> common::TaskSet {
-    let mut bits = FixedBitString::ZERO;
-    [bits.data[0], bits.data[1]] = tasks.0.reverse_bits().to_be_bytes();
-    common::TaskSet(bits)
+    common::TaskSet::new(tasks.0)
 }
 
-pub(crate) fn tasks_of(common::TaskSet(bits): &common::TaskSet) -> TaskSet {
-    TaskSet(u16::from_be_bytes([bits.data[0], bits.data[1]]).reverse_bits())
+pub(crate) fn tasks_of(tasks: common::TaskSet) -> TaskSet {
+    TaskSet(tasks.bits())
+}
+
+const _: () = assert!(common::TaskType::MAX as usize + 1 == TaskType::COUNT);
+
+pub(crate) fn task_type(task: TaskType) -> common::TaskType {
+    common::TaskType::saturating(task.value())
+}
+
+pub(crate) fn task_type_of(task: common::TaskType) -> TaskType {
+    // Both have the same values, so the default is never taken.
+    TaskType::new(task.get()).unwrap_or(TaskType::INITIAL_POS)
+}
+
+pub(crate) fn station(station: StationId) -> cdd::StationId {
+    cdd::StationId(station.0)
+}
+
+pub(crate) fn station_of(station: cdd::StationId) -> StationId {
+    StationId(station.0)
 }
 
 pub(crate) fn session(session: SessionId) -> common::CoordinationSession {
-    common::CoordinationSession::new(
-        cdd::StationId(session.leader.0),
-        common::SessionNumber(session.number.0.to_u32()),
-    )
-}
-
-pub(crate) fn session_of(session: &common::CoordinationSession) -> SessionId {
-    SessionId {
-        leader: StationId(session.leader_station_id.0),
-        number: session_number_of(&session.session_number),
+    common::CoordinationSession {
+        leader_station_id: station(session.leader),
+        session_number: session_number(session.number),
     }
 }
 
-pub(crate) fn session_number_of(number: &common::SessionNumber) -> SessionNumber {
+pub(crate) fn session_of(session: common::CoordinationSession) -> SessionId {
+    SessionId {
+        leader: station_of(session.leader_station_id),
+        number: session_number_of(session.session_number),
+    }
+}
+
+pub(crate) fn session_number(number: SessionNumber) -> common::SessionNumber {
+    common::SessionNumber(number.0.to_u32())
+}
+
+pub(crate) fn session_number_of(number: common::SessionNumber) -> SessionNumber {
     SessionNumber(UniqueNumber::from_u32(number.0))
 }
 
 pub(crate) fn reason(reason: Unavailability) -> common::UnavailabilityReason {
     use common::UnavailabilityReason as Wire;
     match reason {
-        Unavailability::LowBattery => Wire::lowBattery,
-        Unavailability::Teleoperated => Wire::teleoperated,
-        Unavailability::EmergencyStop => Wire::emergencyStop,
-        Unavailability::LocalFault => Wire::localFault,
-        Unavailability::NotSafe => Wire::notSafe,
+        Unavailability::LowBattery => Wire::LowBattery,
+        Unavailability::Teleoperated => Wire::Teleoperated,
+        Unavailability::EmergencyStop => Wire::EmergencyStop,
+        Unavailability::LocalFault => Wire::LocalFault,
+        Unavailability::NotSafe => Wire::NotSafe,
     }
 }
 
 pub(crate) fn reason_of(reason: common::UnavailabilityReason) -> Unavailability {
     use common::UnavailabilityReason as Wire;
     match reason {
-        Wire::lowBattery => Unavailability::LowBattery,
-        Wire::teleoperated => Unavailability::Teleoperated,
-        Wire::emergencyStop => Unavailability::EmergencyStop,
-        Wire::localFault => Unavailability::LocalFault,
-        Wire::notSafe => Unavailability::NotSafe,
+        Wire::LowBattery => Unavailability::LowBattery,
+        Wire::Teleoperated => Unavailability::Teleoperated,
+        Wire::EmergencyStop => Unavailability::EmergencyStop,
+        Wire::LocalFault => Unavailability::LocalFault,
+        Wire::NotSafe => Unavailability::NotSafe,
     }
 }
 
-/// The class of an ENUMERATED confidence. Its last value is *unavailable*.
-pub(crate) fn class<E: Enumerated>(ladder: &Ladder, half_width: Option<f64>) -> E {
-    let last = E::VARIANTS.len() - 1;
-    E::VARIANTS[ladder.encode(half_width).min(last)]
-}
-
-pub(crate) fn half_width<E: Enumerated>(ladder: &Ladder, class: E) -> Option<f64> {
-    ladder.decode(class.enumeration_index())
+/// The class of a half width among all `classes` of an ENUMERATED confidence, the last of which is
+/// *unavailable*.
+pub(crate) fn class<E: Copy>(ladder: &Ladder, half_width: Option<f64>, classes: &[E]) -> E {
+    classes[ladder.encode(half_width).min(classes.len() - 1)]
 }

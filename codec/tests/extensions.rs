@@ -2,7 +2,7 @@
 
 mod support;
 
-use crossguard_codec::asn1::ram::RAM;
+use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{DecodeError, Fault, Identifiers, Received, decode, encode};
 use support::{from_bits, samples, to_bits};
 
@@ -72,7 +72,7 @@ fn unknown_additions_are_skipped_wherever_they_are() {
         assert_eq!(
             decode_bits(&outer).unwrap(),
             Received {
-                message: ram.clone(),
+                message: ram,
                 extended: 1
             }
         );
@@ -80,7 +80,7 @@ fn unknown_additions_are_skipped_wherever_they_are() {
         assert_eq!(
             decode_bits(&inner).unwrap(),
             Received {
-                message: ram.clone(),
+                message: ram,
                 extended: 1
             }
         );
@@ -88,7 +88,7 @@ fn unknown_additions_are_skipped_wherever_they_are() {
         assert_eq!(
             decode_bits(&both).unwrap(),
             Received {
-                message: ram.clone(),
+                message: ram,
                 extended: 2
             }
         );

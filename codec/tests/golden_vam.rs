@@ -7,10 +7,12 @@ use crossguard_codec::asn1::cdd::{
     LanePositionOptions, PathDeltaTimeChoice, Shape, TurningDirection, VruProfileAndSubprofile,
     YawRateConfidence,
 };
+use crossguard_codec::asn1::ram::RAM;
 use crossguard_codec::asn1::vam::{VAM, VamParameters};
-use crossguard_codec::{Identifiers, decode, encode};
+use crossguard_codec::{Identifiers, decode, encode, position_of};
 use rasn::types::Integer;
 use support::from_hex;
+use support::reference::Reference;
 
 const VECTORS: &str = include_str!("golden/vam.txt");
 
@@ -277,18 +279,25 @@ fn v11_has_a_motion_prediction_with_everything_in_it() {
     );
 }
 
+#[test]
+fn the_sender_of_a_vam_is_where_it_says() {
+    let container = &parameters(vectors().next().unwrap().0).basic_container;
+    let position = position_of(&container.try_into().unwrap());
+    assert_eq!(position.latitude, Some(48.765_432_1));
+}
+
 /// The containers that RAM takes from VAM have the same bits in both.
 #[test]
 fn a_ram_carries_the_containers_of_a_vam_bit_for_bit() {
     let identifiers = Identifiers::default();
     for (name, octets) in vectors() {
         let theirs = parameters(name);
-        let mut ram = support::samples::typical_ram(&identifiers);
+        let mut ram = RAM::of(&support::samples::typical_ram(&identifiers));
         let ours = &mut ram.ram.ram_parameters;
         ours.basic_container = theirs.basic_container.clone();
         ours.vru_cluster_information_container = theirs.vru_cluster_information_container.clone();
         ours.vru_motion_prediction_container = theirs.vru_motion_prediction_container.clone();
-        let sent = support::to_bits(&encode(&identifiers, &ram).unwrap());
+        let sent = support::to_bits(&encode(&identifiers, &ram.to_message().unwrap()).unwrap());
         let vector = support::to_bits(&octets);
         // Behind the header, the generation time and the presence bits.
         let (start, length) = (64 + 5, 1 + 8 + 31 + 32 + 36 + 24);

@@ -2,12 +2,17 @@
 
 mod support;
 
-use crossguard_codec::asn1::ram::RAM;
-use crossguard_codec::asn1::rmcm::RMCM;
+use std::fmt::Debug;
+
+use crossguard_codec::asn1;
 use crossguard_codec::asn1::vam::VAM;
+use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{Identifiers, Message, RobotState, TaskParameters};
 use proptest::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
+use support::reference::Reference;
 use support::{arbitrary, samples};
 
 #[test]
@@ -49,8 +54,8 @@ fn a_bit_string_of_another_size_is_refused() {
 
 #[test]
 fn a_message_says_which_it_is() {
-    let message = Message::Rmcm(Box::new(samples::answer_rmcm(&Identifiers::default())));
-    let json = serde_json::to_value(&message).unwrap();
+    let message = Message::Rmcm(samples::answer_rmcm(&Identifiers::default()));
+    let json = serde_json::to_value(message).unwrap();
     assert!(matches!(&json, Value::Object(fields) if fields.keys().eq(["rmcm"])));
     assert_eq!(serde_json::from_value::<Message>(json).unwrap(), message);
 }
@@ -74,18 +79,27 @@ fn states_and_parameters_name_only_what_they_say() {
     );
 }
 
+fn keeps<M: Serialize + DeserializeOwned + PartialEq + Debug>(message: &M) {
+    let json = serde_json::to_string(message).unwrap();
+    assert_eq!(&serde_json::from_str::<M>(&json).unwrap(), message);
+}
+
 proptest! {
     #[test]
     fn json_keeps_every_message(seed: u64) {
         let identifiers = Identifiers::default();
-        let ram: RAM = arbitrary::message(&identifiers, seed);
-        let json = serde_json::to_string(&ram).unwrap();
-        prop_assert_eq!(serde_json::from_str::<RAM>(&json).unwrap(), ram);
-        let rmcm: RMCM = arbitrary::message(&identifiers, seed);
-        let json = serde_json::to_string(&rmcm).unwrap();
-        prop_assert_eq!(serde_json::from_str::<RMCM>(&json).unwrap(), rmcm);
-        let vam: VAM = arbitrary::message(&identifiers, seed);
-        let json = serde_json::to_string(&vam).unwrap();
-        prop_assert_eq!(serde_json::from_str::<VAM>(&json).unwrap(), vam);
+        keeps(&arbitrary::message::<asn1::ram::RAM>(&identifiers, seed));
+        keeps(&arbitrary::ram(&identifiers, seed).to_message().unwrap());
+        let rmcm = arbitrary::message::<asn1::rmcm::RMCM>(&identifiers, seed);
+        keeps(&rmcm);
+        keeps(&rmcm.to_message().unwrap());
+        keeps(&arbitrary::message::<VAM>(&identifiers, seed));
+    }
+
+    #[test]
+    fn a_message_has_the_json_of_the_reference(seed: u64) {
+        let ram = arbitrary::ram(&Identifiers::default(), seed);
+        let message = ram.to_message().unwrap();
+        prop_assert_eq!(serde_json::to_value(message).unwrap(), serde_json::to_value(ram).unwrap());
     }
 }

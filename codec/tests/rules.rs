@@ -8,11 +8,14 @@ use crossguard_codec::asn1::cdd::{
 };
 use crossguard_codec::asn1::ram::{RAM, SessionRole};
 use crossguard_codec::asn1::vam::{VAM, VruMotionPredictionContainer};
-use crossguard_codec::{BrokenRule, DecodeError, EncodeError, Fault, Identifiers, decode, encode};
+use crossguard_codec::{
+    BrokenRule, DecodeError, EncodeError, Fault, Identifiers, core, decode, encode,
+};
+use support::reference::Reference;
 use support::{from_hex, samples};
 
 fn largest() -> RAM {
-    samples::largest_ram(&Identifiers::default())
+    RAM::of(&samples::largest_ram(&Identifiers::default()))
 }
 
 fn prediction(ram: &mut RAM) -> &mut VruMotionPredictionContainer {
@@ -23,14 +26,15 @@ fn prediction(ram: &mut RAM) -> &mut VruMotionPredictionContainer {
         .unwrap()
 }
 
+/// Why no sender has the message.
 fn encode_error(ram: &RAM) -> EncodeError {
-    encode(&Identifiers::default(), ram).unwrap_err()
+    ram.to_message().unwrap_err()
 }
 
 /// What a receiver says to a message that a sender without the rules encodes.
 fn decode_error(ram: &RAM) -> DecodeError {
     let octets = rasn::uper::encode(ram).unwrap();
-    decode::<RAM>(&Identifiers::default(), &octets).unwrap_err()
+    decode::<core::ram::RAM>(&Identifiers::default(), &octets).unwrap_err()
 }
 
 /// Sender and receiver find the same fault in the same field.
@@ -225,7 +229,8 @@ fn a_list_whose_size_is_not_one_of_its_type_is_not_encoded() {
 
 #[test]
 fn a_header_that_is_not_that_of_the_message_is_not_encoded() {
-    let mut ram = largest();
+    let identifiers = Identifiers::default();
+    let mut ram = samples::largest_ram(&identifiers);
     ram.header.message_id.0 = 2;
     let expected = EncodeError::Header {
         message: "RAM",
@@ -233,5 +238,5 @@ fn a_header_that_is_not_that_of_the_message_is_not_encoded() {
         found: 2,
         expected: 240,
     };
-    assert_eq!(encode_error(&ram), expected);
+    assert_eq!(encode(&identifiers, &ram), Err(expected));
 }

@@ -2,12 +2,14 @@
 
 mod support;
 
-use crossguard_codec::asn1::ram::RAM;
-use crossguard_codec::asn1::rmcm::RMCM;
+use crossguard_codec::asn1::rmcm;
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::core::rmcm::RMCM;
 use crossguard_codec::{
     Identifiers, MESSAGE_LEN_MAX, Pdu, RAM_LEN_MAX, RMCM_LEN_MAX, decode, encode,
 };
 use proptest::prelude::*;
+use support::reference::Reference;
 use support::{arbitrary, samples};
 
 /// What a signed packet with its certificate adds to a message, rounded up.
@@ -52,14 +54,14 @@ proptest! {
     #[test]
     fn no_ram_is_larger(seed: u64) {
         let identifiers = Identifiers::default();
-        let ram = arbitrary::ram(&identifiers, seed);
+        let ram = arbitrary::ram(&identifiers, seed).to_message().unwrap();
         prop_assert!(encode(&identifiers, &ram).unwrap().len() <= RAM_LEN_MAX);
     }
 
     #[test]
     fn no_rmcm_is_larger(seed: u64) {
         let identifiers = Identifiers::default();
-        let rmcm: RMCM = arbitrary::message(&identifiers, seed);
+        let rmcm = arbitrary::message::<rmcm::RMCM>(&identifiers, seed).to_message().unwrap();
         prop_assert!(encode(&identifiers, &rmcm).unwrap().len() <= RMCM_LEN_MAX);
     }
 }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use crossguard_codec::asn1::ram::RAM;
+use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{
     Identifiers, PastPosition, Position, RobotState, SlowState, decode, distance, encode, ram_from,
     state_of,

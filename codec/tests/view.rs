@@ -2,13 +2,16 @@
 
 mod support;
 
-use crossguard_codec::asn1::common::{self, UnavailabilityReason};
-use crossguard_codec::asn1::ram::{CommandProgress, HelpStatus, RAM, SessionRole};
-use crossguard_codec::asn1::rmcm::{ManeuverContainer, RMCM};
+use crossguard_codec::asn1;
+use crossguard_codec::core::common::{self, UnavailabilityReason};
+use crossguard_codec::core::ram::{
+    CommandProgress, ConfirmedFollowers, FailureReason, HelpStatus, LeaderRole, RAM, SessionRole,
+};
+use crossguard_codec::core::rmcm::{ManeuverCommands, ManeuverContainer, RMCM};
 use crossguard_codec::{
-    ExecutionStatus, Identifiers, Message, Target, TaskParameters, TaskProgression, ViewError,
-    availability_of, decode, encode, execution_of, map_place_of, ram_from, rmcm_from_answer,
-    rmcm_from_commands, task_parameters_of, view_of_ram, views_of_rmcm,
+    EncodeError, ExecutionStatus, Identifiers, Message, Target, TaskParameters, TaskProgression,
+    ViewError, availability_of, decode, encode, execution_of, map_place_of, ram_from,
+    rmcm_from_answer, rmcm_from_commands, task_parameters_of, view_of_ram, views_of_rmcm,
 };
 use crossguard_protocol::{
     Availability, Command, Coordination, Failure, Farewell, Progress, Ram, RequestId, Rmcm,
@@ -16,6 +19,7 @@ use crossguard_protocol::{
 };
 use proptest::option;
 use proptest::prelude::*;
+use support::reference::Reference;
 use support::{samples, views};
 
 fn identifiers() -> Identifiers {
@@ -33,6 +37,18 @@ fn over_the_air<M: crossguard_codec::Pdu>(message: &M) -> M {
 fn ram(view: &Ram) -> Result<RAM, ViewError> {
     let available = Availability::Available;
     ram_from(&identifiers(), &samples::state(), view, available, 0, false)
+}
+
+fn leader_role(ram: &mut RAM) -> &mut LeaderRole {
+    let operation = ram
+        .ram
+        .ram_parameters
+        .robot_leader_follower_operation_container
+        .as_mut();
+    let Some(SessionRole::Leader(role)) = operation.and_then(|o| o.role.as_mut()) else {
+        panic!("not a leader");
+    };
+    role
 }
 
 proptest! {
@@ -100,7 +116,7 @@ proptest! {
 
     #[test]
     fn a_received_message_has_a_view_that_can_be_said_again(seed: u64) {
-        let received = support::arbitrary::ram(&identifiers(), seed);
+        let received = support::arbitrary::ram(&identifiers(), seed).to_message().unwrap();
         if let Ok(view) = view_of_ram(&received) {
             prop_assert_eq!(view_of_ram(&ram(&view).unwrap()), Ok(view));
         }
@@ -144,7 +160,7 @@ fn what_a_robot_says_of_itself_is_said_by_no_other() {
     assert_eq!(view_of_ram(&sent), Ok(samples::follower_view()));
 
     // The same octets with another sender, who then follows itself.
-    let mut forged = sent.clone();
+    let mut forged = sent;
     forged.header.station_id.0 = samples::LEADER.0;
     assert_eq!(
         view_of_ram(&forged),
@@ -173,8 +189,8 @@ fn nobody_leads_the_session_of_another() {
 fn the_help_status_goes_with_the_role() {
     let mut ram = ram(&samples::follower_view()).unwrap();
     let status = &mut ram.ram.ram_parameters.robot_status_container;
-    status.help_status = HelpStatus::none;
-    let (found, expected) = (HelpStatus::none, HelpStatus::roleConfirmed);
+    status.help_status = HelpStatus::None;
+    let (found, expected) = (HelpStatus::None, HelpStatus::RoleConfirmed);
     assert_eq!(
         view_of_ram(&ram),
         Err(ViewError::HelpStatus { found, expected })
@@ -194,9 +210,9 @@ fn the_task_progression_goes_with_the_report() {
             .ram_parameters
             .robot_status_container
             .task_progression,
-        common::TaskProgression::executing
+        common::TaskProgression::Executing
     );
-    samples::set_progress(&mut ram, CommandProgress::completed(()));
+    samples::set_progress(&mut ram, CommandProgress::Completed(()));
     let (found, expected) = (TaskProgression::Executing, TaskProgression::Completed);
     assert_eq!(
         view_of_ram(&ram),
@@ -213,21 +229,18 @@ fn the_reason_of_a_failure_survives() {
         .ram_parameters
         .robot_leader_follower_operation_container
         .as_ref();
-    let Some(SessionRole::follower(follower)) = operation.and_then(|o| o.role.as_ref()) else {
+    let Some(SessionRole::Follower(follower)) = operation.and_then(|o| o.role.as_ref()) else {
         panic!("not a follower");
     };
     let failed = follower
         .last_command
         .as_ref()
         .map(|report| &report.progress);
-    let Some(CommandProgress::failed(reason)) = failed else {
+    let Some(CommandProgress::Failed(reason)) = failed else {
         panic!("not failed")
     };
-    let low_battery = UnavailabilityReason::lowBattery;
-    assert_eq!(
-        *reason,
-        crossguard_codec::asn1::ram::FailureReason::unavailable(low_battery)
-    );
+    let low_battery = UnavailabilityReason::LowBattery;
+    assert_eq!(*reason, FailureReason::Unavailable(low_battery));
     assert_eq!(view_of_ram(&over_the_air(&ram)), Ok(view));
 }
 
@@ -287,15 +300,10 @@ fn a_leader_names_every_follower_once_and_not_itself() {
 
     // And a receiver says the same to one that does.
     let mut forged = samples::largest_ram(&identifiers());
-    let operation = forged
-        .ram
-        .ram_parameters
-        .robot_leader_follower_operation_container
-        .as_mut();
-    let Some(SessionRole::leader(role)) = operation.and_then(|o| o.role.as_mut()) else {
-        panic!("not a leader");
-    };
-    role.followers[1].station_id.0 = role.followers[0].station_id.0;
+    let role = leader_role(&mut forged);
+    let mut followers = role.followers.to_vec();
+    followers[1].station_id = followers[0].station_id;
+    role.followers = ConfirmedFollowers::new(&followers).unwrap();
     assert_eq!(
         view_of_ram(&forged),
         Err(ViewError::NamedTwice(StationId(1)))
@@ -305,16 +313,25 @@ fn a_leader_names_every_follower_once_and_not_itself() {
 #[test]
 fn a_leader_with_more_followers_than_a_session_has_is_refused() {
     let mut forged = samples::largest_ram(&identifiers());
+    let mut followers = leader_role(&mut forged).followers.to_vec();
+    followers.push(followers[0]);
+    assert_eq!(ConfirmedFollowers::new(&followers), None);
+
+    let mut forged = asn1::ram::RAM::of(&forged);
     let operation = forged
         .ram
         .ram_parameters
         .robot_leader_follower_operation_container
         .as_mut();
-    let Some(SessionRole::leader(role)) = operation.and_then(|o| o.role.as_mut()) else {
+    let Some(asn1::ram::SessionRole::leader(role)) = operation.and_then(|o| o.role.as_mut()) else {
         panic!("not a leader");
     };
     role.followers.push(role.followers[0].clone());
-    assert_eq!(view_of_ram(&forged), Err(ViewError::TooManyFollowers(5)));
+    let error = forged.to_message().unwrap_err();
+    assert!(
+        matches!(error, EncodeError::Size { size: 5, .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -398,10 +415,12 @@ fn the_commands_of_a_message_belong_together() {
 fn a_message_that_commands_a_follower_twice_is_refused() {
     let mut forged: RMCM = samples::largest_rmcm(&identifiers());
     let container = &mut forged.rmcm.rmcm_parameters.maneuver_container;
-    let ManeuverContainer::leaderManeuverContainer(leader) = container else {
+    let ManeuverContainer::LeaderManeuverContainer(leader) = container else {
         panic!("not a leader");
     };
-    leader.commands[3].target_follower_station_id.0 = 2;
+    let mut commands = leader.commands.to_vec();
+    commands[3].target_follower_station_id.0 = 2;
+    leader.commands = ManeuverCommands::new(&commands).unwrap();
     assert_eq!(
         views_of_rmcm(&forged),
         Err(ViewError::NamedTwice(StationId(2)))

@@ -35,6 +35,45 @@ fn check_reports_every_property_of_a_scenario_as_json() {
 }
 
 #[test]
+fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
+    let output = run(&["check", "timed-pair", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let report = json(&output);
+    let scenario = &report["scenarios"][0];
+    assert_eq!(scenario["exhaustive"], true);
+    let figures = scenario["figures"].as_array().unwrap();
+    assert_eq!(figures.len(), 4);
+    for figure in figures {
+        let (ms, bound_ms) = (figure["ms"].as_u64(), figure["bound_ms"].as_u64());
+        assert!(ms > Some(0) && ms <= bound_ms, "{figure}");
+    }
+    assert_refused(
+        &run(&[
+            "check",
+            "timed-pair",
+            "--export",
+            "dot",
+            "--output",
+            "no-graph.dot",
+        ]),
+        "'timed-pair' is a timed scenario",
+    );
+    // What was found before the limit, and by which timers it is bounded.
+    let output = run(&["check", "timed-pair", "--max-states", "1000"]);
+    assert_eq!(output.status.code(), Some(3));
+    let text = stdout(&output);
+    assert!(
+        text.contains("from a request to roles or to giving up"),
+        "{text}"
+    );
+    assert!(text.contains("by calculation at most 242 ms"), "{text}");
+    assert!(
+        text.contains("each shows 50 or 60 ms of each tick"),
+        "{text}"
+    );
+}
+
+#[test]
 fn a_check_that_is_cut_off_says_so_and_exits_with_3() {
     let output = run(&["check", "pair", "--max-states", "10000"]);
     assert_eq!(output.status.code(), Some(3));

@@ -66,22 +66,49 @@ impl Ranks {
 
     /// Ranks everything that was added. Returns whether any name changes.
     pub(crate) fn rank(&mut self) -> bool {
-        self.numbers.sort_unstable();
-        self.numbers.dedup();
-        self.heartbeats
-            .sort_unstable_by_key(|((session, beat), _)| (*session, beat.0));
-        self.heartbeats.dedup();
-        let numbers_change = rank_groups(
-            &mut self.numbers,
-            |(owner, n)| (*owner, n.boot),
-            |(_, n)| n.count,
-        );
+        self.sort();
+        let numbers_change = self.rank_numbers();
         let beats_change = rank_groups(
             &mut self.heartbeats,
             |(session, _)| *session,
             |(_, beat)| beat.0,
         );
         numbers_change || beats_change
+    }
+
+    /// Ranks the numbers that were added, and counts the heartbeats of each session from the oldest
+    /// one. That keeps how far apart they are, which is what their age is counted by. Returns
+    /// whether any name changes.
+    pub(crate) fn rank_keeping_distances(&mut self) -> bool {
+        self.sort();
+        let mut changes = self.rank_numbers();
+        let mut oldest: Option<Beat> = None;
+        for (beat, name) in &mut self.heartbeats {
+            let first = match oldest {
+                Some(first) if first.0 == beat.0 => first,
+                _ => *beat,
+            };
+            oldest = Some(first);
+            *name = beat.1.distance_from(first.1);
+            changes |= beat.1.0 != *name;
+        }
+        changes
+    }
+
+    fn sort(&mut self) {
+        self.numbers.sort_unstable();
+        self.numbers.dedup();
+        self.heartbeats
+            .sort_unstable_by_key(|((session, beat), _)| (*session, beat.0));
+        self.heartbeats.dedup();
+    }
+
+    fn rank_numbers(&mut self) -> bool {
+        rank_groups(
+            &mut self.numbers,
+            |(owner, n)| (*owner, n.boot),
+            |(_, n)| n.count,
+        )
     }
 }
 
@@ -127,6 +154,8 @@ impl Renaming for Ranks {
 
 #[cfg(test)]
 mod tests {
+    use crossguard_protocol::SessionNumber;
+
     use super::*;
 
     #[test]
@@ -148,6 +177,25 @@ mod tests {
         assert_eq!(renamed(number(1, 1, 7)), 1);
         assert_eq!(renamed(number(1, 2, 0)), 0);
         assert_eq!(renamed(number(2, 1, 9)), 0);
+    }
+
+    #[test]
+    fn heartbeats_keep_their_distances_when_they_are_counted_from_the_oldest() {
+        let session = |leader| SessionId {
+            leader: StationId(leader),
+            number: SessionNumber(UniqueNumber { boot: 1, count: 0 }),
+        };
+        let mut names = Names::default();
+        let beats = [(1, 9), (1, 4), (2, 7), (1, 6)];
+        names
+            .heartbeats
+            .extend(beats.map(|(leader, beat): (u32, u16)| (session(leader), Heartbeat(beat))));
+        let mut ranks = Ranks::default();
+        ranks.add(&names);
+        assert!(ranks.rank_keeping_distances());
+        let renamed =
+            beats.map(|(leader, beat)| ranks.heartbeat(session(leader), Heartbeat(beat)).0);
+        assert_eq!(renamed, [5, 0, 0, 2]);
     }
 
     #[test]

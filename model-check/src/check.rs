@@ -119,6 +119,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
             .filter(|_| cut_off.is_none())
             .map(|expected| expected == size),
         properties: findings.all(),
+        figures: Vec::new(),
         assumptions: assumptions(scenario, size.unique_states),
         transitions_taken: model.transitions_taken(),
         seconds: start.elapsed().as_secs_f64(),

@@ -245,7 +245,12 @@ impl System for Runs<'_> {
     }
 
     fn expand(&self, state: u32, edges: &mut Vec<Edge>) -> Classes {
-        let mut enabled = self.enabled_off_air(self.graph.state(state));
+        let from = self.graph.state(state);
+        let mut enabled = if self.model.is_on_air(from) {
+            self.enabled_off_air(from)
+        } else {
+            Classes::NONE
+        };
         for (action, edge) in self.transitions(state) {
             enabled |= self.classes(action);
             edges.push(edge);

@@ -40,6 +40,7 @@ pub mod scenario;
 pub mod sequence;
 mod steps;
 pub mod symmetry;
+pub mod timed;
 pub mod transitions;
 pub mod universe;
 

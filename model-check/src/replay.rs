@@ -36,10 +36,11 @@ pub enum Followed {
 
 impl Replay {
     /// The counterexample of a property; `None` where it has none, or where that is not one run: L7
-    /// speaks about all that may follow.
+    /// speaks about all that may follow. A run of a timed scenario is followed by its chart only.
     #[must_use]
     pub fn of(report: &ScenarioReport, property: &PropertyReport) -> Option<Self> {
         let is_run = !property.counterexample.is_empty() && property.id != "L7";
+        let is_run = is_run && report.figures.is_empty();
         is_run.then(|| Self {
             scenario: report.name.clone(),
             property: property.id.clone(),

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::sequence::{Chart, ChartStep};
+use crate::timed::Figure;
 use crate::transitions::Transitions;
 
 /// What came of checking one scenario.
@@ -23,7 +24,7 @@ pub struct ScenarioReport {
     /// Time for both explorations.
     pub seconds: f64,
     /// Whether every reachable state was visited, by stateright and by the kit's own exploration,
-    /// and both found the same number.
+    /// and both found the same number. A timed scenario is explored by the latter alone.
     pub exhaustive: bool,
     /// Why it was not, where it was not.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -33,6 +34,9 @@ pub struct ScenarioReport {
     pub size_as_expected: Option<bool>,
     /// What was found about each property and each premise.
     pub properties: Vec<PropertyReport>,
+    /// The longest times found, where the scenario is a timed one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub figures: Vec<Figure>,
     /// What the verdicts assume.
     pub assumptions: Vec<String>,
     /// The transitions of the state diagram that robots took.

@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
 use crate::symmetry::{Asymmetry, Claim, Wrong};
+use crate::timed::{Section, Timed, TimedImpossibility, TimedProperty};
 
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 4;
@@ -53,8 +54,10 @@ pub struct Scenario {
     pub cooperative: bool,
     /// The configuration of every robot.
     pub config: Config,
-    /// The properties to check.
+    /// The properties to check; none where the scenario is timed.
     pub properties: Vec<PropertyId>,
+    /// What makes it a timed scenario, with the properties to check then.
+    pub timed: Option<Timed>,
     /// What an exploration must find, where the file says so.
     pub expected: Option<Size>,
 }
@@ -124,7 +127,8 @@ impl Bounds {
 #[serde(deny_unknown_fields)]
 pub struct Channel {
     /// How many messages may be delayed at a time; each may arrive late, in any order, more than
-    /// once, or never.
+    /// once, or never. A timed scenario bounds for how long instead.
+    #[serde(default)]
     pub delayed: u8,
     /// Whether a message may get lost on its way to one receiver and reach another.
     pub loss: bool,
@@ -148,6 +152,7 @@ struct File {
     channel: Channel,
     #[serde(default)]
     protocol: Settings,
+    timed: Option<Section>,
     properties: Vec<toml::Spanned<String>>,
     expected: Option<Size>,
 }
@@ -241,10 +246,13 @@ pub enum Impossibility {
     /// The protocol's settings contradict each other.
     #[error(transparent)]
     Settings(#[from] BrokenInequality),
+    /// What is wrong with the time of a timed scenario.
+    #[error(transparent)]
+    Timed(#[from] TimedImpossibility),
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 10] = [
+const SHIPPED: [(&str, &str); 13] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -255,16 +263,22 @@ const SHIPPED: [(&str, &str); 10] = [
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
     ("bilateral", include_str!("../scenarios/bilateral.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
+    ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
+    ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
     ("wrap", include_str!("../scenarios/wrap.toml")),
     ("stable", include_str!("../scenarios/stable.toml")),
     (
         "team-of-four",
         include_str!("../scenarios/team-of-four.toml"),
     ),
+    (
+        "timed-in-use",
+        include_str!("../scenarios/timed-in-use.toml"),
+    ),
 ];
 
 /// How many of the shipped scenarios take seconds.
-const QUICK: usize = 9;
+const QUICK: usize = 11;
 
 impl Scenario {
     /// The names of the shipped scenarios that take seconds.
@@ -400,6 +414,7 @@ impl File {
             robots: &self.robots,
             followers: request.followers,
             bounds: self.bounds,
+            is_timed: self.timed.is_some(),
             properties: &self.properties,
         };
         let symmetric = claim.check(&self.symmetric).map_err(|(wrong, cause)| {
@@ -409,18 +424,28 @@ impl File {
             };
             at(place, cause)
         })?;
-        let mut properties = Vec::new();
-        for name in self.properties {
-            let place = Place::Offset(name.span().start);
-            let name = name.into_inner();
-            match name.parse() {
-                Ok(PropertyId::L3) if !self.cooperative => {
-                    return Err(at(place, I::NotCooperative));
-                }
-                Ok(property) => properties.push(property),
-                Err(()) => return Err(at(place, I::Property(name))),
+        let mut timed = None;
+        if let Some(section) = self.timed {
+            let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
+            let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
+            if self.cooperative {
+                let cause = TimedImpossibility::Untimed("cooperative");
+                return Err(at(Place::Key("cooperative"), cause));
             }
+            checked.properties = all_named(&self.properties, |name| {
+                let unknown = || TimedImpossibility::Property(name.to_owned());
+                TimedProperty::named(name).ok_or_else(|| unknown().into())
+            })?;
+            timed = Some(checked);
         }
+        let properties = match timed {
+            Some(_) => Vec::new(),
+            None => all_named(&self.properties, |name| match name.parse() {
+                Ok(PropertyId::L3) if !self.cooperative => Err(I::NotCooperative),
+                Ok(property) => Ok(property),
+                Err(()) => Err(I::Property(name.to_owned())),
+            })?,
+        };
         Ok(Scenario {
             name: self.name,
             summary: self.summary,
@@ -432,10 +457,22 @@ impl File {
             channel: self.channel,
             cooperative: self.cooperative,
             config,
+            timed,
             properties,
             expected: self.expected,
         })
     }
+}
+
+/// The properties of these names.
+fn all_named<P>(
+    names: &[toml::Spanned<String>],
+    parse: impl Fn(&str) -> Result<P, Impossibility>,
+) -> Result<Vec<P>, Located> {
+    let property = |name: &toml::Spanned<String>| {
+        parse(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
+    };
+    names.iter().map(property).collect()
 }
 
 /// The key whose line a broken inequality is reported at: the first timer in its formula.

@@ -80,6 +80,9 @@ pub enum Asymmetry {
          the station ids tell whom; symmetric robots need disturbances = 0"
     )]
     Pseudonyms(u8),
+    /// A timed scenario.
+    #[error("symmetric robots have no place in a timed scenario: its model tells all robots apart")]
+    Timed,
     /// A property under fairness.
     #[error("{0} assumes fairness to each robot by itself, which symmetric robots do not show")]
     Fairness(PropertyId),
@@ -98,6 +101,7 @@ pub(crate) struct Claim<'a> {
     pub(crate) robots: &'a [RobotSetup],
     pub(crate) followers: u8,
     pub(crate) bounds: Bounds,
+    pub(crate) is_timed: bool,
     pub(crate) properties: &'a [Spanned<String>],
 }
 
@@ -129,6 +133,9 @@ impl Claim<'_> {
     }
 
     fn check_surroundings(&self) -> Result<(), (Wrong, Asymmetry)> {
+        if self.is_timed {
+            return Err((Wrong::Key("symmetric"), Asymmetry::Timed));
+        }
         let (followers, needed) = (self.followers, self.robots.len() - 1);
         if usize::from(followers) != needed {
             let cause = Asymmetry::Chosen { followers, needed };

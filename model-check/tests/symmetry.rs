@@ -114,55 +114,60 @@ fn followers_that_are_stuck_are_found() {
 
 #[test]
 fn a_claim_of_symmetry_that_is_none_is_refused_with_its_line() {
+    let claim = "symmetric = [2, 3]";
+    // What is replaced by what, the line that is wrong, and why.
     let cases = [
         (
-            "symmetric = [2, 3]",
+            claim,
             "symmetric = [2, 7]",
+            "symmetric",
             "no robot has station id 7",
         ),
+        (claim, "symmetric = [1, 2]", "symmetric", "robot 1 detects"),
         (
-            "symmetric = [2, 3]",
-            "symmetric = [1, 2]",
-            "robot 1 detects",
-        ),
-        (
-            "symmetric = [2, 3]",
+            claim,
             "symmetric = [3, 3]",
+            "symmetric",
             "robot 3 is symmetric with itself",
         ),
         (
-            "symmetric = [2, 3]",
+            claim,
             "symmetric = [3]",
+            "symmetric",
             "robot 3 alone is symmetric with nobody",
         ),
         (
             "followers = 2",
             "followers = 1",
+            "followers",
             "symmetric robots need followers = 2",
         ),
         (
             "commands = 1",
             "commands = 1\ndisturbances = 1",
+            "disturbances",
             "need disturbances = 0",
         ),
         (
             "\"I18\"",
             "\"I18\",\n\"L4\"",
+            "\"L4\"",
             "L4 assumes fairness to each robot by itself",
         ),
+        (
+            "[protocol]",
+            "[timed]\ntick_ms = 50\ndelay_ms = 0\n[protocol]",
+            "symmetric",
+            "no place in a timed scenario",
+        ),
     ];
-    for (from, to, message) in cases {
+    for (from, to, wrong, message) in cases {
         let valid = symmetric();
         assert!(valid.contains(from), "no line '{from}'");
         let text = valid.replacen(from, to, 1);
         let error = Scenario::parse("my.toml", &text).unwrap_err().to_string();
         assert!(error.contains(message), "{error}");
-        let changed = to.lines().last().unwrap();
-        let line = text
-            .lines()
-            .position(|line| line.contains(changed))
-            .unwrap()
-            + 1;
+        let line = text.lines().position(|line| line.contains(wrong)).unwrap() + 1;
         assert!(error.starts_with(&format!("my.toml:{line}: ")), "{error}");
     }
 }

@@ -13,6 +13,7 @@
 //!
 //! `harnesses.toml` lists all harnesses, and `tests/harnesses.rs` compares it with this crate.
 
+pub mod codec;
 mod harness;
 pub mod protocol;
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
@@ -40,6 +41,9 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         protocol::following::HARNESSES,
         protocol::leading::HARNESSES,
         protocol::timers::HARNESSES,
+        codec::time::HARNESSES,
+        codec::si::HARNESSES,
+        codec::geonet::HARNESSES,
     ]
     .into_iter()
     .flatten()

@@ -1,7 +1,8 @@
 //! Harnesses of the laws of `crossguard-protocol`.
 //!
 //! Those of the transition function start from every valid state, whether it can be reached or not,
-//! under every configuration whose numbers are in range. Each has one kind of input in one stage.
+//! with the default configuration; those of elapsed time and of the start with every configuration
+//! whose numbers are in range. Each has inputs of some kinds in one stage.
 
 pub mod boot;
 pub mod following;

@@ -112,6 +112,20 @@ impl Arbitrary for bool {
     }
 }
 
+impl Arbitrary for f64 {
+    #[expect(clippy::cast_precision_loss, reason = "any value does")]
+    fn any() -> Self {
+        match random() % 8 {
+            0 => [Self::NAN, Self::INFINITY, Self::NEG_INFINITY, -0.0][(random() % 4) as usize],
+            1 => Self::from_bits(random()),
+            // Where the ranges of the data elements are.
+            2..4 => (random().cast_signed() >> 32) as Self / 1e4,
+            4..6 => (random().cast_signed() >> 32) as Self / 1e6,
+            _ => (random().cast_signed() >> 32) as Self / 1e8,
+        }
+    }
+}
+
 impl<T: Arbitrary, const N: usize> Arbitrary for [T; N] {
     fn any() -> Self {
         std::array::from_fn(|_| T::any())

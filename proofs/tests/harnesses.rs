@@ -28,7 +28,7 @@ struct Entry {
     solver: String,
     /// How many cover marks must be reached.
     covers: usize,
-    /// Seconds, or that it was not measured.
+    /// Seconds, over how many it was stopped, or that it was not measured.
     time: String,
 }
 
@@ -46,7 +46,7 @@ fn exercise(harness: &Harness) -> stand_in::Record {
         for (name, reached) in record.covers {
             *all.covers.entry(name).or_default() |= reached;
         }
-        if all.complete > 2_000 && all.covers.values().all(|reached| *reached) {
+        if all.complete >= 500 && all.covers.values().all(|reached| *reached) {
             break;
         }
     }
@@ -84,8 +84,8 @@ fn the_list_has_every_harness_as_it_is() {
             "{}",
             entry.name
         );
-        let measured = entry
-            .time
+        let time = entry.time.strip_prefix("over ").unwrap_or(&entry.time);
+        let measured = time
             .strip_suffix(" s")
             .is_some_and(|s| s.parse::<f64>().is_ok());
         assert!(

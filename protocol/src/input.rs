@@ -9,6 +9,7 @@ use crate::time::Millis;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
 pub enum Input {
     /// A RAM was received.
     Ram {
@@ -48,6 +49,7 @@ impl Decimetres {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
 pub enum Event {
     /// A pedestrian needs help that takes more robots than this one.
     PedestrianDetected(HelpRequest),

@@ -7,6 +7,9 @@
 //! one transition function, [`Robot::step`], that the model checker, the proofs, the simulator and
 //! the live endpoint all call.
 //!
+//! The enums that tell stages, inputs and outputs apart are `repr(u8)`: their tag is a byte of its own
+//! instead of an unused value of some field, so that a proof about one stage is about no other.
+//!
 //! It is `no_std`, free of heap and of unsafe code, total, and reads no clock: time enters as an
 //! [`Input`]. What it decides comes out as [`Outputs`] for the endpoint to carry out in order.
 //!

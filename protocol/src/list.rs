@@ -1,4 +1,7 @@
 //! A list with a capacity, without heap and without unsafe code.
+//!
+//! Items are read and changed in loops over the slots, and not by an index or a reference that was
+//! found before: a proof knows at each turn of a loop which slot it is about.
 
 use core::fmt;
 
@@ -20,9 +23,13 @@ impl<T: Copy, const N: usize> List<T, N> {
     /// # Errors
     /// [`Full`] when the list already holds `N` items.
     pub fn push(&mut self, item: T) -> Result<(), Full> {
-        let slot = self.0.iter_mut().find(|slot| slot.is_none()).ok_or(Full)?;
-        *slot = Some(item);
-        Ok(())
+        for slot in &mut self.0 {
+            if slot.is_none() {
+                *slot = Some(item);
+                return Ok(());
+            }
+        }
+        Err(Full)
     }
 
     /// Inserts `item` before the first item for which `goes_before` says so. A full list drops its
@@ -43,12 +50,32 @@ impl<T: Copy, const N: usize> List<T, N> {
 
     /// Removes the first item that satisfies `condition` and closes the gap.
     pub(crate) fn remove_first(&mut self, condition: impl Fn(&T) -> bool) -> Option<T> {
-        let index = self.iter().position(condition)?;
-        let removed = self.0[index].take();
-        for i in index + 1..N {
-            self.0.swap(i - 1, i);
+        let mut removed = None;
+        for i in 0..N {
+            if removed.is_some() {
+                self.0.swap(i - 1, i);
+            } else if self.0[i].as_ref().is_some_and(&condition) {
+                removed = self.0[i].take();
+            }
         }
         removed
+    }
+
+    /// Changes the first item that satisfies `condition`. What `change` says, `None` where there is
+    /// no such item.
+    pub(crate) fn update_first<R>(
+        &mut self,
+        condition: impl Fn(&T) -> bool,
+        change: impl FnOnce(&mut T) -> R,
+    ) -> Option<R> {
+        for slot in &mut self.0 {
+            if let Some(item) = slot
+                && condition(item)
+            {
+                return Some(change(item));
+            }
+        }
+        None
     }
 
     /// How many items the list holds.

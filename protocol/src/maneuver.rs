@@ -28,31 +28,19 @@ impl Robot {
             number: leading.number,
         };
         let request = leading.request;
-        let member = leading.member_mut(follower).ok_or(Ignored::NotAFollower)?;
-        if !member.has_joined() {
-            return Err(Ignored::NotJoined);
-        }
-        if member.outstanding.is_some() {
-            return Err(Ignored::CommandOutstanding);
-        }
-        let first = step.config.settings().first_request;
-        if member.next_request.distance_from(first) >= RequestId::MAX_PER_SESSION {
+        let used_up = leading
+            .member(follower)
+            .is_some_and(|member| member.may_be_commanded().is_ok() && member.is_used_up(step));
+        if used_up {
             // A new session, and with it a new number space, before half of this one is used.
             let number = SessionNumber(self.issue_number()?);
             self.end_session(step, EndReason::Renewed);
             self.open_session(step, number, request);
             return Ok(());
         }
-        let outstanding = Outstanding {
-            request: member.next_request,
-            task,
-            repeats: 0,
-            acknowledgement: Countdown::armed(step.config.settings().t_ack),
-        };
-        member.next_request = member.next_request.next();
-        member.outstanding = Some(outstanding);
-        step.out.push(outstanding.message(session, follower));
-        Ok(())
+        let commanded =
+            leading.update_member(follower, |member| member.command(step, session, task));
+        commanded.unwrap_or(Err(Ignored::NotAFollower))
     }
 
     /// An acknowledgement or rejection. One that is not for the outstanding command changes nothing
@@ -70,22 +58,8 @@ impl Robot {
         if leading.number != answer.session.number {
             return Err(Ignored::OtherSession);
         }
-        let member = leading
-            .member_mut(answer.from)
-            .ok_or(Ignored::NotAFollower)?;
-        match answer.verdict {
-            Verdict::Accepted => member.acknowledge(step, answer.session, answer.request),
-            Verdict::Rejected(reason) => {
-                member.take_outstanding(answer.request)?;
-                let id = ManeuverId {
-                    session: answer.session,
-                    request: answer.request,
-                };
-                step.out
-                    .notify(Notice::CommandRejected(member.station, id, reason));
-                Ok(())
-            }
-        }
+        let heard = leading.update_member(answer.from, |member| member.hear_answer(step, answer));
+        heard.unwrap_or(Err(Ignored::NotAFollower))
     }
 
     /// `T_ack` ran out: the same command again, or the follower is lost.
@@ -94,20 +68,18 @@ impl Robot {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
-        let outstanding = leading
-            .member_mut(station)
-            .and_then(|m| m.outstanding.as_mut());
-        let (Some(session), Some(outstanding)) = (session, outstanding) else {
-            return;
-        };
-        let settings = step.config.settings();
-        if outstanding.repeats < settings.n_ack {
-            outstanding.repeats += 1;
-            outstanding.acknowledgement = Countdown::armed(settings.t_ack);
-            let message = outstanding.message(session, station);
-            step.out.push(message);
-        } else {
-            self.drop_follower(step, station, GoneReason::NoAcknowledgement);
+        let n_ack = step.config.settings().n_ack;
+        let Some(session) = session else { return };
+        let repeated = leading.update_member(station, |member| {
+            let outstanding = member.outstanding.as_mut()?;
+            if outstanding.repeats < n_ack {
+                outstanding.repeat(step, session, station);
+                return None;
+            }
+            Some(GoneReason::NoAcknowledgement)
+        });
+        if let Some(Some(why)) = repeated {
+            self.drop_follower(step, station, why);
         }
     }
 
@@ -117,20 +89,19 @@ impl Robot {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
-        let order = leading
-            .member_mut(station)
-            .and_then(|member| member.order.as_mut());
-        let (Some(session), Some(order)) = (session, order) else {
-            return;
-        };
-        order.progress = Some(Progress::Failed(Failure::ExecutionLimit));
-        order.execution = Countdown::OFF;
-        let id = ManeuverId {
-            session,
-            request: order.request,
-        };
-        step.out
-            .notify(Notice::ManeuverFailed(station, id, Failure::ExecutionLimit));
+        let Some(session) = session else { return };
+        leading.update_member(station, |member| {
+            let Some(order) = &mut member.order else {
+                return;
+            };
+            let failure = Failure::ExecutionLimit;
+            order.progress = Some(Progress::Failed(failure));
+            order.execution = Countdown::OFF;
+            let request = order.request;
+            let id = ManeuverId { session, request };
+            step.out
+                .notify(Notice::ManeuverFailed(station, id, failure));
+        });
     }
 }
 
@@ -144,9 +115,64 @@ impl Outstanding {
         };
         Output::SendRmcm(Rmcm::Command(command))
     }
+
+    /// Sends the same command once more.
+    fn repeat(&mut self, step: &mut Step, session: SessionId, to: StationId) {
+        self.repeats += 1;
+        self.acknowledgement = Countdown::armed(step.config.settings().t_ack);
+        step.out.push(self.message(session, to));
+    }
 }
 
 impl Member {
+    /// Whether the follower has its role and has acknowledged the command before.
+    fn may_be_commanded(&self) -> Effect {
+        if !self.has_joined() {
+            return Err(Ignored::NotJoined);
+        }
+        if self.outstanding.is_some() {
+            return Err(Ignored::CommandOutstanding);
+        }
+        Ok(())
+    }
+
+    /// Whether the follower's request numbers of this session are used up.
+    fn is_used_up(&self, step: &Step) -> bool {
+        let first = step.config.settings().first_request;
+        self.next_request.distance_from(first) >= RequestId::MAX_PER_SESSION
+    }
+
+    /// Sends the next command.
+    fn command(&mut self, step: &mut Step, session: SessionId, task: TaskType) -> Effect {
+        self.may_be_commanded()?;
+        let outstanding = Outstanding {
+            request: self.next_request,
+            task,
+            repeats: 0,
+            acknowledgement: Countdown::armed(step.config.settings().t_ack),
+        };
+        self.next_request = self.next_request.next();
+        self.outstanding = Some(outstanding);
+        step.out.push(outstanding.message(session, self.station));
+        Ok(())
+    }
+
+    /// An answer to a command of this session.
+    fn hear_answer(&mut self, step: &mut Step, answer: Answer) -> Effect {
+        let reason = match answer.verdict {
+            Verdict::Accepted => return self.acknowledge(step, answer.session, answer.request),
+            Verdict::Rejected(reason) => reason,
+        };
+        self.take_outstanding(answer.request)?;
+        let id = ManeuverId {
+            session: answer.session,
+            request: answer.request,
+        };
+        step.out
+            .notify(Notice::CommandRejected(self.station, id, reason));
+        Ok(())
+    }
+
     fn take_outstanding(&mut self, request: RequestId) -> Result<Outstanding, Ignored> {
         let outstanding = self
             .outstanding

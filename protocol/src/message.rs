@@ -24,6 +24,7 @@ pub struct Ram {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
 pub enum Coordination {
     /// `helpStatus = none`: no part. It releases nobody from anything.
     None,
@@ -137,6 +138,7 @@ pub enum Farewell {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
 pub enum Rmcm {
     /// `LeaderManeuverContainer`.
     Command(Command),

@@ -10,6 +10,7 @@ use crate::task::{FallbackPolicy, TaskType, Unavailability};
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
 pub enum Output {
     /// Send a RAM now, with [`Robot::ram`](crate::Robot::ram) of the state after this step.
     SendRam,
@@ -273,7 +274,8 @@ impl Outputs {
     ///
     /// The capacity is proved to suffice for every step; see the crate's `valid` module.
     pub(crate) fn push(&mut self, output: Output) {
-        if output == Output::SendRam && self.iter().any(|&o| o == Output::SendRam) {
+        let says_all = |output: &Output| matches!(output, Output::SendRam);
+        if says_all(&output) && self.iter().any(says_all) {
             return;
         }
         let pushed = self.0.push(output);

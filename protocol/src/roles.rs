@@ -82,11 +82,13 @@ impl Robot {
                     return Err(Ignored::EchoFromFuture);
                 }
                 let age = leading.age_of(step.config, echo, next_ram);
-                let member = leading.member_mut(from).ok_or(Ignored::NotAFollower)?;
-                let echoed = member.hear_echo(step, echo, age);
-                let Some(report) = last else { return echoed };
-                let reported = member.hear_report(step, session, report);
-                echoed.or(reported)
+                let heard = leading.update_member(from, |member| {
+                    let echoed = member.hear_echo(step, echo, age);
+                    let Some(report) = last else { return echoed };
+                    let reported = member.hear_report(step, session, report);
+                    echoed.or(reported)
+                });
+                heard.unwrap_or(Err(Ignored::NotAFollower))
             }
             _ => self.answer_stale_session(step, session),
         }
@@ -119,11 +121,10 @@ impl Robot {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
-        let Some(member) = leading.member_mut(station) else {
-            return;
-        };
-        member.lease = Lease::Expired(Countdown::armed(step.config.t_lost()));
-        step.out.notify(Notice::LeaseExpired(station));
+        leading.update_member(station, |member| {
+            member.lease = Lease::Expired(Countdown::armed(step.config.t_lost()));
+            step.out.notify(Notice::LeaseExpired(station));
+        });
     }
 
     /// A follower has been without a lease for so long that it must have left.

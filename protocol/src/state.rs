@@ -48,6 +48,7 @@ pub struct Robot {
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
 pub enum Phase {
     /// None.
     Idle,
@@ -293,10 +294,14 @@ impl Leading {
         self.members.iter().find(|member| member.station == station)
     }
 
-    pub(crate) fn member_mut(&mut self, station: StationId) -> Option<&mut Member> {
+    /// Changes the record of `station`. What `change` says, `None` where there is no such follower.
+    pub(crate) fn update_member<R>(
+        &mut self,
+        station: StationId,
+        change: impl FnOnce(&mut Member) -> R,
+    ) -> Option<R> {
         self.members
-            .iter_mut()
-            .find(|member| member.station == station)
+            .update_first(|member| member.station == station, change)
     }
 
     /// Whether a follower executes an acknowledged command.

@@ -5,7 +5,7 @@ use crate::input::Timer;
 use crate::list::List;
 use crate::output::{GoneReason, Ignored, Output};
 use crate::robot::{Effect, Step};
-use crate::state::{Contact, Identity, Lease, Member, Phase, Robot};
+use crate::state::{Contact, Identity, Lease, Phase, Robot};
 use crate::time::{Countdown, Millis};
 use crate::{MAX_FOLLOWERS, MAX_TIMERS};
 
@@ -189,37 +189,30 @@ impl Robot {
     pub(crate) fn timers_within_limits(&self, config: &Config) -> bool {
         let mut within = true;
         visit_countdowns!(self, iter, (), |timer, countdown: &Countdown| {
-            let limit = self.timer_limit(config, timer);
+            let limit = timer_limit(config, timer);
             within &= countdown.is_within(limit);
         });
         within
     }
+}
 
-    /// The longest time that `timer` can have left.
-    fn timer_limit(&self, config: &Config, timer: Timer) -> Millis {
-        let settings = config.settings();
-        match timer {
-            Timer::Safety => settings.t_safety,
-            Timer::Leave => settings.t_leave,
-            Timer::Lease(_) => settings.t_lease,
-            Timer::Lost(_) => config.t_lost(),
-            Timer::Execution(station) => {
-                let Phase::Leading(leading) = &self.phase else {
-                    return Millis::ZERO;
-                };
-                let order = leading
-                    .member(station)
-                    .and_then(|member: &Member| member.order);
-                order.map_or(Millis::ZERO, |order| config.t_exec(order.task))
-            }
-            Timer::Acknowledgement(_) => settings.t_ack,
-            Timer::Help => settings.t_help,
-            Timer::Selection => settings.t_select,
-            Timer::Reservation => settings.t_offer,
-            Timer::IdentityLock => config.t_lock_session(),
-            Timer::Farewell => settings.t_farewell,
-            Timer::Ram => settings.ram_period,
-        }
+/// The longest time that `timer` can have left.
+fn timer_limit(config: &Config, timer: Timer) -> Millis {
+    let settings = config.settings();
+    match timer {
+        Timer::Safety => settings.t_safety,
+        Timer::Leave => settings.t_leave,
+        Timer::Lease(_) => settings.t_lease,
+        Timer::Lost(_) => config.t_lost(),
+        // `T_exec` depends on the task; the follower's record is checked against it.
+        Timer::Execution(_) => Millis::MAX_TIMER,
+        Timer::Acknowledgement(_) => settings.t_ack,
+        Timer::Help => settings.t_help,
+        Timer::Selection => settings.t_select,
+        Timer::Reservation => settings.t_offer,
+        Timer::IdentityLock => config.t_lock_session(),
+        Timer::Farewell => settings.t_farewell,
+        Timer::Ram => settings.ram_period,
     }
 }
 

@@ -12,6 +12,7 @@
 use crate::config::Config;
 use crate::help::all_distinct;
 use crate::id::RequestId;
+use crate::message::{Failure, Farewell, Progress};
 use crate::state::{Following, Identity, Leading, Member, Phase, Requesting, Robot};
 use crate::task::Availability;
 
@@ -40,7 +41,14 @@ impl Robot {
     pub(crate) fn is_consistent(&self, config: &Config) -> bool {
         // I16: every timer is within its limit.
         self.timers_within_limits(config)
-            && self.farewell.is_none_or(|standing| standing.left.is_armed())
+            && self.farewell.is_none_or(|standing| {
+                // Its own session the robot ends; it does not leave it.
+                let is_own = matches!(
+                    standing.farewell,
+                    Farewell::Left(session) if session.leader == self.station
+                );
+                standing.left.is_armed() && !is_own
+            })
             && match self.identity {
                 Identity::Unlocked => true,
                 Identity::Locked(left) => left.is_armed(),
@@ -141,7 +149,9 @@ impl Member {
                     && self.order.is_none_or(|o| outstanding.request.is_newer_than(o.request))
             })
             && self.order.is_none_or(|order| {
-                issued(order.request) && order.execution.is_armed() == order.is_running()
+                issued(order.request)
+                    && order.execution.is_armed() == order.is_running()
+                    && order.execution.is_within(config.t_exec(order.task))
             })
     }
 }
@@ -151,6 +161,10 @@ impl Following {
         // An unavailable robot executes nothing.
         (availability == Availability::Available || self.executing().is_none())
             && self.contact.countdown().is_armed()
+            // The execution limit is the leader's, and no RAM can report it.
+            && self.job.is_none_or(|job| {
+                job.progress != Progress::Failed(Failure::ExecutionLimit)
+            })
             // I9: once contact is lost, nothing runs until a newer command comes.
             && (!self.contact.is_lost() || self.executing().is_none())
             // I5: what was refused is newer than what was accepted.

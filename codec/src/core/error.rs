@@ -10,9 +10,13 @@ pub struct Error {
     pub fault: Fault,
     /// Where the bits of the field begin, counted from the start of the encoding.
     pub bit: usize,
-    /// Which field it is: a nibble per level, outermost lowest, index plus one.
-    path: u64,
+    /// Which field it is.
+    path: Path,
 }
+
+/// The way to a field: a nibble per level, outermost lowest, index plus one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Path(u64);
 
 /// A component of a SEQUENCE or an alternative of a CHOICE, for the names in messages.
 #[derive(Clone, Copy, Debug)]
@@ -29,21 +33,33 @@ pub(crate) const FIELDS_MAX: usize = 15;
 impl Error {
     /// An error in what begins at `bit`.
     pub(crate) const fn at(bit: usize, fault: Fault) -> Self {
-        let path = 0;
+        let path = Path(0);
         Self { fault, bit, path }
     }
 
     /// The same error, seen from the SEQUENCE or CHOICE whose field `index` has it. Deeper than 16
     /// levels the innermost ones are forgotten; no message is as deep.
     pub(crate) const fn within(self, index: usize) -> Self {
-        let path = self.path << 4 | (index as u64 + 1);
+        let path = Path(self.path.0 << 4 | (index as u64 + 1));
         Self { path, ..self }
     }
 
     /// The names of the components that lead to the field, outermost first, in the type whose
     /// [`FIELDS`](super::Uper::FIELDS) these are.
     pub fn names(self, fields: &'static [Field]) -> impl Iterator<Item = &'static str> {
-        let (mut path, mut fields) = (self.path, fields);
+        self.path.names(fields)
+    }
+
+    /// The way to the field.
+    pub(crate) const fn path(self) -> Path {
+        self.path
+    }
+}
+
+impl Path {
+    /// The names of the components, as [`Error::names`].
+    pub(crate) fn names(self, fields: &'static [Field]) -> impl Iterator<Item = &'static str> {
+        let (mut path, mut fields) = (self.0, fields);
         core::iter::from_fn(move || {
             let index = usize::try_from((path & 0xF).checked_sub(1)?).ok()?;
             let field = fields.get(index)?;

@@ -1,25 +1,23 @@
 //! RAM: state and view to a message, and back.
 
-use crossguard_protocol::{
-    Availability, Coordination, Farewell, MAX_FOLLOWERS, Progress, Ram, SessionId, StationId,
-};
+use crossguard_protocol::{Availability, Coordination, Farewell, Progress, Ram, SessionId};
 
 use super::check_followers;
 use super::role::{farewell_from, farewell_of, role_from, role_of};
-use crate::asn1::cdd::GenerationDeltaTime;
-use crate::asn1::ram::{
-    HelpStatus, RAM, RamParameters, RobotAwareness, RobotLeaderFollowerOperationContainer,
-    RobotStatusContainer,
-};
 use crate::containers::{
     basic_container, battery, battery_of, high_frequency, low_frequency, position_of,
     read_high_frequency, slow_state_of,
+};
+use crate::core::cdd::GenerationDeltaTime;
+use crate::core::ram::{
+    HelpStatus, RAM, RamParameters, RobotAwareness, RobotLeaderFollowerOperationContainer,
+    RobotStatusContainer,
 };
 use crate::error::ViewError;
 use crate::identifiers::Identifiers;
 use crate::message::header;
 use crate::state::{ControlMode, JobRole, RobotCategory, RobotState, TaskProgression};
-use crate::wire::{reason, reason_of};
+use crate::wire::{reason, reason_of, station_of};
 
 /// The RAM of a robot in this `state` whose part in coordination is `view`.
 ///
@@ -41,35 +39,37 @@ pub fn ram_from(
     let role = role_from(view)?;
     let farewell = view.farewell.map(farewell_from);
     let progression = reported_progression(view).unwrap_or(state.task_progression);
-    let status = RobotStatusContainer::new(
-        state.category.to_wire(),
-        state.job_role.to_wire(),
-        progression.to_wire(),
-        battery(&state.battery),
-        state.control_mode.to_wire(),
-        help_status(&view.coordination),
-        match availability {
+    let status = RobotStatusContainer {
+        robot_category: state.category.to_wire(),
+        operational_job_role: state.job_role.to_wire(),
+        task_progression: progression.to_wire(),
+        battery_status: battery(&state.battery),
+        control_mode: state.control_mode.to_wire(),
+        help_status: help_status(&view.coordination),
+        unavailability: match availability {
             Availability::Available => None,
             Availability::Unavailable(why) => Some(reason(why)),
         },
-    );
+    };
     let is_part = role.is_some() || farewell.is_some();
-    let operation = is_part.then(|| RobotLeaderFollowerOperationContainer::new(role, farewell));
+    let operation = is_part.then_some(RobotLeaderFollowerOperationContainer { role, farewell });
     let slow = state.slow.as_ref().filter(|_| with_low_frequency);
-    let parameters = RamParameters::new(
-        basic_container(identifiers.robot_station_type, &state.position),
-        high_frequency(state),
-        slow.map(|slow| low_frequency(slow, &state.position)),
-        status,
-        operation,
-        None,
-        None,
-    );
-    let awareness = RobotAwareness::new(GenerationDeltaTime(generation_delta_time), parameters);
-    Ok(RAM::new(
-        header::<RAM>(identifiers, view.station.0),
-        awareness,
-    ))
+    Ok(RAM {
+        header: header::<RAM>(identifiers, view.station),
+        ram: RobotAwareness {
+            generation_delta_time: GenerationDeltaTime(generation_delta_time),
+            ram_parameters: RamParameters {
+                basic_container: basic_container(identifiers.robot_station_type, &state.position),
+                robot_high_frequency_container: high_frequency(state),
+                robot_low_frequency_container: slow
+                    .map(|slow| low_frequency(slow, &state.position)),
+                robot_status_container: status,
+                robot_leader_follower_operation_container: operation,
+                vru_cluster_information_container: None,
+                vru_motion_prediction_container: None,
+            },
+        },
+    })
 }
 
 /// The protocol's view of a RAM.
@@ -82,8 +82,8 @@ pub fn view_of_ram(ram: &RAM) -> Result<Ram, ViewError> {
         .robot_leader_follower_operation_container
         .as_ref();
     let role = operation.and_then(|operation| operation.role.as_ref());
-    let farewell = operation.and_then(|operation| operation.farewell.as_ref());
-    let sender = StationId(ram.header.station_id.0);
+    let farewell = operation.and_then(|operation| operation.farewell);
+    let sender = station_of(ram.header.station_id);
     let view = Ram {
         station: sender,
         coordination: role.map_or(Ok(Coordination::None), |role| role_of(role, sender))?,
@@ -123,7 +123,7 @@ pub fn state_of(ram: &RAM) -> RobotState {
         category: RobotCategory::from_wire(status.robot_category),
         job_role: JobRole::from_wire(status.operational_job_role),
         task_progression: TaskProgression::from_wire(status.task_progression),
-        battery: battery_of(&status.battery_status),
+        battery: battery_of(status.battery_status),
         control_mode: ControlMode::from_wire(status.control_mode),
         slow: slow.map(|slow| slow_state_of(slow, &position)),
         ..RobotState::default()
@@ -132,7 +132,7 @@ pub fn state_of(ram: &RAM) -> RobotState {
     state
 }
 
-/// Checks what holds for the view of every RAM.
+/// Checks what holds for the view of every RAM, beyond the numbers that its fields can hold.
 fn check(view: &Ram) -> Result<(), ViewError> {
     let sender = view.station;
     let own_session = |number| SessionId {
@@ -141,18 +141,10 @@ fn check(view: &Ram) -> Result<(), ViewError> {
     };
     let present = match view.coordination {
         Coordination::None => None,
-        Coordination::NeedHelp { number, request } => {
-            if !(1..=MAX_FOLLOWERS).contains(&usize::from(request.followers)) {
-                return Err(ViewError::FollowerCount(request.followers));
-            }
-            Some(own_session(number))
-        }
+        Coordination::NeedHelp { number, .. } => Some(own_session(number)),
         Coordination::Leader {
             number, followers, ..
         } => {
-            if followers.is_empty() {
-                return Err(ViewError::NoFollowers);
-            }
             check_followers(sender, followers.iter().map(|follower| follower.station))?;
             Some(own_session(number))
         }
@@ -180,10 +172,10 @@ fn check(view: &Ram) -> Result<(), ViewError> {
 /// The status that goes with a part in a session.
 fn help_status(coordination: &Coordination) -> HelpStatus {
     match coordination {
-        Coordination::None => HelpStatus::none,
-        Coordination::NeedHelp { .. } => HelpStatus::needHelp,
-        Coordination::OfferHelp { .. } => HelpStatus::offerHelp,
-        Coordination::Leader { .. } | Coordination::Follower { .. } => HelpStatus::roleConfirmed,
+        Coordination::None => HelpStatus::None,
+        Coordination::NeedHelp { .. } => HelpStatus::NeedHelp,
+        Coordination::OfferHelp { .. } => HelpStatus::OfferHelp,
+        Coordination::Leader { .. } | Coordination::Follower { .. } => HelpStatus::RoleConfirmed,
     }
 }
 

@@ -1,24 +1,29 @@
 //! RMCM: commands and answers to a message, and back.
 
 use crossguard_protocol::{
-    Answer, Command, List, MAX_FOLLOWERS, Millis, Rejection, RequestId, Rmcm, StationId, TaskType,
-    Verdict,
+    Answer, Command, List, MAX_FOLLOWERS, Millis, Rejection, RequestId, Rmcm, StationId, Verdict,
 };
 
 use super::check_followers;
 use super::task::{ExecutionStatus, MapPlace, TaskParameters, duration};
-use crate::asn1::cdd::{self, GenerationDeltaTime};
-use crate::asn1::common;
-use crate::asn1::rmcm::{
-    FollowerManeuverContainer, LeaderManeuverContainer, ManeuverCommand, ManeuverContainer,
-    ManeuverResponse, RMCM, RejectionReason, RmcmParameters, RobotManeuverCoordination,
-};
 use crate::containers::basic_container;
+use crate::core::Uper;
+use crate::core::cdd::GenerationDeltaTime;
+use crate::core::common;
+use crate::core::rmcm::{
+    FollowerManeuverContainer, LeaderManeuverContainer, ManeuverCommand, ManeuverCommands,
+    ManeuverContainer, ManeuverResponse, RMCM, RejectionReason, RmcmParameters,
+    RobotManeuverCoordination,
+};
 use crate::error::ViewError;
 use crate::identifiers::Identifiers;
 use crate::message::header;
 use crate::state::{Position, TaskProgression};
-use crate::wire::{reason, reason_of, session, session_of};
+use crate::wire::{
+    reason, reason_of, session, session_of, station, station_of, task_type, task_type_of,
+};
+
+const _: () = assert!(ManeuverCommands::CAPACITY == MAX_FOLLOWERS);
 
 /// The RMCM of a leader at `position` that gives these commands, 1 to [`MAX_FOLLOWERS`] of one
 /// session to different followers. `place` is where the maneuvers take place.
@@ -46,15 +51,17 @@ pub fn rmcm_from_commands(
     }
     let leader = first.session.leader;
     check_followers(leader, commands.iter().map(|(command, _)| command.to))?;
-    let commands = commands
-        .iter()
-        .map(|(command, parameters)| command_from(command, parameters));
-    let container = LeaderManeuverContainer::new(
-        session(first.session),
-        place.map(MapPlace::to_wire),
-        commands.collect::<Result<_, _>>()?,
-    );
-    let container = ManeuverContainer::leaderManeuverContainer(container);
+    let mut wire = [ManeuverCommand::LOWEST; MAX_FOLLOWERS];
+    for (slot, (command, parameters)) in wire.iter_mut().zip(commands) {
+        *slot = command_from(command, parameters)?;
+    }
+    let wire = wire.into_iter().take(commands.len());
+    let container = LeaderManeuverContainer {
+        session: session(first.session),
+        map_reference: place.map(MapPlace::to_wire),
+        commands: ManeuverCommands::collect(wire).ok_or(count_error)?,
+    };
+    let container = ManeuverContainer::LeaderManeuverContainer(container);
     Ok(rmcm(
         identifiers,
         leader,
@@ -79,22 +86,22 @@ pub fn rmcm_from_answer(
         return Err(ViewError::OwnSession(answer.from));
     }
     let response = match answer.verdict {
-        Verdict::Accepted => ManeuverResponse::accepted(()),
+        Verdict::Accepted => ManeuverResponse::Accepted(()),
         Verdict::Rejected(Rejection::UnsupportedTask) => {
-            ManeuverResponse::rejected(RejectionReason::unsupportedTask(()))
+            ManeuverResponse::Rejected(RejectionReason::UnsupportedTask(()))
         }
         Verdict::Rejected(Rejection::Unavailable(why)) => {
-            ManeuverResponse::rejected(RejectionReason::unavailable(reason(why)))
+            ManeuverResponse::Rejected(RejectionReason::Unavailable(reason(why)))
         }
     };
-    let container = FollowerManeuverContainer::new(
-        session(answer.session),
-        common::RequestId(answer.request.0),
+    let container = FollowerManeuverContainer {
+        session: session(answer.session),
+        job_advice_id: common::RequestId(answer.request.0),
         response,
-        status.progression.to_wire(),
-        status.time_to_completion.map(duration),
-    );
-    let container = ManeuverContainer::followerManeuverContainer(container);
+        execution_status: status.progression.to_wire(),
+        estimated_time_to_completion: status.time_to_completion.map(duration),
+    };
+    let container = ManeuverContainer::FollowerManeuverContainer(container);
     Ok(rmcm(
         identifiers,
         answer.from,
@@ -109,10 +116,10 @@ pub fn rmcm_from_answer(
 /// # Errors
 /// How the message contradicts itself.
 pub fn views_of_rmcm(rmcm: &RMCM) -> Result<List<Rmcm, MAX_FOLLOWERS>, ViewError> {
-    let sender = StationId(rmcm.header.station_id.0);
+    let sender = station_of(rmcm.header.station_id);
     match &rmcm.rmcm.rmcm_parameters.maneuver_container {
-        ManeuverContainer::leaderManeuverContainer(container) => commands_of(container, sender),
-        ManeuverContainer::followerManeuverContainer(container) => {
+        ManeuverContainer::LeaderManeuverContainer(container) => commands_of(container, sender),
+        ManeuverContainer::FollowerManeuverContainer(container) => {
             let answer = answer_of(container, sender);
             if answer.session.leader == sender {
                 return Err(ViewError::OwnSession(sender));
@@ -126,11 +133,10 @@ pub fn views_of_rmcm(rmcm: &RMCM) -> Result<List<Rmcm, MAX_FOLLOWERS>, ViewError
 #[must_use]
 pub fn task_parameters_of(rmcm: &RMCM, follower: StationId) -> Option<TaskParameters> {
     let container = leader_container(rmcm)?;
-    let is_for = |command: &&ManeuverCommand| command.target_follower_station_id.0 == follower.0;
     container
         .commands
         .iter()
-        .find(is_for)
+        .find(|command| target(command) == follower)
         .map(TaskParameters::read)
 }
 
@@ -139,7 +145,6 @@ pub fn task_parameters_of(rmcm: &RMCM, follower: StationId) -> Option<TaskParame
 pub fn map_place_of(rmcm: &RMCM) -> Option<MapPlace> {
     leader_container(rmcm)?
         .map_reference
-        .as_ref()
         .map(MapPlace::from_wire)
 }
 
@@ -147,12 +152,12 @@ pub fn map_place_of(rmcm: &RMCM) -> Option<MapPlace> {
 #[must_use]
 pub fn execution_of(rmcm: &RMCM) -> Option<ExecutionStatus> {
     match &rmcm.rmcm.rmcm_parameters.maneuver_container {
-        ManeuverContainer::leaderManeuverContainer(_) => None,
-        ManeuverContainer::followerManeuverContainer(container) => {
-            let time = container.estimated_time_to_completion.as_ref();
+        ManeuverContainer::LeaderManeuverContainer(_) => None,
+        ManeuverContainer::FollowerManeuverContainer(container) => {
+            let time = container.estimated_time_to_completion;
             Some(ExecutionStatus {
                 progression: TaskProgression::from_wire(container.execution_status),
-                time_to_completion: time.map(|time| Millis(time.0)),
+                time_to_completion: time.map(|time| Millis(time.get())),
             })
         }
     }
@@ -160,8 +165,8 @@ pub fn execution_of(rmcm: &RMCM) -> Option<ExecutionStatus> {
 
 fn leader_container(rmcm: &RMCM) -> Option<&LeaderManeuverContainer> {
     match &rmcm.rmcm.rmcm_parameters.maneuver_container {
-        ManeuverContainer::leaderManeuverContainer(container) => Some(container),
-        ManeuverContainer::followerManeuverContainer(_) => None,
+        ManeuverContainer::LeaderManeuverContainer(container) => Some(container),
+        ManeuverContainer::FollowerManeuverContainer(_) => None,
     }
 }
 
@@ -172,73 +177,68 @@ fn rmcm(
     container: ManeuverContainer,
     generation_delta_time: u16,
 ) -> RMCM {
-    let parameters = RmcmParameters::new(
-        basic_container(identifiers.robot_station_type, position),
-        container,
-    );
-    let generation_delta_time = GenerationDeltaTime(generation_delta_time);
-    let coordination = RobotManeuverCoordination::new(generation_delta_time, parameters);
-    RMCM::new(header::<RMCM>(identifiers, sender.0), coordination)
+    RMCM {
+        header: header::<RMCM>(identifiers, sender),
+        rmcm: RobotManeuverCoordination {
+            generation_delta_time: GenerationDeltaTime(generation_delta_time),
+            rmcm_parameters: RmcmParameters {
+                basic_container: basic_container(identifiers.robot_station_type, position),
+                maneuver_container: container,
+            },
+        },
+    }
 }
 
 fn command_from(
     command: &Command,
     parameters: &TaskParameters,
 ) -> Result<ManeuverCommand, ViewError> {
-    let mut wire = ManeuverCommand::new(
-        common::RequestId(command.request.0),
-        cdd::StationId(command.to.0),
-        common::TaskType(command.task.value()),
-        None,
-        None,
-        None,
-        None,
-    );
-    parameters.write(&mut wire, command.to)?;
-    Ok(wire)
+    let wire = ManeuverCommand {
+        request_id: common::RequestId(command.request.0),
+        target_follower_station_id: station(command.to),
+        task_type: task_type(command.task),
+        ..Uper::LOWEST
+    };
+    parameters.write(wire, command.to)
+}
+
+fn target(command: &ManeuverCommand) -> StationId {
+    station_of(command.target_follower_station_id)
 }
 
 fn commands_of(
     container: &LeaderManeuverContainer,
     sender: StationId,
 ) -> Result<List<Rmcm, MAX_FOLLOWERS>, ViewError> {
-    let session = session_of(&container.session);
+    let session = session_of(container.session);
     if session.leader != sender {
         return Err(ViewError::NotOwnSession { sender, session });
     }
-    let target = |command: &ManeuverCommand| StationId(command.target_follower_station_id.0);
     check_followers(sender, container.commands.iter().map(target))?;
-    let count_error = ViewError::CommandCount(container.commands.len());
-    if container.commands.is_empty() {
-        return Err(count_error);
-    }
-    let mut views = List::EMPTY;
-    for command in &container.commands {
-        let view = Command {
+    let view = |command: &ManeuverCommand| {
+        Rmcm::Command(Command {
             session,
             to: target(command),
             request: RequestId(command.request_id.0),
-            task: TaskType::new(command.task_type.0)
-                .ok_or(ViewError::TaskType(command.task_type.0))?,
-        };
-        views.push(Rmcm::Command(view)).map_err(|_| count_error)?;
-    }
-    Ok(views)
+            task: task_type_of(command.task_type),
+        })
+    };
+    Ok(container.commands.iter().map(view).collect())
 }
 
 fn answer_of(container: &FollowerManeuverContainer, sender: StationId) -> Answer {
-    let verdict = match &container.response {
-        ManeuverResponse::accepted(()) => Verdict::Accepted,
-        ManeuverResponse::rejected(RejectionReason::unsupportedTask(())) => {
+    let verdict = match container.response {
+        ManeuverResponse::Accepted(()) => Verdict::Accepted,
+        ManeuverResponse::Rejected(RejectionReason::UnsupportedTask(())) => {
             Verdict::Rejected(Rejection::UnsupportedTask)
         }
-        ManeuverResponse::rejected(RejectionReason::unavailable(why)) => {
-            Verdict::Rejected(Rejection::Unavailable(reason_of(*why)))
+        ManeuverResponse::Rejected(RejectionReason::Unavailable(why)) => {
+            Verdict::Rejected(Rejection::Unavailable(reason_of(why)))
         }
     };
     Answer {
         from: sender,
-        session: session_of(&container.session),
+        session: session_of(container.session),
         request: RequestId(container.job_advice_id.0),
         verdict,
     }

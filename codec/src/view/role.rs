@@ -1,17 +1,24 @@
 //! The operation container of a RAM: parts in a session, reports, farewells.
 
 use crossguard_protocol::{
-    Confirmation, Coordination, Failure, Farewell, Followers, Heartbeat, HelpRequest, OfferNumber,
-    Progress, Ram, Report, RequestId, SessionId, StationId, UniqueNumber, Urgency,
+    Confirmation, Coordination, Failure, Farewell, Heartbeat, HelpRequest, MAX_FOLLOWERS,
+    OfferNumber, Progress, Ram, Report, RequestId, SessionId, StationId, UniqueNumber, Urgency,
 };
 
-use crate::asn1::ram::{
-    self, CommandProgress, CommandReport, ConfirmedFollower, FailureReason, FollowerRole,
-    HelperRole, LeaderRole, RequestUrgency, RequesterRole, SessionFarewell, SessionRole,
+use crate::core::common;
+use crate::core::ram::{
+    self, CommandProgress, CommandReport, ConfirmedFollower, ConfirmedFollowers, FailureReason,
+    FollowerRole, HelperRole, LeaderRole, RequestUrgency, RequestedFollowers, RequesterRole,
+    SessionFarewell, SessionRole,
 };
-use crate::asn1::{cdd, common};
 use crate::error::ViewError;
-use crate::wire::{reason, reason_of, session, session_number_of, session_of, task_set, tasks_of};
+use crate::wire::{
+    reason, reason_of, session, session_number, session_number_of, session_of, station, station_of,
+    task_set, tasks_of,
+};
+
+const _: () = assert!(ConfirmedFollowers::CAPACITY == MAX_FOLLOWERS);
+const _: () = assert!(RequestedFollowers::MAX as usize == MAX_FOLLOWERS);
 
 /// The part in a session that `view` tells.
 pub(super) fn role_from(view: &Ram) -> Result<Option<SessionRole>, ViewError> {
@@ -23,45 +30,47 @@ pub(super) fn role_from(view: &Ram) -> Result<Option<SessionRole>, ViewError> {
     };
     Ok(Some(match view.coordination {
         Coordination::None => return Ok(None),
-        Coordination::NeedHelp { number, request } => SessionRole::requester(RequesterRole::new(
-            own_session(number),
-            urgency(request.urgency),
-            request.followers,
-            task_set(request.tasks),
-        )),
+        Coordination::NeedHelp { number, request } => SessionRole::Requester(RequesterRole {
+            session: own_session(number),
+            urgency: urgency(request.urgency),
+            follower_count: RequestedFollowers::new(request.followers)
+                .ok_or(ViewError::FollowerCount(request.followers))?,
+            requested_tasks: task_set(request.tasks),
+        }),
         Coordination::OfferHelp {
             session: offered,
             offer,
             capabilities,
-        } => SessionRole::helper(HelperRole::new(
-            session(offered),
-            common::OfferNumber(offer.0.to_u32()),
-            task_set(capabilities),
-        )),
+        } => SessionRole::Helper(HelperRole {
+            session: session(offered),
+            offer_number: offer_number(offer),
+            capabilities: task_set(capabilities),
+        }),
         Coordination::Leader {
             number,
             heartbeat,
             followers,
-        } => SessionRole::leader(LeaderRole::new(
-            own_session(number),
-            ram::Heartbeat(heartbeat.0),
-            followers.iter().copied().map(confirmation).collect(),
-        )),
+        } => SessionRole::Leader(LeaderRole {
+            session: own_session(number),
+            heartbeat: ram::Heartbeat(heartbeat.0),
+            followers: ConfirmedFollowers::collect(followers.iter().copied().map(confirmation))
+                .ok_or(ViewError::NoFollowers)?,
+        }),
         Coordination::Follower {
             session: followed,
             echo,
             last,
-        } => SessionRole::follower(FollowerRole::new(
-            session(followed),
-            ram::Heartbeat(echo.0),
-            last.map(report).transpose()?,
-        )),
+        } => SessionRole::Follower(FollowerRole {
+            session: session(followed),
+            heartbeat_echo: ram::Heartbeat(echo.0),
+            last_command: last.map(report).transpose()?,
+        }),
     }))
 }
 
 /// What `role` means when `sender` has it.
 pub(super) fn role_of(role: &SessionRole, sender: StationId) -> Result<Coordination, ViewError> {
-    let own = |session: &common::CoordinationSession| {
+    let own = |session| {
         let session = session_of(session);
         if session.leader == sender {
             Ok(session.number)
@@ -70,84 +79,84 @@ pub(super) fn role_of(role: &SessionRole, sender: StationId) -> Result<Coordinat
         }
     };
     Ok(match role {
-        SessionRole::requester(requester) => Coordination::NeedHelp {
-            number: own(&requester.session)?,
+        SessionRole::Requester(requester) => Coordination::NeedHelp {
+            number: own(requester.session)?,
             request: HelpRequest {
                 urgency: urgency_of(requester.urgency),
-                followers: requester.follower_count,
-                tasks: tasks_of(&requester.requested_tasks),
+                followers: requester.follower_count.get(),
+                tasks: tasks_of(requester.requested_tasks),
             },
         },
-        SessionRole::helper(helper) => Coordination::OfferHelp {
-            session: session_of(&helper.session),
-            offer: offer_of(&helper.offer_number),
-            capabilities: tasks_of(&helper.capabilities),
+        SessionRole::Helper(helper) => Coordination::OfferHelp {
+            session: session_of(helper.session),
+            offer: offer_of(helper.offer_number),
+            capabilities: tasks_of(helper.capabilities),
         },
-        SessionRole::leader(leader) => Coordination::Leader {
-            number: own(&leader.session)?,
+        SessionRole::Leader(leader) => Coordination::Leader {
+            number: own(leader.session)?,
             heartbeat: Heartbeat(leader.heartbeat.0),
-            followers: followers_of(&leader.followers)?,
+            followers: leader
+                .followers
+                .iter()
+                .copied()
+                .map(confirmation_of)
+                .collect(),
         },
-        SessionRole::follower(follower) => Coordination::Follower {
-            session: session_of(&follower.session),
+        SessionRole::Follower(follower) => Coordination::Follower {
+            session: session_of(follower.session),
             echo: Heartbeat(follower.heartbeat_echo.0),
-            last: follower.last_command.as_ref().map(report_of),
+            last: follower.last_command.map(report_of),
         },
     })
 }
 
-fn offer_of(number: &common::OfferNumber) -> OfferNumber {
+fn offer_number(offer: OfferNumber) -> common::OfferNumber {
+    common::OfferNumber(offer.0.to_u32())
+}
+
+fn offer_of(number: common::OfferNumber) -> OfferNumber {
     OfferNumber(UniqueNumber::from_u32(number.0))
 }
 
 fn confirmation(confirmation: Confirmation) -> ConfirmedFollower {
-    ConfirmedFollower::new(
-        cdd::StationId(confirmation.station.0),
-        common::OfferNumber(confirmation.offer.0.to_u32()),
-    )
-}
-
-fn followers_of(named: &[ConfirmedFollower]) -> Result<Followers, ViewError> {
-    let mut followers = Followers::EMPTY;
-    for follower in named {
-        let pushed = followers.push(confirmation_of(follower));
-        pushed.map_err(|_| ViewError::TooManyFollowers(named.len()))?;
+    ConfirmedFollower {
+        station_id: station(confirmation.station),
+        offer_number: offer_number(confirmation.offer),
     }
-    Ok(followers)
 }
 
-fn confirmation_of(follower: &ConfirmedFollower) -> Confirmation {
+fn confirmation_of(follower: ConfirmedFollower) -> Confirmation {
     Confirmation {
-        station: StationId(follower.station_id.0),
-        offer: offer_of(&follower.offer_number),
+        station: station_of(follower.station_id),
+        offer: offer_of(follower.offer_number),
     }
 }
 
 fn report(report: Report) -> Result<CommandReport, ViewError> {
     let progress = match report.progress {
-        Progress::Executing => CommandProgress::executing(()),
-        Progress::Completed => CommandProgress::completed(()),
-        Progress::SafeIdle => CommandProgress::safeIdle(()),
-        Progress::Failed(failure) => CommandProgress::failed(match failure {
-            Failure::Maneuver => FailureReason::maneuver(()),
-            Failure::Unavailable(why) => FailureReason::unavailable(reason(why)),
+        Progress::Executing => CommandProgress::Executing(()),
+        Progress::Completed => CommandProgress::Completed(()),
+        Progress::SafeIdle => CommandProgress::SafeIdle(()),
+        Progress::Failed(failure) => CommandProgress::Failed(match failure {
+            Failure::Maneuver => FailureReason::Maneuver(()),
+            Failure::Unavailable(why) => FailureReason::Unavailable(reason(why)),
             Failure::ExecutionLimit => return Err(ViewError::ExecutionLimit),
         }),
     };
-    Ok(CommandReport::new(
-        common::RequestId(report.request.0),
+    Ok(CommandReport {
+        request_id: common::RequestId(report.request.0),
         progress,
-    ))
+    })
 }
 
-fn report_of(report: &CommandReport) -> Report {
-    let progress = match &report.progress {
-        CommandProgress::executing(()) => Progress::Executing,
-        CommandProgress::completed(()) => Progress::Completed,
-        CommandProgress::safeIdle(()) => Progress::SafeIdle,
-        CommandProgress::failed(FailureReason::maneuver(())) => Progress::Failed(Failure::Maneuver),
-        CommandProgress::failed(FailureReason::unavailable(why)) => {
-            Progress::Failed(Failure::Unavailable(reason_of(*why)))
+fn report_of(report: CommandReport) -> Report {
+    let progress = match report.progress {
+        CommandProgress::Executing(()) => Progress::Executing,
+        CommandProgress::Completed(()) => Progress::Completed,
+        CommandProgress::SafeIdle(()) => Progress::SafeIdle,
+        CommandProgress::Failed(FailureReason::Maneuver(())) => Progress::Failed(Failure::Maneuver),
+        CommandProgress::Failed(FailureReason::Unavailable(why)) => {
+            Progress::Failed(Failure::Unavailable(reason_of(why)))
         }
     };
     Report {
@@ -158,32 +167,32 @@ fn report_of(report: &CommandReport) -> Report {
 
 pub(super) fn farewell_from(farewell: Farewell) -> SessionFarewell {
     match farewell {
-        Farewell::Ended(number) => SessionFarewell::ended(common::SessionNumber(number.0.to_u32())),
-        Farewell::Left(left) => SessionFarewell::left(session(left)),
+        Farewell::Ended(number) => SessionFarewell::Ended(session_number(number)),
+        Farewell::Left(left) => SessionFarewell::Left(session(left)),
     }
 }
 
-pub(super) fn farewell_of(farewell: &SessionFarewell) -> Farewell {
+pub(super) fn farewell_of(farewell: SessionFarewell) -> Farewell {
     match farewell {
-        SessionFarewell::ended(number) => Farewell::Ended(session_number_of(number)),
-        SessionFarewell::left(left) => Farewell::Left(session_of(left)),
+        SessionFarewell::Ended(number) => Farewell::Ended(session_number_of(number)),
+        SessionFarewell::Left(left) => Farewell::Left(session_of(left)),
     }
 }
 
 fn urgency(urgency: Urgency) -> RequestUrgency {
     match urgency {
-        Urgency::Low => RequestUrgency::low,
-        Urgency::Medium => RequestUrgency::medium,
-        Urgency::High => RequestUrgency::high,
-        Urgency::Emergency => RequestUrgency::emergency,
+        Urgency::Low => RequestUrgency::Low,
+        Urgency::Medium => RequestUrgency::Medium,
+        Urgency::High => RequestUrgency::High,
+        Urgency::Emergency => RequestUrgency::Emergency,
     }
 }
 
 fn urgency_of(urgency: RequestUrgency) -> Urgency {
     match urgency {
-        RequestUrgency::low => Urgency::Low,
-        RequestUrgency::medium => Urgency::Medium,
-        RequestUrgency::high => Urgency::High,
-        RequestUrgency::emergency => Urgency::Emergency,
+        RequestUrgency::Low => Urgency::Low,
+        RequestUrgency::Medium => Urgency::Medium,
+        RequestUrgency::High => Urgency::High,
+        RequestUrgency::Emergency => Urgency::Emergency,
     }
 }

@@ -3,12 +3,12 @@
 use crossguard_protocol::{Millis, StationId};
 use serde::{Deserialize, Serialize};
 
-use crate::asn1::cdd::{
+use crate::core::cdd::{
     AltitudeValue, DeltaAltitude, DeltaLatitude, DeltaLongitude, DeltaReferencePosition,
     GeoPosition, Identifier2B, IntersectionReferenceId, LanePosition, Latitude, Longitude,
     MapReference, RoadSegmentReferenceId, SpeedValue, StandardLength9b, Wgs84AngleValue,
 };
-use crate::asn1::rmcm::{ManeuverCommand, ManeuverConstraints, ManeuverDuration, ManeuverTarget};
+use crate::core::rmcm::{ManeuverCommand, ManeuverConstraints, ManeuverDuration, ManeuverTarget};
 use crate::error::ViewError;
 use crate::si;
 use crate::state::TaskProgression;
@@ -87,9 +87,11 @@ pub struct ExecutionStatus {
     pub time_to_completion: Option<Millis>,
 }
 
+const _: () = assert!(ManeuverDuration::MAX == Millis::MAX_TIMER.0);
+
 /// At most one day.
 pub(super) fn duration(duration: Millis) -> ManeuverDuration {
-    ManeuverDuration(duration.0.min(Millis::MAX_TIMER.0))
+    ManeuverDuration::saturating(duration.0)
 }
 
 impl Target {
@@ -106,11 +108,12 @@ impl Target {
                 let longitude = si::longitude(Some(longitude));
                 let is_place =
                     latitude != si::LATITUDE.unavailable && longitude != si::longitude(None);
-                let altitude = AltitudeValue(si::ALTITUDE.encode(altitude));
                 is_place.then(|| {
-                    let position =
-                        GeoPosition::new(Latitude(latitude), Longitude(longitude), altitude);
-                    ManeuverTarget::position(position)
+                    ManeuverTarget::Position(GeoPosition {
+                        latitude: Latitude::saturating(latitude),
+                        longitude: Longitude::saturating(longitude),
+                        altitude: AltitudeValue::saturating(si::ALTITUDE.encode(altitude)),
+                    })
                 })
             }
             Self::Offset {
@@ -121,84 +124,81 @@ impl Target {
                 let north = si::DELTA_DEGREES.encode(Some(latitude));
                 let east = si::DELTA_DEGREES.encode(Some(longitude));
                 let unavailable = si::DELTA_DEGREES.unavailable;
-                let altitude = DeltaAltitude(si::DELTA_ALTITUDE.encode(altitude));
+                let rise = si::DELTA_ALTITUDE.encode(altitude);
                 (north != unavailable && east != unavailable).then(|| {
-                    ManeuverTarget::offset(DeltaReferencePosition::new(
-                        DeltaLatitude(north),
-                        DeltaLongitude(east),
-                        altitude,
-                    ))
+                    ManeuverTarget::Offset(DeltaReferencePosition {
+                        delta_latitude: DeltaLatitude::saturating(north),
+                        delta_longitude: DeltaLongitude::saturating(east),
+                        delta_altitude: DeltaAltitude::saturating(rise),
+                    })
                 })
             }
-            Self::Lane(lane) => (-1..=14)
-                .contains(&lane)
-                .then_some(ManeuverTarget::lanePosition(LanePosition(lane))),
+            Self::Lane(lane) => LanePosition::new(lane).map(ManeuverTarget::LanePosition),
         }
     }
 
     /// `None` for a target whose latitude or longitude is unavailable.
-    fn from_wire(target: &ManeuverTarget) -> Option<Self> {
+    fn from_wire(target: ManeuverTarget) -> Option<Self> {
         Some(match target {
-            ManeuverTarget::position(position) => Self::Position {
-                latitude: si::LATITUDE.decode(position.latitude.0)?,
-                longitude: si::longitude_degrees(position.longitude.0)?,
-                altitude: si::ALTITUDE.decode(position.altitude.0),
+            ManeuverTarget::Position(position) => Self::Position {
+                latitude: si::LATITUDE.decode(position.latitude.get())?,
+                longitude: si::longitude_degrees(position.longitude.get())?,
+                altitude: si::ALTITUDE.decode(position.altitude.get()),
             },
-            ManeuverTarget::offset(offset) => Self::Offset {
-                latitude: si::DELTA_DEGREES.decode(offset.delta_latitude.0)?,
-                longitude: si::DELTA_DEGREES.decode(offset.delta_longitude.0)?,
-                altitude: si::DELTA_ALTITUDE.decode(offset.delta_altitude.0),
+            ManeuverTarget::Offset(offset) => Self::Offset {
+                latitude: si::DELTA_DEGREES.decode(offset.delta_latitude.get())?,
+                longitude: si::DELTA_DEGREES.decode(offset.delta_longitude.get())?,
+                altitude: si::DELTA_ALTITUDE.decode(offset.delta_altitude.get()),
             },
-            ManeuverTarget::lanePosition(lane) => Self::Lane(lane.0),
+            ManeuverTarget::LanePosition(lane) => Self::Lane(lane.get()),
         })
     }
 }
 
 impl TaskParameters {
-    /// Adds the parameters to the command for `follower`.
+    /// The `command` for `follower` with these parameters.
     pub(super) fn write(
         &self,
-        command: &mut ManeuverCommand,
+        command: ManeuverCommand,
         follower: StationId,
-    ) -> Result<(), ViewError> {
+    ) -> Result<ManeuverCommand, ViewError> {
         let target = self
             .target
             .map(|target| target.to_wire().ok_or(ViewError::Target(follower)));
-        command.target = target.transpose()?;
-        command.target_heading = self
-            .heading
-            .map(|heading| Wgs84AngleValue(si::angle(Some(heading))));
+        let heading = self.heading.map(|heading| si::angle(Some(heading)));
         let speed = self
             .maximum_speed
-            .map(|speed| SpeedValue(si::MAXIMUM_SPEED.encode(Some(speed))));
+            .map(|speed| si::MAXIMUM_SPEED.encode(Some(speed)));
         let distance = self
             .minimum_pedestrian_distance
-            .and_then(|distance| si::MINIMUM_DISTANCE.encode(distance).map(StandardLength9b));
+            .and_then(|distance| si::MINIMUM_DISTANCE.encode(distance));
         let is_constrained = speed.is_some() || distance.is_some();
-        command.constraints = is_constrained.then(|| ManeuverConstraints::new(speed, distance));
-        command.validity_duration = self.validity.map(duration);
-        Ok(())
+        Ok(ManeuverCommand {
+            target: target.transpose()?,
+            target_heading: heading.map(Wgs84AngleValue::saturating),
+            constraints: is_constrained.then(|| ManeuverConstraints {
+                maximum_speed: speed.map(SpeedValue::saturating),
+                minimum_pedestrian_distance: distance.map(StandardLength9b::saturating),
+            }),
+            validity_duration: self.validity.map(duration),
+            ..command
+        })
     }
 
     /// The parameters of a command.
     pub(super) fn read(command: &ManeuverCommand) -> Self {
-        let constraints = command.constraints.as_ref();
-        let speed = constraints.and_then(|constraints| constraints.maximum_speed.as_ref());
-        let distance =
-            constraints.and_then(|constraints| constraints.minimum_pedestrian_distance.as_ref());
+        let constraints = command.constraints;
+        let speed = constraints.and_then(|constraints| constraints.maximum_speed);
+        let distance = constraints.and_then(|constraints| constraints.minimum_pedestrian_distance);
+        let heading = command.target_heading;
+        let validity = command.validity_duration;
         Self {
-            target: command.target.as_ref().and_then(Target::from_wire),
-            heading: command
-                .target_heading
-                .as_ref()
-                .and_then(|angle| si::angle_degrees(angle.0)),
-            maximum_speed: speed.and_then(|speed| si::MAXIMUM_SPEED.decode(speed.0)),
+            target: command.target.and_then(Target::from_wire),
+            heading: heading.and_then(|angle| si::angle_degrees(angle.get())),
+            maximum_speed: speed.and_then(|speed| si::MAXIMUM_SPEED.decode(speed.get())),
             minimum_pedestrian_distance: distance
-                .map(|metres| si::MINIMUM_DISTANCE.decode(metres.0)),
-            validity: command
-                .validity_duration
-                .as_ref()
-                .map(|duration| Millis(duration.0)),
+                .map(|metres| si::MINIMUM_DISTANCE.decode(metres.get())),
+            validity: validity.map(|duration| Millis(duration.get())),
         }
     }
 }
@@ -206,23 +206,27 @@ impl TaskParameters {
 impl MapPlace {
     pub(super) fn to_wire(self) -> MapReference {
         match self {
-            Self::RoadSegment { region, id } => MapReference::roadsegment(
-                RoadSegmentReferenceId::new(region.map(Identifier2B), Identifier2B(id)),
-            ),
-            Self::Intersection { region, id } => MapReference::intersection(
-                IntersectionReferenceId::new(region.map(Identifier2B), Identifier2B(id)),
-            ),
+            Self::RoadSegment { region, id } => MapReference::Roadsegment(RoadSegmentReferenceId {
+                region: region.map(Identifier2B),
+                id: Identifier2B(id),
+            }),
+            Self::Intersection { region, id } => {
+                MapReference::Intersection(IntersectionReferenceId {
+                    region: region.map(Identifier2B),
+                    id: Identifier2B(id),
+                })
+            }
         }
     }
 
-    pub(super) fn from_wire(reference: &MapReference) -> Self {
+    pub(super) fn from_wire(reference: MapReference) -> Self {
         match reference {
-            MapReference::roadsegment(segment) => Self::RoadSegment {
-                region: segment.region.as_ref().map(|region| region.0),
+            MapReference::Roadsegment(segment) => Self::RoadSegment {
+                region: segment.region.map(|region| region.0),
                 id: segment.id.0,
             },
-            MapReference::intersection(intersection) => Self::Intersection {
-                region: intersection.region.as_ref().map(|region| region.0),
+            MapReference::Intersection(intersection) => Self::Intersection {
+                region: intersection.region.map(|region| region.0),
                 id: intersection.id.0,
             },
         }

@@ -11,11 +11,13 @@ use rasn::error::DecodeError;
 use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
 use rasn::{Codec, Decode};
 
+use super::reference::Reference;
+
 type Result<T> = std::result::Result<T, DecodeError>;
 
 /// A message that `seed` stands for, with the header that `identifiers` give it.
-pub fn message<M: Pdu>(identifiers: &Identifiers, seed: u64) -> M {
-    let (protocol_version, message_id) = M::expected_header(identifiers);
+pub fn message<M: Reference>(identifiers: &Identifiers, seed: u64) -> M {
+    let (protocol_version, message_id) = M::Message::expected_header(identifiers);
     // The first two numbers of a message are those of its header.
     let forced = vec![message_id.into(), protocol_version.into()];
     M::decode(&mut Imagination { seed, forced }).expect("every type is supported")

@@ -7,6 +7,7 @@
 
 pub mod arbitrary;
 pub mod core;
+pub mod reference;
 pub mod samples;
 pub mod views;
 

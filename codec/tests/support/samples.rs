@@ -1,21 +1,20 @@
 //! Typical and largest messages.
 
-use crossguard_codec::asn1::cdd::{
+use crossguard_codec::core::cdd::{
     AccelerationChange, AccelerationChangeIndication, CardinalNumber1B, CartesianCoordinate,
     CartesianPosition3d, DeltaAltitude, DeltaLatitude, DeltaLongitude, DeltaReferencePosition,
     DeltaTimeSecond, DeltaTimeTenthOfSecond, HeadingChangeIndication, HeadingValue, Identifier1B,
     PathDeltaTime, PathDeltaTimeChoice, PathHistory, PathPoint, PathPointPredicted, PathPredicted,
-    PolygonalShape, PosConfidenceEllipse, SafeDistanceIndication, SafeDistanceIndicator,
-    SemiAxisLength, SequenceOfSafeDistanceIndication, SequenceOfTrajectoryInterceptionIndication,
-    Shape, StabilityChangeIndication, StabilityLossProbability, StandardLength9b,
-    StandardLength12b, StationId as WireStationId, TrajectoryInterceptionConfidence,
-    TrajectoryInterceptionIndication, TrajectoryInterceptionProbability, TurningDirection,
-    VruClusterInformation, VruClusterProfiles,
+    PolygonCorners, PolygonalShape, PosConfidenceEllipse, SafeDistanceIndication, SemiAxisLength,
+    SequenceOfSafeDistanceIndication, SequenceOfTrajectoryInterceptionIndication, Shape,
+    StabilityChangeIndication, StabilityLossProbability, StandardLength9b, StandardLength12b,
+    StationId as WireStationId, TrajectoryInterceptionConfidence, TrajectoryInterceptionIndication,
+    TrajectoryInterceptionProbability, TurningDirection, VruClusterInformation, VruClusterProfiles,
 };
-use crossguard_codec::asn1::ram::RAM;
-use crossguard_codec::asn1::rmcm::RMCM;
-use crossguard_codec::asn1::vam::{VruClusterInformationContainer, VruMotionPredictionContainer};
-use crossguard_codec::asn1::{cdd, common, ram};
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::core::rmcm::RMCM;
+use crossguard_codec::core::vam::{VruClusterInformationContainer, VruMotionPredictionContainer};
+use crossguard_codec::core::{Uper, cdd, common, ram};
 use crossguard_codec::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, Identifiers,
     JobRole, Lights, MapPlace, Measurement, Message, PATH_HISTORY_MAX, PATH_PREDICTION_MAX,
@@ -260,85 +259,89 @@ pub fn failed_view() -> Ram {
 }
 
 fn largest_cluster() -> VruClusterInformationContainer {
-    let coordinate = || CartesianCoordinate(-32_768);
-    let corner = || CartesianPosition3d::new(coordinate(), coordinate(), Some(coordinate()));
-    let corners = (0..16).map(|_| corner()).collect();
-    let polygon = PolygonalShape::new(Some(corner()), corners, Some(StandardLength12b(4_095)));
-    VruClusterInformationContainer::new(VruClusterInformation::new(
-        Some(Identifier1B(255)),
-        Some(Shape::polygonal(polygon)),
-        CardinalNumber1B(255),
-        Some(VruClusterProfiles(rasn::types::FixedBitString::ZERO)),
-    ))
-}
-
-fn tenths() -> DeltaTimeTenthOfSecond {
-    DeltaTimeTenthOfSecond(127)
+    let coordinate = CartesianCoordinate(-32_768);
+    let corner = CartesianPosition3d {
+        x_coordinate: coordinate,
+        y_coordinate: coordinate,
+        z_coordinate: Some(coordinate),
+    };
+    let polygon = PolygonalShape {
+        shape_reference_point: Some(corner),
+        polygon: PolygonCorners::new(&[corner; PolygonCorners::CAPACITY]).unwrap(),
+        height: StandardLength12b::new(4_095),
+    };
+    VruClusterInformationContainer {
+        vru_cluster_information: VruClusterInformation {
+            cluster_id: Some(Identifier1B(255)),
+            cluster_bounding_box_shape: Some(Shape::Polygonal(polygon)),
+            cluster_cardinality_size: CardinalNumber1B(255),
+            cluster_profiles: Some(VruClusterProfiles::LOWEST),
+        },
+    }
 }
 
 fn past_point() -> PathPoint {
-    let position = DeltaReferencePosition::new(
-        DeltaLatitude(-131_071),
-        DeltaLongitude(131_072),
-        DeltaAltitude(12_800),
-    );
-    PathPoint::new(position, Some(PathDeltaTime(65_535.into())))
+    PathPoint {
+        path_position: DeltaReferencePosition {
+            delta_latitude: DeltaLatitude::new(-131_071).unwrap(),
+            delta_longitude: DeltaLongitude::new(131_072).unwrap(),
+            delta_altitude: DeltaAltitude::new(12_800).unwrap(),
+        },
+        path_delta_time: PathDeltaTime::new(65_535),
+    }
 }
 
 fn predicted_point() -> PathPointPredicted {
-    let ellipse = PosConfidenceEllipse::new(
-        SemiAxisLength(4_095),
-        SemiAxisLength(0),
-        HeadingValue(3_601),
-    );
-    PathPointPredicted::new(
-        DeltaLatitude(131_072),
-        DeltaLongitude(-131_071),
-        Some(ellipse),
-        DeltaAltitude(-12_700),
-        cdd::AltitudeConfidence::outOfRange,
-        Some(PathDeltaTimeChoice::deltaTimeMidRange(DeltaTimeSecond(
-            86_400,
-        ))),
-        Some(StandardLength9b(511)),
-        Some(StandardLength9b(511)),
-    )
+    PathPointPredicted {
+        delta_latitude: DeltaLatitude::new(131_072).unwrap(),
+        delta_longitude: DeltaLongitude::new(-131_071).unwrap(),
+        horizontal_position_confidence: Some(PosConfidenceEllipse {
+            semi_major_confidence: SemiAxisLength::new(4_095).unwrap(),
+            semi_minor_confidence: SemiAxisLength::new(0).unwrap(),
+            semi_major_orientation: HeadingValue::new(3_601).unwrap(),
+        }),
+        delta_altitude: DeltaAltitude::new(-12_700).unwrap(),
+        altitude_confidence: cdd::AltitudeConfidence::OutOfRange,
+        path_delta_time: DeltaTimeSecond::new(86_400).map(PathDeltaTimeChoice::DeltaTimeMidRange),
+        symmetric_area_offset: StandardLength9b::new(511),
+        asymmetric_area_offset: StandardLength9b::new(511),
+    }
 }
 
 fn largest_prediction() -> VruMotionPredictionContainer {
-    let station = || Some(WireStationId(u32::MAX));
-    let safe = || SafeDistanceIndicator(true);
-    let distance = || SafeDistanceIndication::new(station(), safe(), Some(tenths()));
-    let interception = || {
-        let probability = TrajectoryInterceptionProbability(63);
-        let confidence = Some(TrajectoryInterceptionConfidence(3));
-        TrajectoryInterceptionIndication::new(station(), probability, confidence)
+    let tenths = DeltaTimeTenthOfSecond::new(127);
+    let action_delta_time = tenths.unwrap();
+    let subject_station = Some(WireStationId(u32::MAX));
+    let distance = SafeDistanceIndication {
+        subject_station,
+        safe_distance_indicator: true,
+        time_to_collision: tenths,
     };
-    let eight = 0..8;
-    let distances = eight.clone().map(|_| distance()).collect();
-    let interceptions = eight.map(|_| interception()).collect();
-    let history = (0..PATH_HISTORY_MAX).map(|_| past_point()).collect();
-    let path = (0..PATH_PREDICTION_MAX)
-        .map(|_| predicted_point())
-        .collect();
-    VruMotionPredictionContainer::new(
-        Some(PathHistory(history)),
-        Some(PathPredicted(path)),
-        Some(SequenceOfSafeDistanceIndication(distances)),
-        Some(SequenceOfTrajectoryInterceptionIndication(interceptions)),
-        Some(AccelerationChangeIndication::new(
-            AccelerationChange::decelerate,
-            tenths(),
-        )),
-        Some(HeadingChangeIndication::new(
-            TurningDirection::right,
-            tenths(),
-        )),
-        Some(StabilityChangeIndication::new(
-            StabilityLossProbability(63),
-            tenths(),
-        )),
-    )
+    let interception = TrajectoryInterceptionIndication {
+        subject_station,
+        trajectory_interception_probability: TrajectoryInterceptionProbability::new(63).unwrap(),
+        trajectory_interception_confidence: TrajectoryInterceptionConfidence::new(3),
+    };
+    VruMotionPredictionContainer {
+        path_history: PathHistory::new(&[past_point(); PATH_HISTORY_MAX]),
+        path_prediction: PathPredicted::new(&[predicted_point(); PATH_PREDICTION_MAX]),
+        safe_distance: SequenceOfSafeDistanceIndication::new(&[distance; 8]),
+        trajectory_interception_indication: SequenceOfTrajectoryInterceptionIndication::new(
+            &[interception; 8],
+        ),
+        acceleration_change_indication: Some(AccelerationChangeIndication {
+            accel_or_decel: AccelerationChange::Decelerate,
+            action_delta_time,
+        }),
+        heading_change_indication: Some(HeadingChangeIndication {
+            direction: TurningDirection::Right,
+            action_delta_time,
+        }),
+        stability_change_indication: Some(StabilityChangeIndication {
+            loss_probability: StabilityLossProbability::new(63).unwrap(),
+            action_delta_time,
+        }),
+    }
 }
 
 /// An RMCM with everything in it.
@@ -385,13 +388,13 @@ pub fn golden(identifiers: &Identifiers) -> Vec<(&'static str, Message)> {
             time,
             with_low_frequency,
         );
-        (name, Message::Ram(Box::new(ram.unwrap())))
+        (name, Message::Ram(ram.unwrap()))
     });
     let rmcms = [
         ("commands", typical_rmcm(identifiers)),
         ("acknowledges", answer_rmcm(identifiers)),
     ];
-    let rmcms = rmcms.map(|(name, rmcm)| (name, Message::Rmcm(Box::new(rmcm))));
+    let rmcms = rmcms.map(|(name, rmcm)| (name, Message::Rmcm(rmcm)));
     rams.chain(rmcms).collect()
 }
 
@@ -456,10 +459,13 @@ pub fn set_progress(ram: &mut RAM, progress: ram::CommandProgress) {
         .ram_parameters
         .robot_leader_follower_operation_container
         .as_mut();
-    let Some(ram::SessionRole::follower(follower)) =
+    let Some(ram::SessionRole::Follower(follower)) =
         operation.and_then(|operation| operation.role.as_mut())
     else {
         panic!("not the RAM of a follower");
     };
-    follower.last_command = Some(ram::CommandReport::new(common::RequestId(3), progress));
+    follower.last_command = Some(ram::CommandReport {
+        request_id: common::RequestId(3),
+        progress,
+    });
 }

@@ -14,6 +14,7 @@ use crossguard_model_check::paper;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
 use crossguard_model_check::scenario::{Scenario, ScenarioError};
+use crossguard_model_check::timed::{self, Figure};
 use crossguard_model_check::transitions::Transitions;
 use crossguard_model_check::{export, universe};
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -187,15 +188,24 @@ fn options(arguments: &Arguments) -> Options {
 
 fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
     let bar = progress_bar(arguments.json, &scenario);
-    let report = check(
-        &Model::new(scenario),
-        &options(arguments),
-        &mut |progress| {
-            show(&bar, progress);
-        },
-    );
+    let mut watch = |progress| show(&bar, progress);
+    let report = match timed::Model::new(scenario.clone()) {
+        Some(model) => timed::check(&model, &options(arguments), &mut watch),
+        None => check(&Model::new(scenario), &options(arguments), &mut watch),
+    };
     bar.finish_and_clear();
     report
+}
+
+/// A scenario for what only the untimed model can do.
+pub(super) fn untimed(scenario: Scenario) -> Result<Scenario, Failure> {
+    if scenario.timed.is_some() {
+        let name = &scenario.name;
+        return Err(Failure::input(format!(
+            "'{name}' is a timed scenario: it can be checked, and nothing else"
+        )));
+    }
+    Ok(scenario)
 }
 
 /// How much of the state diagram these scenarios reach together.
@@ -228,7 +238,7 @@ fn export_one(
     };
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
     let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
-    let model = Model::new(*scenario);
+    let model = Model::new(untimed(*scenario)?);
     let cut_off = export::export(&model, &options(arguments), format, &mut to).map_err(cannot)?;
     to.flush().map_err(cannot)?;
     match cut_off {
@@ -247,7 +257,8 @@ fn replay_one(arguments: &Arguments, file: &Path) -> Result<(), Failure> {
         [name] => name,
         _ => return Err(Failure::input("--replay wants one scenario")),
     };
-    let model = Model::new(Scenario::load(name).map_err(Failure::input)?);
+    let scenario = Scenario::load(name).map_err(Failure::input)?;
+    let model = Model::new(untimed(scenario)?);
     let line = |step: usize| {
         let robots = names(model.scenario());
         format!("{}. {}", step + 1, replay.steps[step].line(&robots))
@@ -372,6 +383,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
     for line in table.lines() {
         print(format_args!("  {}", line.trim_end()))?;
     }
+    print_figures(&report.figures)?;
     for property in &report.properties {
         print_counterexample(report, property)?;
     }
@@ -380,6 +392,23 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         print(format_args!("  - {assumption}"))?;
     }
     print("")
+}
+
+fn print_figures(figures: &[Figure]) -> Result<(), Failure> {
+    if figures.is_empty() {
+        return Ok(());
+    }
+    print("  longest times:")?;
+    for figure in figures {
+        let found = figure
+            .ms
+            .map_or_else(|| "none".to_owned(), |ms| format!("{ms} ms"));
+        print(format_args!(
+            "  {:<54} {found:>7}, by calculation at most {} ms",
+            figure.name, figure.bound_ms
+        ))?;
+    }
+    Ok(())
 }
 
 fn verdict(report: &ScenarioReport, verdict: Verdict) -> &'static str {

@@ -19,6 +19,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scenario = Scenario::load(&arguments.scenario).map_err(Failure::input)?;
+    let scenario = super::check::untimed(scenario)?;
     let address = arguments.address;
     let explorer = Explorer::new(scenario, address)
         .map_err(|cause| Failure::input(format!("{address}: {cause}")))?;

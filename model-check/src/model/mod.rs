@@ -283,6 +283,11 @@ impl Model {
         }
     }
 
+    /// Whether the fate of some message is to be decided before anything else.
+    pub(crate) fn is_on_air(&self, state: &State) -> bool {
+        self.network(state).next_on_air().is_some()
+    }
+
     /// Everything that may happen in `state` once nothing is on air any more.
     pub(crate) fn actions_off_air(&self, state: &State, actions: &mut Vec<Action>) {
         for transmission in self.network(state).delayed() {

@@ -119,6 +119,7 @@ pub fn check() -> ScenarioReport {
         cut_off: is_p0_broken.then_some(CutOff::FoundBroken),
         size_as_expected: None,
         properties,
+        figures: Vec::new(),
         assumptions: assumptions(),
         // It is another state diagram.
         transitions_taken: Transitions::default(),

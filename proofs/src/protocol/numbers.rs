@@ -19,7 +19,7 @@ harnesses! {
     }
 
     /// All triples of request numbers of one session.
-    #[unwind(1)]
+    #[unwind(6)]
     #[solver(cadical)]
     fn requests_of_a_session_are_transitive() {
         let [first, a, b, c] = kani::any::<[u8; 4]>().map(RequestId);
@@ -40,7 +40,7 @@ harnesses! {
     }
 
     /// All triples of heartbeats of one session.
-    #[unwind(1)]
+    #[unwind(6)]
     #[solver(cadical)]
     fn heartbeats_of_a_session_are_transitive() {
         let [first, a, b, c] = kani::any::<[u16; 4]>().map(Heartbeat);

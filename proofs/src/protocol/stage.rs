@@ -21,9 +21,10 @@ pub(super) fn any_valid(config: &Config, stage: Stage, peers: usize) -> Robot {
     robot
 }
 
-/// Any input of this kind in any valid state of the stage: all laws of one step hold.
+/// Any input of this kind in any valid state of the stage, with the default configuration: all laws of
+/// one step hold.
 pub(super) fn any_step(stage: Stage, peers: usize, kind: Kind) -> Taken {
-    let config = any_config();
+    let config = Config::default();
     let robot = any_valid(&config, stage, peers);
     let input = arbitrary::input(&mut Symbolic, kind);
     let step = Taken::new(&config, robot, input);

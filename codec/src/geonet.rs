@@ -1,0 +1,175 @@
+//! The headers under a message: `GeoNetworking` and BTP-B.
+//!
+//! Basic header, common header, the extended headers of single-hop broadcast (SHB) and geo-broadcast
+//! (GBC) of EN 302 636-4-1, and BTP-B of EN 302 636-5-1. Without heap and without the standard
+//! library. Not for other transports, and not for the security envelope, which stands between basic
+//! and common header.
+//!
+//! ```text
+//!  octet 0        4         12                    36        40      44
+//!        ├ basic ─┼ common ─┼ source position ────┼ media ──┼ BTP-B ┼ payload     SHB
+//!        ├ basic ─┼ common ─┼ number ┼ source position ┼ area ──┼ BTP-B ┼ payload  GBC
+//!                           12       16                40       56      60
+//! ```
+//!
+//! [`Headers::decode`] accepts exactly what [`Headers::encode`] gives: reserved bits are zero, and the
+//! payload length is that of what follows. All integers are big-endian.
+
+mod codec;
+mod error;
+#[cfg(feature = "laws")]
+#[doc(hidden)]
+pub mod laws;
+
+pub use codec::Encoded;
+pub use error::{Field, GeonetError};
+
+/// The longest headers, those of a geo-broadcast, in octets.
+pub const HEADERS_LEN_MAX: usize = 60;
+
+/// The headers of a packet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Headers {
+    /// How long the packet may live.
+    pub lifetime: Lifetime,
+    /// Over how many hops it may yet go, at most [`maximum_hop_limit`](Self::maximum_hop_limit).
+    pub remaining_hop_limit: u8,
+    /// Over how many hops it could go when it was sent; 1 for single-hop broadcast.
+    pub maximum_hop_limit: u8,
+    /// Its traffic class.
+    pub traffic_class: TrafficClass,
+    /// Whether its source can move, `itsGnIsMobile`.
+    pub is_mobile: bool,
+    /// Where its source is.
+    pub source: LongPositionVector,
+    /// To whom it goes.
+    pub transport: Transport,
+    /// BTP-B destination port; see TS 103 248 for those that are assigned.
+    pub port: u16,
+    /// BTP-B destination port info, 0 unless the port defines it.
+    pub port_info: u16,
+}
+
+/// The lifetime of a packet, a multiple of its base.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Lifetime {
+    /// 0..63.
+    pub multiplier: u8,
+    /// What is multiplied.
+    pub base: LifetimeBase,
+}
+
+/// The base of a [`Lifetime`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LifetimeBase {
+    /// 50 ms.
+    FiftyMilliseconds,
+    /// 1 s.
+    OneSecond,
+    /// 10 s.
+    TenSeconds,
+    /// 100 s.
+    HundredSeconds,
+}
+
+/// The traffic class of a packet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TrafficClass {
+    /// Whether a forwarder keeps it until there is a neighbour (SCF).
+    pub store_carry_forward: bool,
+    /// Whether it may go over another channel.
+    pub channel_offload: bool,
+    /// 0..63; 0..3 are the DCC profiles DP0..DP3.
+    pub id: u8,
+}
+
+/// A `GeoNetworking` address.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Address {
+    /// Whether it was configured by hand.
+    pub is_manual: bool,
+    /// `StationType` of the common data dictionary, 0..31.
+    pub station_type: u8,
+    /// 10 bits that are reserved, and a country code in older versions: 0..1023.
+    pub country_code: u16,
+    /// Link-layer address.
+    pub link_layer: [u8; 6],
+}
+
+/// Where and how fast a station was at a time.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct LongPositionVector {
+    /// The station.
+    pub address: Address,
+    /// `TimestampIts` modulo 2^32, in milliseconds.
+    pub timestamp: u32,
+    /// 10^-7 degree, north positive.
+    pub latitude: i32,
+    /// 10^-7 degree, east positive.
+    pub longitude: i32,
+    /// Position accuracy indicator (PAI).
+    pub is_accurate: bool,
+    /// 0.01 m/s, -16384..16383.
+    pub speed: i16,
+    /// 0.1 degree, clockwise from north.
+    pub heading: u16,
+}
+
+/// To whom a packet goes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Transport {
+    /// To everybody who hears it.
+    SingleHop {
+        /// Media-dependent data; that of ITS-G5 is in TS 102 636-4-2, zeros are fine.
+        media: [u8; 4],
+    },
+    /// To everybody in an area.
+    GeoBroadcast {
+        /// Number of the packet, for the detection of duplicates.
+        sequence_number: u16,
+        /// The area.
+        area: Area,
+    },
+}
+
+/// A destination area.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Area {
+    /// Its shape.
+    pub shape: Shape,
+    /// Latitude of its centre, 10^-7 degree, north positive.
+    pub latitude: i32,
+    /// Longitude of its centre, 10^-7 degree, east positive.
+    pub longitude: i32,
+    /// Radius, or half of the long side or axis, in metres.
+    pub distance_a: u16,
+    /// 0, or half of the short side or axis, in metres.
+    pub distance_b: u16,
+    /// Of the long side or axis, in degrees clockwise from north.
+    pub angle: u16,
+}
+
+/// The shape of an [`Area`] (EN 302 931).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Shape {
+    /// A circle.
+    Circle,
+    /// A rectangle.
+    Rectangle,
+    /// An ellipse.
+    Ellipse,
+}
+
+impl Lifetime {
+    /// The lifetime in milliseconds.
+    #[must_use]
+    pub const fn milliseconds(self) -> u32 {
+        let base = match self.base {
+            LifetimeBase::FiftyMilliseconds => 50,
+            LifetimeBase::OneSecond => 1_000,
+            LifetimeBase::TenSeconds => 10_000,
+            LifetimeBase::HundredSeconds => 100_000,
+        };
+        self.multiplier as u32 * base
+    }
+}

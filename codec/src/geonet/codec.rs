@@ -1,0 +1,383 @@
+//! Headers from octets and to octets.
+
+use super::{
+    Address, Area, Field, GeonetError, HEADERS_LEN_MAX, Headers, Lifetime, LifetimeBase,
+    LongPositionVector, Shape, TrafficClass, Transport,
+};
+
+/// Version 1, common header next.
+const BASIC_COMMON: u8 = 0x11;
+/// Version 1, secured packet next.
+const BASIC_SECURED: u8 = 0x12;
+/// BTP-B next.
+const BTP_B: u8 = 0x20;
+/// Header types and subtypes.
+const SINGLE_HOP: u8 = 0x50;
+const BROADCAST_CIRCLE: u8 = 0x40;
+const BROADCAST_RECTANGLE: u8 = 0x41;
+const BROADCAST_ELLIPSE: u8 = 0x42;
+/// The flag of a mobile station.
+const MOBILE: u8 = 0x80;
+/// Octets of BTP-B, which the payload length counts.
+const BTP_LEN: usize = 4;
+
+/// The octets of headers.
+#[derive(Clone, Copy, Debug)]
+pub struct Encoded {
+    octets: [u8; HEADERS_LEN_MAX],
+    length: usize,
+}
+
+impl AsRef<[u8]> for Encoded {
+    fn as_ref(&self) -> &[u8] {
+        &self.octets[..self.length]
+    }
+}
+
+/// Octets that are yet to be read.
+struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn array<const N: usize>(&mut self, field: Field) -> Result<[u8; N], GeonetError> {
+        let (first, rest) = self
+            .0
+            .split_first_chunk()
+            .ok_or(GeonetError::Truncated { field })?;
+        self.0 = rest;
+        Ok(*first)
+    }
+
+    fn u8(&mut self, field: Field) -> Result<u8, GeonetError> {
+        self.array(field).map(u8::from_be_bytes)
+    }
+
+    fn u16(&mut self, field: Field) -> Result<u16, GeonetError> {
+        self.array(field).map(u16::from_be_bytes)
+    }
+
+    fn i32(&mut self, field: Field) -> Result<i32, GeonetError> {
+        self.array(field).map(i32::from_be_bytes)
+    }
+
+    /// Octets that are zero.
+    fn zero_u8(&mut self, field: Field) -> Result<(), GeonetError> {
+        expect(field, self.u8(field)?.into(), 0)
+    }
+
+    fn zero_u16(&mut self, field: Field) -> Result<(), GeonetError> {
+        expect(field, self.u16(field)?, 0)
+    }
+}
+
+fn expect(field: Field, found: u16, expected: u16) -> Result<(), GeonetError> {
+    if found == expected {
+        Ok(())
+    } else {
+        Err(GeonetError::Value { field, found })
+    }
+}
+
+/// `value`, if it fits in `bits`.
+fn fitting(field: Field, value: u16, bits: u32) -> Result<u16, GeonetError> {
+    if value >> bits == 0 {
+        Ok(value)
+    } else {
+        Err(GeonetError::Value {
+            field,
+            found: value,
+        })
+    }
+}
+
+/// Octets that are being written. The longest headers fit.
+struct Writer(Encoded);
+
+impl Writer {
+    fn put<const N: usize>(&mut self, octets: [u8; N]) {
+        let Encoded {
+            octets: all,
+            length,
+        } = &mut self.0;
+        if let Some(to) = all.get_mut(*length..*length + N) {
+            to.copy_from_slice(&octets);
+            *length += N;
+        }
+    }
+}
+
+impl Headers {
+    /// Reads the headers of a packet, and gives what follows them.
+    ///
+    /// # Errors
+    /// What is wrong with which field. [`GeonetError::Secured`] where a security envelope follows the
+    /// basic header.
+    pub fn decode(packet: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
+        let reader = &mut Reader(packet);
+        let (lifetime, remaining_hop_limit) = decode_basic(reader)?;
+        let next = reader.u8(Field::CommonNextHeader)?;
+        expect(Field::CommonNextHeader, next.into(), BTP_B.into())?;
+        let header_type = reader.u8(Field::HeaderType)?;
+        let shape = shape_of(header_type)?;
+        let traffic_class = TrafficClass::of_octet(reader.u8(Field::TrafficClass)?);
+        let flags = reader.u8(Field::Flags)?;
+        expect(Field::Flags, (flags & !MOBILE).into(), 0)?;
+        let announced = reader.u16(Field::PayloadLength)?;
+        let maximum_hop_limit = reader.u8(Field::MaximumHopLimit)?;
+        hops_are_possible(remaining_hop_limit, maximum_hop_limit)?;
+        reader.zero_u8(Field::CommonReserved)?;
+        let (source, transport) = decode_transport(reader, shape)?;
+        let present = reader.0.len();
+        let port = reader.u16(Field::Port)?;
+        let port_info = reader.u16(Field::PortInfo)?;
+        if usize::from(announced) != present {
+            return Err(GeonetError::PayloadLength { announced, present });
+        }
+        let headers = Self {
+            lifetime,
+            remaining_hop_limit,
+            maximum_hop_limit,
+            traffic_class,
+            is_mobile: flags == MOBILE,
+            source,
+            transport,
+            port,
+            port_info,
+        };
+        Ok((headers, reader.0))
+    }
+
+    /// The octets of the headers, to be followed by a payload of this length.
+    ///
+    /// # Errors
+    /// The field whose value does not fit in its bits.
+    pub fn encode(&self, payload_length: usize) -> Result<Encoded, GeonetError> {
+        hops_are_possible(self.remaining_hop_limit, self.maximum_hop_limit)?;
+        let announced = u16::try_from(payload_length.saturating_add(BTP_LEN));
+        let announced = announced.map_err(|_| GeonetError::PayloadLength {
+            announced: u16::MAX,
+            present: payload_length,
+        })?;
+        let mut writer = Writer(Encoded {
+            octets: [0; HEADERS_LEN_MAX],
+            length: 0,
+        });
+        let header_type = match self.transport {
+            Transport::SingleHop { .. } => SINGLE_HOP,
+            Transport::GeoBroadcast { area, .. } => area.shape.header_type(),
+        };
+        let lifetime = self.lifetime.octet()?;
+        writer.put([BASIC_COMMON, 0, lifetime, self.remaining_hop_limit]);
+        let flags = if self.is_mobile { MOBILE } else { 0 };
+        writer.put([BTP_B, header_type, self.traffic_class.octet()?, flags]);
+        writer.put(announced.to_be_bytes());
+        writer.put([self.maximum_hop_limit, 0]);
+        match self.transport {
+            Transport::SingleHop { media } => {
+                self.source.encode(&mut writer)?;
+                writer.put(media);
+            }
+            Transport::GeoBroadcast {
+                sequence_number,
+                area,
+            } => {
+                writer.put(sequence_number.to_be_bytes());
+                writer.put([0; 2]);
+                self.source.encode(&mut writer)?;
+                area.encode(&mut writer);
+            }
+        }
+        writer.put(self.port.to_be_bytes());
+        writer.put(self.port_info.to_be_bytes());
+        Ok(writer.0)
+    }
+}
+
+fn decode_basic(reader: &mut Reader) -> Result<(Lifetime, u8), GeonetError> {
+    let next = reader.u8(Field::BasicNextHeader)?;
+    if next == BASIC_SECURED {
+        return Err(GeonetError::Secured);
+    }
+    expect(Field::BasicNextHeader, next.into(), BASIC_COMMON.into())?;
+    reader.zero_u8(Field::BasicReserved)?;
+    let lifetime = Lifetime::of_octet(reader.u8(Field::Lifetime)?);
+    let remaining_hop_limit = reader.u8(Field::RemainingHopLimit)?;
+    Ok((lifetime, remaining_hop_limit))
+}
+
+fn decode_transport(
+    reader: &mut Reader,
+    shape: Option<Shape>,
+) -> Result<(LongPositionVector, Transport), GeonetError> {
+    let Some(shape) = shape else {
+        let source = LongPositionVector::decode(reader)?;
+        let media = reader.array(Field::Media)?;
+        return Ok((source, Transport::SingleHop { media }));
+    };
+    let sequence_number = reader.u16(Field::SequenceNumber)?;
+    reader.zero_u16(Field::SequenceReserved)?;
+    let source = LongPositionVector::decode(reader)?;
+    let area = Area::decode(reader, shape)?;
+    let transport = Transport::GeoBroadcast {
+        sequence_number,
+        area,
+    };
+    Ok((source, transport))
+}
+
+/// The shape of a geo-broadcast's area, `None` for single-hop broadcast.
+fn shape_of(header_type: u8) -> Result<Option<Shape>, GeonetError> {
+    match header_type {
+        SINGLE_HOP => Ok(None),
+        BROADCAST_CIRCLE => Ok(Some(Shape::Circle)),
+        BROADCAST_RECTANGLE => Ok(Some(Shape::Rectangle)),
+        BROADCAST_ELLIPSE => Ok(Some(Shape::Ellipse)),
+        found => Err(GeonetError::Value {
+            field: Field::HeaderType,
+            found: found.into(),
+        }),
+    }
+}
+
+/// A packet cannot have more hops left than it had in the beginning.
+fn hops_are_possible(remaining: u8, maximum: u8) -> Result<(), GeonetError> {
+    if remaining <= maximum {
+        return Ok(());
+    }
+    Err(GeonetError::Value {
+        field: Field::RemainingHopLimit,
+        found: remaining.into(),
+    })
+}
+
+impl Shape {
+    const fn header_type(self) -> u8 {
+        match self {
+            Self::Circle => BROADCAST_CIRCLE,
+            Self::Rectangle => BROADCAST_RECTANGLE,
+            Self::Ellipse => BROADCAST_ELLIPSE,
+        }
+    }
+}
+
+impl Lifetime {
+    const fn of_octet(octet: u8) -> Self {
+        let base = match octet & 0b11 {
+            0 => LifetimeBase::FiftyMilliseconds,
+            1 => LifetimeBase::OneSecond,
+            2 => LifetimeBase::TenSeconds,
+            _ => LifetimeBase::HundredSeconds,
+        };
+        let multiplier = octet >> 2;
+        Self { multiplier, base }
+    }
+
+    fn octet(self) -> Result<u8, GeonetError> {
+        fitting(Field::Lifetime, self.multiplier.into(), 6)?;
+        let base = match self.base {
+            LifetimeBase::FiftyMilliseconds => 0,
+            LifetimeBase::OneSecond => 1,
+            LifetimeBase::TenSeconds => 2,
+            LifetimeBase::HundredSeconds => 3,
+        };
+        Ok(self.multiplier << 2 | base)
+    }
+}
+
+impl TrafficClass {
+    const fn of_octet(octet: u8) -> Self {
+        Self {
+            store_carry_forward: octet & 0x80 != 0,
+            channel_offload: octet & 0x40 != 0,
+            id: octet & 0x3F,
+        }
+    }
+
+    fn octet(self) -> Result<u8, GeonetError> {
+        fitting(Field::TrafficClass, self.id.into(), 6)?;
+        let flags = u8::from(self.store_carry_forward) << 7 | u8::from(self.channel_offload) << 6;
+        Ok(flags | self.id)
+    }
+}
+
+impl Address {
+    fn decode(reader: &mut Reader) -> Result<Self, GeonetError> {
+        let bits = reader.u16(Field::Address)?;
+        let [_, station_type] = (bits >> 10 & 0x1F).to_be_bytes();
+        Ok(Self {
+            is_manual: bits & 0x8000 != 0,
+            station_type,
+            country_code: bits & 0x3FF,
+            link_layer: reader.array(Field::Address)?,
+        })
+    }
+
+    fn encode(self, writer: &mut Writer) -> Result<(), GeonetError> {
+        let station_type = fitting(Field::Address, self.station_type.into(), 5)?;
+        let country_code = fitting(Field::Address, self.country_code, 10)?;
+        let bits = u16::from(self.is_manual) << 15 | station_type << 10 | country_code;
+        writer.put(bits.to_be_bytes());
+        writer.put(self.link_layer);
+        Ok(())
+    }
+}
+
+impl LongPositionVector {
+    fn decode(reader: &mut Reader) -> Result<Self, GeonetError> {
+        let address = Address::decode(reader)?;
+        let timestamp = u32::from_be_bytes(reader.array(Field::Timestamp)?);
+        let latitude = reader.i32(Field::Position)?;
+        let longitude = reader.i32(Field::Position)?;
+        let speed = reader.u16(Field::Speed)?;
+        Ok(Self {
+            address,
+            timestamp,
+            latitude,
+            longitude,
+            is_accurate: speed & 0x8000 != 0,
+            // Its 15 bits, extended by their sign.
+            speed: (speed << 1).cast_signed() >> 1,
+            heading: reader.u16(Field::Heading)?,
+        })
+    }
+
+    fn encode(&self, writer: &mut Writer) -> Result<(), GeonetError> {
+        self.address.encode(writer)?;
+        writer.put(self.timestamp.to_be_bytes());
+        writer.put(self.latitude.to_be_bytes());
+        writer.put(self.longitude.to_be_bytes());
+        if !(-0x4000..0x4000).contains(&self.speed) {
+            return Err(GeonetError::Value {
+                field: Field::Speed,
+                found: self.speed.cast_unsigned(),
+            });
+        }
+        let speed = self.speed.cast_unsigned() & 0x7FFF;
+        writer.put((u16::from(self.is_accurate) << 15 | speed).to_be_bytes());
+        writer.put(self.heading.to_be_bytes());
+        Ok(())
+    }
+}
+
+impl Area {
+    fn decode(reader: &mut Reader, shape: Shape) -> Result<Self, GeonetError> {
+        let area = Self {
+            shape,
+            latitude: reader.i32(Field::AreaPosition)?,
+            longitude: reader.i32(Field::AreaPosition)?,
+            distance_a: reader.u16(Field::AreaDistances)?,
+            distance_b: reader.u16(Field::AreaDistances)?,
+            angle: reader.u16(Field::AreaAngle)?,
+        };
+        reader.zero_u16(Field::AreaReserved)?;
+        Ok(area)
+    }
+
+    fn encode(&self, writer: &mut Writer) {
+        writer.put(self.latitude.to_be_bytes());
+        writer.put(self.longitude.to_be_bytes());
+        writer.put(self.distance_a.to_be_bytes());
+        writer.put(self.distance_b.to_be_bytes());
+        writer.put(self.angle.to_be_bytes());
+        writer.put([0; 2]);
+    }
+}

@@ -1,0 +1,185 @@
+//! Runs the check of one timed scenario and says what came of it.
+
+use std::time::Instant;
+
+use crossguard_protocol::Outputs;
+
+use super::explore::Explored;
+use super::model::{Action, Model, State};
+use super::rules::TimedProperty;
+use super::watch::Longest;
+use crate::check::{Options, Progress, names};
+use crate::network::Transmission;
+use crate::report::{PropertyReport, ScenarioReport, Verdict};
+use crate::scenario::Size;
+use crate::sequence::{ChartStep, Fate, Place};
+use crate::transitions::Transitions;
+
+/// Checks a timed model. `watch` is told now and then how far it is. Of the options, the limits on
+/// states and time count; one thread explores.
+#[must_use]
+pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+    let start = Instant::now();
+    let (scenario, timed) = (model.scenario(), model.timed());
+    let explored = Explored::of(model, options, watch);
+    let size = Size {
+        unique_states: explored.states(),
+        depth: explored.depth,
+    };
+    let exhaustive = explored.cut_off.is_none();
+    let properties = timed.properties.iter();
+    ScenarioReport {
+        name: scenario.name.clone(),
+        summary: scenario.summary.clone(),
+        robots: names(scenario),
+        unique_states: size.unique_states,
+        transitions: explored.transitions,
+        depth: size.depth,
+        exhaustive,
+        cut_off: explored.cut_off,
+        size_as_expected: scenario
+            .expected
+            .filter(|_| exhaustive)
+            .map(|expected| expected == size),
+        properties: properties
+            .flat_map(|&id| [Some(rule(model, &explored, id)), premise(&explored, id)])
+            .flatten()
+            .collect(),
+        figures: explored
+            .longest
+            .figures(&timed.clock, &scenario.config, timed.delay),
+        assumptions: assumptions(model),
+        transitions_taken: Transitions::default(),
+        seconds: start.elapsed().as_secs_f64(),
+    }
+}
+
+fn rule(model: &Model, explored: &Explored, id: TimedProperty) -> PropertyReport {
+    let path = explored.path_to_broken(id);
+    let verdict = match (&path, explored.cut_off) {
+        (Some(_), _) => Verdict::Violated,
+        (None, Some(_)) => Verdict::Incomplete,
+        (None, None) => Verdict::Holds,
+    };
+    PropertyReport {
+        id: id.name().to_owned(),
+        kind: id.kind().to_owned(),
+        verdict,
+        statement: id.statement().to_owned(),
+        counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
+        repeats_after: None,
+    }
+}
+
+fn premise(explored: &Explored, id: TimedProperty) -> Option<PropertyReport> {
+    let verdict = match (explored.premises.met(id), explored.cut_off) {
+        (true, _) => Verdict::Reachable,
+        (false, Some(_)) => Verdict::Incomplete,
+        (false, None) => Verdict::Unreachable,
+    };
+    id.premise().map(|premise| PropertyReport {
+        id: format!("{}-premise", id.name()),
+        kind: "premise".to_owned(),
+        verdict,
+        statement: premise.to_owned(),
+        counterexample: Vec::new(),
+        repeats_after: None,
+    })
+}
+
+/// A run as a chart: what happened at which time, and what the robots put out.
+fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
+    let mut state = model.initial();
+    let mut actions = Vec::new();
+    let mut time = 0;
+    let mut steps = Vec::new();
+    for &place in path {
+        actions.clear();
+        model.actions_in(&state, &mut actions);
+        let action = actions[usize::from(place)];
+        if matches!(action, Action::Tick(_)) {
+            time += model.timed().clock.tick.0;
+        }
+        steps.extend(steps_of(model, &state, action, time));
+        let Some(next) = model.successor(&state, action, &mut Longest::default()) else {
+            break;
+        };
+        state = next;
+    }
+    steps
+}
+
+/// What an action is in a chart; a tick is a step of each robot.
+fn steps_of(model: &Model, state: &State, action: Action, time: u32) -> Vec<ChartStep> {
+    let at = |robot: u8, what: String, outputs: &[String]| ChartStep {
+        place: Place::At(robot.into()),
+        action: format!("at {time} ms: {what}"),
+        outputs: outputs.to_vec(),
+    };
+    let lines = |outputs: &Outputs| outputs.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let steps = model.outputs(state, action).into_iter();
+    let step = |(robot, outputs): (u8, Outputs)| match action {
+        Action::Deliver(flight) => {
+            let Transmission { from, to, message } = flight.transmission;
+            let delay = model.timed().clock.millis(flight.ticks).0;
+            let input = model.message(message).input();
+            let fate = if delay == 0 {
+                Fate::Arrives
+            } else {
+                Fate::ArrivesLate
+            };
+            ChartStep {
+                place: Place::Between {
+                    from: from.into(),
+                    to: to.into(),
+                    fate,
+                },
+                action: format!("at {time} ms, after {delay} ms: {input}"),
+                outputs: lines(&outputs),
+            }
+        }
+        Action::Local(_, event) => at(robot, event.to_string(), &lines(&outputs)),
+        Action::Tick(fast) => {
+            let elapsed = model.timed().clock.elapsed(fast, robot).0;
+            let what = format!("its clock shows {elapsed} ms more");
+            at(robot, what, &lines(&outputs))
+        }
+        Action::Crash(_) => at(robot, "crashes for good".to_owned(), &[]),
+    };
+    steps.map(step).collect()
+}
+
+fn assumptions(model: &Model) -> Vec<String> {
+    let (scenario, timed) = (model.scenario(), model.timed());
+    let clock = &timed.clock;
+    let drift = if clock.drifts() {
+        format!(
+            "clocks: each shows {} or {} ms of each tick, in any order; that is every clock within {} ppm, read to {} ms",
+            clock.slow.0,
+            clock.fast.0,
+            scenario.config.settings().drift_ppm,
+            clock.fast.0 - clock.slow.0,
+        )
+    } else {
+        "clocks do not drift".to_owned()
+    };
+    vec![
+        format!(
+            "timed: every robot looks once a tick of {} ms; what is due fires then",
+            clock.tick.0
+        ),
+        drift,
+        format!(
+            "channel: each message is under way from 0 to {} ms, in any order, or gets lost, per receiver",
+            timed.delay.0,
+        ),
+        format!("at most: {}; one failure in a run, after the request", scenario.bounds),
+        "applications command, and open the corridor, as soon as they may; none ends a session or closes the corridor, and no maneuver ends by itself"
+            .to_owned(),
+        "no run lasts as long as T_lock or T_exec".to_owned(),
+        "figures and bounds are true time, and of these timers; a crash stops the robot's body".to_owned(),
+        "one exploration, by the kit itself, which tells states apart exactly".to_owned(),
+        "heartbeats are counted from the oldest one in a state; states that differ in the names of sessions and offers alone count as one"
+            .to_owned(),
+    ]
+}

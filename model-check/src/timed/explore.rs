@@ -1,0 +1,189 @@
+//! The exploration of the timed model: every reachable state, breadth first.
+
+use std::collections::{HashMap, VecDeque};
+use std::time::Instant;
+
+use rustc_hash::FxBuildHasher;
+
+use super::model::{Action, Model, State};
+use super::rules::{Premises, TimedProperty};
+use super::watch::Longest;
+use crate::check::{Options, Progress};
+use crate::report::CutOff;
+
+/// What an exploration found.
+pub(super) struct Explored {
+    pub(super) transitions: usize,
+    pub(super) depth: usize,
+    pub(super) cut_off: Option<CutOff>,
+    pub(super) longest: Longest,
+    pub(super) premises: Premises,
+    /// For each state the one through which it was first reached, and by which of its actions.
+    parents: Vec<(u32, u16)>,
+    /// For each property, in the order of [`TimedProperty::ALL`], the first state that breaks it.
+    broken: [Option<u32>; TimedProperty::ALL.len()],
+    /// Transitions in which no time passes.
+    instant: Vec<(u32, u32)>,
+}
+
+impl Explored {
+    /// Explores `model`. `watch` is told now and then how far it is.
+    pub(super) fn of(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> Self {
+        let start = Instant::now();
+        let mut explored = Self::new();
+        let mut numbers: HashMap<State, u32, FxBuildHasher> = HashMap::default();
+        let mut waiting = VecDeque::new();
+        explored.add(model, model.initial(), (0, 0), &mut numbers, &mut waiting);
+        let (mut at, mut level_ends) = (0, 1);
+        let mut actions = Vec::new();
+        while let Some(state) = waiting.pop_front() {
+            if at == level_ends {
+                (explored.depth, level_ends) = (explored.depth + 1, numbers.len());
+            }
+            if at % 16_384 == 0 {
+                explored.cut_off = explored.progress(model, options, start, waiting.len(), watch);
+                if explored.cut_off.is_some() {
+                    return explored;
+                }
+            }
+            let from = number(at);
+            actions.clear();
+            model.actions_in(&state, &mut actions);
+            let mut stuck = !actions.is_empty();
+            for (i, &action) in (0..).zip(&actions) {
+                let Some(next) = model.successor(&state, action, &mut explored.longest) else {
+                    continue;
+                };
+                explored.premises.note_step(model, &state, &next);
+                let to = match numbers.get(&next) {
+                    Some(&known) => known,
+                    None => explored.add(model, next, (from, i), &mut numbers, &mut waiting),
+                };
+                stuck = false;
+                explored.transitions += 1;
+                if !matches!(action, Action::Tick(_)) {
+                    explored.instant.push((from, to));
+                }
+            }
+            if stuck {
+                explored.broken[TimedProperty::I12 as usize].get_or_insert(from);
+            }
+            at += 1;
+        }
+        drop(numbers);
+        explored.note_time_standing_still();
+        explored
+    }
+
+    fn new() -> Self {
+        Self {
+            transitions: 0,
+            depth: 0,
+            cut_off: None,
+            longest: Longest::default(),
+            premises: Premises::default(),
+            parents: Vec::new(),
+            broken: [None; TimedProperty::ALL.len()],
+            instant: Vec::new(),
+        }
+    }
+
+    fn add(
+        &mut self,
+        model: &Model,
+        state: State,
+        parent: (u32, u16),
+        numbers: &mut HashMap<State, u32, FxBuildHasher>,
+        waiting: &mut VecDeque<State>,
+    ) -> u32 {
+        let fresh = number(numbers.len());
+        self.parents.push(parent);
+        self.premises.note(model, &state);
+        for property in TimedProperty::ALL {
+            if state.broken.has(property) {
+                self.broken[property as usize].get_or_insert(fresh);
+            }
+        }
+        waiting.push_back(state.clone());
+        numbers.insert(state, fresh);
+        fresh
+    }
+
+    fn progress(
+        &self,
+        model: &Model,
+        options: &Options,
+        start: Instant,
+        frontier: usize,
+        watch: &mut dyn FnMut(Progress),
+    ) -> Option<CutOff> {
+        let states = self.states();
+        watch(Progress {
+            checked: states,
+            explored: states,
+            frontier,
+            depth: self.depth,
+            expected: model.scenario().expected.map(|size| size.unique_states),
+        });
+        if options.states_max.is_some_and(|max| states >= max) {
+            Some(CutOff::StateLimit)
+        } else if options.time_max.is_some_and(|max| start.elapsed() >= max) {
+            Some(CutOff::TimeLimit)
+        } else {
+            None
+        }
+    }
+
+    /// I12: a cycle of transitions in which no time passes would hold time up for ever. Takes away
+    /// states that no such transition leads to until none is left, or only those behind a cycle.
+    fn note_time_standing_still(&mut self) {
+        self.instant.sort_unstable();
+        let mut incoming = vec![0_u32; self.states()];
+        for &(_, to) in &self.instant {
+            incoming[to as usize] += 1;
+        }
+        let mut free: Vec<u32> = (0..number(self.states()))
+            .filter(|&state| incoming[state as usize] == 0)
+            .collect();
+        while let Some(state) = free.pop() {
+            let first = self.instant.partition_point(|&(from, _)| from < state);
+            for &(_, to) in self.instant[first..]
+                .iter()
+                .take_while(|&&(from, _)| from == state)
+            {
+                incoming[to as usize] -= 1;
+                if incoming[to as usize] == 0 {
+                    free.push(to);
+                }
+            }
+        }
+        if let Some(held) = incoming.iter().position(|&left| left > 0) {
+            self.broken[TimedProperty::I12 as usize].get_or_insert(number(held));
+        }
+    }
+
+    pub(super) const fn states(&self) -> usize {
+        self.parents.len()
+    }
+
+    /// The actions of a shortest run to a state that breaks a property, if one does.
+    pub(super) fn path_to_broken(&self, property: TimedProperty) -> Option<Vec<u16>> {
+        let mut at = self.broken[property as usize]?;
+        let mut path = Vec::new();
+        while at != 0 {
+            let (parent, action) = self.parents[at as usize];
+            path.push(action);
+            at = parent;
+        }
+        path.reverse();
+        Some(path)
+    }
+}
+
+/// A state's number.
+///
+/// # Panics
+/// When there are 2^32 states or more, far beyond what fits in memory.
+fn number(place: usize) -> u32 {
+    u32::try_from(place).expect("fewer than 2^32 states")
+}

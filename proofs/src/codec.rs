@@ -1,0 +1,5 @@
+//! Harnesses of the laws of `crossguard-codec`.
+
+pub mod geonet;
+pub mod si;
+pub mod time;
