@@ -27,10 +27,10 @@
 //!
 //! An exchange is thus an automorphism of the transition system, and it keeps the properties. Then the
 //! system of the classes is bisimilar to the one of all states: a state is reachable if and only if one
-//! of its class is, and L7 holds in both or in neither. The state that stands for a class is the one with the smallest
-//! numbers of its parts, by [`Interner`](crate::intern::Interner); which it is depends on the order in
-//! which parts were first seen, how many there are does not. Names are ranked within the station that
-//! gave them out, so ranking and exchanging commute.
+//! of its class is, and L7 holds in both or in neither. The state that stands for a class is the one with
+//! the smallest numbers of its parts, which are given in the order of first use. Which state it is depends
+//! on that order; how many there are does not. Names are ranked within the station that gave them out, so
+//! ranking and exchanging commute.
 
 use crossguard_protocol::{Renaming, StationId};
 use dashmap::DashMap;

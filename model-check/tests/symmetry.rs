@@ -139,7 +139,7 @@ fn a_claim_of_symmetry_that_is_none_is_refused_with_its_line() {
         (
             "followers = 2",
             "followers = 1",
-            "followers",
+            "followers = 1",
             "symmetric robots need followers = 2",
         ),
         (
