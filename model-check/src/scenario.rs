@@ -252,7 +252,7 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 13] = [
+const SHIPPED: [(&str, &str); 14] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -270,6 +270,10 @@ const SHIPPED: [(&str, &str); 13] = [
     (
         "team-of-four",
         include_str!("../scenarios/team-of-four.toml"),
+    ),
+    (
+        "team-symmetric",
+        include_str!("../scenarios/team-symmetric.toml"),
     ),
     (
         "timed-in-use",
