@@ -265,6 +265,28 @@ mod tests {
     }
 
     #[test]
+    fn any_receiver_of_the_first_broadcast_may_be_the_next() {
+        let to = |to, message| Transmission {
+            from: 0,
+            to,
+            message,
+        };
+        let mut network = Network::EMPTY;
+        // One message twice in a row, then another one.
+        for sent in [to(1, 5), to(2, 5), to(1, 5), to(2, 5), to(1, 6)] {
+            network.send(sent);
+        }
+        network.sort_broadcasts();
+        assert!(network.first_broadcast().eq([to(1, 5), to(2, 5)]));
+        network.take_off_air(to(2, 5));
+        assert!(network.first_broadcast().eq([to(1, 5), to(2, 5)]));
+        for taken in [to(2, 5), to(1, 5), to(1, 5)] {
+            network.take_off_air(taken);
+        }
+        assert!(network.first_broadcast().eq([to(1, 6)]));
+    }
+
+    #[test]
     fn delayed_messages_are_a_set_with_a_limit() {
         let mut network = Network::EMPTY;
         network.delay(transmission(7));

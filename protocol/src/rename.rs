@@ -18,9 +18,10 @@ use crate::time::Millis;
 
 /// A renaming of what states and messages hold. What a method is not given stays as it is.
 ///
-/// The renamed state is a valid one if the renaming keeps the order of the heartbeats of each
-/// session and keeps them less than half the number space apart, is injective on the numbers of each station and boot, maps
-/// [`Robot::next_number`] above all of them, and makes no timer due.
+/// The renamed state is a valid one if the renaming keeps stations apart, keeps the order of the
+/// heartbeats of each session and keeps them less than half the number space apart, is injective on the
+/// numbers of each station and boot, maps [`Robot::next_number`] above all of them, and makes no timer
+/// due.
 pub trait Renaming {
     /// A station. It is exchanged for another one wherever it occurs; numbers and heartbeats are still
     /// given by the old names of their stations.
