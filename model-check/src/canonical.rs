@@ -5,6 +5,9 @@
 //! whether they are the same. So each state is renamed: the heartbeats of a session become their
 //! ranks, oldest first, and so do the numbers that one station gave out in one boot. Nothing is
 //! bounded by this; a run of any length stays within finitely many states.
+//!
+//! Names are ranked within the station that gave them out, so to exchange stations before or after
+//! makes no difference; [`symmetry`](crate::symmetry) does that where a scenario allows it.
 
 use crossguard_protocol::{Heartbeat, Renaming, SessionId, StationId, UniqueNumber};
 use smallvec::SmallVec;

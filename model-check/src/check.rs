@@ -181,7 +181,7 @@ impl Checked {
             .iter()
             .map(|id| {
                 let path = discoveries.remove(NAMES[*id as usize])?;
-                Some(chart(model, path.into_vec()))
+                Some(chart(model, model.real_run(path.into_vec())))
             })
             .collect();
         Self {
@@ -241,7 +241,8 @@ impl Findings<'_> {
     fn stuck(&self) -> Option<Vec<ChartStep>> {
         let runs = self.runs();
         let stem = self.graph.run_to(self.graph.stuck()?);
-        Some(chart(self.model, runs.along(&stem, &[])))
+        let run = self.model.real_run(runs.along(&stem, &[]));
+        Some(chart(self.model, run))
     }
 
     /// A fair run that breaks a liveness property, and how many steps of it come before its cycle.
@@ -384,8 +385,7 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
         ),
         format!("commands are repeated at most {} times", scenario.config.settings().n_ack),
         "all robots are equally far apart, and know all tasks that are asked for".to_owned(),
-        "of the receivers of one message that is not delayed, those listed first hear it first"
-            .to_owned(),
+        receivers(scenario),
         "a crash stops the robot's body; station ids and boot counters survive it".to_owned(),
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),
@@ -395,6 +395,13 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
             collision_probability(states)
         ),
     ];
+    if !scenario.symmetric.is_empty() {
+        let robots: Vec<_> = scenario.symmetric.iter().map(ToString::to_string).collect();
+        assumptions.push(format!(
+            "states that differ by exchanging robots {} count as one",
+            robots.join(", ")
+        ));
+    }
     if scenario.properties.iter().any(|id| id.kind() == Kind::L) {
         assumptions.push(
             "L: weakly fair: an armed timer expires at some time, unless it is stopped or restarted \
@@ -411,6 +418,16 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
         );
     }
     assumptions
+}
+
+/// Who hears a message first.
+fn receivers(scenario: &Scenario) -> String {
+    let order = if scenario.symmetric.is_empty() {
+        "those listed first hear it first"
+    } else {
+        "any may hear it first"
+    };
+    format!("of the receivers of one message that is not delayed, {order}")
 }
 
 // stateright wants a plain function for each property; these are them.
@@ -467,7 +484,8 @@ impl stateright::Model for Model {
     }
 
     fn next_state(&self, state: &State, action: Action) -> Option<State> {
-        self.successor(state, action).map(|(next, _)| next)
+        self.successor_up_to_symmetry(state, action)
+            .map(|(next, _)| next)
     }
 
     fn properties(&self) -> Vec<Property<Self>> {

@@ -37,7 +37,8 @@ impl Explorer {
     }
 }
 
-/// A model whose states are shown in words.
+/// A model whose states are shown in words. Symmetric robots keep their places in it: who follows a run
+/// by hand wants to know which robot is which.
 struct Readable(Model);
 
 /// A state in words.

@@ -18,7 +18,8 @@ pub enum Format {
 }
 
 /// Writes the state graph of a model, each transition with what happens in it. Says why it is not the
-/// whole, where it is not; then nothing has been written.
+/// whole, where it is not; then nothing has been written. Where robots are symmetric, one state stands
+/// for all that differ in which of them is which, and what happens is said of that one.
 ///
 /// # Errors
 /// Those of `to`.

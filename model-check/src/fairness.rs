@@ -197,7 +197,7 @@ impl Runs<'_> {
         actions
             .into_iter()
             .filter_map(|action| {
-                let (next, step) = self.model.successor(from, action)?;
+                let (next, step) = self.model.successor_up_to_symmetry(from, action)?;
                 let restarted = step.map_or(Classes::NONE, |step| {
                     let robot = u32::try_from(step.robot).expect("at most MAX_ROBOTS");
                     step.restarted().fold(Classes::NONE, |all, timer| {

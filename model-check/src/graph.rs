@@ -96,7 +96,7 @@ impl Graph {
             model.actions_in(&state, &mut actions);
             let from = graph.targets.len();
             for &action in &actions {
-                let Some((next, _)) = model.successor(&state, action) else {
+                let Some((next, _)) = model.successor_up_to_symmetry(&state, action) else {
                     continue;
                 };
                 let hashed = hash(&next);

@@ -1,8 +1,8 @@
 //! What has happened, as far as a property needs it and no robot's state tells.
 
 use crossguard_protocol::{
-    Answer, Command, Confirmation, ManeuverId, Output, Outputs, Phase, Renaming, RequestId, Rmcm,
-    Robot, SessionId, StationId, TaskType, Verdict,
+    Answer, Command, Confirmation, ManeuverId, OfferNumber, Output, Outputs, Phase, Renaming,
+    RequestId, Rmcm, Robot, SessionId, StationId, TaskType, Verdict,
 };
 
 use crate::canonical::Renamable;
@@ -125,11 +125,8 @@ impl History {
                     station: member.station,
                     offer: member.offer,
                 };
-                insert_sorted(
-                    &mut self.confirmed,
-                    (session, follower),
-                    |(session, follower)| (*session, follower.station, follower.offer),
-                );
+                let confirmation = (session, follower);
+                insert_sorted(&mut self.confirmed, confirmation, confirmation_order);
             }
         }
     }
@@ -169,9 +166,7 @@ impl History {
             finished: false,
             fell_back: false,
         };
-        insert_sorted(&mut self.commands, record, |r| {
-            (r.to, r.id.session, r.id.request.0)
-        });
+        insert_sorted(&mut self.commands, record, command_order);
     }
 
     fn update(&mut self, to: StationId, id: ManeuverId, change: impl FnOnce(&mut CommandRecord)) {
@@ -185,17 +180,32 @@ impl Renamable for History {
     fn renamed(&self, to: &mut impl Renaming) -> Self {
         let mut history = self.clone();
         for record in &mut history.commands {
+            record.to = to.station(record.to);
             record.id.session = record.id.session.renamed(to);
         }
         for (session, follower) in &mut history.confirmed {
             *session = session.renamed(to);
             *follower = follower.renamed(to);
         }
-        for (_, session) in &mut history.before_crash {
+        for (station, session) in &mut history.before_crash {
+            *station = to.station(*station);
             *session = session.renamed(to);
         }
+        history.commands.sort_unstable_by_key(command_order);
+        history.confirmed.sort_unstable_by_key(confirmation_order);
+        history.before_crash.sort_unstable();
         history
     }
+}
+
+const fn command_order(record: &CommandRecord) -> (StationId, SessionId, u8) {
+    (record.to, record.id.session, record.id.request.0)
+}
+
+const fn confirmation_order(
+    (session, follower): &(SessionId, Confirmation),
+) -> (SessionId, StationId, OfferNumber) {
+    (*session, follower.station, follower.offer)
 }
 
 fn insert_sorted<T: PartialEq, K: Ord>(list: &mut Vec<T>, item: T, key: impl Fn(&T) -> K) {

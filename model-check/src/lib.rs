@@ -15,6 +15,9 @@
 //! robots is in the model: a channel that loses, delays, repeats and reorders, applications that do
 //! anything they may, timers that expire at any moment, crashes. Scenarios bound how often some of
 //! this happens, and each verdict says under which bounds it was found.
+//!
+//! States that differ in names alone count as one in every scenario, and in those that name symmetric
+//! robots so do states that differ in which of these is which; [`symmetry`] says why that is exact.
 
 mod canonical;
 pub mod check;
@@ -36,6 +39,7 @@ pub mod report;
 pub mod scenario;
 pub mod sequence;
 mod steps;
+pub mod symmetry;
 pub mod timed;
 pub mod transitions;
 pub mod universe;

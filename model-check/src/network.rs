@@ -7,7 +7,9 @@
 //!
 //! Messages that were just sent are *on air*. What becomes of them is decided one after the other
 //! before anything else happens; that leaves out nothing, because whatever might happen in between
-//! can as well happen before or after to a delayed message.
+//! can as well happen before or after to a delayed message. Broadcasts go off air in the order in which
+//! they were sent. The receivers of one hear it in the order in which the scenario lists them or, where
+//! some robots of a scenario are symmetric, in any order.
 
 use crossguard_protocol::{
     Coordination, Decimetres, Farewell, Input, Ram, Renaming, Rmcm, StationId,
@@ -79,6 +81,11 @@ impl Slot {
         Self(1 << 24 | (from as u32) << 20 | (to as u32) << 16 | message as u32)
     }
 
+    /// Sender and message.
+    const fn broadcast(self) -> u32 {
+        self.0 & !(0xf << 16)
+    }
+
     const fn transmission(self) -> Option<Transmission> {
         if self.is_empty() {
             return None;
@@ -94,7 +101,7 @@ impl Slot {
 }
 
 /// All messages on their way.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Network {
     /// Just sent, in the order of sending, then empty.
     on_air: [Slot; MAX_ON_AIR],
@@ -117,15 +124,39 @@ impl Network {
         *free.expect("room for what one step sends") = Slot::of(transmission);
     }
 
-    /// The message whose fate is decided next.
+    /// The message whose fate is decided next, where receivers hear a broadcast in their order.
     pub(crate) const fn next_on_air(&self) -> Option<Transmission> {
         self.on_air[0].transmission()
     }
 
-    /// Takes the next message off air.
-    pub(crate) fn take_off_air(&mut self) {
-        self.on_air[0] = Slot::EMPTY;
-        self.on_air.rotate_left(1);
+    /// The messages of the first broadcast on air, of which any may be the next where receivers hear a
+    /// broadcast in any order. One message that a robot sends twice in a row counts as one broadcast.
+    pub(crate) fn first_broadcast(&self) -> impl Iterator<Item = Transmission> {
+        let first = self.on_air[0];
+        let on_air = self.on_air.iter().enumerate();
+        on_air
+            .take_while(move |(_, slot)| !slot.is_empty() && slot.broadcast() == first.broadcast())
+            .filter(|(i, slot)| *i == 0 || self.on_air[i - 1] != **slot)
+            .filter_map(|(_, slot)| slot.transmission())
+    }
+
+    /// Puts the messages of each broadcast on air in the order of their receivers.
+    pub(crate) fn sort_broadcasts(&mut self) {
+        for broadcast in self
+            .on_air
+            .chunk_by_mut(|a, b| a.broadcast() == b.broadcast())
+        {
+            broadcast.sort_unstable();
+        }
+    }
+
+    /// Takes a message off air.
+    pub(crate) fn take_off_air(&mut self, transmission: Transmission) {
+        let sent = Slot::of(transmission);
+        if let Some(at) = self.on_air.iter().position(|slot| *slot == sent) {
+            self.on_air[at] = Slot::EMPTY;
+            self.on_air[at..].rotate_left(1);
+        }
     }
 
     /// Whether one more message can be delayed, where at most `limit` may be.
@@ -164,15 +195,11 @@ impl Network {
     }
 
     /// The network with every message replaced.
-    pub(crate) fn map(&self, mut replace: impl FnMut(u16) -> u16) -> Self {
+    pub(crate) fn map(&self, mut replace: impl FnMut(Transmission) -> Transmission) -> Self {
         let mut network = *self;
         for slot in network.on_air.iter_mut().chain(&mut network.delayed) {
             if let Some(transmission) = slot.transmission() {
-                let message = replace(transmission.message);
-                *slot = Slot::of(Transmission {
-                    message,
-                    ..transmission
-                });
+                *slot = Slot::of(replace(transmission));
             }
         }
         network.sort();
@@ -232,9 +259,31 @@ mod tests {
         }
         for message in [5, 3, 4] {
             assert_eq!(network.next_on_air(), Some(transmission(message)));
-            network.take_off_air();
+            network.take_off_air(transmission(message));
         }
         assert_eq!(network, Network::EMPTY);
+    }
+
+    #[test]
+    fn any_receiver_of_the_first_broadcast_may_be_the_next() {
+        let to = |to, message| Transmission {
+            from: 0,
+            to,
+            message,
+        };
+        let mut network = Network::EMPTY;
+        // One message twice in a row, then another one.
+        for sent in [to(1, 5), to(2, 5), to(1, 5), to(2, 5), to(1, 6)] {
+            network.send(sent);
+        }
+        network.sort_broadcasts();
+        assert!(network.first_broadcast().eq([to(1, 5), to(2, 5)]));
+        network.take_off_air(to(2, 5));
+        assert!(network.first_broadcast().eq([to(1, 5), to(2, 5)]));
+        for taken in [to(2, 5), to(1, 5), to(1, 5)] {
+            network.take_off_air(taken);
+        }
+        assert!(network.first_broadcast().eq([to(1, 6)]));
     }
 
     #[test]

@@ -183,7 +183,10 @@ impl Renamable for Node {
         });
         Self {
             robot: self.robot.as_ref().map(|robot| robot.renamed(to)),
-            persisted: self.persisted,
+            persisted: Persisted {
+                station: to.station(self.persisted.station),
+                ..self.persisted
+            },
             actuation: Actuation {
                 running,
                 ..self.actuation

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
+use crate::symmetry::{Asymmetry, Claim, Wrong};
 use crate::timed::{Section, Timed, TimedImpossibility, TimedProperty};
 
 /// How many robots a scenario may have.
@@ -36,6 +37,9 @@ pub struct Scenario {
     pub summary: String,
     /// The robots, in the order of the file.
     pub robots: Vec<RobotSetup>,
+    /// The station ids of the robots of which it does not matter which is which: states that differ in
+    /// that alone count as one.
+    pub symmetric: Vec<StationId>,
     /// What a robot that detects a pedestrian asks for.
     pub request: HelpRequest,
     /// How often what may happen in one run.
@@ -137,6 +141,8 @@ struct File {
     name: String,
     summary: String,
     robots: Vec<RobotSetup>,
+    #[serde(default)]
+    symmetric: Vec<toml::Spanned<StationId>>,
     request: Request,
     bounds: Bounds,
     #[serde(default)]
@@ -231,6 +237,9 @@ pub enum Impossibility {
     /// A property that assumes what the scenario does not.
     #[error("L3 speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
     NotCooperative,
+    /// Robots that are not symmetric.
+    #[error(transparent)]
+    Asymmetry(#[from] Asymmetry),
     /// An unknown property.
     #[error("no property '{0}': {list}", list = PropertyId::list())]
     Property(String),
@@ -243,7 +252,7 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 13] = [
+const SHIPPED: [(&str, &str); 14] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -261,6 +270,10 @@ const SHIPPED: [(&str, &str); 13] = [
     (
         "team-of-four",
         include_str!("../scenarios/team-of-four.toml"),
+    ),
+    (
+        "team-symmetric",
+        include_str!("../scenarios/team-symmetric.toml"),
     ),
     (
         "timed-in-use",
@@ -401,6 +414,20 @@ impl File {
         let request = self.request.check()?;
         let config = Config::new(self.protocol)
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
+        let claim = Claim {
+            robots: &self.robots,
+            followers: request.followers,
+            bounds: self.bounds,
+            is_timed: self.timed.is_some(),
+            properties: &self.properties,
+        };
+        let symmetric = claim.check(&self.symmetric).map_err(|(wrong, cause)| {
+            let place = match wrong {
+                Wrong::At(offset) => Place::Offset(offset),
+                Wrong::Key(key) => Place::Key(key),
+            };
+            at(place, cause)
+        })?;
         let mut timed = None;
         if let Some(section) = self.timed {
             let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
@@ -427,6 +454,7 @@ impl File {
             name: self.name,
             summary: self.summary,
             robots: self.robots,
+            symmetric,
             request,
             bounds: self.bounds,
             corridor: self.corridor,

@@ -19,7 +19,7 @@ const fn precedence(request: HelpRequest, leader: StationId) -> Precedence {
 
 /// An offer's place in the order of selection: capability match, then distance, then station id.
 /// The smaller key is the better offer.
-fn rank(offer: &Offer) -> impl Ord + use<> {
+pub(crate) fn rank(offer: &Offer) -> impl Ord + use<> {
     (
         Reverse(offer.capabilities.len()),
         offer.distance,

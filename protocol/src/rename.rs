@@ -4,19 +4,35 @@
 //! heartbeats it asks which is newer, of two session or offer numbers whether they are the same. So
 //! two states that differ in such a renaming alone behave alike, and a model checker need visit only
 //! one of them. That keeps a model with unbounded counters finite without bounding the counters.
+//!
+//! Of two station ids it asks which request goes before and which of two equal offers is the better one.
+//! Where neither makes a difference, stations may be exchanged; [`Renaming::station`] says when.
 
+use crate::help::rank;
 use crate::id::{Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::input::Timer;
+use crate::list::List;
 use crate::message::{Answer, Command, Confirmation, Coordination, Farewell, Ram, Rmcm};
-use crate::state::{Leading, Member, Offer, Offering, Phase, Requesting, Robot};
+use crate::state::{Leading, Member, Offering, Phase, Requesting, Robot};
 use crate::time::Millis;
 
 /// A renaming of what states and messages hold. What a method is not given stays as it is.
 ///
-/// The renamed state is a valid one if the renaming keeps the order of the heartbeats of each
-/// session and keeps them less than half the number space apart, is injective on the numbers of each station and boot, maps
-/// [`Robot::next_number`] above all of them, and makes no timer due.
+/// The renamed state is a valid one if the renaming keeps stations apart, keeps the order of the
+/// heartbeats of each session and keeps them less than half the number space apart, is injective on the
+/// numbers of each station and boot, maps [`Robot::next_number`] above all of them, and makes no timer
+/// due.
 pub trait Renaming {
+    /// A station. It is exchanged for another one wherever it occurs; numbers and heartbeats are still
+    /// given by the old names of their stations.
+    ///
+    /// What the renamed robots do is what the robots did, renamed, if the order of requesters stays, all
+    /// offers are equally good, and a requester confirms all whom it hears. Then whom a leader has
+    /// confirmed stand in the order of their station ids, and do so again under the new ones.
+    fn station(&mut self, station: StationId) -> StationId {
+        station
+    }
+
     /// The time that an armed timer has left.
     fn countdown(&mut self, _timer: Timer, left: Millis) -> Millis {
         left
@@ -45,13 +61,38 @@ fn offer_number(to: &mut impl Renaming, owner: StationId, number: OfferNumber) -
     OfferNumber(to.number(owner, number.0))
 }
 
+/// Those whom a leader has confirmed, under other names. Where no station changes their order is that
+/// of the selection, whatever it was by.
+fn confirmed<T: Copy, const N: usize>(
+    list: &List<T, N>,
+    rename: impl FnMut(&T) -> T,
+    station: impl Fn(&T) -> StationId,
+) -> List<T, N> {
+    let renamed: List<T, N> = list.iter().map(rename).collect();
+    if list.iter().map(&station).eq(renamed.iter().map(&station)) {
+        return renamed;
+    }
+    sorted(&renamed, |a, b| station(a) < station(b))
+}
+
+fn sorted<T: Copy, const N: usize>(
+    list: &List<T, N>,
+    goes_before: impl Fn(&T, &T) -> bool,
+) -> List<T, N> {
+    let mut sorted = List::EMPTY;
+    for item in list.iter() {
+        sorted.insert_ranked(*item, &goes_before);
+    }
+    sorted
+}
+
 impl SessionId {
     /// The session under another name.
     #[must_use]
     pub fn renamed(self, to: &mut impl Renaming) -> Self {
         Self {
             number: session_number(to, self.leader, self.number),
-            ..self
+            leader: to.station(self.leader),
         }
     }
 }
@@ -71,7 +112,7 @@ impl Confirmation {
     pub fn renamed(self, to: &mut impl Renaming) -> Self {
         Self {
             offer: offer_number(to, self.station, self.offer),
-            ..self
+            station: to.station(self.station),
         }
     }
 }
@@ -109,10 +150,11 @@ impl Ram {
                     },
                     heartbeat,
                 ),
-                followers: followers
-                    .iter()
-                    .map(|follower| follower.renamed(to))
-                    .collect(),
+                followers: confirmed(
+                    &followers,
+                    |follower| follower.renamed(to),
+                    |follower| follower.station,
+                ),
             },
             Coordination::Follower {
                 session,
@@ -126,7 +168,7 @@ impl Ram {
         };
         let farewell = self.farewell.map(|farewell| farewell.renamed(to, station));
         Self {
-            station,
+            station: to.station(station),
             coordination,
             farewell,
         }
@@ -140,10 +182,12 @@ impl Rmcm {
         match *self {
             Self::Command(command) => Self::Command(Command {
                 session: command.session.renamed(to),
+                to: to.station(command.to),
                 ..command
             }),
             Self::Answer(answer) => Self::Answer(Answer {
                 session: answer.session.renamed(to),
+                from: to.station(answer.from),
                 ..answer
             }),
         }
@@ -165,6 +209,7 @@ impl Robot {
     pub fn renamed(&self, to: &mut impl Renaming) -> Self {
         let mut robot = self.clone();
         let station = self.station;
+        robot.station = to.station(station);
         robot.next_count = to.number(station, self.next_number()).count;
         if let Some(standing) = &mut robot.farewell {
             standing.farewell = standing.farewell.renamed(to, station);
@@ -189,12 +234,11 @@ impl Robot {
 impl Requesting {
     fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
         self.number = session_number(to, station, self.number);
-        for Offer {
-            station, number, ..
-        } in self.offers.iter_mut()
-        {
-            *number = offer_number(to, *station, *number);
+        for offer in self.offers.iter_mut() {
+            offer.number = offer_number(to, offer.station, offer.number);
+            offer.station = to.station(offer.station);
         }
+        self.offers = sorted(&self.offers, |a, b| rank(a) < rank(b));
     }
 }
 
@@ -213,15 +257,12 @@ impl Leading {
         };
         self.number = session_number(to, station, self.number);
         self.heartbeat = to.heartbeat(session, self.heartbeat);
-        for Member {
-            station,
-            offer,
-            echoed,
-            ..
-        } in self.members.iter_mut()
-        {
-            *offer = offer_number(to, *station, *offer);
-            *echoed = echoed.map(|echoed| to.heartbeat(session, echoed));
-        }
+        let rename = |member: &Member| Member {
+            offer: offer_number(to, member.station, member.offer),
+            echoed: member.echoed.map(|echoed| to.heartbeat(session, echoed)),
+            station: to.station(member.station),
+            ..*member
+        };
+        self.members = confirmed(&self.members, rename, |member| member.station);
     }
 }

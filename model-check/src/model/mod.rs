@@ -4,14 +4,16 @@
 //! settings. Nothing of the protocol is written here a second time; a robot's part of a step is one
 //! call of [`Robot::step`](crossguard_protocol::Robot::step).
 
+mod canonical;
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use crossguard_protocol::{
     Availability, Event, Input, Member, Outputs, Phase, Robot, StationId, Timer, Unavailability,
 };
+use smallvec::SmallVec;
 
-use crate::canonical::{Ranks, Renamable};
 use crate::history::History;
 use crate::intern::Interner;
 use crate::network::{Message, Network, Transmission, concerns};
@@ -19,6 +21,7 @@ use crate::node::{Node, Protocol, Rules};
 use crate::properties::{PropertyId, StepView, View};
 use crate::scenario::{Bounds, MAX_ROBOTS, PSEUDONYM_STEP, Scenario};
 use crate::steps::{Cause, Step, Steps, judge_historic};
+use crate::symmetry::Symmetry;
 use crate::transitions::Transitions;
 
 /// A global state: numbers of interned parts, and what may still happen.
@@ -94,6 +97,7 @@ pub struct Model(Arc<Shared>);
 
 struct Shared {
     scenario: Scenario,
+    symmetry: Symmetry,
     steps: Steps,
     histories: Interner<History>,
     networks: Interner<Network>,
@@ -139,6 +143,7 @@ impl Model {
     #[must_use]
     pub fn with_rules(scenario: Scenario, rules: impl Rules + 'static) -> Self {
         Self(Arc::new(Shared {
+            symmetry: Symmetry::of(&scenario),
             scenario,
             steps: Steps::new(Box::new(rules)),
             histories: Interner::new(),
@@ -240,13 +245,22 @@ impl Model {
                     .any(|(timer, _)| effective(i, Cause::Timer(*timer)))
             })
         });
-        let network = self.network(state);
         by_timer
-            || network
-                .next_on_air()
+            || self
+                .next_on_air(state)
                 .into_iter()
-                .chain(network.delayed())
+                .chain(self.network(state).delayed())
                 .any(|t| effective(t.to.into(), Cause::Message(t.message)))
+    }
+
+    /// The messages on air of which any may be the next whose fate is decided.
+    fn next_on_air(&self, state: &State) -> SmallVec<[Transmission; MAX_ROBOTS]> {
+        let network = self.network(state);
+        if self.0.symmetry.is_trivial() {
+            network.next_on_air().into_iter().collect()
+        } else {
+            network.first_broadcast().collect()
+        }
     }
 
     /// Whether the premise of a property has been met so far.
@@ -260,9 +274,12 @@ impl Model {
         if state.broken != 0 {
             return;
         }
-        match self.network(state).next_on_air() {
-            Some(transmission) => self.fates(state, transmission, actions),
-            None => self.actions_off_air(state, actions),
+        let on_air = self.next_on_air(state);
+        if on_air.is_empty() {
+            self.actions_off_air(state, actions);
+        }
+        for transmission in on_air {
+            self.fates(state, transmission, actions);
         }
     }
 
@@ -395,6 +412,23 @@ impl Model {
         state: &State,
         action: Action,
     ) -> Option<(State, Option<RobotStep<'_>>)> {
+        let (next, step) = self.take(state, action)?;
+        Some((self.interned(next), step))
+    }
+
+    /// The same, with the state that stands for all those that differ from the successor in which of the
+    /// symmetric robots is which.
+    #[must_use]
+    pub fn successor_up_to_symmetry(
+        &self,
+        state: &State,
+        action: Action,
+    ) -> Option<(State, Option<RobotStep<'_>>)> {
+        let (next, step) = self.take(state, action)?;
+        Some((self.interned(self.representative_of(next)), step))
+    }
+
+    fn take(&self, state: &State, action: Action) -> Option<(Draft, Option<RobotStep<'_>>)> {
         let mut next = Draft {
             state: state.clone(),
             network: *self.network(state),
@@ -402,7 +436,7 @@ impl Model {
         let step = match action {
             Action::Deliver { transmission, how } => {
                 match how {
-                    Delivery::AtOnce => next.network.take_off_air(),
+                    Delivery::AtOnce => next.network.take_off_air(transmission),
                     Delivery::Late => next.network.forget(transmission),
                     Delivery::LateAndAgain => {}
                 }
@@ -417,15 +451,15 @@ impl Model {
                 if let Some(left) = &mut next.state.left.losses {
                     *left -= 1;
                 }
-                if next.network.next_on_air() == Some(transmission) {
-                    next.network.take_off_air();
+                if next.network.next_on_air().is_some() {
+                    next.network.take_off_air(transmission);
                 } else {
                     next.network.forget(transmission);
                 }
                 None
             }
             Action::Delay(transmission) => {
-                next.network.take_off_air();
+                next.network.take_off_air(transmission);
                 next.network.delay(transmission);
                 None
             }
@@ -457,7 +491,7 @@ impl Model {
                 None
             }
         };
-        Some((self.canonical(next), step))
+        Some((self.ranked(next), step))
     }
 
     fn crash(&self, next: &mut State, i: usize) {
@@ -539,46 +573,6 @@ impl Model {
                 }
             }
         }
-    }
-
-    /// The state of all those that differ from the draft in names alone.
-    fn canonical(&self, draft: Draft) -> State {
-        let Draft {
-            mut state,
-            mut network,
-        } = draft;
-        let robots = self.0.scenario.robots.len();
-        let mut ranks = Ranks::default();
-        for &node in &state.nodes[..robots] {
-            ranks.add(self.0.steps.nodes.names(node));
-        }
-        for message in network.messages() {
-            ranks.add(self.0.steps.messages.names(message.into()));
-        }
-        ranks.add(self.0.histories.names(state.history));
-        if ranks.rank() {
-            self.rename(&mut state, &mut network, &mut ranks);
-        }
-        state.network = self.0.networks.number_nameless(network);
-        state
-    }
-
-    fn rename(&self, state: &mut State, network: &mut Network, ranks: &mut Ranks) {
-        let robots = self.0.scenario.robots.len();
-        for node in &mut state.nodes[..robots] {
-            *node = self
-                .0
-                .steps
-                .nodes
-                .number(self.0.steps.nodes.value(*node).renamed(ranks));
-        }
-        *network = network.map(|message| {
-            self.0
-                .steps
-                .message_number(self.message(message).renamed(ranks))
-        });
-        let history = self.0.histories.value(state.history).renamed(ranks);
-        state.history = self.0.histories.number(history);
     }
 }
 

@@ -1,0 +1,303 @@
+//! The state that stands for all those that differ in names, or in which of the symmetric robots is
+//! which.
+
+use smallvec::SmallVec;
+
+use super::{Action, Draft, Model, Shared, State};
+use crate::canonical::{Ranks, Renamable};
+use crate::network::Network;
+use crate::scenario::MAX_ROBOTS;
+use crate::symmetry::{Exchange, Images, MAX_EXCHANGES};
+
+impl Model {
+    /// The state of all those that differ from the draft in names alone.
+    pub(super) fn ranked(&self, draft: Draft) -> Draft {
+        let Draft {
+            mut state,
+            mut network,
+        } = draft;
+        let robots = self.0.scenario.robots.len();
+        let mut ranks = Ranks::default();
+        for &node in &state.nodes[..robots] {
+            ranks.add(self.0.steps.nodes.names(node));
+        }
+        for message in network.messages() {
+            ranks.add(self.0.steps.messages.names(message.into()));
+        }
+        ranks.add(self.0.histories.names(state.history));
+        if ranks.rank() {
+            self.rename(&mut state, &mut network, &mut ranks);
+        }
+        if !self.0.symmetry.is_trivial() {
+            network.sort_broadcasts();
+        }
+        Draft { state, network }
+    }
+
+    fn rename(&self, state: &mut State, network: &mut Network, ranks: &mut Ranks) {
+        let Shared {
+            scenario,
+            steps,
+            histories,
+            ..
+        } = &*self.0;
+        for node in &mut state.nodes[..scenario.robots.len()] {
+            *node = steps.nodes.number(steps.nodes.value(*node).renamed(ranks));
+        }
+        *network = network.map(|mut transmission| {
+            let message = self.message(transmission.message).renamed(ranks);
+            transmission.message = steps.message_number(message);
+            transmission
+        });
+        let history = histories.value(state.history).renamed(ranks);
+        state.history = histories.number(history);
+    }
+
+    pub(super) fn interned(&self, Draft { mut state, network }: Draft) -> State {
+        state.network = self.0.networks.number_nameless(network);
+        state
+    }
+
+    /// The state that stands for `state` and all those that differ from it in which of the symmetric
+    /// robots is which.
+    #[must_use]
+    pub fn representative(&self, state: &State) -> State {
+        let network = *self.network(state);
+        let state = state.clone();
+        self.interned(self.representative_of(Draft { state, network }))
+    }
+
+    pub(super) fn representative_of(&self, draft: Draft) -> Draft {
+        let symmetry = &self.0.symmetry;
+        if symmetry.is_trivial() {
+            return draft;
+        }
+        let images = self.node_images(&draft.state);
+        let exchanges = symmetry.exchanges.iter().enumerate();
+        let nodes: SmallVec<[[u32; MAX_ROBOTS]; MAX_EXCHANGES]> = exchanges
+            .map(|(i, exchange)| exchanged(&draft.state.nodes, &images, i, exchange))
+            .collect();
+        // Robots in equal states leave it to the rest to tell which is which.
+        let smallest = nodes.iter().min();
+        let candidates = nodes.iter().enumerate();
+        candidates
+            .filter(|(_, nodes)| Some(*nodes) == smallest)
+            .map(|(i, nodes)| self.image(&draft, *nodes, i))
+            .min_by_key(|image| (image.state.history, image.network))
+            .unwrap_or(draft)
+    }
+
+    fn node_images(&self, state: &State) -> [Images; MAX_ROBOTS] {
+        let Shared {
+            scenario,
+            steps,
+            symmetry,
+            ..
+        } = &*self.0;
+        let mut images = [Images::default(); MAX_ROBOTS];
+        let places = images.iter_mut().zip(state.nodes);
+        for (images, node) in places.take(scenario.robots.len()) {
+            *images = symmetry.images(&symmetry.nodes, node, |mut exchange| {
+                steps
+                    .nodes
+                    .number(steps.nodes.value(node).renamed(&mut exchange))
+            });
+        }
+        images
+    }
+
+    /// What an exchange makes of a state that has these nodes after it.
+    fn image(&self, draft: &Draft, nodes: [u32; MAX_ROBOTS], exchange: usize) -> Draft {
+        let Shared {
+            steps,
+            histories,
+            symmetry,
+            ..
+        } = &*self.0;
+        let history = symmetry.images(&symmetry.histories, draft.state.history, |mut exchange| {
+            let history = histories.value(draft.state.history);
+            histories.number(history.renamed(&mut exchange))
+        });
+        let message = |number: u16| {
+            let images = symmetry.images(&symmetry.messages, number.into(), |mut exchange| {
+                let message = self.message(number).renamed(&mut exchange);
+                steps.message_number(message).into()
+            });
+            u16::try_from(images[exchange]).expect("numbers of messages are small")
+        };
+        Draft {
+            state: State {
+                nodes,
+                history: history[exchange],
+                ..draft.state.clone()
+            },
+            network: symmetry.exchanges[exchange].network(&draft.network, message),
+        }
+    }
+
+    /// A run through the states that the states of `path` stand for. Its actions are those of the path
+    /// where no robots are symmetric.
+    pub(crate) fn real_run(
+        &self,
+        path: Vec<(State, Option<Action>)>,
+    ) -> Vec<(State, Option<Action>)> {
+        if self.0.symmetry.is_trivial() {
+            return path;
+        }
+        let mut at = self.initial();
+        let mut run = Vec::with_capacity(path.len());
+        for (to, _) in path.into_iter().skip(1) {
+            let mut actions = Vec::new();
+            self.actions_in(&at, &mut actions);
+            let taken = actions.into_iter().find_map(|action| {
+                let (next, _) = self.successor(&at, action)?;
+                (self.representative(&next) == to).then_some((action, next))
+            });
+            let (action, next) = taken.expect("symmetric states have symmetric successors");
+            run.push((std::mem::replace(&mut at, next), Some(action)));
+        }
+        run.push((at, None));
+        run
+    }
+}
+
+/// The nodes after the exchange of this number.
+fn exchanged(
+    nodes: &[u32; MAX_ROBOTS],
+    images: &[Images; MAX_ROBOTS],
+    number: usize,
+    exchange: &Exchange,
+) -> [u32; MAX_ROBOTS] {
+    let mut exchanged = *nodes;
+    for (place, images) in images.iter().enumerate() {
+        exchanged[exchange.place(place)] = images[number];
+    }
+    exchanged
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+    use crate::scenario::Scenario;
+
+    fn model(text: &str, symmetric: &str) -> Model {
+        let (text, _) = text.split_once("[expected]").unwrap();
+        let text = ["L1", "L2", "L4"].iter().fold(text.to_owned(), |text, id| {
+            text.replace(&format!("\"{id}\","), "")
+        });
+        let text = text.replacen("properties", &format!("{symmetric}\nproperties"), 1);
+        Model::new(Scenario::parse("symmetric.toml", &text).unwrap())
+    }
+
+    type Successor = fn(&Model, &State, Action) -> Option<State>;
+
+    fn as_it_is(model: &Model, state: &State, action: Action) -> Option<State> {
+        Some(model.successor(state, action)?.0)
+    }
+
+    fn up_to_symmetry(model: &Model, state: &State, action: Action) -> Option<State> {
+        Some(model.successor_up_to_symmetry(state, action)?.0)
+    }
+
+    fn reachable(model: &Model, successor: Successor) -> HashSet<State> {
+        let mut todo = vec![model.initial()];
+        let mut reached: HashSet<State> = todo.iter().cloned().collect();
+        let mut actions = Vec::new();
+        while let Some(state) = todo.pop() {
+            actions.clear();
+            model.actions_in(&state, &mut actions);
+            for &action in &actions {
+                if let Some(next) = successor(model, &state, action)
+                    && reached.insert(next.clone())
+                {
+                    todo.push(next);
+                }
+            }
+        }
+        reached
+    }
+
+    /// All states that differ from `state` in which of the symmetric robots is which.
+    fn class(model: &Model, state: &State) -> HashSet<State> {
+        let draft = Draft {
+            state: state.clone(),
+            network: *model.network(state),
+        };
+        let images = model.node_images(state);
+        let exchanges = model.0.symmetry.exchanges.iter().enumerate();
+        exchanges
+            .map(|(i, exchange)| {
+                let nodes = exchanged(&state.nodes, &images, i, exchange);
+                model.interned(model.image(&draft, nodes, i))
+            })
+            .collect()
+    }
+
+    /// Asserts that all states are exactly those of the classes of the reduced ones; how many there are
+    /// of either.
+    fn assert_covered(model: &Model) -> (usize, usize) {
+        let all = reachable(model, as_it_is);
+        let reduced = reachable(model, up_to_symmetry);
+        let mut covered = 0;
+        for state in &reduced {
+            let class = class(model, state);
+            assert!(class.iter().all(|state| all.contains(state)));
+            let stands_for = |other: &State| model.representative(other) == *state;
+            assert!(class.iter().all(stands_for));
+            covered += class.len();
+        }
+        assert_eq!(covered, all.len());
+        (all.len(), reduced.len())
+    }
+
+    #[test]
+    fn the_classes_of_the_reduced_states_are_all_states() {
+        let trio = include_str!("../../scenarios/trio.toml");
+        let (all, reduced) = assert_covered(&model(trio, "symmetric = [2, 3]"));
+        assert_eq!((all, reduced), (467_285, 233_707));
+    }
+
+    #[test]
+    fn so_they_are_with_delayed_messages() {
+        let trio = include_str!("../../scenarios/trio.toml")
+            .replace("commands = 1", "commands = 0")
+            .replace("delayed = 0", "delayed = 1")
+            .replace("loss = true", "loss = false");
+        let (all, reduced) = assert_covered(&model(&trio, "symmetric = [2, 3]"));
+        assert_eq!((all, reduced), (105_001, 52_545));
+    }
+
+    #[test]
+    fn so_they_are_with_crashes_and_restarts() {
+        let trio = include_str!("../../scenarios/trio.toml")
+            .replace("commands = 1", "commands = 1\ncrashes = 1\nrestarts = 1")
+            .replace("loss = true", "loss = false");
+        let (all, reduced) = assert_covered(&model(&trio, "symmetric = [2, 3]"));
+        assert_eq!((all, reduced), (80_649, 40_394));
+    }
+
+    #[test]
+    fn so_they_are_with_three_symmetric_robots_and_what_follows_is_the_same() {
+        let team = include_str!("../../scenarios/team-of-four.toml")
+            .replace("losses = 1", "losses = 0")
+            .replace("commands = 1", "commands = 0");
+        let model = model(&team, "symmetric = [2, 3, 4]");
+        assert_eq!(assert_covered(&model), (39_637, 7_184));
+        let successors = |state: &State| -> HashSet<State> {
+            let mut actions = Vec::new();
+            model.actions_in(state, &mut actions);
+            actions
+                .into_iter()
+                .filter_map(|action| Some(model.successor_up_to_symmetry(state, action)?.0))
+                .collect()
+        };
+        for state in reachable(&model, up_to_symmetry) {
+            let expected = successors(&state);
+            for other in class(&model, &state) {
+                assert_eq!(successors(&other), expected);
+            }
+        }
+    }
+}

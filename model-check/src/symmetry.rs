@@ -1,0 +1,276 @@
+//! One state for all that differ in which of some identical robots is which.
+//!
+//! A scenario may name robots that are *symmetric*: to exchange any two of them, in every place where
+//! a state speaks of them, turns each run into another run. So the states fall into classes of such as
+//! differ by an exchange alone, and of each class one state is explored.
+//!
+//! # Why this is exact
+//!
+//! An exchange moves the robots' nodes, the messages on their way, and the history, with the station
+//! ids in all of them. Every part of the model treats symmetric robots alike:
+//!
+//! * All robots run the same transition function with the same configuration, all are equally far
+//!   apart, and symmetric ones detect nothing. So the initial state stays as it is, and what can happen
+//!   to one of them can happen to the other.
+//! * The transition function asks for the order of two station ids in two places. Of two requesters the
+//!   lower one goes before: symmetric robots never request. Of two equal offers the lower one is the
+//!   better: the number of followers is that of all other robots, nobody changes its pseudonym and so
+//!   offers under two station ids, and a requester that selects at all selects them all. What is left of
+//!   the order is that in which offers and members stand in their lists, and it is put right by
+//!   [`Renaming`].
+//!   The rules that a test puts in the protocol's place must not ask for more.
+//! * The receivers of one broadcast hear it in any order. If those listed first heard it first, the
+//!   scenario's order would tell symmetric robots apart.
+//! * The properties speak about all robots, or about any one robot's step. Those of runs under fairness
+//!   are refused: each robot's timers are fair on their own, and where robots change places along a run,
+//!   one of them could wait for ever unseen.
+//!
+//! An exchange is thus an automorphism of the transition system, and it keeps the properties. Then the
+//! system of the classes is bisimilar to the one of all states: a state is reachable if and only if one
+//! of its class is, and L7 holds in both or in neither. The state that stands for a class is the one with
+//! the smallest numbers of its parts, which are given in the order of first use. Which state it is depends
+//! on that order; how many there are does not. Names are ranked within the station that gave them out, so
+//! ranking and exchanging commute.
+
+use crossguard_protocol::{Renaming, StationId};
+use dashmap::DashMap;
+use rustc_hash::FxBuildHasher;
+use smallvec::SmallVec;
+use toml::Spanned;
+
+use crate::network::{Network, Transmission};
+use crate::properties::{Kind, PropertyId};
+use crate::scenario::{Bounds, MAX_ROBOTS, RobotSetup, Scenario};
+
+/// How many symmetric robots a scenario may have: one robot at least detects.
+const MAX_SYMMETRIC: usize = MAX_ROBOTS - 1;
+
+/// In how many ways they can be exchanged.
+pub(crate) const MAX_EXCHANGES: usize = 6;
+
+/// What is wrong with the symmetry that a scenario claims.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Asymmetry {
+    /// Not the station id of a robot.
+    #[error("no robot has station id {0}, so it cannot be symmetric")]
+    NoRobot(StationId),
+    /// A robot that is named twice.
+    #[error("robot {0} is symmetric with itself, which says nothing")]
+    Twice(StationId),
+    /// A single robot.
+    #[error("robot {0} alone is symmetric with nobody")]
+    Alone(StationId),
+    /// A robot that may detect a pedestrian.
+    #[error("robot {0} detects: of two requesters the station ids tell which goes before")]
+    Detects(StationId),
+    /// A requester may choose.
+    #[error(
+        "followers = {followers}: where a requester may choose, the station ids tell whom, so \
+         symmetric robots need followers = {needed}, all robots but the requester"
+    )]
+    Chosen {
+        /// How many are asked for.
+        followers: u8,
+        /// How many must be asked for.
+        needed: usize,
+    },
+    /// A robot may change its pseudonym.
+    #[error(
+        "disturbances = {0}: a robot that offers under two pseudonyms gives a requester a choice, and \
+         the station ids tell whom; symmetric robots need disturbances = 0"
+    )]
+    Pseudonyms(u8),
+    /// A timed scenario.
+    #[error("symmetric robots have no place in a timed scenario: its model tells all robots apart")]
+    Timed,
+    /// A property under fairness.
+    #[error("{0} assumes fairness to each robot by itself, which symmetric robots do not show")]
+    Fairness(PropertyId),
+}
+
+/// Where a claim is wrong.
+pub(crate) enum Wrong {
+    /// At this offset in the file.
+    At(usize),
+    /// In the line of this key.
+    Key(&'static str),
+}
+
+/// The part of a scenario that decides whether its robots are symmetric.
+pub(crate) struct Claim<'a> {
+    pub(crate) robots: &'a [RobotSetup],
+    pub(crate) followers: u8,
+    pub(crate) bounds: Bounds,
+    pub(crate) is_timed: bool,
+    pub(crate) properties: &'a [Spanned<String>],
+}
+
+impl Claim<'_> {
+    /// The station ids, if the robots are symmetric.
+    pub(crate) fn check(
+        &self,
+        stations: &[Spanned<StationId>],
+    ) -> Result<Vec<StationId>, (Wrong, Asymmetry)> {
+        for (i, spanned) in stations.iter().enumerate() {
+            let station = *spanned.get_ref();
+            let named = stations[..i].iter().map(Spanned::get_ref);
+            let robot = self.robots.iter().find(|robot| robot.station == station);
+            let cause = match robot {
+                None => Asymmetry::NoRobot(station),
+                Some(_) if named.into_iter().any(|other| *other == station) => {
+                    Asymmetry::Twice(station)
+                }
+                Some(robot) if robot.detects => Asymmetry::Detects(station),
+                Some(_) if stations.len() == 1 => Asymmetry::Alone(station),
+                Some(_) => continue,
+            };
+            return Err((Wrong::At(spanned.span().start), cause));
+        }
+        if !stations.is_empty() {
+            self.check_surroundings()?;
+        }
+        Ok(stations.iter().map(|station| *station.get_ref()).collect())
+    }
+
+    fn check_surroundings(&self) -> Result<(), (Wrong, Asymmetry)> {
+        if self.is_timed {
+            return Err((Wrong::Key("symmetric"), Asymmetry::Timed));
+        }
+        let (followers, needed) = (self.followers, self.robots.len() - 1);
+        if usize::from(followers) != needed {
+            let cause = Asymmetry::Chosen { followers, needed };
+            return Err((Wrong::Key("followers"), cause));
+        }
+        if self.bounds.disturbances > 0 {
+            let cause = Asymmetry::Pseudonyms(self.bounds.disturbances);
+            return Err((Wrong::Key("disturbances"), cause));
+        }
+        for name in self.properties {
+            if let Ok(id) = name.get_ref().parse::<PropertyId>()
+                && id.kind() == Kind::L
+            {
+                return Err((Wrong::At(name.span().start), Asymmetry::Fairness(id)));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One way to exchange the symmetric robots.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Exchange {
+    /// Where the robot at each place goes.
+    places: [u8; MAX_ROBOTS],
+    stations: SmallVec<[(StationId, StationId); MAX_SYMMETRIC]>,
+}
+
+impl Exchange {
+    /// Where the robot at this place goes.
+    pub(crate) fn place(&self, place: usize) -> usize {
+        self.places[place].into()
+    }
+
+    /// A network after the exchange, its messages replaced by `message`.
+    pub(crate) fn network(&self, network: &Network, message: impl Fn(u16) -> u16) -> Network {
+        let place = |place: u8| self.places[usize::from(place)];
+        let mut exchanged = network.map(|transmission| Transmission {
+            from: place(transmission.from),
+            to: place(transmission.to),
+            message: message(transmission.message),
+        });
+        exchanged.sort_broadcasts();
+        exchanged
+    }
+}
+
+impl Renaming for &Exchange {
+    fn station(&mut self, station: StationId) -> StationId {
+        let exchanged = self.stations.iter().find(|(from, _)| *from == station);
+        exchanged.map_or(station, |(_, to)| *to)
+    }
+}
+
+/// All ways to exchange the symmetric robots of a scenario; none where it names none.
+fn exchanges(scenario: &Scenario) -> Vec<Exchange> {
+    let is_symmetric = |place: &u8| {
+        let station = scenario.robots[usize::from(*place)].station;
+        scenario.symmetric.contains(&station)
+    };
+    let station = |place: u8| scenario.robots[usize::from(place)].station;
+    let robots = u8::try_from(scenario.robots.len()).expect("at most MAX_ROBOTS");
+    let places: Vec<u8> = (0..robots).filter(is_symmetric).collect();
+    if places.is_empty() {
+        return Vec::new();
+    }
+    let mut orders: Vec<Vec<u8>> = vec![Vec::new()];
+    for _ in &places {
+        orders = orders
+            .iter()
+            .flat_map(|order| {
+                let left = places.iter().filter(|place| !order.contains(place));
+                left.map(|place| [order.as_slice(), &[*place]].concat())
+            })
+            .collect();
+    }
+    let exchange = |order: Vec<u8>| {
+        let mut exchange = Exchange {
+            places: [0, 1, 2, 3],
+            stations: SmallVec::new(),
+        };
+        for (&from, &to) in places.iter().zip(&order) {
+            exchange.places[usize::from(from)] = to;
+            exchange.stations.push((station(from), station(to)));
+        }
+        exchange
+    };
+    orders.into_iter().map(exchange).collect()
+}
+
+/// The number of a part after each of the exchanges.
+pub(crate) type Images = [u32; MAX_EXCHANGES];
+
+/// The images of parts of one kind, each computed once.
+#[derive(Default)]
+pub(crate) struct KnownImages(DashMap<u32, Images, FxBuildHasher>);
+
+/// The exchanges of a scenario, and what they make of the parts of its states.
+pub(crate) struct Symmetry {
+    pub(crate) exchanges: Vec<Exchange>,
+    pub(crate) nodes: KnownImages,
+    pub(crate) messages: KnownImages,
+    pub(crate) histories: KnownImages,
+}
+
+impl Symmetry {
+    pub(crate) fn of(scenario: &Scenario) -> Self {
+        Self {
+            exchanges: exchanges(scenario),
+            nodes: KnownImages::default(),
+            messages: KnownImages::default(),
+            histories: KnownImages::default(),
+        }
+    }
+
+    /// Whether no robots are symmetric.
+    pub(crate) const fn is_trivial(&self) -> bool {
+        self.exchanges.is_empty()
+    }
+
+    /// The images of a part, which `image` computes where they are not known yet.
+    pub(crate) fn images(
+        &self,
+        known: &KnownImages,
+        part: u32,
+        image: impl Fn(&Exchange) -> u32,
+    ) -> Images {
+        if let Some(images) = known.0.get(&part) {
+            return *images;
+        }
+        let mut images = Images::default();
+        for (slot, exchange) in images.iter_mut().zip(&self.exchanges) {
+            *slot = image(exchange);
+        }
+        known.0.insert(part, images);
+        images
+    }
+}

@@ -1,0 +1,186 @@
+//! Symmetric robots: the verdicts are those of the scenario without symmetry, the counterexamples are
+//! real runs, and a claim of symmetry that is none is refused with its line.
+
+use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::model::Model;
+use crossguard_model_check::node::{Protocol, Rules};
+use crossguard_model_check::replay::Replay;
+use crossguard_model_check::report::{ScenarioReport, Verdict};
+use crossguard_model_check::scenario::Scenario;
+use crossguard_protocol::*;
+
+const TRIO: &str = include_str!("../scenarios/trio.toml");
+
+/// The trio without the properties that fairness is needed for, and with no size expected.
+fn without_liveness() -> String {
+    let (trio, _) = TRIO.split_once("[expected]").unwrap();
+    trio.replace(r#""L1", "L2", "L4", "#, "")
+}
+
+fn symmetric() -> String {
+    without_liveness().replacen("properties", "symmetric = [2, 3]\nproperties", 1)
+}
+
+fn report(text: &str, rules: impl Rules + 'static) -> (Model, ScenarioReport) {
+    let model = Model::with_rules(Scenario::parse("trio.toml", text).unwrap(), rules);
+    let report = check(&model, &Options::default(), &mut |_| ());
+    (model, report)
+}
+
+fn verdicts(report: &ScenarioReport) -> Vec<(&str, Verdict)> {
+    let properties = report.properties.iter();
+    properties.map(|p| (p.id.as_str(), p.verdict)).collect()
+}
+
+/// Asserts that symmetry changes no verdict, and that what breaks with it breaks in a real run. Returns
+/// the ids of what breaks.
+fn assert_same_verdicts<R: Rules + 'static>(rules: fn() -> R) -> Vec<String> {
+    let (_, plain) = report(&without_liveness(), rules());
+    let (model, reduced) = report(&symmetric(), rules());
+    assert_eq!(verdicts(&plain), verdicts(&reduced));
+    for property in &reduced.properties {
+        if let Some(replay) = Replay::of(&reduced, property) {
+            assert!(replay.is_broken(&replay.follow(&model)), "{replay:#?}");
+        }
+    }
+    reduced.violated().map(str::to_owned).collect()
+}
+
+#[test]
+fn the_protocol_gets_the_same_verdicts() {
+    assert!(assert_same_verdicts(|| Protocol).is_empty());
+}
+
+/// The identity is never locked.
+struct LocksNoIdentity;
+
+impl Rules for LocksNoIdentity {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let others = outputs
+            .iter()
+            .filter(|output| !matches!(output, Output::LockIdentity));
+        others.copied().collect()
+    }
+}
+
+#[test]
+fn an_identity_that_is_not_locked_is_found() {
+    assert_eq!(assert_same_verdicts(|| LocksNoIdentity), ["I18"]);
+}
+
+/// When one follower is gone, another one's lease goes too.
+struct LosesTwoForOne;
+
+impl Rules for LosesTwoForOne {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let one_is_gone = outputs
+            .notices()
+            .any(|notice| matches!(notice, Notice::FollowerGone(..)));
+        if let (true, Phase::Leading(leading)) = (one_is_gone, robot.phase()) {
+            let others: Vec<_> = leading.members.iter().map(|m| m.station).collect();
+            for station in others {
+                robot.step(config, Input::Expired(Timer::Lease(station)));
+            }
+        }
+        outputs
+    }
+}
+
+#[test]
+fn a_follower_that_goes_and_takes_another_with_it_is_found() {
+    assert_eq!(assert_same_verdicts(|| LosesTwoForOne), ["I17", "L7"]);
+}
+
+/// A robot that has followed never gets idle again by itself, so that L7 fails late in a run.
+struct FollowersWaitForEver;
+
+impl Rules for FollowersWaitForEver {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let (Phase::Following(_), Input::Expired(_)) = (robot.phase(), input) {
+            return [Output::Ignored(Ignored::TimerNotArmed)]
+                .into_iter()
+                .collect();
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn followers_that_are_stuck_are_found() {
+    assert_eq!(assert_same_verdicts(|| FollowersWaitForEver), ["I12", "L7"]);
+}
+
+#[test]
+fn a_claim_of_symmetry_that_is_none_is_refused_with_its_line() {
+    let claim = "symmetric = [2, 3]";
+    // What is replaced by what, the line that is wrong, and why.
+    let cases = [
+        (
+            claim,
+            "symmetric = [2, 7]",
+            "symmetric",
+            "no robot has station id 7",
+        ),
+        (claim, "symmetric = [1, 2]", "symmetric", "robot 1 detects"),
+        (
+            claim,
+            "symmetric = [3, 3]",
+            "symmetric",
+            "robot 3 is symmetric with itself",
+        ),
+        (
+            claim,
+            "symmetric = [3]",
+            "symmetric",
+            "robot 3 alone is symmetric with nobody",
+        ),
+        (
+            "followers = 2",
+            "followers = 1",
+            "followers = 1",
+            "symmetric robots need followers = 2",
+        ),
+        (
+            "commands = 1",
+            "commands = 1\ndisturbances = 1",
+            "disturbances",
+            "need disturbances = 0",
+        ),
+        (
+            "\"I18\"",
+            "\"I18\",\n\"L4\"",
+            "\"L4\"",
+            "L4 assumes fairness to each robot by itself",
+        ),
+        (
+            "[protocol]",
+            "[timed]\ntick_ms = 50\ndelay_ms = 0\n[protocol]",
+            "symmetric",
+            "no place in a timed scenario",
+        ),
+    ];
+    for (from, to, wrong, message) in cases {
+        let valid = symmetric();
+        assert!(valid.contains(from), "no line '{from}'");
+        let text = valid.replacen(from, to, 1);
+        let error = Scenario::parse("my.toml", &text).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+        let line = text.lines().position(|line| line.contains(wrong)).unwrap() + 1;
+        assert!(error.starts_with(&format!("my.toml:{line}: ")), "{error}");
+    }
+}
+
+#[test]
+fn the_report_says_which_robots_count_as_one() {
+    let (_, reduced) = report(
+        &symmetric().replace("commands = 1", "commands = 0"),
+        Protocol,
+    );
+    let says = |what: &str| reduced.assumptions.iter().any(|line| line.contains(what));
+    assert!(says(
+        "states that differ by exchanging robots 2, 3 count as one"
+    ));
+    assert!(says("any may hear it first"));
+}
