@@ -332,7 +332,7 @@ mod tests {
     fn each_inequality_is_refused_by_its_name_and_at_its_edge() {
         use Inequality as I;
         type Case = (Option<Inequality>, fn(&mut Settings));
-        let cases: [Case; 24] = [
+        let cases: [Case; 26] = [
             (Some(I::TimerInRange), |s| s.t_ack = Millis(0)),
             (None, |s| s.t_ack = Millis(1)),
             (Some(I::TimerInRange), |s| s.t_exec[7] = Millis(86_400_001)),
@@ -341,6 +341,13 @@ mod tests {
             (None, |s| s.n_ack = 15),
             (Some(I::RepeatsInRange), |s| s.n_ack = 16),
             (Some(I::DriftInRange), |s| s.drift_ppm = 100_000),
+            // With perfect clocks, t_lease + 50 < 2000.
+            (None, |s| {
+                (s.drift_ppm, s.t_lease) = (0, Millis(1_949));
+            }),
+            (Some(I::LeaseWithinSafety), |s| {
+                (s.drift_ppm, s.t_lease) = (0, Millis(1_950));
+            }),
             // (t_lease + 50) * 1.001 < 2000 * 0.999 up to t_lease = 1946.
             (None, |s| s.t_lease = Millis(1_946)),
             (Some(I::LeaseWithinSafety), |s| s.t_lease = Millis(1_947)),
@@ -387,5 +394,28 @@ mod tests {
         };
         assert_eq!(lock(11_001), None);
         assert_eq!(lock(11_000), Some(Inequality::LockOutlastsTask));
+    }
+
+    #[test]
+    fn a_broken_inequality_says_its_name_and_what_would_hold() {
+        use std::collections::BTreeSet;
+        use std::string::ToString;
+
+        let broken = Config::new(Settings {
+            t_lease: Settings::default().t_safety,
+            ..Settings::default()
+        })
+        .unwrap_err();
+        assert_eq!(
+            broken.to_string(),
+            "the settings break 'lease-within-safety': \
+             (t_lease + delay_max) * (1 + drift) < t_safety * (1 - drift)"
+        );
+        let texts = |text: fn(Inequality) -> &'static str| {
+            let texts: BTreeSet<_> = Inequality::ALL.into_iter().map(text).collect();
+            texts.len()
+        };
+        assert_eq!(texts(Inequality::name), Inequality::ALL.len());
+        assert_eq!(texts(Inequality::formula), Inequality::ALL.len());
     }
 }
