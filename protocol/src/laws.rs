@@ -18,6 +18,7 @@ pub mod lists;
 pub mod numbers;
 pub mod steps;
 pub mod timers;
+pub mod watch;
 
 mod source;
 

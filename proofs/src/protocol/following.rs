@@ -1,9 +1,10 @@
 //! Stages 3 and 4: a follower.
 
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
-use crossguard_protocol::{Output, Role};
+use crossguard_protocol::Role;
+use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{EVENTS, any_of, any_step, becomes, has};
+use super::stage::{EVENTS, any_of, any_step, becomes};
 use crate::harness::harnesses;
 use crate::kani;
 
@@ -14,7 +15,7 @@ harnesses! {
     fn hears_a_leader() {
         let step = any_step(Stage::Following, 0, Kind::RamLeader);
         kani::cover!(becomes(&step, Role::None), "is not listed any more");
-        kani::cover!(!step.is_ignored() && step.outputs.is_empty(), "hears a newer heartbeat");
+        kani::cover!(!step.is_ignored() && step.said.is_empty(), "hears a newer heartbeat");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -24,7 +25,7 @@ harnesses! {
     fn hears_another_ram() {
         let kinds = [Kind::RamNone, Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamFollower];
         let step = any_step(Stage::Following, 0, any_of(&kinds));
-        kani::cover!(has(&step, |output| matches!(output, Output::StopManeuver(..))), "stops as the session ends");
+        kani::cover!(step.said.has(Sort::StopManeuver), "stops as the session ends");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -33,9 +34,9 @@ harnesses! {
     #[solver(cadical)]
     fn hears_a_command() {
         let step = any_step(Stage::Following, 0, Kind::Command);
-        let starts = has(&step, |output| matches!(output, Output::StartManeuver(_)));
-        let answers = has(&step, |output| matches!(output, Output::SendRmcm(_)));
-        kani::cover!(starts && has(&step, |output| matches!(output, Output::StopManeuver(..))), "supersedes");
+        let starts = step.said.has(Sort::StartManeuver);
+        let answers = step.said.has(Sort::Answer);
+        kani::cover!(starts && step.said.has(Sort::StopManeuver), "supersedes");
         kani::cover!(starts, "accepts");
         kani::cover!(answers && step.before == step.after, "answers again");
         kani::cover!(answers && !starts && step.before != step.after, "rejects");
@@ -65,7 +66,7 @@ harnesses! {
     fn takes_an_event() {
         let step = any_step(Stage::Following, 0, any_of(&EVENTS));
         kani::cover!(becomes(&step, Role::None), "leaves");
-        kani::cover!(has(&step, |output| matches!(output, Output::StopManeuver(..))) && becomes(&step, Role::Follower), "stops and stays");
+        kani::cover!(step.said.has(Sort::StopManeuver) && becomes(&step, Role::Follower), "stops and stays");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -74,7 +75,7 @@ harnesses! {
     #[solver(cadical)]
     fn fires_a_timer() {
         let step = any_step(Stage::Following, 0, Kind::Expired);
-        kani::cover!(has(&step, |output| matches!(output, Output::FallBack(..))), "falls back");
+        kani::cover!(step.said.has(Sort::FallBack), "falls back");
         kani::cover!(becomes(&step, Role::None), "leaves");
         kani::cover!(step.is_ignored(), "ignored");
     }

@@ -1,9 +1,10 @@
 //! Stage 1: a robot without a part in a session.
 
 use crossguard_protocol::laws::arbitrary::{Kind, Stage};
-use crossguard_protocol::{Output, Role};
+use crossguard_protocol::Role;
+use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{EVENTS, any_of, any_step, becomes, has};
+use super::stage::{EVENTS, any_of, any_step, becomes};
 use crate::harness::harnesses;
 use crate::kani;
 
@@ -24,7 +25,7 @@ harnesses! {
     #[solver(cadical)]
     fn hears_an_rmcm() {
         let step = any_step(Stage::Idle, 0, any_of(&[Kind::Command, Kind::Answer]));
-        kani::cover!(has(&step, |output| *output == Output::LockIdentity), "says farewell");
+        kani::cover!(step.said.has(Sort::LockIdentity), "says farewell");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -43,8 +44,8 @@ harnesses! {
     #[solver(cadical)]
     fn fires_a_timer() {
         let step = any_step(Stage::Idle, 0, Kind::Expired);
-        kani::cover!(has(&step, |output| *output == Output::UnlockIdentity), "unlocks");
-        kani::cover!(has(&step, |output| *output == Output::SendRam), "repeats its farewell");
+        kani::cover!(step.said.has(Sort::UnlockIdentity), "unlocks");
+        kani::cover!(step.said.has(Sort::SendRam), "repeats its farewell");
         kani::cover!(step.is_ignored(), "ignored");
     }
 }

@@ -1,19 +1,15 @@
 //! Stages 3 and 4: a leader, with one or two followers.
 
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
-use crossguard_protocol::laws::steps::Taken;
-use crossguard_protocol::{EndReason, Notice, Output, Role};
+use crossguard_protocol::Role;
+use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{any_of, any_step, becomes, has};
+use super::stage::{any_of, any_step, becomes};
 use crate::harness::harnesses;
 use crate::kani;
 
 /// How many followers the leader has, at most: one that a message is about, and another.
 const FOLLOWERS: usize = 2;
-
-fn notifies(step: &Taken, of_kind: impl Fn(Notice) -> bool) -> bool {
-    step.outputs.notices().any(of_kind)
-}
 
 harnesses! {
     /// A RAM of a follower.
@@ -21,12 +17,12 @@ harnesses! {
     #[solver(cadical)]
     fn hears_a_follower() {
         let step = any_step(Stage::Leading, FOLLOWERS, Kind::RamFollower);
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::FollowerJoined(_))), "joins");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::LeaseGranted(_))), "grants a lease");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::CommandAcknowledged(..))), "counts as acknowledged");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::ManeuverCompleted(..))), "counts as completed");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::FollowerGone(..))), "drops a follower that left");
-        kani::cover!(has(&step, |output| matches!(output, Output::CorridorClosed(_))), "closes the corridor");
+        kani::cover!(step.said.has(Sort::FollowerJoined), "joins");
+        kani::cover!(step.said.has(Sort::LeaseGranted), "grants a lease");
+        kani::cover!(step.said.has(Sort::CommandAcknowledged), "counts as acknowledged");
+        kani::cover!(step.said.has(Sort::ManeuverCompleted), "counts as completed");
+        kani::cover!(step.said.has(Sort::FollowerGone), "drops a follower that left");
+        kani::cover!(step.said.has(Sort::CorridorClosed), "closes the corridor");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -36,7 +32,7 @@ harnesses! {
     fn hears_a_farewell() {
         let step = any_step(Stage::Leading, FOLLOWERS, Kind::RamNone);
         kani::cover!(becomes(&step, Role::None), "the last follower left");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::FollowerGone(..))) && becomes(&step, Role::Leader), "a follower left");
+        kani::cover!(step.said.has(Sort::FollowerGone) && becomes(&step, Role::Leader), "a follower left");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -46,7 +42,7 @@ harnesses! {
     fn hears_another_ram() {
         let kinds = [Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamLeader];
         let step = any_step(Stage::Leading, FOLLOWERS, any_of(&kinds));
-        kani::cover!(has(&step, |output| *output == Output::SendRam), "names a session as over");
+        kani::cover!(step.said.has(Sort::SendRam), "names a session as over");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -55,7 +51,7 @@ harnesses! {
     #[solver(cadical)]
     fn hears_a_command() {
         let step = any_step(Stage::Leading, FOLLOWERS, Kind::Command);
-        kani::cover!(has(&step, |output| *output == Output::SendRam), "says farewell");
+        kani::cover!(step.said.has(Sort::SendRam), "says farewell");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -64,8 +60,8 @@ harnesses! {
     #[solver(cadical)]
     fn hears_an_answer() {
         let step = any_step(Stage::Leading, FOLLOWERS, Kind::Answer);
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::CommandAcknowledged(..))), "acknowledged");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::CommandRejected(..))), "rejected");
+        kani::cover!(step.said.has(Sort::CommandAcknowledged), "acknowledged");
+        kani::cover!(step.said.has(Sort::CommandRejected), "rejected");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -74,8 +70,8 @@ harnesses! {
     #[solver(cadical)]
     fn commands() {
         let step = any_step(Stage::Leading, FOLLOWERS, Kind::Local(Happening::CommandManeuver));
-        kani::cover!(has(&step, |output| matches!(output, Output::SendRmcm(_))), "commands");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::SessionEnded(_, EndReason::Renewed))), "renews the session");
+        kani::cover!(step.said.has(Sort::Command), "commands");
+        kani::cover!(step.said.has(Sort::Renewed), "renews the session");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -84,8 +80,8 @@ harnesses! {
     #[solver(cadical)]
     fn moves_the_corridor() {
         let step = any_step(Stage::Leading, FOLLOWERS, Kind::Local(Happening::Corridor));
-        kani::cover!(has(&step, |output| *output == Output::CorridorOpened), "opens");
-        kani::cover!(has(&step, |output| matches!(output, Output::CorridorClosed(_))), "closes");
+        kani::cover!(step.said.has(Sort::CorridorOpened), "opens");
+        kani::cover!(step.said.has(Sort::CorridorClosed), "closes");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -104,10 +100,10 @@ harnesses! {
     #[solver(cadical)]
     fn fires_a_timer() {
         let step = any_step(Stage::Leading, FOLLOWERS, Kind::Expired);
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::LeaseExpired(_))), "a lease ran out");
-        kani::cover!(has(&step, |output| matches!(output, Output::SendRmcm(_))), "repeats a command");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::FollowerGone(..))), "drops a follower");
-        kani::cover!(notifies(&step, |n| matches!(n, Notice::ManeuverFailed(..))), "the execution limit ran out");
+        kani::cover!(step.said.has(Sort::LeaseExpired), "a lease ran out");
+        kani::cover!(step.said.has(Sort::Command), "repeats a command");
+        kani::cover!(step.said.has(Sort::FollowerGone), "drops a follower");
+        kani::cover!(step.said.has(Sort::ManeuverFailed), "the execution limit ran out");
         kani::cover!(step.is_ignored(), "ignored");
     }
 }

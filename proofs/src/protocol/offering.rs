@@ -1,9 +1,10 @@
 //! Stage 2: a robot that offers help.
 
 use crossguard_protocol::laws::arbitrary::{Kind, Stage};
-use crossguard_protocol::{Output, Role};
+use crossguard_protocol::Role;
+use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{EVENTS, any_of, any_step, becomes, has};
+use super::stage::{EVENTS, any_of, any_step, becomes};
 use crate::harness::harnesses;
 use crate::kani;
 
@@ -25,7 +26,7 @@ harnesses! {
         let kinds = [Kind::RamNone, Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamFollower];
         let step = any_step(Stage::Offering, 0, any_of(&kinds));
         kani::cover!(becomes(&step, Role::None), "the session ended");
-        kani::cover!(has(&step, |output| *output == Output::SendRam) && becomes(&step, Role::Helper), "names a session as over");
+        kani::cover!(step.said.has(Sort::SendRam) && becomes(&step, Role::Helper), "names a session as over");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -34,7 +35,7 @@ harnesses! {
     #[solver(cadical)]
     fn hears_an_rmcm() {
         let step = any_step(Stage::Offering, 0, any_of(&[Kind::Command, Kind::Answer]));
-        kani::cover!(has(&step, |output| *output == Output::SendRam), "says farewell");
+        kani::cover!(step.said.has(Sort::SendRam), "says farewell");
         kani::cover!(step.is_ignored(), "ignored");
     }
 

@@ -1,9 +1,10 @@
 //! Stage 2: a robot that asks for help, with any number of offers.
 
 use crossguard_protocol::laws::arbitrary::{Kind, Stage};
-use crossguard_protocol::{Output, Role};
+use crossguard_protocol::Role;
+use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{EVENTS, any_of, any_step, becomes, has};
+use super::stage::{EVENTS, any_of, any_step, becomes};
 use crate::harness::harnesses;
 use crate::kani;
 
@@ -26,8 +27,8 @@ harnesses! {
     #[solver(cadical)]
     fn hears_an_offer() {
         let step = any_step(Stage::Requesting, OFFERS, Kind::RamOfferHelp);
-        kani::cover!(!step.is_ignored() && step.outputs.is_empty(), "takes it");
-        kani::cover!(has(&step, |output| *output == Output::SendRam), "names a session as over");
+        kani::cover!(!step.is_ignored() && step.said.is_empty(), "takes it");
+        kani::cover!(step.said.has(Sort::SendRam), "names a session as over");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -37,8 +38,8 @@ harnesses! {
     fn hears_another_ram() {
         let kinds = [Kind::RamNone, Kind::RamLeader, Kind::RamFollower];
         let step = any_step(Stage::Requesting, OFFERS, any_of(&kinds));
-        kani::cover!(!step.is_ignored() && step.outputs.is_empty(), "forgets an offer");
-        kani::cover!(has(&step, |output| *output == Output::SendRam), "names a session as over");
+        kani::cover!(!step.is_ignored() && step.said.is_empty(), "forgets an offer");
+        kani::cover!(step.said.has(Sort::SendRam), "names a session as over");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
@@ -47,7 +48,7 @@ harnesses! {
     #[solver(cadical)]
     fn hears_an_rmcm() {
         let step = any_step(Stage::Requesting, OFFERS, any_of(&[Kind::Command, Kind::Answer]));
-        kani::cover!(has(&step, |output| *output == Output::SendRam), "says farewell");
+        kani::cover!(step.said.has(Sort::SendRam), "says farewell");
         kani::cover!(step.is_ignored(), "ignored");
     }
 

@@ -3,7 +3,7 @@
 use crossguard_protocol::laws::Source;
 use crossguard_protocol::laws::arbitrary::{self, Happening, Kind, Stage};
 use crossguard_protocol::laws::steps::{self, Taken};
-use crossguard_protocol::{Config, Output, Robot, Role};
+use crossguard_protocol::{Config, Robot, Role};
 
 use crate::{Symbolic, kani};
 
@@ -49,10 +49,6 @@ pub(super) const EVENTS: [Kind; 7] = [
     Kind::Local(Happening::IdentityChanged),
 ];
 
-/// Whether the step has this output.
-pub(super) fn has(step: &Taken, of_kind: impl Fn(&Output) -> bool) -> bool {
-    step.outputs.iter().any(of_kind)
-}
 
 /// Whether the robot has this role after the step.
 pub(super) fn becomes(step: &Taken, role: Role) -> bool {

@@ -42,6 +42,49 @@ impl Stage {
     ];
 }
 
+/// What a robot names as over.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Parting {
+    /// Nothing.
+    None,
+    /// [`Farewell::Ended`].
+    Ended,
+    /// [`Farewell::Left`].
+    Left,
+}
+
+/// EXP
+pub fn shaped(source: &mut impl Source, config: &Config, stage: Stage, peers: usize, parting: Parting) -> Robot {
+    let settings = config.settings();
+    Robot {
+        station: station(source, ME),
+        boot: source.u16(BOOT),
+        next_count: source.u16(BOOT),
+        availability: match stage {
+            Stage::Idle | Stage::Following => availability(source),
+            _ => crate::task::Availability::Available,
+        },
+        identity: if stage == Stage::Idle && parting == Parting::None {
+            Identity::Unlocked
+        } else {
+            Identity::Locked(countdown(source, config.t_lock_session()))
+        },
+        ram: armed_or_off(source, settings.ram_period),
+        farewell: match parting {
+            Parting::None => None,
+            Parting::Ended => Some(StandingFarewell {
+                farewell: crate::message::Farewell::Ended(session_number(source)),
+                left: countdown(source, settings.t_farewell),
+            }),
+            Parting::Left => Some(StandingFarewell {
+                farewell: crate::message::Farewell::Left(session(source, PEER)),
+                left: countdown(source, settings.t_farewell),
+            }),
+        },
+        phase: phase(source, config, stage, peers),
+    }
+}
+
 /// Any state in this stage, with at most `peers` offers or followers. `config` is for hints.
 pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: usize) -> Robot {
     let settings = config.settings();
