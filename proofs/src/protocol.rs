@@ -5,7 +5,6 @@
 //! whose numbers are in range. Each has inputs of some kinds in one stage.
 
 pub mod boot;
-pub mod exp;
 pub mod following;
 pub mod idle;
 pub mod leading;

@@ -38,7 +38,7 @@ harnesses! {
     #[solver(cadical)]
     fn heartbeats_age_as_time_passes() {
         let config = Config::default();
-        let robot = any_valid(&config, Stage::Leading, 1);
+        let robot = any_valid(&config, Stage::Leading, (1, 1));
         let (heartbeat, elapsed) = (Heartbeat(kani::any()), Millis(any_time()));
         laws::heartbeats_age_as_time_passes(&config, &robot, heartbeat, elapsed);
         kani::cover!(robot.next_ram().is_some_and(|left| left < elapsed), "late");

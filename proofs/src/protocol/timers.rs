@@ -5,17 +5,20 @@
 use crossguard_protocol::laws::arbitrary::{self, Stage};
 use crossguard_protocol::laws::steps::{self, Taken};
 use crossguard_protocol::laws::{Source, timers as laws};
-use crossguard_protocol::{Config, MAX_FOLLOWERS, Millis, Robot, Role};
+use crossguard_protocol::{Config, Millis, Robot, Role};
 use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{any_config, any_valid, becomes};
 use crate::harness::harnesses;
 use crate::{Symbolic, kani};
 
+/// How many offers or followers there are: one that a timer is about, and another.
+const PEERS: (usize, usize) = (0, 2);
+
 /// All countdowns run.
 fn any_running(stage: Stage) {
     let config = any_config();
-    let robot = any_valid(&config, stage, MAX_FOLLOWERS);
+    let robot = any_valid(&config, stage, PEERS);
     let elapsed = Millis(Symbolic.number(u32::MAX, 100));
     laws::running_keeps_the_state_consistent(&config, &robot, elapsed);
     kani::cover!(
@@ -30,7 +33,7 @@ fn any_running(stage: Stage) {
 
 /// A state that can occur within a step.
 fn any_within_a_step(config: &Config, stage: Stage) -> Robot {
-    arbitrary::robot(&mut Symbolic, config, stage, MAX_FOLLOWERS)
+    arbitrary::robot(&mut Symbolic, config, stage, PEERS)
 }
 
 /// One timer fires.
