@@ -66,8 +66,14 @@ fn exercise(harness: &Harness) -> stand_in::Record {
 #[test]
 fn every_harness_holds_for_random_values_and_reaches_its_marks() {
     let committed = committed();
-    let proved = committed.harness.iter().map(|e| (e.name.as_str(), e.covers));
-    let others = committed.random_only.iter().map(|e| (e.name.as_str(), e.covers));
+    let proved = committed
+        .harness
+        .iter()
+        .map(|e| (e.name.as_str(), e.covers));
+    let others = committed
+        .random_only
+        .iter()
+        .map(|e| (e.name.as_str(), e.covers));
     let covers: BTreeMap<_, _> = proved.chain(others).collect();
     let mut wrong = Vec::new();
     for harness in harnesses() {
@@ -85,13 +91,22 @@ fn every_harness_holds_for_random_values_and_reaches_its_marks() {
 fn the_list_has_every_harness_as_it_is() {
     let committed = committed();
     let (proved, others): (Vec<_>, Vec<_>) = harnesses().partition(|h| h.proof.is_some());
-    let names = |harnesses: Vec<&Harness>| -> Vec<_> { harnesses.iter().map(|h| h.name()).collect() };
+    let names =
+        |harnesses: Vec<&Harness>| -> Vec<_> { harnesses.iter().map(|h| h.name()).collect() };
     let listed: Vec<_> = committed.harness.iter().map(|e| e.name.as_str()).collect();
     assert_eq!(listed, names(proved.clone()));
-    let listed: Vec<_> = committed.random_only.iter().map(|e| e.name.as_str()).collect();
+    let listed: Vec<_> = committed
+        .random_only
+        .iter()
+        .map(|e| e.name.as_str())
+        .collect();
     assert_eq!(listed, names(others));
     for entry in &committed.random_only {
-        assert!(!entry.law.is_empty() && !entry.bound.is_empty(), "{}", entry.name);
+        assert!(
+            !entry.law.is_empty() && !entry.bound.is_empty(),
+            "{}",
+            entry.name
+        );
     }
     for (harness, entry) in proved.into_iter().zip(&committed.harness) {
         let proof = Proof {
@@ -99,8 +114,19 @@ fn the_list_has_every_harness_as_it_is() {
             solver: entry.solver.as_str().to_owned().leak(),
         };
         assert_eq!(harness.proof, Some(proof), "{}", entry.name);
-        assert!(!entry.law.is_empty() && !entry.bound.is_empty(), "{}", entry.name);
-        let seconds = entry.time.strip_suffix(" s").and_then(|s| s.parse::<f64>().ok());
-        assert!(seconds.is_some() || entry.time == "not measured", "{}", entry.name);
+        assert!(
+            !entry.law.is_empty() && !entry.bound.is_empty(),
+            "{}",
+            entry.name
+        );
+        let seconds = entry
+            .time
+            .strip_suffix(" s")
+            .and_then(|s| s.parse::<f64>().ok());
+        assert!(
+            seconds.is_some() || entry.time == "not measured",
+            "{}",
+            entry.name
+        );
     }
 }

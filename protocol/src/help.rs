@@ -55,7 +55,12 @@ impl Robot {
     }
 
     /// Reserves the robot for one requester.
-    fn offer(&mut self, step: &mut Step<'_, impl Sink>, session: SessionId, request: HelpRequest) -> Effect {
+    fn offer(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+        request: HelpRequest,
+    ) -> Effect {
         self.may_join()?;
         let capabilities = step
             .config

@@ -12,7 +12,11 @@ use crate::time::Countdown;
 
 impl Robot {
     /// `PedestrianDetected` opens a session (design section 4, *Request and offer*).
-    pub(crate) fn detect_pedestrian(&mut self, step: &mut Step<'_, impl Sink>, request: HelpRequest) -> Effect {
+    pub(crate) fn detect_pedestrian(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        request: HelpRequest,
+    ) -> Effect {
         if !Config::can_ask_for(request.followers) || request.tasks.is_empty() {
             return Err(Ignored::ImpossibleRequest);
         }

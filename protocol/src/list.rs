@@ -156,6 +156,10 @@ impl<T, const N: usize> Clone for Iter<'_, T, N> {
     }
 }
 
+#[expect(
+    clippy::while_let_on_iterator,
+    reason = "without the detour over a reference"
+)]
 impl<'a, T, const N: usize> Iterator for Iter<'a, T, N> {
     type Item = &'a T;
 

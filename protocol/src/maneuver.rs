@@ -63,7 +63,11 @@ impl Robot {
     }
 
     /// `T_ack` ran out: the same command again, or the follower is lost.
-    pub(crate) fn acknowledgement_expired(&mut self, step: &mut Step<'_, impl Sink>, station: StationId) {
+    pub(crate) fn acknowledgement_expired(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        station: StationId,
+    ) {
         let session = self.session();
         let Phase::Leading(leading) = &mut self.phase else {
             return;
@@ -143,7 +147,12 @@ impl Member {
     }
 
     /// Sends the next command.
-    fn command(&mut self, step: &mut Step<'_, impl Sink>, session: SessionId, task: TaskType) -> Effect {
+    fn command(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+        task: TaskType,
+    ) -> Effect {
         self.may_be_commanded()?;
         let outstanding = Outstanding {
             request: self.next_request,
@@ -183,7 +192,12 @@ impl Member {
     }
 
     /// The follower takes the outstanding command on.
-    fn acknowledge(&mut self, step: &mut Step<'_, impl Sink>, session: SessionId, request: RequestId) -> Effect {
+    fn acknowledge(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+        request: RequestId,
+    ) -> Effect {
         let Outstanding { task, .. } = self.take_outstanding(request)?;
         let execution = Countdown::armed(step.config.t_exec(task));
         self.order = Some(Order {
@@ -240,7 +254,11 @@ impl Member {
 impl Robot {
     /// A command. The follower acknowledges it before it starts, acknowledges a repeated one again
     /// without starting it again, and is not moved by an older one.
-    pub(crate) fn hear_command(&mut self, step: &mut Step<'_, impl Sink>, command: Command) -> Effect {
+    pub(crate) fn hear_command(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        command: Command,
+    ) -> Effect {
         if command.session.leader == self.station {
             return Err(Ignored::OwnStation);
         }
@@ -261,16 +279,29 @@ impl Robot {
     }
 
     /// The application has finished the maneuver.
-    pub(crate) fn complete_maneuver(&mut self, step: &mut Step<'_, impl Sink>, id: ManeuverId) -> Effect {
+    pub(crate) fn complete_maneuver(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        id: ManeuverId,
+    ) -> Effect {
         self.finish_maneuver(step, id, Progress::Completed)
     }
 
     /// The application cannot finish the maneuver.
-    pub(crate) fn fail_maneuver(&mut self, step: &mut Step<'_, impl Sink>, id: ManeuverId) -> Effect {
+    pub(crate) fn fail_maneuver(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        id: ManeuverId,
+    ) -> Effect {
         self.finish_maneuver(step, id, Progress::Failed(Failure::Maneuver))
     }
 
-    fn finish_maneuver(&mut self, step: &mut Step<'_, impl Sink>, id: ManeuverId, progress: Progress) -> Effect {
+    fn finish_maneuver(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        id: ManeuverId,
+        progress: Progress,
+    ) -> Effect {
         let Phase::Following(following) = &mut self.phase else {
             return Err(Ignored::NotExecuting);
         };
@@ -367,7 +398,11 @@ impl Following {
 }
 
 /// Why a robot must reject a command for `task`.
-fn rejection(step: &Step<'_, impl Sink>, availability: Availability, task: TaskType) -> Option<Rejection> {
+fn rejection(
+    step: &Step<'_, impl Sink>,
+    availability: Availability,
+    task: TaskType,
+) -> Option<Rejection> {
     if let Availability::Unavailable(reason) = availability {
         return Some(Rejection::Unavailable(reason));
     }

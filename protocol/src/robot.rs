@@ -75,7 +75,12 @@ impl Robot {
         self.settle(step);
     }
 
-    fn hear_ram(&mut self, step: &mut Step<'_, impl Sink>, ram: &Ram, distance: Decimetres) -> Effect {
+    fn hear_ram(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        ram: &Ram,
+        distance: Decimetres,
+    ) -> Effect {
         if ram.station == self.station {
             return Err(Ignored::OwnStation);
         }

@@ -133,7 +133,12 @@ impl Robot {
     }
 
     /// Removes one follower; the records of the others stay as they are (property I17).
-    pub(crate) fn drop_follower(&mut self, step: &mut Step<'_, impl Sink>, station: StationId, why: GoneReason) {
+    pub(crate) fn drop_follower(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        station: StationId,
+        why: GoneReason,
+    ) {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
@@ -186,7 +191,12 @@ impl Leading {
 
 impl Member {
     /// An echo of a heartbeat that was sent `age` ago.
-    fn hear_echo(&mut self, step: &mut Step<'_, impl Sink>, echo: Heartbeat, age: Millis) -> Effect {
+    fn hear_echo(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        echo: Heartbeat,
+        age: Millis,
+    ) -> Effect {
         match self.echoed {
             Some(newest) if !echo.is_newer_than(newest) => return Err(Ignored::OldHeartbeat),
             Some(_) => {}

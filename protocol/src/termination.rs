@@ -5,7 +5,10 @@
 
 use crate::id::{SessionId, StationId};
 use crate::message::Farewell;
-use crate::output::{CorridorClosure, EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, Sink, StopReason};
+use crate::output::{
+    CorridorClosure, EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, Sink,
+    StopReason,
+};
 use crate::robot::{Effect, Step};
 use crate::state::{Identity, Phase, Robot, StandingFarewell};
 use crate::time::Countdown;
@@ -82,7 +85,11 @@ impl Robot {
     }
 
     /// Announces that a session is over, from now on for `T_farewell`.
-    pub(crate) fn say_farewell(&mut self, step: &mut Step<'_, impl Sink>, farewell: Farewell) -> Effect {
+    pub(crate) fn say_farewell(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        farewell: Farewell,
+    ) -> Effect {
         if self.farewell() == Some(farewell) {
             return Err(Ignored::NothingNew);
         }
@@ -119,7 +126,12 @@ impl Robot {
         }
     }
 
-    fn hear_left(&mut self, step: &mut Step<'_, impl Sink>, from: StationId, session: SessionId) -> Effect {
+    fn hear_left(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        from: StationId,
+        session: SessionId,
+    ) -> Effect {
         if session.leader != self.station {
             return Err(Ignored::NotAddressed);
         }
@@ -144,7 +156,11 @@ impl Robot {
 
     /// Somebody still takes part in a session of this robot that is over, perhaps one of an earlier
     /// life: name it as ended once more.
-    pub(crate) fn answer_stale_session(&mut self, step: &mut Step<'_, impl Sink>, session: SessionId) -> Effect {
+    pub(crate) fn answer_stale_session(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+    ) -> Effect {
         if self.session() == Some(session) {
             // It is not over; the sender claims a part in it that nobody gave it.
             return Err(Ignored::NotAFollower);

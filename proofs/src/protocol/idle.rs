@@ -1,7 +1,7 @@
 //! Stage 1: a robot without a part in a session.
 
-use crossguard_protocol::laws::arbitrary::{Kind, Stage};
 use crossguard_protocol::Role;
+use crossguard_protocol::laws::arbitrary::{Kind, Stage};
 use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{From, any_of, becomes};
@@ -11,28 +11,42 @@ use crate::kani;
 const FROM: From = From::stage(Stage::Idle);
 
 harnesses! {
-    /// Any RAM.
+    /// A RAM that asks for help.
     #[unwind(6)]
     #[solver(cadical)]
-    fn hears_a_ram() {
-        let kinds = [Kind::RamNone, Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamLeader, Kind::RamFollower];
+    fn hears_a_request() {
+        let step = FROM.any_step(Kind::RamNeedHelp);
+        kani::cover!(becomes(&step, Role::Helper), "offers");
+        kani::cover!(step.is_ignored(), "ignored");
+    }
+
+    /// Any other RAM.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn hears_another_ram() {
+        let kinds = [Kind::RamNone, Kind::RamOfferHelp, Kind::RamLeader, Kind::RamFollower];
         any_of(&kinds, |kind| {
             let step = FROM.any_step(kind);
-            kani::cover!(becomes(&step, Role::Helper), "offers");
             kani::cover!(!step.is_ignored() && becomes(&step, Role::None), "names a session as over");
             kani::cover!(step.is_ignored(), "ignored");
         });
     }
 
-    /// Any RMCM.
+    /// A command.
     #[unwind(6)]
     #[solver(cadical)]
-    fn hears_an_rmcm() {
-        any_of(&[Kind::Command, Kind::Answer], |kind| {
-            let step = FROM.any_step(kind);
-            kani::cover!(step.said.has(Sort::LockIdentity), "says farewell");
-            kani::cover!(step.is_ignored(), "ignored");
-        });
+    fn hears_a_command() {
+        let step = FROM.any_step(Kind::Command);
+        kani::cover!(step.said.has(Sort::LockIdentity), "says farewell");
+        kani::cover!(step.is_ignored(), "ignored");
+    }
+
+    /// An answer.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn hears_an_answer() {
+        let step = FROM.any_step(Kind::Answer);
+        kani::cover!(step.is_ignored(), "ignored");
     }
 
     /// Any event.

@@ -1,7 +1,7 @@
 //! Stages 3 and 4: a leader, with one or two followers.
 
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
 use crossguard_protocol::Role;
+use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
 use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{From, any_of, becomes};

@@ -4,9 +4,9 @@
 
 use crossguard_protocol::laws::arbitrary::{self, Stage};
 use crossguard_protocol::laws::steps::{self, Taken};
+use crossguard_protocol::laws::watch::Sort;
 use crossguard_protocol::laws::{Source, timers as laws};
 use crossguard_protocol::{Config, Millis, Robot, Role};
-use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{any_config, any_valid, becomes};
 use crate::harness::harnesses;

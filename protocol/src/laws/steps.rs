@@ -3,11 +3,11 @@
 //! They hold for any valid state, so that with [`keeps_the_state_valid`] they hold in runs of any
 //! length and among peers that say anything. Each law is named with its property.
 
+use crate::MAX_OUTPUTS;
 use crate::config::Config;
 use crate::id::{Heartbeat, RequestId, SessionId, StationId};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Failure, Progress, Ram, Rmcm, Verdict};
-use crate::MAX_OUTPUTS;
 use crate::output::Maneuver;
 use crate::state::{Contact, Following, Identity, Leading, Lease, Member, Phase, Robot};
 use crate::time::Millis;
@@ -253,7 +253,11 @@ pub fn a_dropped_follower_leaves_the_others(step: &Taken) {
         return;
     };
     // Elapsed time also runs the others' timers.
-    let Some(dropped) = step.said.dropped.filter(|_| !matches!(step.input, Input::Elapsed(_))) else {
+    let Some(dropped) = step
+        .said
+        .dropped
+        .filter(|_| !matches!(step.input, Input::Elapsed(_)))
+    else {
         return;
     };
     assert!(after.member(dropped).is_none());

@@ -93,6 +93,7 @@ impl Sort {
 
 /// What has been said so far, and whether it was in order.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a law of its own")]
 pub struct Watch {
     /// How many outputs there are, [`Output::SendRam`] once.
     len: usize,
