@@ -8,7 +8,7 @@
 //!
 //! ```text
 //!  Source ──► arbitrary: Config, Robot, Input ──► numbers, lists, lease   laws of values
-//!                                                 steps                   laws of one step
+//!                                                 steps, watch            laws of one step
 //!                                                 timers                  laws of elapsed time
 //! ```
 

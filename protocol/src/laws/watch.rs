@@ -1,7 +1,7 @@
 //! What a step says, checked output by output as it comes.
 //!
 //! The laws do not ask for the list of outputs but for what this notes. To a proof a list of 24
-//! outputs of any kind is a hundred times as large as all the rest of a step.
+//! outputs of any kind is most of a step.
 
 use crate::id::{RequestId, SessionId, StationId};
 use crate::input::{Event, Input};
