@@ -22,8 +22,7 @@ harnesses! {
     }
 
     /// Any other RAM.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("Kani was stopped unfinished.")]
     fn hears_another_ram() {
         let kinds = [Kind::RamNone, Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamFollower];
         any_of(&kinds, |kind| {
@@ -34,8 +33,7 @@ harnesses! {
     }
 
     /// A command.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_a_command() {
         let step = FROM.any_step(Kind::Command);
         let starts = step.said.has(Sort::StartManeuver);
@@ -65,8 +63,7 @@ harnesses! {
     }
 
     /// Any event.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn takes_an_event() {
         any_of(&Kind::EVENTS, |kind| {
             let step = FROM.any_step(kind);
@@ -77,8 +74,7 @@ harnesses! {
     }
 
     /// The expiry of any timer.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn fires_a_timer() {
         let step = FROM.any_step(Kind::Expired);
         kani::cover!(step.said.has(Sort::FallBack), "falls back");

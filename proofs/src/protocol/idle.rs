@@ -21,8 +21,7 @@ harnesses! {
     }
 
     /// Any other RAM.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_another_ram() {
         let kinds = [Kind::RamNone, Kind::RamOfferHelp, Kind::RamLeader, Kind::RamFollower];
         any_of(&kinds, |kind| {
@@ -42,16 +41,14 @@ harnesses! {
     }
 
     /// An answer.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_an_answer() {
         let step = FROM.any_step(Kind::Answer);
         kani::cover!(step.is_ignored(), "ignored");
     }
 
     /// Any event.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn takes_an_event() {
         any_of(&Kind::EVENTS, |kind| {
             let step = FROM.any_step(kind);

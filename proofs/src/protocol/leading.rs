@@ -21,8 +21,7 @@ const FROM: From = From {
 
 harnesses! {
     /// A RAM of a follower.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_a_follower() {
         let step = FROM.any_step(Kind::RamFollower);
         kani::cover!(step.said.has(Sort::FollowerJoined), "joins");
@@ -34,8 +33,7 @@ harnesses! {
     }
 
     /// A RAM without a part, which may name a session as over.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("Kani was stopped unfinished.")]
     fn hears_a_farewell() {
         let step = From { farewells: true, ..FROM }.any_step(Kind::RamNone);
         kani::cover!(becomes(&step, Role::None), "the last follower left");
@@ -44,8 +42,7 @@ harnesses! {
     }
 
     /// Any other RAM.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_another_ram() {
         let kinds = [Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamLeader];
         any_of(&kinds, |kind| {
@@ -75,8 +72,7 @@ harnesses! {
     }
 
     /// The application commands a maneuver.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn commands() {
         let step = FROM.any_step(Kind::Local(Happening::CommandManeuver));
         kani::cover!(step.said.has(Sort::Command), "commands");
@@ -85,8 +81,7 @@ harnesses! {
     }
 
     /// The application opens or closes the corridor.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn moves_the_corridor() {
         let step = FROM.any_step(Kind::Local(Happening::Corridor));
         kani::cover!(step.said.has(Sort::CorridorOpened), "opens");
@@ -95,8 +90,7 @@ harnesses! {
     }
 
     /// Any other event.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("Kani was stopped unfinished.")]
     fn takes_an_event() {
         let kinds = [Happening::PedestrianDetected, Happening::ManeuverEnded, Happening::SessionEnded, Happening::AvailabilityChanged, Happening::IdentityChanged];
         any_of(&kinds.map(Kind::Local), |kind| {
@@ -107,8 +101,7 @@ harnesses! {
     }
 
     /// The expiry of any timer.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn fires_a_timer() {
         let step = FROM.any_step(Kind::Expired);
         kani::cover!(step.said.has(Sort::LeaseExpired), "a lease ran out");

@@ -22,8 +22,7 @@ harnesses! {
     }
 
     /// Any other RAM.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_another_ram() {
         let kinds = [Kind::RamNone, Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamFollower];
         any_of(&kinds, |kind| {
@@ -52,8 +51,7 @@ harnesses! {
     }
 
     /// Any event.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn takes_an_event() {
         any_of(&Kind::EVENTS, |kind| {
             let step = FROM.any_step(kind);
@@ -63,8 +61,7 @@ harnesses! {
     }
 
     /// The expiry of any timer.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn fires_a_timer() {
         let step = FROM.any_step(Kind::Expired);
         kani::cover!(becomes(&step, Role::None), "withdraws");

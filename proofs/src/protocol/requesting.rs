@@ -19,8 +19,7 @@ const FROM: From = From {
 
 harnesses! {
     /// A RAM that asks for help as well.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_a_request() {
         let step = FROM.any_step(Kind::RamNeedHelp);
         kani::cover!(becomes(&step, Role::Helper), "helps the one that goes before");
@@ -29,8 +28,7 @@ harnesses! {
     }
 
     /// A RAM that offers help.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_an_offer() {
         let step = FROM.any_step(Kind::RamOfferHelp);
         kani::cover!(!step.is_ignored() && step.said.is_empty(), "takes it");
@@ -39,8 +37,7 @@ harnesses! {
     }
 
     /// Any other RAM.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_another_ram() {
         let kinds = [Kind::RamNone, Kind::RamLeader, Kind::RamFollower];
         any_of(&kinds, |kind| {
@@ -61,16 +58,14 @@ harnesses! {
     }
 
     /// An answer.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn hears_an_answer() {
         let step = FROM.any_step(Kind::Answer);
         kani::cover!(step.is_ignored(), "ignored");
     }
 
     /// Any event.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn takes_an_event() {
         any_of(&Kind::EVENTS, |kind| {
             let step = FROM.any_step(kind);
@@ -80,8 +75,7 @@ harnesses! {
     }
 
     /// The expiry of any timer.
-    #[unwind(6)]
-    #[solver(cadical)]
+    #[random_only("Kani was stopped unfinished.")]
     fn fires_a_timer() {
         let step = FROM.any_step(Kind::Expired);
         kani::cover!(becomes(&step, Role::Leader), "establishes the roles");

@@ -63,23 +63,20 @@ fn any_settling(stage: Stage) {
 
 harnesses! {
     /// Any valid state.
-    #[unwind(17)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn running_without_followers() {
         let stages = [Stage::Idle, Stage::Requesting, Stage::Offering, Stage::Following];
         any_running(stages[Symbolic.number(3, u32::MAX) as usize]);
     }
 
     /// Any valid state of a leader.
-    #[unwind(17)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn running_as_a_leader() {
         any_running(Stage::Leading);
     }
 
     /// Any due timer of a robot without a role.
-    #[unwind(17)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn firing_without_a_role() {
         let stages = [Stage::Idle, Stage::Requesting, Stage::Offering];
         let fired = any_firing(stages[Symbolic.number(2, u32::MAX) as usize]);
@@ -88,8 +85,7 @@ harnesses! {
     }
 
     /// Any due timer of a follower.
-    #[unwind(17)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn firing_as_a_follower() {
         let fired = any_firing(Stage::Following);
         kani::cover!(fired.said.has(Sort::FallBack), "falls back");
@@ -97,8 +93,7 @@ harnesses! {
     }
 
     /// Any due timer of a leader.
-    #[unwind(17)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn firing_as_a_leader() {
         let fired = any_firing(Stage::Leading);
         kani::cover!(becomes(&fired, Role::None), "ends its session");
@@ -106,16 +101,14 @@ harnesses! {
     }
 
     /// Any state at the end of a step.
-    #[unwind(17)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn settling_without_followers() {
         let stages = [Stage::Idle, Stage::Requesting, Stage::Offering, Stage::Following];
         any_settling(stages[Symbolic.number(3, u32::MAX) as usize]);
     }
 
     /// Any state of a leader at the end of a step.
-    #[unwind(17)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn settling_as_a_leader() {
         any_settling(Stage::Leading);
     }
