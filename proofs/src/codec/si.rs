@@ -22,7 +22,8 @@ harnesses! {
     }
 
     /// All quantities.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(2)]
+    #[solver(cadical)]
     fn speed_is_total() {
         let quantity = kani::any::<f64>();
         laws::scales_are_total(&si::SPEED.scale, quantity);
@@ -33,7 +34,8 @@ harnesses! {
     }
 
     /// All quantities.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(2)]
+    #[solver(cadical)]
     fn latitude_is_total() {
         let quantity = kani::any::<f64>();
         laws::scales_are_total(&si::LATITUDE.scale, quantity);

@@ -41,7 +41,8 @@ harnesses! {
     }
 
     /// An answer.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(6)]
+    #[solver(cadical)]
     fn hears_an_answer() {
         let step = FROM.any_step(Kind::Answer);
         kani::cover!(step.is_ignored(), "ignored");

@@ -12,7 +12,8 @@ fn any_list() -> Numbers {
 
 harnesses! {
     /// All lists.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(6)]
+    #[solver(cadical)]
     fn a_list_holds_what_it_was_made_of() {
         let length = usize::from(kani::any::<u8>() % 5);
         laws::holds_what_it_was_made_of(kani::any(), length);

@@ -61,7 +61,8 @@ harnesses! {
     }
 
     /// The expiry of any timer.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(6)]
+    #[solver(cadical)]
     fn fires_a_timer() {
         let step = FROM.any_step(Kind::Expired);
         kani::cover!(becomes(&step, Role::None), "withdraws");
