@@ -5,12 +5,19 @@
 pub struct Harness {
     /// Its path, with that of the crate.
     pub path: &'static str,
-    /// How often Kani unwinds each loop.
-    pub unwind: u32,
-    /// The SAT solver that Kani uses.
-    pub solver: &'static str,
+    /// How Kani proves it; `None` where it is too large for that and random values are all it gets.
+    pub proof: Option<Proof>,
     /// The harness.
     pub run: fn(),
+}
+
+/// How Kani proves a harness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Proof {
+    /// How often each loop is unwound.
+    pub unwind: u32,
+    /// The SAT solver.
+    pub solver: &'static str,
 }
 
 impl Harness {
@@ -23,22 +30,29 @@ impl Harness {
     }
 }
 
-/// Declares the harnesses of a module: functions with the bound of their loops and their solver.
+/// Declares the harnesses of a module: functions with the bound of their loops and their solver, or
+/// with the reason why they are not proved.
 ///
-/// Under Kani each is a `#[kani::proof]`; otherwise it is a function, and the module has a table of
-/// them.
+/// Under Kani each is a `#[kani::proof]`, or left out if it is not proved; otherwise it is a function,
+/// and the module has a table of them.
 macro_rules! harnesses {
     ($(
         $(#[doc = $doc:literal])*
-        #[unwind($unwind:literal)]
-        #[solver($solver:ident)]
+        $(#[unwind($unwind:literal)] #[solver($solver:ident)])?
+        $(#[random_only($reason:literal)])?
         fn $name:ident() $body:block
     )*) => {
         $(
             $(#[doc = $doc])*
-            #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::proof)]
-            #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::unwind($unwind))]
-            #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::solver($solver))]
+            $(
+                #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::proof)]
+                #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::unwind($unwind))]
+                #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::solver($solver))]
+            )?
+            $(
+                #[doc = concat!("\nOnly with random values: ", $reason)]
+                #[cfg(not(all(kani, not(feature = "stand-in"))))]
+            )?
             pub fn $name() $body
         )*
 
@@ -47,8 +61,16 @@ macro_rules! harnesses {
         pub(crate) const HARNESSES: &[$crate::Harness] = &[$(
             $crate::Harness {
                 path: concat!(module_path!(), "::", stringify!($name)),
-                unwind: $unwind,
-                solver: stringify!($solver),
+                proof: {
+                    let proofs: &[$crate::Proof] = &[$($crate::Proof {
+                        unwind: $unwind,
+                        solver: stringify!($solver),
+                    })?];
+                    match proofs {
+                        [proof, ..] => Some(*proof),
+                        [] => None,
+                    }
+                },
                 run: $name,
             },
         )*];

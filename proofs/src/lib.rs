@@ -22,7 +22,7 @@ mod symbolic;
 
 #[cfg(all(kani, not(feature = "stand-in")))]
 pub(crate) use ::kani;
-pub use harness::Harness;
+pub use harness::{Harness, Proof};
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
 pub(crate) use stand_in as kani;
 pub use symbolic::Symbolic;

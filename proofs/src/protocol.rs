@@ -2,7 +2,8 @@
 //!
 //! Those of the transition function start from every valid state, whether it can be reached or not,
 //! with the default configuration; those of elapsed time and of the start with every configuration
-//! whose numbers are in range. Each has inputs of some kinds in one stage.
+//! whose numbers are in range. Each has inputs of one kind, or
+//! of some kinds case by case, in one stage.
 
 pub mod boot;
 pub mod following;

@@ -3,12 +3,12 @@
 
 use crate::config::Config;
 use crate::message::Progress;
-use crate::output::{CorridorClosure, Disengagement, Ignored, Output};
+use crate::output::{CorridorClosure, Disengagement, Ignored, Output, Sink};
 use crate::robot::{Effect, Step};
 use crate::state::{Leading, Member, Phase, Robot};
 
 impl Robot {
-    pub(crate) fn open_corridor(&mut self, step: &mut Step) -> Effect {
+    pub(crate) fn open_corridor(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
         let Phase::Leading(leading) = &mut self.phase else {
             return Err(Ignored::NotLeading);
         };
@@ -26,7 +26,7 @@ impl Robot {
         Ok(())
     }
 
-    pub(crate) fn close_corridor(&mut self, step: &mut Step) -> Effect {
+    pub(crate) fn close_corridor(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
         let Phase::Leading(leading) = &mut self.phase else {
             return Err(Ignored::NotLeading);
         };
@@ -40,7 +40,7 @@ impl Robot {
     }
 
     /// Closes the corridor in the very step in which a follower stops to hold it.
-    pub(crate) fn settle_corridor(&mut self, step: &mut Step) {
+    pub(crate) fn settle_corridor(&mut self, step: &mut Step<'_, impl Sink>) {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };

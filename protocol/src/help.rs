@@ -4,7 +4,7 @@ use core::cmp::Reverse;
 
 use crate::id::{OfferNumber, SessionId, StationId};
 use crate::list::List;
-use crate::output::{EndReason, Ignored, Notice, Output, ReleaseReason};
+use crate::output::{EndReason, Ignored, Notice, Output, ReleaseReason, Sink};
 use crate::robot::{Effect, Step};
 use crate::state::{Leading, Lease, Member, Offer, Offering, Phase, Requesting, Robot};
 use crate::task::{HelpRequest, Urgency};
@@ -31,7 +31,7 @@ impl Robot {
     /// `needHelp` of another robot.
     pub(crate) fn hear_request(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         session: SessionId,
         request: HelpRequest,
     ) -> Effect {
@@ -55,7 +55,12 @@ impl Robot {
     }
 
     /// Reserves the robot for one requester.
-    fn offer(&mut self, step: &mut Step, session: SessionId, request: HelpRequest) -> Effect {
+    fn offer(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+        request: HelpRequest,
+    ) -> Effect {
         self.may_join()?;
         let capabilities = step
             .config
@@ -82,7 +87,7 @@ impl Robot {
     /// `offerHelp` of another robot.
     pub(crate) fn hear_offer(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         session: SessionId,
         offer: Offer,
     ) -> Effect {
@@ -102,7 +107,7 @@ impl Robot {
     }
 
     /// The time to gather offers has run out: confirm the best, or gather on.
-    pub(crate) fn selection_expired(&mut self, step: &mut Step) {
+    pub(crate) fn selection_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         let Phase::Requesting(requesting) = &mut self.phase else {
             return;
         };
@@ -142,19 +147,19 @@ impl Robot {
     }
 
     /// `T_help` has run out.
-    pub(crate) fn help_expired(&mut self, step: &mut Step) {
+    pub(crate) fn help_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         self.end_session(step, EndReason::NoHelp);
     }
 
     /// `T_offer` has run out: the helper is free for other requesters. If the leader confirms it
     /// all the same, it says that it has no part in the session.
-    pub(crate) fn reservation_expired(&mut self, step: &mut Step) {
+    pub(crate) fn reservation_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         self.release(step, ReleaseReason::ReservationExpired);
     }
 }
 
 impl Requesting {
-    fn take_offer(&mut self, step: &mut Step, offer: Offer) -> Effect {
+    fn take_offer(&mut self, step: &mut Step<'_, impl Sink>, offer: Offer) -> Effect {
         if self.offers.iter().any(|known| *known == offer) {
             return Err(Ignored::NothingNew);
         }
@@ -190,7 +195,11 @@ pub(crate) fn all_distinct<T: Copy, K: PartialEq, const N: usize>(
     list: &List<T, N>,
     key: impl Fn(&T) -> K,
 ) -> bool {
-    list.iter()
-        .enumerate()
-        .all(|(i, a)| list.iter().skip(i + 1).all(|b| key(a) != key(b)))
+    let mut rest = list.iter();
+    while let Some(a) = rest.next() {
+        if rest.clone().any(|b| key(a) == key(b)) {
+            return false;
+        }
+    }
+    true
 }

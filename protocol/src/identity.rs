@@ -1,14 +1,14 @@
 //! The identity lock: station id, certificate and link address stay the same from joining a session
 //! until its farewell is over (design section 4, *Identity*; property I18).
 
-use crate::output::{EndReason, Output, ReleaseReason};
+use crate::output::{EndReason, Output, ReleaseReason, Sink};
 use crate::robot::Step;
 use crate::state::{Identity, Phase, Robot};
 use crate::time::Countdown;
 
 impl Robot {
     /// Locks and unlocks as the robot gets bound and free.
-    pub(crate) fn settle_identity(&mut self, step: &mut Step) {
+    pub(crate) fn settle_identity(&mut self, step: &mut Step<'_, impl Sink>) {
         match (self.identity, self.is_bound()) {
             (Identity::Unlocked, true) => {
                 self.identity = Identity::Locked(Countdown::armed(step.config.t_lock_session()));
@@ -23,7 +23,7 @@ impl Robot {
     }
 
     /// The lock has lasted as long as it may: whatever the robot has a part in ends in order.
-    pub(crate) fn identity_lock_expired(&mut self, step: &mut Step) {
+    pub(crate) fn identity_lock_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         match self.phase {
             // A farewell is all that is left, and it has had its time.
             Phase::Idle => self.farewell = None,

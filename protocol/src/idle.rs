@@ -4,7 +4,7 @@ use crate::config::Config;
 use crate::id::{SessionNumber, StationId};
 use crate::list::List;
 use crate::message::{Failure, Progress};
-use crate::output::{EndReason, Ignored, Output, ReleaseReason, StopReason};
+use crate::output::{EndReason, Ignored, Output, ReleaseReason, Sink, StopReason};
 use crate::robot::{Effect, Step};
 use crate::state::{Identity, Phase, Requesting, Robot};
 use crate::task::{Availability, HelpRequest, Unavailability};
@@ -12,7 +12,11 @@ use crate::time::Countdown;
 
 impl Robot {
     /// `PedestrianDetected` opens a session (design section 4, *Request and offer*).
-    pub(crate) fn detect_pedestrian(&mut self, step: &mut Step, request: HelpRequest) -> Effect {
+    pub(crate) fn detect_pedestrian(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        request: HelpRequest,
+    ) -> Effect {
         if !Config::can_ask_for(request.followers) || request.tasks.is_empty() {
             return Err(Ignored::ImpossibleRequest);
         }
@@ -28,7 +32,7 @@ impl Robot {
     /// Opens a session with a number that was never used before.
     pub(crate) fn open_session(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         number: SessionNumber,
         request: HelpRequest,
     ) {
@@ -60,7 +64,7 @@ impl Robot {
     /// leave (design section 4, *Availability*).
     pub(crate) fn change_availability(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         availability: Availability,
     ) -> Effect {
         if self.availability == availability {
@@ -75,7 +79,7 @@ impl Robot {
         Ok(())
     }
 
-    fn become_unavailable(&mut self, step: &mut Step, reason: Unavailability) {
+    fn become_unavailable(&mut self, step: &mut Step<'_, impl Sink>, reason: Unavailability) {
         match &mut self.phase {
             Phase::Idle => {}
             Phase::Requesting(_) | Phase::Leading(_) => {

@@ -8,7 +8,7 @@
 //!
 //! ```text
 //!  Source ──► arbitrary: Config, Robot, Input ──► numbers, lists, lease   laws of values
-//!                                                 steps                   laws of one step
+//!                                                 steps, watch            laws of one step
 //!                                                 timers                  laws of elapsed time
 //! ```
 
@@ -18,6 +18,7 @@ pub mod lists;
 pub mod numbers;
 pub mod steps;
 pub mod timers;
+pub mod watch;
 
 mod source;
 

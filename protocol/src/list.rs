@@ -1,7 +1,8 @@
 //! A list with a capacity, without heap and without unsafe code.
 //!
 //! Items are read and changed in loops over the slots, and not by an index or a reference that was
-//! found before: a proof knows at each turn of a loop which slot it is about.
+//! found before: a proof knows at each turn of a loop which slot it is about. The loops count, for
+//! the pointers and control flow of the iterators of slices are most of what a proof would be about.
 
 use core::fmt;
 
@@ -23,11 +24,13 @@ impl<T: Copy, const N: usize> List<T, N> {
     /// # Errors
     /// [`Full`] when the list already holds `N` items.
     pub fn push(&mut self, item: T) -> Result<(), Full> {
-        for slot in &mut self.0 {
-            if slot.is_none() {
-                *slot = Some(item);
+        let mut i = 0;
+        while i < N {
+            if self.0[i].is_none() {
+                self.0[i] = Some(item);
                 return Ok(());
             }
+            i += 1;
         }
         Err(Full)
     }
@@ -36,27 +39,41 @@ impl<T: Copy, const N: usize> List<T, N> {
     /// last item, or `item` itself where that would be the last.
     pub(crate) fn insert_ranked(&mut self, item: T, goes_before: impl Fn(&T, &T) -> bool) {
         let mut carried = item;
-        for slot in &mut self.0 {
-            match slot {
-                Some(present) if !goes_before(&carried, present) => {}
-                Some(present) => core::mem::swap(present, &mut carried),
+        let mut i = 0;
+        while i < N {
+            match self.0[i] {
+                Some(present) if !goes_before(&carried, &present) => {}
+                Some(present) => {
+                    self.0[i] = Some(carried);
+                    carried = present;
+                }
                 None => {
-                    *slot = Some(carried);
+                    self.0[i] = Some(carried);
                     return;
                 }
             }
+            i += 1;
         }
     }
 
     /// Removes the first item that satisfies `condition` and closes the gap.
     pub(crate) fn remove_first(&mut self, condition: impl Fn(&T) -> bool) -> Option<T> {
         let mut removed = None;
-        for i in 0..N {
-            if removed.is_some() {
-                self.0.swap(i - 1, i);
-            } else if self.0[i].as_ref().is_some_and(&condition) {
-                removed = self.0[i].take();
+        let mut i = 0;
+        while i < N {
+            match self.0[i] {
+                None => break,
+                Some(item) if removed.is_some() => {
+                    self.0[i - 1] = Some(item);
+                    self.0[i] = None;
+                }
+                Some(item) if condition(&item) => {
+                    removed = Some(item);
+                    self.0[i] = None;
+                }
+                Some(_) => {}
             }
+            i += 1;
         }
         removed
     }
@@ -68,12 +85,14 @@ impl<T: Copy, const N: usize> List<T, N> {
         condition: impl Fn(&T) -> bool,
         change: impl FnOnce(&mut T) -> R,
     ) -> Option<R> {
-        for slot in &mut self.0 {
-            if let Some(item) = slot
+        let mut i = 0;
+        while i < N {
+            if let Some(item) = &mut self.0[i]
                 && condition(item)
             {
                 return Some(change(item));
             }
+            i += 1;
         }
         None
     }
@@ -81,18 +100,25 @@ impl<T: Copy, const N: usize> List<T, N> {
     /// How many items the list holds.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.iter().count()
+        let mut i = 0;
+        while i < N && self.0[i].is_some() {
+            i += 1;
+        }
+        i
     }
 
     /// Whether the list holds nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.iter().next().is_none()
+        N == 0 || self.0[0].is_none()
     }
 
     /// The items in order.
     pub fn iter(&self) -> impl Iterator<Item = &T> + Clone {
-        self.0.iter().map_while(Option::as_ref)
+        Iter {
+            slots: &self.0,
+            next: 0,
+        }
     }
 
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
@@ -107,10 +133,80 @@ impl<T: Copy, const N: usize> List<T, N> {
 
     /// Whether no item stands behind a gap; true for every list that this type's methods made.
     pub(crate) fn is_dense(&self) -> bool {
-        self.0
-            .iter()
-            .skip_while(|slot| slot.is_some())
-            .all(Option::is_none)
+        let mut i = self.len();
+        while i < N {
+            if self.0[i].is_some() {
+                return false;
+            }
+            i += 1;
+        }
+        true
+    }
+}
+
+/// The items of a list in order.
+struct Iter<'a, T, const N: usize> {
+    slots: &'a [Option<T>; N],
+    next: usize,
+}
+
+impl<T, const N: usize> Clone for Iter<'_, T, N> {
+    fn clone(&self) -> Self {
+        Self { ..*self }
+    }
+}
+
+#[expect(
+    clippy::while_let_on_iterator,
+    reason = "without the detour over a reference"
+)]
+impl<'a, T, const N: usize> Iterator for Iter<'a, T, N> {
+    type Item = &'a T;
+
+    fn next(&mut self) -> Option<&'a T> {
+        if self.next >= N {
+            return None;
+        }
+        let item = self.slots[self.next].as_ref();
+        self.next += 1;
+        item
+    }
+
+    fn all<F: FnMut(&'a T) -> bool>(&mut self, mut holds: F) -> bool {
+        while let Some(item) = self.next() {
+            if !holds(item) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn any<F: FnMut(&'a T) -> bool>(&mut self, mut holds: F) -> bool {
+        while let Some(item) = self.next() {
+            if holds(item) {
+                return true;
+            }
+        }
+        false
+    }
+
+    fn find<P: FnMut(&&'a T) -> bool>(&mut self, mut holds: P) -> Option<&'a T> {
+        while let Some(item) = self.next() {
+            if holds(&item) {
+                return Some(item);
+            }
+        }
+        None
+    }
+
+    fn find_map<R, F: FnMut(&'a T) -> Option<R>>(&mut self, mut of: F) -> Option<R> {
+        while let Some(item) = self.next() {
+            let found = of(item);
+            if found.is_some() {
+                return found;
+            }
+        }
+        None
     }
 }
 

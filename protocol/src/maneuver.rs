@@ -4,7 +4,7 @@ use crate::id::{ManeuverId, RequestId, SessionId, SessionNumber, StationId};
 use crate::message::{
     Answer, Command, Failure, Farewell, Progress, Rejection, Report, Rmcm, Verdict,
 };
-use crate::output::{EndReason, GoneReason, Ignored, Maneuver, Notice, Output, StopReason};
+use crate::output::{EndReason, GoneReason, Ignored, Maneuver, Notice, Output, Sink, StopReason};
 use crate::robot::{Effect, Step};
 use crate::state::{Following, Job, Member, Order, Outstanding, Phase, Refusal, Robot};
 use crate::task::{Availability, TaskType};
@@ -16,7 +16,7 @@ impl Robot {
     /// The application wants `follower` to do `task`.
     pub(crate) fn command(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         follower: StationId,
         task: TaskType,
     ) -> Effect {
@@ -45,7 +45,7 @@ impl Robot {
 
     /// An acknowledgement or rejection. One that is not for the outstanding command changes nothing
     /// (property I7).
-    pub(crate) fn hear_answer(&mut self, step: &mut Step, answer: Answer) -> Effect {
+    pub(crate) fn hear_answer(&mut self, step: &mut Step<'_, impl Sink>, answer: Answer) -> Effect {
         if answer.from == self.station {
             return Err(Ignored::OwnStation);
         }
@@ -63,7 +63,11 @@ impl Robot {
     }
 
     /// `T_ack` ran out: the same command again, or the follower is lost.
-    pub(crate) fn acknowledgement_expired(&mut self, step: &mut Step, station: StationId) {
+    pub(crate) fn acknowledgement_expired(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        station: StationId,
+    ) {
         let session = self.session();
         let Phase::Leading(leading) = &mut self.phase else {
             return;
@@ -84,7 +88,7 @@ impl Robot {
     }
 
     /// `T_exec` ran out: the command counts as failed.
-    pub(crate) fn execution_expired(&mut self, step: &mut Step, station: StationId) {
+    pub(crate) fn execution_expired(&mut self, step: &mut Step<'_, impl Sink>, station: StationId) {
         let session = self.session();
         let Phase::Leading(leading) = &mut self.phase else {
             return;
@@ -117,7 +121,7 @@ impl Outstanding {
     }
 
     /// Sends the same command once more.
-    fn repeat(&mut self, step: &mut Step, session: SessionId, to: StationId) {
+    fn repeat(&mut self, step: &mut Step<'_, impl Sink>, session: SessionId, to: StationId) {
         self.repeats += 1;
         self.acknowledgement = Countdown::armed(step.config.settings().t_ack);
         step.out.push(self.message(session, to));
@@ -137,13 +141,18 @@ impl Member {
     }
 
     /// Whether the follower's request numbers of this session are used up.
-    fn is_used_up(&self, step: &Step) -> bool {
+    fn is_used_up(&self, step: &Step<'_, impl Sink>) -> bool {
         let first = step.config.settings().first_request;
         self.next_request.distance_from(first) >= RequestId::MAX_PER_SESSION
     }
 
     /// Sends the next command.
-    fn command(&mut self, step: &mut Step, session: SessionId, task: TaskType) -> Effect {
+    fn command(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+        task: TaskType,
+    ) -> Effect {
         self.may_be_commanded()?;
         let outstanding = Outstanding {
             request: self.next_request,
@@ -158,7 +167,7 @@ impl Member {
     }
 
     /// An answer to a command of this session.
-    fn hear_answer(&mut self, step: &mut Step, answer: Answer) -> Effect {
+    fn hear_answer(&mut self, step: &mut Step<'_, impl Sink>, answer: Answer) -> Effect {
         let reason = match answer.verdict {
             Verdict::Accepted => return self.acknowledge(step, answer.session, answer.request),
             Verdict::Rejected(reason) => reason,
@@ -183,7 +192,12 @@ impl Member {
     }
 
     /// The follower takes the outstanding command on.
-    fn acknowledge(&mut self, step: &mut Step, session: SessionId, request: RequestId) -> Effect {
+    fn acknowledge(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+        request: RequestId,
+    ) -> Effect {
         let Outstanding { task, .. } = self.take_outstanding(request)?;
         let execution = Countdown::armed(step.config.t_exec(task));
         self.order = Some(Order {
@@ -203,7 +217,7 @@ impl Member {
     /// acknowledgement that was lost.
     pub(crate) fn hear_report(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         session: SessionId,
         report: Report,
     ) -> Effect {
@@ -240,7 +254,11 @@ impl Member {
 impl Robot {
     /// A command. The follower acknowledges it before it starts, acknowledges a repeated one again
     /// without starting it again, and is not moved by an older one.
-    pub(crate) fn hear_command(&mut self, step: &mut Step, command: Command) -> Effect {
+    pub(crate) fn hear_command(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        command: Command,
+    ) -> Effect {
         if command.session.leader == self.station {
             return Err(Ignored::OwnStation);
         }
@@ -261,16 +279,29 @@ impl Robot {
     }
 
     /// The application has finished the maneuver.
-    pub(crate) fn complete_maneuver(&mut self, step: &mut Step, id: ManeuverId) -> Effect {
+    pub(crate) fn complete_maneuver(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        id: ManeuverId,
+    ) -> Effect {
         self.finish_maneuver(step, id, Progress::Completed)
     }
 
     /// The application cannot finish the maneuver.
-    pub(crate) fn fail_maneuver(&mut self, step: &mut Step, id: ManeuverId) -> Effect {
+    pub(crate) fn fail_maneuver(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        id: ManeuverId,
+    ) -> Effect {
         self.finish_maneuver(step, id, Progress::Failed(Failure::Maneuver))
     }
 
-    fn finish_maneuver(&mut self, step: &mut Step, id: ManeuverId, progress: Progress) -> Effect {
+    fn finish_maneuver(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        id: ManeuverId,
+        progress: Progress,
+    ) -> Effect {
         let Phase::Following(following) = &mut self.phase else {
             return Err(Ignored::NotExecuting);
         };
@@ -289,7 +320,7 @@ impl Robot {
 impl Following {
     fn take_command(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         station: StationId,
         availability: Availability,
         command: Command,
@@ -367,7 +398,11 @@ impl Following {
 }
 
 /// Why a robot must reject a command for `task`.
-fn rejection(step: &Step, availability: Availability, task: TaskType) -> Option<Rejection> {
+fn rejection(
+    step: &Step<'_, impl Sink>,
+    availability: Availability,
+    task: TaskType,
+) -> Option<Rejection> {
     if let Availability::Unavailable(reason) = availability {
         return Some(Rejection::Unavailable(reason));
     }

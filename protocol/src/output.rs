@@ -269,11 +269,20 @@ impl FromIterator<Output> for Outputs {
     }
 }
 
-impl Outputs {
+/// Where the outputs of a step go: into a list, or to one who checks them as they come.
+pub(crate) trait Sink {
     /// Adds `output`. A second [`Output::SendRam`] would say the same and is left out.
-    ///
+    fn push(&mut self, output: Output);
+
+    /// Tells the application.
+    fn notify(&mut self, notice: Notice) {
+        self.push(Output::Notify(notice));
+    }
+}
+
+impl Sink for Outputs {
     /// The capacity is proved to suffice for every step; see the crate's `valid` module.
-    pub(crate) fn push(&mut self, output: Output) {
+    fn push(&mut self, output: Output) {
         let says_all = |output: &Output| matches!(output, Output::SendRam);
         if says_all(&output) && self.iter().any(says_all) {
             return;
@@ -284,11 +293,9 @@ impl Outputs {
             "more than {MAX_OUTPUTS} outputs in one step"
         );
     }
+}
 
-    pub(crate) fn notify(&mut self, notice: Notice) {
-        self.push(Output::Notify(notice));
-    }
-
+impl Outputs {
     /// The outputs in order.
     pub fn iter(&self) -> impl Iterator<Item = &Output> + Clone {
         self.0.iter()

@@ -13,15 +13,15 @@ use crate::config::Config;
 use crate::id::{SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::input::{Decimetres, Event, Input};
 use crate::message::{Confirmation, Coordination, Farewell, Ram, Report, Rmcm};
-use crate::output::{Ignored, Output, Outputs};
+use crate::output::{Ignored, Output, Outputs, Sink};
 use crate::state::{Identity, Phase, Robot, Role, State};
 use crate::task::Availability;
 use crate::time::{Countdown, Millis};
 
 /// What a stage needs for one step: the configuration to read, the outputs to add to.
-pub(crate) struct Step<'a> {
+pub(crate) struct Step<'a, S> {
     pub(crate) config: &'a Config,
-    pub(crate) out: &'a mut Outputs,
+    pub(crate) out: &'a mut S,
 }
 
 /// What came of an input: it had an effect, or it is ignored for a reason.
@@ -51,10 +51,13 @@ impl Robot {
     /// but the state before, `config` and `input`. It does not allocate and does not panic.
     pub fn step(&mut self, config: &Config, input: Input) -> Outputs {
         let mut out = Outputs::default();
-        let step = &mut Step {
-            config,
-            out: &mut out,
-        };
+        self.step_into(config, input, &mut out);
+        out
+    }
+
+    /// [`step`](Self::step), with the outputs going where they are wanted.
+    pub(crate) fn step_into(&mut self, config: &Config, input: Input, out: &mut impl Sink) {
+        let step = &mut Step { config, out };
         let effect = match input {
             Input::Ram { ram, distance } => self.hear_ram(step, &ram, distance),
             Input::Rmcm(Rmcm::Command(command)) => self.hear_command(step, command),
@@ -70,10 +73,14 @@ impl Robot {
             step.out.push(Output::Ignored(reason));
         }
         self.settle(step);
-        out
     }
 
-    fn hear_ram(&mut self, step: &mut Step, ram: &Ram, distance: Decimetres) -> Effect {
+    fn hear_ram(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        ram: &Ram,
+        distance: Decimetres,
+    ) -> Effect {
         if ram.station == self.station {
             return Err(Ignored::OwnStation);
         }
@@ -128,7 +135,7 @@ impl Robot {
         part.or_else(|reason| farewell.unwrap_or(Err(reason)))
     }
 
-    fn notice_event(&mut self, step: &mut Step, event: Event) -> Effect {
+    fn notice_event(&mut self, step: &mut Step<'_, impl Sink>, event: Event) -> Effect {
         match event {
             Event::PedestrianDetected(request) => self.detect_pedestrian(step, request),
             Event::CommandManeuver { follower, task } => self.command(step, follower, task),
@@ -146,7 +153,7 @@ impl Robot {
     }
 
     /// Brings what depends on the whole state in line with it.
-    pub(crate) fn settle(&mut self, step: &mut Step) {
+    pub(crate) fn settle(&mut self, step: &mut Step<'_, impl Sink>) {
         self.settle_corridor(step);
         self.settle_identity(step);
         if !self.is_bound() {

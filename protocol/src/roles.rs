@@ -10,7 +10,7 @@
 use crate::config::Config;
 use crate::id::{Heartbeat, SessionId, StationId};
 use crate::message::{Farewell, Followers, Progress, Report};
-use crate::output::{EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason};
+use crate::output::{EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, Sink};
 use crate::robot::{Effect, Step};
 use crate::state::{Contact, Following, Leading, Lease, Member, Phase, Robot};
 use crate::time::{Countdown, Millis};
@@ -19,7 +19,7 @@ impl Robot {
     /// The RAM of a leader: it confirms, keeps alive, or leaves out.
     pub(crate) fn hear_leader(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         session: SessionId,
         heartbeat: Heartbeat,
         followers: &Followers,
@@ -57,7 +57,7 @@ impl Robot {
         Ok(())
     }
 
-    fn join(&mut self, step: &mut Step, following: Following) {
+    fn join(&mut self, step: &mut Step<'_, impl Sink>, following: Following) {
         step.out.notify(Notice::Joined(following.session));
         self.phase = Phase::Following(following);
         step.out.push(Output::SendRam);
@@ -66,7 +66,7 @@ impl Robot {
     /// The RAM of a follower: it has joined, echoes a heartbeat, reports progress.
     pub(crate) fn hear_follower(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         from: StationId,
         session: SessionId,
         echo: Heartbeat,
@@ -96,7 +96,7 @@ impl Robot {
 
     /// `T_safety` ran out: the maneuver is stopped by its task's policy (design section 4,
     /// *Fallback*).
-    pub(crate) fn safety_expired(&mut self, step: &mut Step) {
+    pub(crate) fn safety_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         let Phase::Following(following) = &mut self.phase else {
             return;
         };
@@ -112,12 +112,12 @@ impl Robot {
     }
 
     /// `T_leave` ran out as well.
-    pub(crate) fn leave_expired(&mut self, step: &mut Step) {
+    pub(crate) fn leave_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         self.leave(step, ReleaseReason::ContactLost);
     }
 
     /// The lease on a follower ran out.
-    pub(crate) fn lease_expired(&mut self, step: &mut Step, station: StationId) {
+    pub(crate) fn lease_expired(&mut self, step: &mut Step<'_, impl Sink>, station: StationId) {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
@@ -128,12 +128,17 @@ impl Robot {
     }
 
     /// A follower has been without a lease for so long that it must have left.
-    pub(crate) fn lost_expired(&mut self, step: &mut Step, station: StationId) {
+    pub(crate) fn lost_expired(&mut self, step: &mut Step<'_, impl Sink>, station: StationId) {
         self.drop_follower(step, station, GoneReason::NoContact);
     }
 
     /// Removes one follower; the records of the others stay as they are (property I17).
-    pub(crate) fn drop_follower(&mut self, step: &mut Step, station: StationId, why: GoneReason) {
+    pub(crate) fn drop_follower(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        station: StationId,
+        why: GoneReason,
+    ) {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
@@ -186,7 +191,12 @@ impl Leading {
 
 impl Member {
     /// An echo of a heartbeat that was sent `age` ago.
-    fn hear_echo(&mut self, step: &mut Step, echo: Heartbeat, age: Millis) -> Effect {
+    fn hear_echo(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        echo: Heartbeat,
+        age: Millis,
+    ) -> Effect {
         match self.echoed {
             Some(newest) if !echo.is_newer_than(newest) => return Err(Ignored::OldHeartbeat),
             Some(_) => {}
@@ -224,7 +234,7 @@ impl Following {
 
     /// Only a *newer* heartbeat restarts `T_safety`: a delayed or repeated RAM proves nothing about
     /// the leader's present.
-    fn hear_heartbeat(&mut self, step: &mut Step, heartbeat: Heartbeat) -> Effect {
+    fn hear_heartbeat(&mut self, step: &mut Step<'_, impl Sink>, heartbeat: Heartbeat) -> Effect {
         if !heartbeat.is_newer_than(self.heard) {
             return Err(Ignored::OldHeartbeat);
         }
@@ -234,7 +244,7 @@ impl Following {
     }
 
     /// Restarts `T_safety`.
-    pub(crate) fn renew_contact(&mut self, step: &mut Step) {
+    pub(crate) fn renew_contact(&mut self, step: &mut Step<'_, impl Sink>) {
         if self.contact.is_lost() {
             step.out.notify(Notice::ContactRegained(self.session));
         }

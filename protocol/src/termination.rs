@@ -6,7 +6,8 @@
 use crate::id::{SessionId, StationId};
 use crate::message::Farewell;
 use crate::output::{
-    CorridorClosure, EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, StopReason,
+    CorridorClosure, EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, Sink,
+    StopReason,
 };
 use crate::robot::{Effect, Step};
 use crate::state::{Identity, Phase, Robot, StandingFarewell};
@@ -14,7 +15,7 @@ use crate::time::Countdown;
 
 impl Robot {
     /// The leader's application says that the pedestrian has crossed.
-    pub(crate) fn complete_task(&mut self, step: &mut Step) -> Effect {
+    pub(crate) fn complete_task(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
         match self.phase {
             Phase::Requesting(_) | Phase::Leading(_) => {
                 self.end_session(step, EndReason::TaskCompleted);
@@ -25,7 +26,7 @@ impl Robot {
     }
 
     /// The application wants to leave: a leader ends its session, a helper or follower leaves it.
-    pub(crate) fn leave_on_request(&mut self, step: &mut Step) -> Effect {
+    pub(crate) fn leave_on_request(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
         match self.phase {
             Phase::Idle => return Err(Ignored::NotInSession),
             Phase::Requesting(_) | Phase::Leading(_) => {
@@ -39,7 +40,7 @@ impl Robot {
     }
 
     /// Ends the robot's own session and names it as ended.
-    pub(crate) fn end_session(&mut self, step: &mut Step, why: EndReason) {
+    pub(crate) fn end_session(&mut self, step: &mut Step<'_, impl Sink>, why: EndReason) {
         let number = match &self.phase {
             Phase::Requesting(requesting) => requesting.number,
             Phase::Leading(leading) => {
@@ -58,7 +59,7 @@ impl Robot {
     }
 
     /// Leaves another robot's session and names it as left.
-    pub(crate) fn leave(&mut self, step: &mut Step, why: ReleaseReason) {
+    pub(crate) fn leave(&mut self, step: &mut Step<'_, impl Sink>, why: ReleaseReason) {
         if let Some(session) = self.session() {
             self.release(step, why);
             let _ = self.say_farewell(step, Farewell::Left(session));
@@ -66,7 +67,7 @@ impl Robot {
     }
 
     /// Has no part in another robot's session any more; the leader knows already or need not know.
-    pub(crate) fn release(&mut self, step: &mut Step, why: ReleaseReason) {
+    pub(crate) fn release(&mut self, step: &mut Step<'_, impl Sink>, why: ReleaseReason) {
         let session = match &self.phase {
             Phase::Offering(offering) => offering.session,
             Phase::Following(following) => {
@@ -84,7 +85,11 @@ impl Robot {
     }
 
     /// Announces that a session is over, from now on for `T_farewell`.
-    pub(crate) fn say_farewell(&mut self, step: &mut Step, farewell: Farewell) -> Effect {
+    pub(crate) fn say_farewell(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        farewell: Farewell,
+    ) -> Effect {
         if self.farewell() == Some(farewell) {
             return Err(Ignored::NothingNew);
         }
@@ -101,7 +106,7 @@ impl Robot {
     /// Another robot names a session as over.
     pub(crate) fn hear_farewell(
         &mut self,
-        step: &mut Step,
+        step: &mut Step<'_, impl Sink>,
         from: StationId,
         farewell: Farewell,
     ) -> Effect {
@@ -121,7 +126,12 @@ impl Robot {
         }
     }
 
-    fn hear_left(&mut self, step: &mut Step, from: StationId, session: SessionId) -> Effect {
+    fn hear_left(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        from: StationId,
+        session: SessionId,
+    ) -> Effect {
         if session.leader != self.station {
             return Err(Ignored::NotAddressed);
         }
@@ -146,7 +156,11 @@ impl Robot {
 
     /// Somebody still takes part in a session of this robot that is over, perhaps one of an earlier
     /// life: name it as ended once more.
-    pub(crate) fn answer_stale_session(&mut self, step: &mut Step, session: SessionId) -> Effect {
+    pub(crate) fn answer_stale_session(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+    ) -> Effect {
         if self.session() == Some(session) {
             // It is not over; the sender claims a part in it that nobody gave it.
             return Err(Ignored::NotAFollower);

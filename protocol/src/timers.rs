@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::input::Timer;
 use crate::list::List;
-use crate::output::{GoneReason, Ignored, Output};
+use crate::output::{GoneReason, Ignored, Output, Sink};
 use crate::robot::{Effect, Step};
 use crate::state::{Contact, Identity, Lease, Phase, Robot};
 use crate::time::{Countdown, Millis};
@@ -89,7 +89,7 @@ impl Robot {
 
     /// Lets time pass. What is due fires, each timer once: a robot that was told late does what it
     /// missed now, not several times over.
-    pub(crate) fn elapse(&mut self, step: &mut Step, elapsed: Millis) {
+    pub(crate) fn elapse(&mut self, step: &mut Step<'_, impl Sink>, elapsed: Millis) {
         let late = match self.ram.left() {
             Some(left) => elapsed.saturating_sub(left),
             None => Millis::ZERO,
@@ -120,7 +120,7 @@ impl Robot {
     }
 
     /// One timer expires, whatever time it has left.
-    pub(crate) fn expire(&mut self, step: &mut Step, timer: Timer) -> Effect {
+    pub(crate) fn expire(&mut self, step: &mut Step<'_, impl Sink>, timer: Timer) -> Effect {
         if self.time_left(timer).is_none() {
             return Err(Ignored::TimerNotArmed);
         }
@@ -128,7 +128,7 @@ impl Robot {
         Ok(())
     }
 
-    pub(crate) fn fire(&mut self, step: &mut Step, timer: Timer, late: Millis) {
+    pub(crate) fn fire(&mut self, step: &mut Step<'_, impl Sink>, timer: Timer, late: Millis) {
         match timer {
             Timer::Safety => self.safety_expired(step),
             Timer::Leave => self.leave_expired(step),
@@ -146,7 +146,7 @@ impl Robot {
     }
 
     /// A RAM period is over, `late` milliseconds ago.
-    fn ram_expired(&mut self, step: &mut Step, late: Millis) {
+    fn ram_expired(&mut self, step: &mut Step<'_, impl Sink>, late: Millis) {
         let period = step.config.settings().ram_period;
         self.ram = Countdown::armed(Millis(period.0 - late.0 % period.0));
         // A session ends with the identity lock, long before its periods exceed 16 bits.
@@ -157,7 +157,7 @@ impl Robot {
 
     /// Some RAM periods are over. A follower that has echoed nothing for half the number space, which
     /// is longer than the identity may be locked, is lost whatever its other timers say.
-    fn bump_heartbeat(&mut self, step: &mut Step, periods: u16) {
+    fn bump_heartbeat(&mut self, step: &mut Step<'_, impl Sink>, periods: u16) {
         while let Phase::Leading(leading) = &mut self.phase {
             let Some(station) = leading.follower_out_of_order(periods) else {
                 leading.heartbeat = leading.heartbeat.after(periods);

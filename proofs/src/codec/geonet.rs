@@ -71,8 +71,7 @@ fn any_headers(transport: Transport) -> Headers {
 
 harnesses! {
     /// Any octets, up to the length of the longest headers and two more.
-    #[unwind(64)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn what_is_accepted_is_canonical() {
         let length = usize::from(kani::any::<u8>()) % (PACKET + 1);
         let octets = any_octets(0x50, length.saturating_sub(40));
@@ -84,8 +83,7 @@ harnesses! {
     }
 
     /// Any headers of single-hop broadcast.
-    #[unwind(64)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn single_hop_headers_come_back() {
         let headers = any_headers(Transport::SingleHop { media: kani::any() });
         laws::what_is_encoded_is_accepted(&headers, &kani::any());
@@ -94,8 +92,7 @@ harnesses! {
     }
 
     /// Any headers of geo-broadcast to a rectangle.
-    #[unwind(64)]
-    #[solver(cadical)]
+    #[random_only("not run under Kani to its end.")]
     fn geo_broadcast_headers_come_back() {
         let area = Area {
             shape: Shape::Rectangle,

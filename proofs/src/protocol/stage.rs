@@ -1,9 +1,9 @@
 //! What the harnesses of all stages have in common: one step from any valid state.
 
 use crossguard_protocol::laws::Source;
-use crossguard_protocol::laws::arbitrary::{self, Happening, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::{self, Kind, Stage};
 use crossguard_protocol::laws::steps::{self, Taken};
-use crossguard_protocol::{Config, Output, Robot, Role};
+use crossguard_protocol::{Config, Robot, Role};
 
 use crate::{Symbolic, kani};
 
@@ -14,44 +14,57 @@ pub(super) fn any_config() -> Config {
     config.unwrap_or_default()
 }
 
-/// Any valid state in `stage`, with at most `peers` offers or followers.
-pub(super) fn any_valid(config: &Config, stage: Stage, peers: usize) -> Robot {
-    let robot = arbitrary::robot(&mut Symbolic, config, stage, peers);
+/// Any valid state in `stage`, with so many offers or followers.
+pub(super) fn any_valid(config: &Config, stage: Stage, peers: (usize, usize)) -> Robot {
+    let robot = arbitrary::valid_robot(&mut Symbolic, config, stage, peers);
     kani::assume(robot.is_valid(config));
     robot
 }
 
-/// Any input of this kind in any valid state of the stage, with the default configuration: all laws of
-/// one step hold.
-pub(super) fn any_step(stage: Stage, peers: usize, kind: Kind) -> Taken {
-    let config = Config::default();
-    let robot = any_valid(&config, stage, peers);
-    let input = arbitrary::input(&mut Symbolic, kind);
-    let step = Taken::new(&config, robot, input);
-    steps::all(&config, &step);
-    step
+/// Where a step begins.
+#[derive(Clone, Copy)]
+pub(super) struct From {
+    /// The stage.
+    pub(super) stage: Stage,
+    /// How many offers or followers there are, at least and at most.
+    pub(super) peers: (usize, usize),
+    /// Whether a RAM may name a session as over.
+    pub(super) farewells: bool,
 }
 
-/// Any of these kinds.
-pub(super) fn any_of(kinds: &[Kind]) -> Kind {
+impl From {
+    /// From any valid state of the stage, without peers.
+    pub(super) const fn stage(stage: Stage) -> Self {
+        Self {
+            stage,
+            peers: (0, 0),
+            farewells: true,
+        }
+    }
+
+    /// Any input of this kind in any such state, with the default configuration: all laws of one
+    /// step hold.
+    pub(super) fn any_step(self, kind: Kind) -> Taken {
+        let config = Config::default();
+        let robot = any_valid(&config, self.stage, self.peers);
+        let input = arbitrary::input(&mut Symbolic, kind, self.farewells);
+        let step = Taken::new(&config, robot, input);
+        steps::all(&config, &step);
+        step
+    }
+}
+
+/// Any of these kinds. To a proof each is a case of its own.
+pub(super) fn any_of(kinds: &[Kind], mut check: impl FnMut(Kind)) {
     let last = u32::try_from(kinds.len() - 1).unwrap_or(0);
-    kinds[Symbolic.number(last, u32::MAX) as usize]
-}
-
-/// All events.
-pub(super) const EVENTS: [Kind; 7] = [
-    Kind::Local(Happening::PedestrianDetected),
-    Kind::Local(Happening::CommandManeuver),
-    Kind::Local(Happening::ManeuverEnded),
-    Kind::Local(Happening::SessionEnded),
-    Kind::Local(Happening::AvailabilityChanged),
-    Kind::Local(Happening::Corridor),
-    Kind::Local(Happening::IdentityChanged),
-];
-
-/// Whether the step has this output.
-pub(super) fn has(step: &Taken, of_kind: impl Fn(&Output) -> bool) -> bool {
-    step.outputs.iter().any(of_kind)
+    let which = Symbolic.number(last, u32::MAX) as usize;
+    let mut i = 0;
+    while i < kinds.len() {
+        if i == which {
+            check(kinds[i]);
+        }
+        i += 1;
+    }
 }
 
 /// Whether the robot has this role after the step.

@@ -21,7 +21,7 @@ use crate::time::Millis;
 
 pub use input::{Happening, Kind, event, input, timer};
 pub use message::{answer, command, ram};
-pub use state::{Stage, robot};
+pub use state::{Peers, Stage, robot, valid_robot};
 
 /// The station id that hints give the robot.
 pub const ME: u32 = 1;
@@ -92,19 +92,24 @@ fn likely<S: Source, T>(
     source.likely(hint).then(|| value(source))
 }
 
-/// A list of at most `max` items, without gaps.
+/// A list of `least` to `most` items, without gaps.
 fn list<S: Source, T: Copy, const N: usize>(
     source: &mut S,
-    max: usize,
+    (least, most): (usize, usize),
     item: impl Fn(&mut S, u32) -> T,
 ) -> List<T, N> {
     let mut items = [None; N];
     let mut goes_on = true;
-    for (i, slot) in (0..).zip(items.iter_mut().take(max)) {
-        goes_on &= source.likely((i == 0).then_some(true));
-        if goes_on {
-            *slot = Some(item(source, i));
+    let mut i = 0;
+    while i < most {
+        let hint = u32::try_from(i).unwrap_or(0);
+        if i >= least {
+            goes_on &= source.likely((i == 0).then_some(true));
         }
+        if goes_on {
+            items[i] = Some(item(source, hint));
+        }
+        i += 1;
     }
     List::of_slots(items)
 }

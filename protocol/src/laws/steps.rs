@@ -3,13 +3,16 @@
 //! They hold for any valid state, so that with [`keeps_the_state_valid`] they hold in runs of any
 //! length and among peers that say anything. Each law is named with its property.
 
+use crate::MAX_OUTPUTS;
 use crate::config::Config;
 use crate::id::{Heartbeat, RequestId, SessionId, StationId};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Failure, Progress, Ram, Rmcm, Verdict};
-use crate::output::{Maneuver, Notice, Output, Outputs};
+use crate::output::Maneuver;
 use crate::state::{Contact, Following, Identity, Leading, Lease, Member, Phase, Robot};
 use crate::time::Millis;
+
+use super::watch::{Sort, Watch, is_open};
 
 /// One step: the state before, the input, and what came of it.
 #[derive(Clone, Debug)]
@@ -19,7 +22,7 @@ pub struct Taken {
     /// The input.
     pub input: Input,
     /// What is to be done.
-    pub outputs: Outputs,
+    pub said: Watch,
     /// The state after.
     pub after: Robot,
 }
@@ -29,11 +32,12 @@ impl Taken {
     #[must_use]
     pub fn new(config: &Config, before: Robot, input: Input) -> Self {
         let mut after = before.clone();
-        let outputs = after.step(config, input);
+        let mut said = Watch::new(&before, &input);
+        after.step_into(config, input, &mut said);
         Self {
             before,
             input,
-            outputs,
+            said,
             after,
         }
     }
@@ -41,13 +45,14 @@ impl Taken {
     /// Whether the input was ignored.
     #[must_use]
     pub fn is_ignored(&self) -> bool {
-        self.outputs.ignored().is_some()
+        self.said.has(Sort::Ignored)
     }
 }
 
 /// All laws of one step.
 pub fn all(config: &Config, step: &Taken) {
     keeps_the_state_valid(config, step);
+    keeps_within_the_outputs(step);
     ignores_without_effect(step);
     tells_the_body(step);
     starts_only_newer_commands(step);
@@ -71,11 +76,16 @@ pub fn keeps_the_state_valid(config: &Config, step: &Taken) {
     assert!(step.after.is_valid(config));
 }
 
+/// I13: there is room for all outputs.
+pub fn keeps_within_the_outputs(step: &Taken) {
+    assert!(step.said.len() <= MAX_OUTPUTS);
+}
+
 /// I13: an input that is ignored changes nothing and has no other output, and every step has either
 /// an output or an effect, or is the passage of time.
 pub fn ignores_without_effect(step: &Taken) {
     if step.is_ignored() {
-        assert!(step.outputs.len() == 1);
+        assert!(step.said.len() == 1);
         assert!(step.after == step.before);
     }
 }
@@ -103,45 +113,16 @@ fn executing(robot: &Robot) -> Option<Maneuver> {
 /// session executes nothing. Nothing is started over something that runs, and nothing is stopped
 /// that does not run.
 pub fn tells_the_body(step: &Taken) {
-    let mut running = executing(&step.before);
-    // The application itself has ended the maneuver.
-    if let Input::Local(Event::ManeuverCompleted(id) | Event::ManeuverFailed(id)) = step.input {
-        running = running.filter(|maneuver| maneuver.id != id);
-    }
-    for output in step.outputs.iter() {
-        match *output {
-            Output::StartManeuver(maneuver) => {
-                assert!(running.is_none());
-                running = Some(maneuver);
-            }
-            Output::StopManeuver(maneuver, _) | Output::FallBack(maneuver, _) => {
-                assert!(running == Some(maneuver));
-                running = None;
-            }
-            _ => {}
-        }
-    }
-    assert!(running == executing(&step.after));
+    assert!(step.said.tells_the_body);
+    assert!(step.said.running == executing(&step.after));
 }
 
 /// I4, I5, I6: a maneuver starts only on a command of the robot's session that is newer than all it
 /// has answered, at most one in a step, and behind its acknowledgement.
 pub fn starts_only_newer_commands(step: &Taken) {
-    let mut acknowledged = None;
-    let mut started = false;
-    for output in step.outputs.iter() {
-        match *output {
-            Output::SendRmcm(Rmcm::Answer(answer)) if answer.verdict == Verdict::Accepted => {
-                acknowledged = Some((answer.session, answer.request));
-            }
-            Output::StartManeuver(maneuver) => {
-                assert!(!started);
-                started = true;
-                assert!(acknowledged == Some((maneuver.id.session, maneuver.id.request)));
-                assert!(is_newly_commanded(step, maneuver));
-            }
-            _ => {}
-        }
+    assert!(step.said.starts_in_order);
+    if let Some(maneuver) = step.said.started {
+        assert!(is_newly_commanded(step, maneuver));
     }
 }
 
@@ -271,12 +252,12 @@ pub fn a_dropped_follower_leaves_the_others(step: &Taken) {
     let (Some(before), Some(after)) = (leading(&step.before), leading(&step.after)) else {
         return;
     };
-    let dropped = step.outputs.notices().find_map(|notice| match notice {
-        Notice::FollowerGone(station, _) => Some(station),
-        _ => None,
-    });
     // Elapsed time also runs the others' timers.
-    let Some(dropped) = dropped.filter(|_| !matches!(step.input, Input::Elapsed(_))) else {
+    let Some(dropped) = step
+        .said
+        .dropped
+        .filter(|_| !matches!(step.input, Input::Elapsed(_)))
+    else {
         return;
     };
     assert!(after.member(dropped).is_none());
@@ -321,25 +302,9 @@ pub fn keeps_its_numbers(step: &Taken) {
 
 /// I11, I18: what the outputs have told of corridor and identity lock is what the state believes.
 pub fn tells_of_lock_and_corridor(step: &Taken) {
-    let is_locked = |robot: &Robot| robot.identity() != Identity::Unlocked;
-    let is_open = |robot: &Robot| leading(robot).is_some_and(|leading| leading.corridor_open);
-    let (mut locked, mut open) = (is_locked(&step.before), is_open(&step.before));
-    for output in step.outputs.iter() {
-        match output {
-            Output::LockIdentity | Output::UnlockIdentity => {
-                let locks = matches!(output, Output::LockIdentity);
-                assert!(locked != locks);
-                locked = locks;
-            }
-            Output::CorridorOpened | Output::CorridorClosed(_) => {
-                let opens = matches!(output, Output::CorridorOpened);
-                assert!(open != opens);
-                open = opens;
-            }
-            _ => {}
-        }
-    }
-    assert!(locked == is_locked(&step.after) && open == is_open(&step.after));
+    assert!(step.said.changes_lock_and_corridor);
+    assert!(step.said.locked == (step.after.identity() != Identity::Unlocked));
+    assert!(step.said.open == is_open(&step.after));
 }
 
 /// I10, the leader's half: a lease is granted or prolonged only by an echo, and ends `t_lease` after

@@ -13,13 +13,13 @@
 
 use crate::config::Config;
 use crate::input::{Input, Timer};
-use crate::output::{Output, Outputs};
 use crate::robot::Step;
 use crate::state::{Contact, Phase, Robot};
 use crate::time::Millis;
 use crate::{MAX_OUTPUTS, MAX_TIMERS};
 
 use super::steps::Taken;
+use super::watch::{Sort, Watch};
 
 /// 1: all countdowns run, and what is left of them is less.
 pub fn running_keeps_the_state_consistent(config: &Config, robot: &Robot, elapsed: Millis) {
@@ -36,16 +36,17 @@ pub fn running_keeps_the_state_consistent(config: &Config, robot: &Robot, elapse
 #[must_use]
 pub fn fire(config: &Config, robot: &Robot, timer: Timer, late: Millis) -> Taken {
     let mut after = robot.clone();
-    let mut outputs = Outputs::default();
+    let input = Input::Expired(timer);
+    let mut said = Watch::new(robot, &input);
     let step = &mut Step {
         config,
-        out: &mut outputs,
+        out: &mut said,
     };
     after.fire(step, timer, late);
     Taken {
         before: robot.clone(),
-        input: Input::Expired(timer),
-        outputs,
+        input,
+        said,
         after,
     }
 }
@@ -58,15 +59,11 @@ pub fn firing_keeps_the_state_consistent(config: &Config, fired: &Taken) {
 
 /// 2: the outputs of one round take nothing from those to come.
 pub fn firing_keeps_within_the_outputs(fired: &Taken) {
-    let said = fired
-        .outputs
-        .iter()
-        .filter(|&&output| output != Output::SendRam)
-        .count();
+    let said = fired.said.len() - usize::from(fired.said.has(Sort::SendRam));
     assert!(said + outputs_to_come(&fired.after) <= outputs_to_come(&fired.before));
 }
 
-/// How many outputs besides [`Output::SendRam`] the rounds of a step can still have: one for each
+/// How many outputs besides `SendRam` the rounds of a step can still have: one for each
 /// timer that is due, and what the robot has to tell when it loses its part in the session.
 #[must_use]
 pub fn outputs_to_come(robot: &Robot) -> usize {
@@ -85,13 +82,13 @@ const _: () = assert!(MAX_TIMERS + 2 + 1 + 2 <= MAX_OUTPUTS);
 /// 3: the state becomes valid, with at most two outputs.
 pub fn settling_makes_the_state_valid(config: &Config, robot: &Robot) {
     let mut after = robot.clone();
-    let mut outputs = Outputs::default();
+    let mut said = Watch::new(robot, &Input::Elapsed(Millis::ZERO));
     after.settle(&mut Step {
         config,
-        out: &mut outputs,
+        out: &mut said,
     });
     assert!(after.is_valid(config));
-    assert!(outputs.len() <= 2);
+    assert!(said.len() <= 2);
 }
 
 /// The state with `timer`, if it is armed, due: the premise of a round.

@@ -53,17 +53,8 @@ pub enum Happening {
 }
 
 impl Kind {
-    /// All kinds.
-    pub const ALL: [Self; 16] = [
-        Self::RamNone,
-        Self::RamNeedHelp,
-        Self::RamOfferHelp,
-        Self::RamLeader,
-        Self::RamFollower,
-        Self::Command,
-        Self::Answer,
-        Self::Elapsed,
-        Self::Expired,
+    /// All events.
+    pub const EVENTS: [Self; 7] = [
         Self::Local(Happening::PedestrianDetected),
         Self::Local(Happening::CommandManeuver),
         Self::Local(Happening::ManeuverEnded),
@@ -74,8 +65,8 @@ impl Kind {
     ];
 }
 
-/// Any input of this kind.
-pub fn input(source: &mut impl Source, kind: Kind) -> Input {
+/// Any input of this kind. With `farewells` a RAM may name a session as over.
+pub fn input(source: &mut impl Source, kind: Kind, farewells: bool) -> Input {
     let part = match kind {
         Kind::RamNone => 0,
         Kind::RamNeedHelp => 1,
@@ -89,7 +80,7 @@ pub fn input(source: &mut impl Source, kind: Kind) -> Input {
         Kind::Local(happening) => return Input::Local(event(source, happening)),
     };
     Input::Ram {
-        ram: ram(source, part),
+        ram: ram(source, part, farewells),
         distance: Decimetres(source.u16(40)),
     }
 }

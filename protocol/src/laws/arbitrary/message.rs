@@ -12,13 +12,17 @@ use crate::message::{
 };
 
 /// A RAM whose part in a session is of this kind: 0 none, 1 `needHelp`, 2 `offerHelp`, 3 leader, 4
-/// follower.
-pub fn ram(source: &mut impl Source, kind: u32) -> Ram {
+/// follower. With `farewells` it may name a session as over.
+pub fn ram(source: &mut impl Source, kind: u32, farewells: bool) -> Ram {
     let station = station(source, PEER);
     Ram {
         station,
         coordination: coordination(source, kind),
-        farewell: option(source, |s| farewell(s, PEER)),
+        farewell: if farewells {
+            option(source, |s| farewell(s, PEER))
+        } else {
+            None
+        },
     }
 }
 
@@ -37,7 +41,7 @@ fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
         3 => Coordination::Leader {
             number: session_number(source),
             heartbeat: heartbeat(source),
-            followers: list(source, MAX_FOLLOWERS, |s, i| Confirmation {
+            followers: list(source, (0, MAX_FOLLOWERS), |s, i| Confirmation {
                 station: station(s, ME + i),
                 offer: offer_number(s),
             }),

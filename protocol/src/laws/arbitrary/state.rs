@@ -13,7 +13,7 @@ use crate::state::{
     Contact, Following, Identity, Job, Leading, Lease, Member, Offer, Offering, Order, Outstanding,
     Phase, Refusal, Requesting, Robot, StandingFarewell,
 };
-use crate::task::HelpRequest;
+use crate::task::{Availability, HelpRequest};
 use crate::time::{Countdown, Millis};
 
 /// The stages of a robot, which are the variants of [`Phase`].
@@ -42,8 +42,28 @@ impl Stage {
     ];
 }
 
-/// Any state in this stage, with at most `peers` offers or followers. `config` is for hints.
-pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: usize) -> Robot {
+/// How many offers or followers a state has, at least and at most.
+pub type Peers = (usize, usize);
+
+/// Any state in this stage that can be valid. `config` is for hints.
+///
+/// A robot in a session has its identity locked, and only one without a part or a follower can be
+/// unavailable: to say so at once, rather than by [`Robot::is_valid`] alone, saves a proof the rest.
+pub fn valid_robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) -> Robot {
+    let mut robot = robot(source, config, stage, peers);
+    if stage != Stage::Idle {
+        let limit = config.t_lock_session();
+        robot.identity = Identity::Locked(countdown(source, limit));
+        robot.ram = countdown(source, config.settings().ram_period);
+    }
+    if !matches!(stage, Stage::Idle | Stage::Following) {
+        robot.availability = Availability::Available;
+    }
+    robot
+}
+
+/// Any state in this stage. `config` is for hints.
+pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) -> Robot {
     let settings = config.settings();
     Robot {
         station: station(source, ME),
@@ -86,7 +106,7 @@ fn armed_if(source: &mut impl Source, hint: Option<bool>, limit: Millis) -> Coun
     }
 }
 
-fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: usize) -> Phase {
+fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) -> Phase {
     let settings = config.settings();
     match stage {
         Stage::Idle => Phase::Idle,
@@ -117,7 +137,7 @@ fn offer(source: &mut impl Source, hint: u32) -> Offer {
     }
 }
 
-fn leading(source: &mut impl Source, config: &Config, peers: usize) -> Leading {
+fn leading(source: &mut impl Source, config: &Config, peers: Peers) -> Leading {
     // Hints: that all followers are engaged, so that the corridor can be open.
     let engaged = source.flag();
     let members = list(source, peers, |s, i| member(s, config, PEER + i, engaged));
