@@ -44,6 +44,8 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         codec::time::HARNESSES,
         codec::si::HARNESSES,
         codec::geonet::HARNESSES,
+        codec::core::bits::HARNESSES,
+        codec::core::status::HARNESSES,
     ]
     .into_iter()
     .flatten()

@@ -146,11 +146,8 @@ pub fn bits_are_read_as_written(before: (u32, u32), number: (u32, u32), after: (
     assert!(length == Ok(position.div_ceil(8).max(1)));
     let mut reader = Reader::new(&buffer);
     for (number, count) in parts {
-        let read = reader.bits(count);
-        assert!(read.is_ok_and(|(read, _)| read == number));
-        let Ok((_, behind)) = read else {
-            return;
-        };
+        let (read, behind) = reader.bits(count);
+        assert!(read == number && !behind.has_failed());
         reader = behind;
     }
     assert!(reader.position() == position);
@@ -162,12 +159,14 @@ pub fn bits_are_read_as_written(before: (u32, u32), number: (u32, u32), after: (
 pub fn reading_stops_at_the_end(octets: &[u8], position: usize, count: u32) {
     let count = count % 33;
     let bits = octets.len() * 8;
-    let Ok(reader) = Reader::new(octets).skip(position) else {
-        assert!(position > bits);
+    let reader = Reader::new(octets).skip(position);
+    assert!(reader.has_failed() == (position > bits));
+    if position > bits {
         return;
-    };
-    match reader.bits(count) {
-        Ok((number, behind)) => {
+    }
+    let (number, behind) = reader.bits(count);
+    match behind.result() {
+        Ok(behind) => {
             assert!(behind.position() == position + count as usize && behind.position() <= bits);
             assert!(u64::from(number) >> count == 0);
         }
@@ -195,8 +194,9 @@ pub fn integers_keep_their_bounds(min: i64, max: i64, bits: u32) {
     let length = Writer::new(&mut buffer).bits(offset, count).finish();
     assert!(length.is_ok());
     let number = min + i64::from(offset);
-    match Reader::new(&buffer).integer(min, max) {
-        Ok((read, reader)) => {
+    let (read, reader) = Reader::new(&buffer).integer(min, max);
+    match reader.result() {
+        Ok(reader) => {
             assert!(read == number && number <= max && reader.position() == count as usize);
             let mut again = [0xA5; 4];
             assert!(Writer::new(&mut again).integer(read, min, max).finish() == length);
@@ -213,7 +213,7 @@ pub fn integers_keep_their_bounds(min: i64, max: i64, bits: u32) {
 /// has additions, and only bits that are there are gone.
 pub fn skipping_additions_is_total(octets: &[u8]) {
     let reader = Reader::new(octets);
-    match reader.skip_additions() {
+    match reader.skip_additions().result() {
         Ok(behind) => {
             // A bitmap of one bit, a length, an octet.
             assert!(behind.position() >= 7 + 1 + 8 + 8);
