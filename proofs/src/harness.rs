@@ -23,7 +23,8 @@ impl Harness {
     }
 }
 
-/// Declares the harnesses of a module: functions with the bound of their loops and their solver.
+/// Declares the harnesses of a module: functions with the bound of their loops and their solver, and
+/// perhaps with a function that takes the place of another one.
 ///
 /// Under Kani each is a `#[kani::proof]`; otherwise it is a function, and the module has a table of
 /// them.
@@ -32,6 +33,7 @@ macro_rules! harnesses {
         $(#[doc = $doc:literal])*
         #[unwind($unwind:literal)]
         #[solver($solver:ident)]
+        $(#[stub($($stub:tt)*)])?
         fn $name:ident() $body:block
     )*) => {
         $(
@@ -39,6 +41,7 @@ macro_rules! harnesses {
             #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::proof)]
             #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::unwind($unwind))]
             #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::solver($solver))]
+            $(#[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::stub($($stub)*))])?
             pub fn $name() $body
         )*
 

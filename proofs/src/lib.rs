@@ -45,7 +45,10 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         codec::si::HARNESSES,
         codec::geonet::HARNESSES,
         codec::core::bits::HARNESSES,
-        codec::core::status::HARNESSES,
+        codec::core::cdd::HARNESSES,
+        codec::core::common::HARNESSES,
+        codec::core::ram::HARNESSES,
+        codec::core::rmcm::HARNESSES,
     ]
     .into_iter()
     .flatten()

@@ -1,6 +1,10 @@
 //! The bits of an encoding, read in order.
 
 #![allow(
+    clippy::many_single_char_names,
+    reason = "eight octets have no better names"
+)]
+#![allow(
     clippy::inline_always,
     reason = "a reader that goes through memory at every field is several times slower"
 )]
@@ -128,6 +132,7 @@ impl<'a> Reader<'a> {
 
     /// The next `count` bits as a number, first bit highest. `count` is at most 32. There is a
     /// [`Fault::Truncated`] when fewer are left.
+    #[must_use]
     #[inline(always)]
     pub fn bits(self, count: u32) -> Read<'a, u32> {
         debug_assert!(count <= 32);
@@ -151,6 +156,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The next bit.
+    #[must_use]
     #[inline(always)]
     pub fn bit(self) -> Read<'a, bool> {
         let (bit, reader) = self.bits(1);
@@ -159,6 +165,7 @@ impl<'a> Reader<'a> {
 
     /// An integer from `min` to `max` (X.691 clause 11.5). There is a [`Fault::Value`] for a larger
     /// one.
+    #[must_use]
     #[inline(always)]
     pub fn integer(self, min: i64, max: i64) -> Read<'a, i64> {
         self.integer_of(self.position, min, max)
@@ -177,6 +184,7 @@ impl<'a> Reader<'a> {
 
     /// As [`integer`](Self::integer), of a type with an extension marker (X.691 clause 13.1). There is
     /// a [`Fault::BeyondRoot`] for one behind the marker.
+    #[must_use]
     #[inline(always)]
     pub fn extensible_integer(self, min: i64, max: i64) -> Read<'a, i64> {
         self.root().integer_of(self.position, min, max)
@@ -196,6 +204,7 @@ impl<'a> Reader<'a> {
 
     /// The index of an alternative, below `count` (X.691 clauses 14.2 and 23.6). There is a
     /// [`Fault::UnknownAlternative`] for a larger one.
+    #[must_use]
     #[inline(always)]
     pub fn index(self, count: usize) -> Read<'a, usize> {
         let (index, reader) = self.bits(width(0, count as i64 - 1));
@@ -208,6 +217,7 @@ impl<'a> Reader<'a> {
 
     /// The index of a value of an ENUMERATED that has `count` values and no additions that are known
     /// (X.691 clause 14). There is a [`Fault::UnknownAlternative`] for a value that is not known.
+    #[must_use]
     #[inline(always)]
     pub fn enumerated(self, count: usize, is_extensible: bool) -> Read<'a, usize> {
         if !is_extensible {
@@ -224,6 +234,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A normally small number below 64 (X.691 clause 11.6); `None` for a larger one.
+    #[must_use]
     pub fn small_number(self) -> Read<'a, Option<usize>> {
         let (is_large, reader) = self.bit();
         if is_large {
@@ -253,6 +264,7 @@ impl<'a> Reader<'a> {
 
     /// The inside of an open type (X.691 clause 11.2). [`close`](Self::close) ends it. There is a
     /// [`Fault::Length`], or a [`Fault::Truncated`] when there is less than the length says.
+    #[must_use]
     pub fn open(self) -> Read<'a, Outer> {
         let (length, reader) = self.length();
         let (start, end) = (reader.position, reader.end);
@@ -321,7 +333,11 @@ impl<'a> Reader<'a> {
 #[cold]
 fn last_window(octets: &[u8]) -> u64 {
     let octet = |index: usize| {
-        if index < octets.len() { octets[index] } else { 0 }
+        if index < octets.len() {
+            octets[index]
+        } else {
+            0
+        }
     };
     u64::from_be_bytes([octet(0), octet(1), octet(2), octet(3), octet(4), 0, 0, 0])
 }

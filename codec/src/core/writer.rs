@@ -1,5 +1,10 @@
 //! The bits of an encoding, written in order.
 
+#![allow(
+    clippy::many_single_char_names,
+    reason = "eight octets have no better names"
+)]
+
 use super::error::{Error, Fault};
 use super::width;
 

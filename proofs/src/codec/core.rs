@@ -1,9 +1,17 @@
 //! The core of the codec: what reads and writes bits, and each container of RAM and RMCM.
+//!
+//! Every harness of a container is about the container as a message of its own, in a buffer of exactly
+//! its maximum length.
 
 pub mod bits;
-pub mod status;
+pub mod cdd;
+pub mod common;
+pub mod ram;
+pub mod rmcm;
 
-use crossguard_codec::core::Uper;
+#[cfg(all(kani, not(feature = "stand-in")))]
+use crossguard_codec::core::Reader;
+use crossguard_codec::core::{Uper, laws};
 
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
 use crate::stand_in::Arbitrary;
@@ -39,7 +47,48 @@ fn any_octets<T: Uper, const N: usize>() -> [u8; N] {
     octets
 }
 
-/// Any value.
-fn any_value<T: Uper>() -> T {
-    T::arbitrary(&mut Symbolic)
+/// Any value comes back, and takes no more than the maximum length.
+fn values<T: Uper, const N: usize>(class: fn(&T) -> bool) {
+    let value = T::arbitrary(&mut Symbolic);
+    laws::encode_then_decode_is_identity::<T, N>(&value);
+    let is_one = class(&value);
+    kani::cover!(is_one, "one class");
+    kani::cover!(!is_one, "the other class");
+}
+
+/// Any octets up to the maximum length are refused, or the one encoding of a value.
+fn octets<T: Uper, const N: usize>() {
+    let octets: [u8; N] = any_octets::<T, N>();
+    let length = usize::from(kani::any::<u8>()) % (N + 1);
+    let is_accepted = laws::decode_then_encode_is_identity::<T, N>(&octets[..length]);
+    kani::cover!(is_accepted, "accepted");
+    kani::cover!(!is_accepted, "refused");
+}
+
+/// Any value is refused when octets are missing at its end.
+fn cuts<T: Uper, const N: usize>() {
+    let value = T::arbitrary(&mut Symbolic);
+    let cut = usize::from(kani::any::<u8>()) % (N + 1);
+    laws::truncated_is_an_error::<T, N>(&value, cut);
+    kani::cover!(0 < cut && cut < N, "in the middle");
+}
+
+/// In the place of [`Reader::skip_additions`]: restricts a harness to octets without extension
+/// additions.
+#[cfg(all(kani, not(feature = "stand-in")))]
+fn no_additions<'a>(reader: Reader<'a>) -> Reader<'a>
+where
+    'a: 'a,
+{
+    kani::assume(false);
+    reader
+}
+
+/// In the place of [`Reader::skip_additions`]: proves that no encoding of a value leads there.
+#[cfg(all(kani, not(feature = "stand-in")))]
+fn never<'a>(_: Reader<'a>) -> Reader<'a>
+where
+    'a: 'a,
+{
+    panic!("an extension bit was written")
 }
