@@ -68,20 +68,19 @@ pub trait Uper: Copy + Eq {
     fn encode<'a>(&self, writer: Writer<'a>) -> Writer<'a>;
 
     /// Reads the value that the next bits encode into `self`, which holds [`LOWEST`](Self::LOWEST) and
-    /// keeps what is not there: nothing that is absent is copied.
-    ///
-    /// # Errors
-    /// Which field they do not encode, and why. `self` holds some value then.
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error>;
+    /// keeps what is not there: nothing that is absent is copied. The reader keeps which field they do
+    /// not encode, and why; `self` holds some value then.
+    #[must_use]
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a>;
 
     /// The value that the next bits encode, and the reader behind it.
     ///
     /// # Errors
     /// Which field they do not encode, and why.
     #[inline]
-    fn decode(reader: Reader<'_>) -> Read<'_, Self> {
+    fn decode(reader: Reader<'_>) -> Result<Read<'_, Self>, Error> {
         let mut value = Self::LOWEST;
-        let reader = value.read(reader)?;
+        let reader = value.read(reader).result()?;
         Ok((value, reader))
     }
 
@@ -113,7 +112,7 @@ pub fn encode<T: Uper>(value: &T, buffer: &mut [u8]) -> Result<usize, Error> {
 /// Which field is wrong, and why.
 pub fn decode<T: Uper>(octets: &[u8]) -> Result<(T, usize), Error> {
     let mut value = T::LOWEST;
-    let reader = value.read(Reader::new(octets))?.padding(0)?;
+    let reader = value.read(Reader::new(octets)).padding(0).result()?;
     match reader.left() / 8 {
         0 => Ok((value, reader.extended())),
         octets => Err(Error::at(reader.position(), Fault::Trailing { octets })),
@@ -137,8 +136,8 @@ impl Uper for Null {
         writer
     }
 
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
-        Ok(reader)
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+        reader
     }
 
     fn arbitrary<S: Source>(_: &mut S) -> Self {}
@@ -155,10 +154,10 @@ impl Uper for bool {
     }
 
     #[inline]
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
         let behind;
-        (*self, behind) = reader.bit()?;
-        Ok(behind)
+        (*self, behind) = reader.bit();
+        behind
     }
 
     fn arbitrary<S: Source>(source: &mut S) -> Self {

@@ -68,7 +68,7 @@ proptest! {
 
     #[test]
     fn rams_keep_the_view(seed: u64, kind in 0_u32..5, availability in views::availability()) {
-        let view = arbitrary::ram(&mut Hinted(Random(seed)), kind);
+        let view = arbitrary::ram(&mut Hinted(Random(seed)), kind, true);
         laws::rams_keep_the_view(&view, availability);
     }
 
@@ -134,7 +134,7 @@ proptest! {
         let config = Config::default();
         let source = &mut Hinted(Random(seed));
         for _ in 0..16 {
-            let robot = arbitrary::robot(source, &config, stage, MAX_FOLLOWERS);
+            let robot = arbitrary::robot(source, &config, stage, (0, MAX_FOLLOWERS));
             laws::a_valid_robot_can_say_what_it_is(&config, &robot);
         }
     }
@@ -156,7 +156,7 @@ fn the_premises_of_the_laws_are_met() {
         let source = &mut Hinted(Random(seed));
         let config = Config::default();
         let stage = Stage::ALL[usize::try_from(seed).unwrap() % Stage::ALL.len()];
-        let robot = arbitrary::robot(source, &config, stage, MAX_FOLLOWERS);
+        let robot = arbitrary::robot(source, &config, stage, (0, MAX_FOLLOWERS));
         let says = robot.ram();
         let is_new = says.coordination == Coordination::None && says.farewell.is_none();
         valid += u32::from(robot.is_valid(&config) && !is_new);

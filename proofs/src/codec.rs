@@ -1,5 +1,6 @@
 //! Harnesses of the laws of `crossguard-codec`.
 
+pub mod core;
 pub mod geonet;
 pub mod si;
 pub mod time;

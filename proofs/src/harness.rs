@@ -30,15 +30,19 @@ impl Harness {
     }
 }
 
-/// Declares the harnesses of a module: functions with the bound of their loops and their solver, or
-/// with the reason why they are not proved.
+/// Declares the harnesses of a module: functions with the bound of their loops, their solver and
+/// perhaps a function that takes the place of another one, or with the reason why they are not proved.
 ///
 /// Under Kani each is a `#[kani::proof]`, or left out if it is not proved; otherwise it is a function,
 /// and the module has a table of them.
 macro_rules! harnesses {
     ($(
         $(#[doc = $doc:literal])*
-        $(#[unwind($unwind:literal)] #[solver($solver:ident)])?
+        $(
+            #[unwind($unwind:literal)]
+            #[solver($solver:ident)]
+            $(#[stub($($stub:tt)*)])?
+        )?
         $(#[random_only($reason:literal)])?
         fn $name:ident() $body:block
     )*) => {
@@ -48,6 +52,7 @@ macro_rules! harnesses {
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::proof)]
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::unwind($unwind))]
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::solver($solver))]
+                $(#[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::stub($($stub)*))])?
             )?
             $(
                 #[doc = concat!("\nOnly with random values: ", $reason)]

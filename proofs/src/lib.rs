@@ -44,6 +44,11 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         codec::time::HARNESSES,
         codec::si::HARNESSES,
         codec::geonet::HARNESSES,
+        codec::core::bits::HARNESSES,
+        codec::core::cdd::HARNESSES,
+        codec::core::common::HARNESSES,
+        codec::core::ram::HARNESSES,
+        codec::core::rmcm::HARNESSES,
     ]
     .into_iter()
     .flatten()

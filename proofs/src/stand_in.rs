@@ -79,6 +79,15 @@ pub(crate) fn number(max: u32, hint: u32) -> u32 {
     }
 }
 
+/// A number from `low` to `high` made of any: often one of these two.
+pub(crate) fn between(any: i64, low: i64, high: i64) -> i64 {
+    match random() % 8 {
+        0 => low,
+        1 => high,
+        _ => low.saturating_add_unsigned(any.cast_unsigned() % (high.abs_diff(low) + 1)),
+    }
+}
+
 /// A type of which Kani has any value.
 pub trait Arbitrary: Sized {
     /// Any value.
@@ -104,7 +113,7 @@ macro_rules! arbitrary {
         }
     )*};
 }
-arbitrary!(u8, u16, u32, u64, i32, i64);
+arbitrary!(u8, u16, u32, u64, usize, i32, i64);
 
 impl Arbitrary for bool {
     fn any() -> Self {

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::Deref;
 
-use super::error::{Error, Fault, Field};
+use super::error::{Fault, Field};
 use super::reader::Reader;
 use super::source::Source;
 use super::writer::Writer;
@@ -88,45 +88,42 @@ impl<T: Uper, const MIN: usize, const MAX: usize, const CAPACITY: usize, const E
     fn encode<'a>(&self, writer: Writer<'a>) -> Writer<'a> {
         let writer = writer.bits(0, u32::from(EXTENSIBLE));
         let mut writer = writer.integer(self.length as i64, MIN as i64, MAX as i64);
-        for (index, item) in self.items.iter().enumerate() {
-            if index == self.length {
-                break;
-            }
-            writer = item.encode(writer);
+        let mut index = 0;
+        while index < CAPACITY && index < self.length {
+            writer = self.items[index].encode(writer);
+            index += 1;
         }
         writer
     }
 
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
-        let fault = |fault| Err(Error::at(reader.position(), fault));
-        let behind_marker = if EXTENSIBLE { reader.root()? } else { reader };
-        let (offset, mut reader) = behind_marker.bits(Self::SIZE_BITS)?;
+    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+        let start = reader.position();
+        let reader = if EXTENSIBLE { reader.root() } else { reader };
+        let (offset, mut reader) = reader.bits(Self::SIZE_BITS);
         let length = MIN + offset as usize;
         if length > MAX {
-            return fault(Fault::Size { min: MIN, max: MAX });
+            return reader.fail(start, Fault::Size { min: MIN, max: MAX });
         }
         if length > CAPACITY {
             let (found, max) = (length, CAPACITY);
-            return fault(Fault::TooMany { found, max });
+            return reader.fail(start, Fault::TooMany { found, max });
         }
         self.length = length;
-        for (index, item) in self.items.iter_mut().enumerate() {
-            if index == length {
-                break;
-            }
-            reader = item.read(reader)?;
+        let mut index = 0;
+        while index < CAPACITY && index < length {
+            reader = self.items[index].read(reader);
+            index += 1;
         }
-        Ok(reader)
+        reader
     }
 
     fn arbitrary<S: Source>(source: &mut S) -> Self {
         let mut list = Self::LOWEST;
         list.length = source.index(MIN, CAPACITY);
-        for (index, item) in list.items.iter_mut().enumerate() {
-            if index == list.length {
-                break;
-            }
-            *item = T::arbitrary(source);
+        let mut index = 0;
+        while index < CAPACITY && index < list.length {
+            list.items[index] = T::arbitrary(source);
+            index += 1;
         }
         list
     }

@@ -96,14 +96,14 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
+            fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
                 let (number, reader) = if $extensible {
-                    reader.extensible_integer($min.into(), $max.into())?
+                    reader.extensible_integer($min.into(), $max.into())
                 } else {
-                    reader.integer($min.into(), $max.into())?
+                    reader.integer($min.into(), $max.into())
                 };
                 self.0 = number as $rust;
-                Ok(reader)
+                reader
             }
 
             fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -148,11 +148,11 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
-                let (first_highest, reader) = reader.bits($size)?;
+            fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+                let (first_highest, reader) = reader.bits($size);
                 let bits = (first_highest as $rust) << ($rust::BITS - $size);
                 self.0 = bits.reverse_bits();
-                Ok(reader)
+                reader
             }
 
             fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -192,10 +192,10 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
-                let (index, reader) = reader.enumerated(Self::ALL.len(), $extensible)?;
+            fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+                let (index, reader) = reader.enumerated(Self::ALL.len(), $extensible);
                 *self = Self::ALL[index];
-                Ok(reader)
+                reader
             }
 
             fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -264,21 +264,27 @@ macro_rules! asn1 {
                 }
 
                 #[inline]
-                fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
-                    let (is_extended, reader) = reader.bits($extensible as u32)?;
-                    let (presence, reader) = reader.bits(OPTIONAL)?;
+                fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+                    let (is_extended, reader) = if $extensible {
+                        reader.bit()
+                    } else {
+                        (false, reader)
+                    };
+                    let (presence, reader) = reader.bits(OPTIONAL);
                     // The bit of the next component is in the place of OPTIONAL.
                     let presence = u64::from(presence) << 1;
                     $(
                         let (presence, is_present) = component!(next $kind, presence, OPTIONAL);
-                        let read = component!(read $kind, self.$field, reader, is_present);
-                        let reader = match read {
-                            Ok(reader) => reader,
-                            Err(error) => return Err(error.within(Index::$field as usize)),
-                        };
+                        let had_failed = reader.has_failed();
+                        let reader = component!(read $kind, self.$field, reader, is_present)
+                            .behind_field(Index::$field as usize, had_failed);
                     )+
                     let _ = presence;
-                    if is_extended == 1 { reader.skip_additions() } else { Ok(reader) }
+                    if is_extended && !reader.has_failed() {
+                        reader.skip_additions()
+                    } else {
+                        reader
+                    }
                 }
 
                 fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -348,35 +354,33 @@ macro_rules! asn1 {
                 }
 
                 #[inline]
-                fn read<'a>(&mut self, reader: Reader<'a>) -> Result<Reader<'a>, Error> {
+                fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
                     let start = reader.position();
-                    let (is_addition, reader) = reader.bits($extensible as u32)?;
-                    if is_addition == 1 {
-                        let (index, reader) = reader.small_number()?;
+                    let (is_addition, reader) = if $extensible {
+                        reader.bit()
+                    } else {
+                        (false, reader)
+                    };
+                    if is_addition {
+                        let (index, reader) = reader.small_number();
                         $(if index == Some(Index::$addition as usize - ROOT) {
-                            let read = open_type::decode::<$addition_type>(reader);
-                            return match read {
-                                Ok((value, reader)) => {
-                                    *self = Self::$addition(value);
-                                    Ok(reader)
-                                }
-                                Err(error) => Err(error.within(Index::$addition as usize)),
-                            };
+                            let had_failed = reader.has_failed();
+                            let (value, reader) = open_type::decode::<$addition_type>(reader);
+                            *self = Self::$addition(value);
+                            return reader.behind_field(Index::$addition as usize, had_failed);
                         })*
-                        let _ = (index, reader);
-                        return Err(Error::at(start, Fault::UnknownAlternative));
+                        let _ = index;
+                        return reader.fail(start, Fault::UnknownAlternative);
                     }
-                    let (index, reader) = reader.index(COUNT)?;
+                    let (index, reader) = reader.index(COUNT);
                     $(if index == Index::$variant as usize {
-                        return match <$type as Uper>::decode(reader) {
-                            Ok((value, reader)) => {
-                                *self = Self::$variant(value);
-                                Ok(reader)
-                            }
-                            Err(error) => Err(error.within(index)),
-                        };
+                        let had_failed = reader.has_failed();
+                        let mut value = <$type as Uper>::LOWEST;
+                        let reader = value.read(reader);
+                        *self = Self::$variant(value);
+                        return reader.behind_field(index, had_failed);
                     })+
-                    Err(Error::at(start, Fault::AbsentAlternative))
+                    reader.fail(start, Fault::AbsentAlternative)
                 }
 
                 fn arbitrary<S: Source>(source: &mut S) -> Self {
@@ -456,7 +460,7 @@ macro_rules! component {
 
 /// What the expansions of [`asn1!`] need.
 pub(super) mod prelude {
-    pub(in crate::core) use super::super::error::{Error, FIELDS_MAX, Fault, Field};
+    pub(in crate::core) use super::super::error::{FIELDS_MAX, Fault, Field};
     pub(in crate::core) use super::super::list::SequenceOf;
     pub(in crate::core) use super::super::open_type;
     pub(in crate::core) use super::super::reader::Reader;
@@ -469,7 +473,7 @@ pub(super) mod prelude {
 pub(super) use {asn1, component};
 
 use super::Uper;
-use super::error::{Error, Fault};
+use super::error::Fault;
 use super::reader::Reader;
 
 /// Reads the component, if it is present.
@@ -478,9 +482,9 @@ pub(super) fn read_optional<'a, T: Uper>(
     slot: &mut Option<T>,
     reader: Reader<'a>,
     is_present: bool,
-) -> Result<Reader<'a>, Error> {
+) -> Reader<'a> {
     if !is_present {
-        return Ok(reader);
+        return reader;
     }
     slot.insert(T::LOWEST).read(reader)
 }
@@ -492,16 +496,17 @@ pub(super) fn read_defaulted<'a, T: Uper>(
     slot: &mut T,
     reader: Reader<'a>,
     is_present: bool,
-) -> Result<Reader<'a>, Error> {
+) -> Reader<'a> {
     if !is_present {
-        return Ok(reader);
+        return reader;
     }
-    let (value, behind) = T::decode(reader)?;
+    let mut value = T::LOWEST;
+    let behind = value.read(reader);
     if value == *slot {
-        return Err(Error::at(reader.position(), Fault::DefaultSpelledOut));
+        return behind.fail(reader.position(), Fault::DefaultSpelledOut);
     }
     *slot = value;
-    Ok(behind)
+    behind
 }
 
 /// The largest of these numbers of bits.

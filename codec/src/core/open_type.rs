@@ -31,7 +31,8 @@ pub(super) fn encode_addition<'a, T: Uper>(
 
 /// Reads the value in an open type.
 pub(super) fn decode<T: Uper>(reader: Reader<'_>) -> Read<'_, T> {
-    let (outer, reader) = reader.open()?;
-    let (value, reader) = T::decode(reader)?;
-    Ok((value, reader.close(outer)?))
+    let (outer, reader) = reader.open();
+    let mut value = T::LOWEST;
+    let reader = value.read(reader);
+    (value, reader.close(outer))
 }

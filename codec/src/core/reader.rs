@@ -1,6 +1,10 @@
 //! The bits of an encoding, read in order.
 
 #![allow(
+    clippy::many_single_char_names,
+    reason = "eight octets have no better names"
+)]
+#![allow(
     clippy::inline_always,
     reason = "a reader that goes through memory at every field is several times slower"
 )]
@@ -9,21 +13,28 @@ use super::error::{Error, Fault};
 use super::width;
 
 /// What reading gives: a value and the reader behind it.
-pub type Read<'a, T> = Result<(T, Reader<'a>), Error>;
+pub type Read<'a, T> = (T, Reader<'a>);
 
 /// The bits of an encoding from one bit on.
 ///
-/// A reader is passed by value and comes back with what was read, so nothing is read twice, and after
-/// an error there is no reader left to go on with. It copies nothing and never panics.
+/// A reader is passed by value and comes back with what was read, so nothing is read twice. It copies
+/// nothing and never panics.
+///
+/// It keeps the first fault, and goes on as if there were none: what is read then is some value, which
+/// nobody gets to see. So where the next field begins does not depend on whether this one is valid,
+/// which is what makes it easy to prove.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'a> {
     octets: &'a [u8],
-    /// The next bit.
+    /// The next bit; behind the end if there was a fault.
     position: usize,
     /// The bit behind the last one.
     end: usize,
     /// How many SEQUENCEs had unknown extension additions.
     extended: usize,
+    has_failed: bool,
+    /// The first fault, if it has failed.
+    error: Error,
 }
 
 /// What is behind an open type that is being read.
@@ -35,9 +46,6 @@ pub struct Outer {
     end: usize,
 }
 
-/// How many bits of a window count, whatever bit of its first octet they begin at.
-const WINDOW_OCTETS: usize = 5;
-
 impl<'a> Reader<'a> {
     /// All bits of `octets`.
     #[must_use]
@@ -47,6 +55,8 @@ impl<'a> Reader<'a> {
             position: 0,
             end: octets.len() * 8,
             extended: 0,
+            has_failed: false,
+            error: Error::at(0, Fault::Truncated),
         }
     }
 
@@ -59,7 +69,7 @@ impl<'a> Reader<'a> {
     /// How many bits are left.
     #[must_use]
     pub const fn left(self) -> usize {
-        self.end - self.position
+        self.end.saturating_sub(self.position)
     }
 
     /// How many SEQUENCEs had unknown extension additions so far.
@@ -68,236 +78,266 @@ impl<'a> Reader<'a> {
         self.extended
     }
 
-    /// Skips `count` bits.
-    ///
-    /// # Errors
-    /// [`Fault::Truncated`] when fewer are left.
-    #[inline(always)]
-    pub fn skip(self, count: usize) -> Result<Self, Error> {
-        if count > self.left() {
-            return Err(Error::at(self.end, Fault::Truncated));
-        }
-        let position = self.position + count;
-        Ok(Self { position, ..self })
+    /// Whether there was a fault.
+    #[must_use]
+    pub const fn has_failed(self) -> bool {
+        self.has_failed
     }
 
-    /// The next `count` bits as a number, first bit highest. `count` is at most 32.
+    /// The reader, if there was no fault.
     ///
     /// # Errors
+    /// The first fault.
+    #[inline(always)]
+    pub const fn result(self) -> Result<Self, Error> {
+        if self.has_failed {
+            Err(self.error)
+        } else {
+            Ok(self)
+        }
+    }
+
+    /// Keeps the fault, if it is the first one.
+    #[must_use]
+    #[inline(always)]
+    pub(crate) const fn fail(mut self, bit: usize, fault: Fault) -> Self {
+        if !self.has_failed {
+            self.has_failed = true;
+            self.error = Error::at(bit, fault);
+        }
+        self
+    }
+
+    /// Says that field `index` has been read. `had_failed` tells whether there was a fault before it.
+    #[must_use]
+    #[inline(always)]
+    pub(crate) const fn behind_field(mut self, index: usize, had_failed: bool) -> Self {
+        if self.has_failed && !had_failed {
+            self.error = self.error.within(index);
+        }
+        self
+    }
+
+    /// Skips `count` bits, which are fewer than 2^32. There is a [`Fault::Truncated`] when fewer are
+    /// left.
+    #[must_use]
+    #[inline(always)]
+    pub const fn skip(mut self, count: usize) -> Self {
+        self.position += count;
+        if self.position > self.end {
+            return self.fail(self.end, Fault::Truncated);
+        }
+        self
+    }
+
+    /// The next `count` bits as a number, first bit highest. `count` is at most 32. There is a
     /// [`Fault::Truncated`] when fewer are left.
+    #[must_use]
     #[inline(always)]
     pub fn bits(self, count: u32) -> Read<'a, u32> {
         debug_assert!(count <= 32);
-        let reader = self.skip(count as usize)?;
+        if count == 0 {
+            return (0, self);
+        }
         let aligned = self.window() << (self.position % 8);
-        // Twice, since a shift by 64 is none.
-        let number = aligned >> 1 >> (63 - count);
-        Ok((number as u32, reader))
+        let number = aligned >> (64 - count);
+        (number as u32, self.skip(count as usize))
     }
 
     /// The octets from that of the next bit on, first octet highest. What is behind the encoding is
     /// zero.
     #[inline(always)]
     fn window(self) -> u64 {
-        let first = self.position / 8;
-        match self.octets.get(first..).and_then(<[u8]>::first_chunk::<8>) {
-            Some(octets) => u64::from_be_bytes(*octets),
-            None => self.last_window(first),
+        match self.octets.get(self.position / 8..) {
+            Some(&[a, b, c, d, e, f, g, h, ..]) => u64::from_be_bytes([a, b, c, d, e, f, g, h]),
+            Some(last) => last_window(last),
+            None => 0,
         }
-    }
-
-    /// As [`window`](Self::window), where fewer than eight octets are left.
-    #[cold]
-    fn last_window(self, first: usize) -> u64 {
-        let mut window = 0;
-        for index in 0..WINDOW_OCTETS {
-            let octet = self.octets.get(first + index).copied().unwrap_or(0);
-            window |= u64::from(octet) << (56 - 8 * index);
-        }
-        window
     }
 
     /// The next bit.
-    ///
-    /// # Errors
-    /// [`Fault::Truncated`] when there is none.
+    #[must_use]
     #[inline(always)]
     pub fn bit(self) -> Read<'a, bool> {
-        let (bit, reader) = self.bits(1)?;
-        Ok((bit == 1, reader))
+        let (bit, reader) = self.bits(1);
+        (bit == 1, reader)
     }
 
-    /// An integer from `min` to `max` (X.691 clause 11.5).
-    ///
-    /// # Errors
-    /// [`Fault::Value`] for a larger one.
+    /// An integer from `min` to `max` (X.691 clause 11.5). There is a [`Fault::Value`] for a larger
+    /// one.
+    #[must_use]
     #[inline(always)]
     pub fn integer(self, min: i64, max: i64) -> Read<'a, i64> {
-        let (offset, reader) = self.bits(width(min, max))?;
+        self.integer_of(self.position, min, max)
+    }
+
+    /// As [`integer`](Self::integer), of a field that begins at bit `start`.
+    #[inline(always)]
+    fn integer_of(self, start: usize, min: i64, max: i64) -> Read<'a, i64> {
+        let (offset, reader) = self.bits(width(min, max));
         let number = min + i64::from(offset);
         if number > max {
-            let fault = Fault::Value { number, min, max };
-            return Err(Error::at(self.position, fault));
+            return (min, reader.fail(start, Fault::Value { number, min, max }));
         }
-        Ok((number, reader))
+        (number, reader)
     }
 
-    /// As [`integer`](Self::integer), of a type with an extension marker (X.691 clause 13.1).
-    ///
-    /// # Errors
-    /// [`Fault::Value`] for a larger one, [`Fault::BeyondRoot`] for one behind the marker.
-    pub fn extensible_integer(self, min: i64, max: i64) -> Read<'a, i64> {
-        let read = self.root()?.integer(min, max);
-        read.map_err(|error| match error.fault {
-            Fault::Value { .. } => Error::at(self.position, error.fault),
-            _ => error,
-        })
-    }
-
-    /// The extension bit of an INTEGER or a size, which has to be clear.
-    ///
-    /// # Errors
-    /// [`Fault::BeyondRoot`] when it is set.
+    /// As [`integer`](Self::integer), of a type with an extension marker (X.691 clause 13.1). There is
+    /// a [`Fault::BeyondRoot`] for one behind the marker.
+    #[must_use]
     #[inline(always)]
-    pub fn root(self) -> Result<Self, Error> {
-        match self.bit()? {
-            (false, reader) => Ok(reader),
-            (true, _) => Err(Error::at(self.position, Fault::BeyondRoot)),
-        }
+    pub fn extensible_integer(self, min: i64, max: i64) -> Read<'a, i64> {
+        self.root().integer_of(self.position, min, max)
     }
 
-    /// The index of an alternative, below `count` (X.691 clauses 14.2 and 23.6).
-    ///
-    /// # Errors
+    /// The extension bit of an INTEGER or a size, which has to be clear. There is a
+    /// [`Fault::BeyondRoot`] when it is set.
+    #[must_use]
+    #[inline(always)]
+    pub fn root(self) -> Self {
+        let (is_beyond, reader) = self.bit();
+        if is_beyond {
+            return reader.fail(self.position, Fault::BeyondRoot);
+        }
+        reader
+    }
+
+    /// The index of an alternative, below `count` (X.691 clauses 14.2 and 23.6). There is a
     /// [`Fault::UnknownAlternative`] for a larger one.
+    #[must_use]
     #[inline(always)]
     pub fn index(self, count: usize) -> Read<'a, usize> {
-        let (index, reader) = self.bits(width(0, count as i64 - 1))?;
+        let (index, reader) = self.bits(width(0, count as i64 - 1));
         let index = index as usize;
         if index >= count {
-            return Err(Error::at(self.position, Fault::UnknownAlternative));
+            return (0, reader.fail(self.position, Fault::UnknownAlternative));
         }
-        Ok((index, reader))
+        (index, reader)
     }
 
     /// The index of a value of an ENUMERATED that has `count` values and no additions that are known
-    /// (X.691 clause 14).
-    ///
-    /// # Errors
-    /// [`Fault::UnknownAlternative`] for a value that is not known.
+    /// (X.691 clause 14). There is a [`Fault::UnknownAlternative`] for a value that is not known.
+    #[must_use]
     #[inline(always)]
     pub fn enumerated(self, count: usize, is_extensible: bool) -> Read<'a, usize> {
         if !is_extensible {
             return self.index(count);
         }
-        match self.bit()? {
-            (false, reader) => reader.index(count),
-            (true, reader) => {
-                reader.small_number()?;
-                Err(Error::at(self.position, Fault::UnknownAlternative))
-            }
+        let (is_addition, reader) = self.bit();
+        let (index, behind) = reader.index(count);
+        if is_addition {
+            let (_, mut addition) = reader.small_number();
+            addition.position = behind.position;
+            return (0, addition.fail(self.position, Fault::UnknownAlternative));
         }
+        (index, behind)
     }
 
     /// A normally small number below 64 (X.691 clause 11.6); `None` for a larger one.
-    ///
-    /// # Errors
-    /// [`Fault::Truncated`].
+    #[must_use]
     pub fn small_number(self) -> Read<'a, Option<usize>> {
-        match self.bit()? {
-            (true, reader) => Ok((None, reader)),
-            (false, reader) => {
-                let (number, reader) = reader.bits(6)?;
-                Ok((Some(number as usize), reader))
-            }
+        let (is_large, reader) = self.bit();
+        if is_large {
+            return (None, reader);
         }
+        let (number, reader) = reader.bits(6);
+        (Some(number as usize), reader)
     }
 
     /// A length determinant in octets (X.691 clause 11.9), which no message can exceed in its two
     /// shorter forms. The encoding of a type has at least one octet (X.691 clause 11.1).
     fn length(self) -> Read<'a, usize> {
-        let (first, reader) = self.bits(8)?;
+        let (first, reader) = self.bits(8);
         let (length, least, reader) = match first {
             0..0x80 => (first, 1, reader),
             0x80..0xC0 => {
-                let (second, reader) = reader.bits(8)?;
+                let (second, reader) = reader.bits(8);
                 ((first & 0x3F) << 8 | second, 0x80, reader)
             }
-            _ => return Err(Error::at(self.position, Fault::Truncated)),
+            _ => return (0, reader.fail(self.position, Fault::Truncated)),
         };
         if length < least {
-            return Err(Error::at(self.position, Fault::Length));
+            return (0, reader.fail(self.position, Fault::Length));
         }
-        Ok((length as usize, reader))
+        (length as usize, reader)
     }
 
-    /// The inside of an open type (X.691 clause 11.2). [`close`](Self::close) ends it.
-    ///
-    /// # Errors
-    /// [`Fault::Length`], and [`Fault::Truncated`] when there is less than the length says.
+    /// The inside of an open type (X.691 clause 11.2). [`close`](Self::close) ends it. There is a
+    /// [`Fault::Length`], or a [`Fault::Truncated`] when there is less than the length says.
+    #[must_use]
     pub fn open(self) -> Read<'a, Outer> {
-        let (length, reader) = self.length()?;
+        let (length, reader) = self.length();
         let (start, end) = (reader.position, reader.end);
-        let inner_end = reader.skip(length * 8)?.position;
-        let inner = Self {
-            end: inner_end,
-            ..reader
-        };
-        Ok((Outer { start, end }, inner))
+        let mut inner = reader.skip(length * 8);
+        inner.end = inner.position;
+        inner.position = start;
+        (Outer { start, end }, inner)
     }
 
-    /// What is behind an open type, all of which has been read but for its padding.
-    ///
-    /// # Errors
-    /// [`Fault::Padding`], and [`Fault::Length`] when the open type has more octets than its value.
-    pub fn close(self, outer: Outer) -> Result<Self, Error> {
-        let reader = self.padding(outer.start)?;
+    /// What is behind an open type, all of which has been read but for its padding. There is a
+    /// [`Fault::Padding`], or a [`Fault::Length`] when the open type has more octets than its value.
+    #[must_use]
+    pub fn close(self, outer: Outer) -> Self {
+        let mut reader = self.padding(outer.start);
         if reader.left() > 0 {
-            return Err(Error::at(reader.position, Fault::Length));
+            reader = reader.fail(reader.position, Fault::Length);
         }
-        let end = outer.end;
-        Ok(Self { end, ..reader })
+        reader.end = outer.end;
+        reader
     }
 
     /// Skips the zero bits that fill the last octet of an encoding that began at bit `start`. An
-    /// encoding without bits has one octet all the same (X.691 clause 11.1).
-    ///
-    /// # Errors
+    /// encoding without bits has one octet all the same (X.691 clause 11.1). There is a
     /// [`Fault::Padding`] when they are not zero.
-    pub fn padding(self, start: usize) -> Result<Self, Error> {
+    #[must_use]
+    pub fn padding(self, start: usize) -> Self {
         let count = match self.position - start {
             0 => 8,
             used => (8 - used as u32 % 8) % 8,
         };
-        match self.bits(count)? {
-            (0, reader) => Ok(reader),
-            _ => Err(Error::at(self.position, Fault::Padding)),
+        match self.bits(count) {
+            (0, reader) => reader,
+            (_, reader) => reader.fail(self.position, Fault::Padding),
         }
     }
 
     /// Skips the extension additions of a SEQUENCE (X.691 clauses 19.7 to 19.9), none of which is
     /// known. Every turn of the loop takes two octets, so the input bounds it.
-    ///
-    /// # Errors
-    /// When they are not well-formed.
-    pub fn skip_additions(self) -> Result<Self, Error> {
-        let (last, reader) = self.small_number()?;
+    #[must_use]
+    pub fn skip_additions(self) -> Self {
+        let (last, reader) = self.small_number();
         let Some(last) = last else {
-            return Err(Error::at(self.position, Fault::TooManyAdditions));
+            return reader.fail(self.position, Fault::TooManyAdditions);
         };
         let bitmap_start = reader.position;
         let count = last as u32 + 1;
-        let (high, reader) = reader.bits(count.saturating_sub(32))?;
-        let (low, mut reader) = reader.bits(count.min(32))?;
+        let (high, reader) = reader.bits(count.saturating_sub(32));
+        let (low, mut reader) = reader.bits(count.min(32));
         let present = high.count_ones() + low.count_ones();
         if present == 0 {
-            return Err(Error::at(bitmap_start, Fault::NoAddition));
+            return reader.fail(bitmap_start, Fault::NoAddition);
         }
-        for _ in 0..present {
-            let (length, behind) = reader.length()?;
-            reader = behind.skip(length * 8)?;
+        let mut skipped = 0;
+        while skipped < present && !reader.has_failed {
+            let (length, behind) = reader.length();
+            reader = behind.skip(length * 8);
+            skipped += 1;
         }
-        let extended = reader.extended + 1;
-        Ok(Self { extended, ..reader })
+        reader.extended += 1;
+        reader
     }
+}
+
+/// As [`Reader::window`], where fewer than eight octets are left. Of a window five octets count,
+/// whatever bit of its first one the bits begin at.
+#[cold]
+fn last_window(octets: &[u8]) -> u64 {
+    let octet = |index: usize| {
+        if index < octets.len() {
+            octets[index]
+        } else {
+            0
+        }
+    };
+    u64::from_be_bytes([octet(0), octet(1), octet(2), octet(3), octet(4), 0, 0, 0])
 }

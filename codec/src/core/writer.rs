@@ -1,5 +1,10 @@
 //! The bits of an encoding, written in order.
 
+#![allow(
+    clippy::many_single_char_names,
+    reason = "eight octets have no better names"
+)]
+
 use super::error::{Error, Fault};
 use super::width;
 
@@ -16,9 +21,6 @@ pub struct Writer<'a> {
     /// The bits of the octet that is begun, highest, and zeros.
     begun: u64,
 }
-
-/// How many octets 32 bits touch at most.
-const WINDOW_OCTETS: usize = 5;
 
 impl<'a> Writer<'a> {
     /// Writes from the first bit of `octets` on, whatever they hold.
@@ -43,6 +45,9 @@ impl<'a> Writer<'a> {
     #[inline]
     pub fn bits(mut self, number: u32, count: u32) -> Self {
         debug_assert!(count <= 32 && u64::from(number) >> count == 0);
+        if count == 0 {
+            return self;
+        }
         // Twice, since a shift by 64 is none.
         let aligned = u64::from(number) << (63 - count) << 1;
         let window = self.begun | aligned >> (self.position % 8);
@@ -56,18 +61,13 @@ impl<'a> Writer<'a> {
     /// Writes a window of octets, highest first. Those that are not begun yet become zero.
     #[inline]
     fn put(&mut self, first: usize, window: u64) {
-        let octets = self.octets.get_mut(first..).unwrap_or_default();
-        match octets.first_chunk_mut::<8>() {
-            Some(octets) => *octets = window.to_be_bytes(),
-            None => Self::put_last(octets, window),
-        }
-    }
-
-    /// As [`put`](Self::put), where fewer than eight octets are left.
-    fn put_last(octets: &mut [u8], window: u64) {
         let window = window.to_be_bytes();
-        for (octet, begun) in octets.iter_mut().zip(window).take(WINDOW_OCTETS) {
-            *octet = begun;
+        match self.octets.get_mut(first..) {
+            Some([a, b, c, d, e, f, g, h, ..]) => {
+                [*a, *b, *c, *d, *e, *f, *g, *h] = window;
+            }
+            Some(last) => put_last(last, window),
+            None => {}
         }
     }
 
@@ -103,4 +103,19 @@ impl<'a> Writer<'a> {
         }
         Ok(length)
     }
+}
+
+/// As [`Writer::put`], where fewer than eight octets are left. 32 bits touch five octets at most.
+#[cold]
+fn put_last(octets: &mut [u8], window: [u8; 8]) {
+    let mut put = |index: usize| {
+        if index < octets.len() {
+            octets[index] = window[index];
+        }
+    };
+    put(0);
+    put(1);
+    put(2);
+    put(3);
+    put(4);
 }

@@ -1,0 +1,94 @@
+//! The core of the codec: what reads and writes bits, and each container of RAM and RMCM.
+//!
+//! Every harness of a container is about the container as a message of its own, in a buffer of exactly
+//! its maximum length.
+
+pub mod bits;
+pub mod cdd;
+pub mod common;
+pub mod ram;
+pub mod rmcm;
+
+#[cfg(all(kani, not(feature = "stand-in")))]
+use crossguard_codec::core::Reader;
+use crossguard_codec::core::{Uper, laws};
+
+#[cfg(not(all(kani, not(feature = "stand-in"))))]
+use crate::stand_in::Arbitrary;
+use crate::{Symbolic, kani};
+
+impl crossguard_codec::core::Source for Symbolic {
+    fn integer(&mut self, low: i64, high: i64) -> i64 {
+        let number = kani::any();
+        #[cfg(not(all(kani, not(feature = "stand-in"))))]
+        let number = crate::stand_in::between(number, low, high);
+        kani::assume(low <= number && number <= high);
+        number
+    }
+}
+
+/// Any octets; under the stand-in often those of a value, or nearly so.
+#[cfg(all(kani, not(feature = "stand-in")))]
+fn any_octets<T: Uper, const N: usize>() -> [u8; N] {
+    kani::any()
+}
+
+/// Any octets; under the stand-in often those of a value, or nearly so.
+#[cfg(not(all(kani, not(feature = "stand-in"))))]
+fn any_octets<T: Uper, const N: usize>() -> [u8; N] {
+    let mut octets = <[u8; N]>::any();
+    if kani::any() {
+        octets = [0; N];
+        let _ = crossguard_codec::core::encode(&T::arbitrary(&mut Symbolic), &mut octets);
+    }
+    if kani::any() {
+        octets[kani::any::<usize>() % N] ^= 1 << (kani::any::<u8>() % 8);
+    }
+    octets
+}
+
+/// Any value comes back, and takes no more than the maximum length.
+fn values<T: Uper, const N: usize>(class: fn(&T) -> bool) {
+    let value = T::arbitrary(&mut Symbolic);
+    laws::encode_then_decode_is_identity::<T, N>(&value);
+    let is_one = class(&value);
+    kani::cover!(is_one, "one class");
+    kani::cover!(!is_one, "the other class");
+}
+
+/// Any octets up to the maximum length are refused, or the one encoding of a value.
+fn octets<T: Uper, const N: usize>() {
+    let octets: [u8; N] = any_octets::<T, N>();
+    let length = usize::from(kani::any::<u8>()) % (N + 1);
+    let is_accepted = laws::decode_then_encode_is_identity::<T, N>(&octets[..length]);
+    kani::cover!(is_accepted, "accepted");
+    kani::cover!(!is_accepted, "refused");
+}
+
+/// Any value is refused when octets are missing at its end.
+fn cuts<T: Uper, const N: usize>() {
+    let value = T::arbitrary(&mut Symbolic);
+    let cut = usize::from(kani::any::<u8>()) % (N + 1);
+    laws::truncated_is_an_error::<T, N>(&value, cut);
+    kani::cover!(0 < cut && cut < N, "in the middle");
+}
+
+/// In the place of [`Reader::skip_additions`]: restricts a harness to octets without extension
+/// additions.
+#[cfg(all(kani, not(feature = "stand-in")))]
+fn no_additions<'a>(reader: Reader<'a>) -> Reader<'a>
+where
+    'a: 'a,
+{
+    kani::assume(false);
+    reader
+}
+
+/// In the place of [`Reader::skip_additions`]: proves that no encoding of a value leads there.
+#[cfg(all(kani, not(feature = "stand-in")))]
+fn never<'a>(_: Reader<'a>) -> Reader<'a>
+where
+    'a: 'a,
+{
+    panic!("an extension bit was written")
+}
