@@ -37,14 +37,17 @@ harnesses! {
     #[solver(cadical)]
     fn hears_a_command() {
         let step = FROM.any_step(Kind::Command);
-        // Without a branch in a mark: each branch of it would be a mark of its own to Kani.
+        // No branch in a mark: each branch of it would be a mark of its own to Kani.
         let starts = step.said.has(Sort::StartManeuver);
         let answers = step.said.has(Sort::Answer);
         let changes = step.before != step.after;
-        kani::cover!(starts & step.said.has(Sort::StopManeuver), "supersedes");
+        let supersedes = starts && step.said.has(Sort::StopManeuver);
+        let answers_again = answers && !changes;
+        let rejects = answers && !starts && changes;
+        kani::cover!(supersedes, "supersedes");
         kani::cover!(starts, "accepts");
-        kani::cover!(answers & !changes, "answers again");
-        kani::cover!(answers & !starts & changes, "rejects");
+        kani::cover!(answers_again, "answers again");
+        kani::cover!(rejects, "rejects");
         kani::cover!(step.is_ignored(), "ignored");
     }
 
