@@ -19,7 +19,8 @@ const FROM: From = From {
 
 harnesses! {
     /// A RAM that asks for help as well.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(6)]
+    #[solver(cadical)]
     fn hears_a_request() {
         let step = FROM.any_step(Kind::RamNeedHelp);
         kani::cover!(becomes(&step, Role::Helper), "helps the one that goes before");
