@@ -11,7 +11,7 @@ use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Runs;
-use crate::graph::{Graph, Limit};
+use crate::graph::Graph;
 use crate::model::{Action, Delivery, Model, State};
 use crate::network::Transmission;
 use crate::properties::{Kind, PropertyId, View};
@@ -44,6 +44,20 @@ impl Default for Options {
     }
 }
 
+impl Options {
+    /// Why an exploration that has found so many states has to stop, if it has.
+    pub(crate) fn states_reached(&self, states: usize) -> Option<CutOff> {
+        let reached = self.states_max.is_some_and(|max| states >= max);
+        reached.then_some(CutOff::StateLimit)
+    }
+
+    /// Why an exploration that has taken so long has to stop, if it has.
+    pub(crate) fn time_reached(&self, time: Duration) -> Option<CutOff> {
+        let reached = self.time_max.is_some_and(|max| time >= max);
+        reached.then_some(CutOff::TimeLimit)
+    }
+}
+
 /// How far a check is.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
@@ -66,11 +80,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
     let scenario = model.scenario();
     let expected = scenario.expected.map(|size| size.unique_states);
     let stateright = configure(model, options).spawn_bfs();
-    let limit = Limit {
-        states: options.states_max,
-        time: options.time_max,
-    };
-    let graph = Graph::build(model, limit, &mut |reached| {
+    let graph = Graph::build(model, options, &mut |reached| {
         watch(Progress {
             checked: stateright.unique_state_count(),
             explored: reached.states,
@@ -162,19 +172,12 @@ impl Checked {
     ) -> Self {
         let mut discoveries = checker.discoveries();
         // stateright says it is done in all of these cases as well.
-        let cut_off = if options
-            .states_max
-            .is_some_and(|max| checker.state_count() >= max)
-        {
-            Some(CutOff::StateLimit)
-        } else if options.time_max.is_some_and(|max| elapsed >= max) {
-            Some(CutOff::TimeLimit)
-        } else if discoveries.len() == model.properties().len() || !options.until_broken.is_empty()
-        {
-            Some(CutOff::FoundBroken)
-        } else {
-            None
-        };
+        let found_all =
+            discoveries.len() == model.properties().len() || !options.until_broken.is_empty();
+        let cut_off = options
+            .states_reached(checker.state_count())
+            .or(options.time_reached(elapsed))
+            .or(found_all.then_some(CutOff::FoundBroken));
         let counterexamples = model
             .scenario()
             .properties
@@ -217,11 +220,6 @@ impl Findings<'_> {
             },
             _ => (self.checked.counterexamples[i].clone(), None),
         };
-        let verdict = match (&counterexample, self.cut_off) {
-            (Some(_), _) => Verdict::Violated,
-            (None, Some(_)) => Verdict::Incomplete,
-            (None, None) => Verdict::Holds,
-        };
         let kind = match id.kind() {
             Kind::S => "S",
             Kind::T => "T",
@@ -230,7 +228,7 @@ impl Findings<'_> {
         PropertyReport {
             id: id.to_string(),
             kind: kind.to_owned(),
-            verdict,
+            verdict: Verdict::of_property(counterexample.is_some(), self.cut_off),
             statement: id.statement().to_owned(),
             counterexample: counterexample.unwrap_or_default(),
             repeats_after,
@@ -283,15 +281,10 @@ impl Findings<'_> {
 
     /// The premise of a property; `None` where the property speaks about every state.
     fn premise(&self, id: PropertyId) -> Option<PropertyReport> {
-        let verdict = match (self.model.premise_met(id), self.cut_off) {
-            (true, _) => Verdict::Reachable,
-            (false, Some(_)) => Verdict::Incomplete,
-            (false, None) => Verdict::Unreachable,
-        };
         id.premise().map(|premise| PropertyReport {
             id: format!("{id}-premise"),
             kind: "premise".to_owned(),
-            verdict,
+            verdict: Verdict::of_premise(self.model.premise_met(id), self.cut_off),
             statement: premise.to_owned(),
             counterexample: Vec::new(),
             repeats_after: None,

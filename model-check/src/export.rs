@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use crate::check::{Options, label};
 use crate::fairness::Runs;
-use crate::graph::{Graph, Limit};
+use crate::graph::Graph;
 use crate::model::Model;
 use crate::report::CutOff;
 
@@ -32,11 +32,7 @@ pub fn export(
     format: Format,
     to: &mut impl Write,
 ) -> io::Result<Option<CutOff>> {
-    let limit = Limit {
-        states: options.states_max,
-        time: options.time_max,
-    };
-    let graph = Graph::build(model, limit, &mut |_| false);
+    let graph = Graph::build(model, options, &mut |_| false);
     if graph.cut_off().is_some() {
         return Ok(graph.cut_off());
     }

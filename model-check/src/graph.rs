@@ -1,32 +1,14 @@
 //! The whole state graph, for facts about runs that stateright's exploration does not establish.
 
 use std::hash::BuildHasher;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
+use crate::check::Options;
 use crate::model::{Model, State};
 use crate::report::CutOff;
-
-/// How far a graph may grow.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Limit {
-    pub(crate) states: Option<usize>,
-    pub(crate) time: Option<Duration>,
-}
-
-impl Limit {
-    fn states_reached(&self, states: usize) -> Option<CutOff> {
-        let reached = self.states.is_some_and(|max| states >= max);
-        reached.then_some(CutOff::StateLimit)
-    }
-
-    fn time_reached(&self, time: Duration) -> Option<CutOff> {
-        let reached = self.time.is_some_and(|max| time >= max);
-        reached.then_some(CutOff::TimeLimit)
-    }
-}
 
 /// How far an exploration is.
 #[derive(Clone, Copy, Debug)]
@@ -54,10 +36,10 @@ pub(crate) struct Graph {
 
 impl Graph {
     /// Explores `model` from its initial state, breadth first. `watch` is told how far it is, and says
-    /// whether to stop.
+    /// whether to stop. Of the options, the limits on states and time count.
     pub(crate) fn build(
         model: &Model,
-        limit: Limit,
+        options: &Options,
         watch: &mut dyn FnMut(Reached) -> bool,
     ) -> Self {
         let start = Instant::now();
@@ -82,10 +64,10 @@ impl Graph {
             if at == level_ends {
                 (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
             }
-            graph.cut_off = limit.states_reached(graph.states.len());
+            graph.cut_off = options.states_reached(graph.states.len());
             if at % 16_384 == 0 {
                 let has_to_stop = watch(graph.reached(at)).then_some(CutOff::FoundBroken);
-                let out_of_time = limit.time_reached(start.elapsed());
+                let out_of_time = options.time_reached(start.elapsed());
                 graph.cut_off = graph.cut_off.or(has_to_stop).or(out_of_time);
             }
             if graph.cut_off.is_some() {

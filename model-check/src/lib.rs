@@ -48,9 +48,5 @@ pub mod universe;
 /// what must hold of them; [`check::check`] does.
 #[must_use]
 pub fn count_states(model: &model::Model) -> usize {
-    let unlimited = graph::Limit {
-        states: None,
-        time: None,
-    };
-    graph::Graph::build(model, unlimited, &mut |_| false).states()
+    graph::Graph::build(model, &check::Options::default(), &mut |_| false).states()
 }

@@ -94,6 +94,26 @@ pub enum Verdict {
     Incomplete,
 }
 
+impl Verdict {
+    /// The verdict on a property: what was not found broken holds only if nothing was cut off.
+    pub(crate) const fn of_property(is_broken: bool, cut_off: Option<CutOff>) -> Self {
+        match (is_broken, cut_off) {
+            (true, _) => Self::Violated,
+            (false, Some(_)) => Self::Incomplete,
+            (false, None) => Self::Holds,
+        }
+    }
+
+    /// The verdict on a premise: what was not met cannot be met only if nothing was cut off.
+    pub(crate) const fn of_premise(is_met: bool, cut_off: Option<CutOff>) -> Self {
+        match (is_met, cut_off) {
+            (true, _) => Self::Reachable,
+            (false, Some(_)) => Self::Incomplete,
+            (false, None) => Self::Unreachable,
+        }
+    }
+}
+
 impl ScenarioReport {
     /// Whether something was found that is wrong: a property is broken, a premise is met nowhere, or
     /// the state space has another size than the scenario's file expects.

@@ -1,13 +1,16 @@
 //! Symmetric robots: the verdicts are those of the scenario without symmetry, the counterexamples are
 //! real runs, and a claim of symmetry that is none is refused with its line.
 
+mod rules;
+
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::{ScenarioReport, Verdict};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_protocol::*;
+use crossguard_protocol::Output;
+use rules::{Drops, FollowersWaitForEver, LosesTwoForOne};
 
 const TRIO: &str = include_str!("../scenarios/trio.toml");
 
@@ -51,60 +54,17 @@ fn the_protocol_gets_the_same_verdicts() {
     assert!(assert_same_verdicts(|| Protocol).is_empty());
 }
 
-/// The identity is never locked.
-struct LocksNoIdentity;
-
-impl Rules for LocksNoIdentity {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        let others = outputs
-            .iter()
-            .filter(|output| !matches!(output, Output::LockIdentity));
-        others.copied().collect()
-    }
-}
-
 #[test]
 fn an_identity_that_is_not_locked_is_found() {
-    assert_eq!(assert_same_verdicts(|| LocksNoIdentity), ["I18"]);
-}
-
-/// When one follower is gone, another one's lease goes too.
-struct LosesTwoForOne;
-
-impl Rules for LosesTwoForOne {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        let one_is_gone = outputs
-            .notices()
-            .any(|notice| matches!(notice, Notice::FollowerGone(..)));
-        if let (true, Phase::Leading(leading)) = (one_is_gone, robot.phase()) {
-            let others: Vec<_> = leading.members.iter().map(|m| m.station).collect();
-            for station in others {
-                robot.step(config, Input::Expired(Timer::Lease(station)));
-            }
-        }
-        outputs
-    }
+    assert_eq!(
+        assert_same_verdicts(|| { Drops(|output| matches!(output, Output::LockIdentity)) }),
+        ["I18"]
+    );
 }
 
 #[test]
 fn a_follower_that_goes_and_takes_another_with_it_is_found() {
     assert_eq!(assert_same_verdicts(|| LosesTwoForOne), ["I17", "L7"]);
-}
-
-/// A robot that has followed never gets idle again by itself, so that L7 fails late in a run.
-struct FollowersWaitForEver;
-
-impl Rules for FollowersWaitForEver {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Following(_), Input::Expired(_)) = (robot.phase(), input) {
-            return [Output::Ignored(Ignored::TimerNotArmed)]
-                .into_iter()
-                .collect();
-        }
-        robot.step(config, input)
-    }
 }
 
 #[test]

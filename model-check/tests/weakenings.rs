@@ -1,6 +1,8 @@
 //! What each rule is good for: a transition function without it breaks the property that the rule is
 //! there to keep.
 
+mod rules;
+
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::Rules;
@@ -9,6 +11,7 @@ use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::Verdict;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
+use rules::{Drops, FollowersWaitForEver, LosesTwoForOne};
 
 /// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
 fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
@@ -249,20 +252,6 @@ fn without_request_numbers_in_ram_a_stale_one_completes_a_newer_command() {
     assert_breaks("pair", TakesAnyProgress, &[I8]);
 }
 
-/// Outputs of one kind never reach the robot.
-struct Drops(fn(&Output) -> bool);
-
-impl Rules for Drops {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        outputs
-            .iter()
-            .copied()
-            .filter(|output| !(self.0)(output))
-            .collect()
-    }
-}
-
 #[test]
 fn a_corridor_that_is_not_closed_stays_open_over_nobody() {
     assert_breaks(
@@ -312,42 +301,9 @@ fn a_pseudonym_that_is_in_use_makes_a_robot_follow_itself() {
     assert_breaks("pair", TakesItsLeadersPseudonym, &[I1]);
 }
 
-/// When one follower is gone, another one's lease goes too.
-struct LosesTwoForOne;
-
-impl Rules for LosesTwoForOne {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        let one_is_gone = outputs
-            .notices()
-            .any(|notice| matches!(notice, Notice::FollowerGone(..)));
-        if let (true, Phase::Leading(leading)) = (one_is_gone, robot.phase()) {
-            let others: Vec<_> = leading.members.iter().map(|m| m.station).collect();
-            for station in others {
-                robot.step(config, Input::Expired(Timer::Lease(station)));
-            }
-        }
-        outputs
-    }
-}
-
 #[test]
 fn a_follower_that_goes_must_not_touch_the_others() {
     assert_breaks("trio", LosesTwoForOne, &[I17]);
-}
-
-/// A follower has no timers.
-struct FollowersWaitForEver;
-
-impl Rules for FollowersWaitForEver {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Following(_), Input::Expired(_)) = (robot.phase(), input) {
-            return [Output::Ignored(Ignored::TimerNotArmed)]
-                .into_iter()
-                .collect();
-        }
-        robot.step(config, input)
-    }
 }
 
 #[test]

@@ -141,21 +141,8 @@ pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
 
-const fn verdict(holds: bool) -> Verdict {
-    if holds {
-        Verdict::Holds
-    } else {
-        Verdict::Violated
-    }
-}
-
 /// P0 and its premise: the model is not one in which anything can happen, or nothing.
 fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport> {
-    let premise = if is_crossing_found {
-        Verdict::Reachable
-    } else {
-        Verdict::Unreachable
-    };
     let report = |id: &str, kind: &str, verdict, statement: &str| PropertyReport {
         id: id.to_owned(),
         kind: kind.to_owned(),
@@ -168,13 +155,13 @@ fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport
         report(
             hazards::HOLDS,
             "S",
-            verdict(!is_p0_broken),
+            Verdict::of_property(is_p0_broken, None),
             "a follower starts only what its leader commanded it",
         ),
         report(
             hazards::PREMISE,
             "premise",
-            premise,
+            Verdict::of_premise(is_crossing_found, None),
             "a crossing of two maneuvers goes well, and all robots are idle again",
         ),
     ]
@@ -186,7 +173,7 @@ fn hazard_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport {
     PropertyReport {
         id: text.id.to_owned(),
         kind: if hazard.is_without_end() { "L" } else { "S" }.to_owned(),
-        verdict: verdict(counterexample.is_none()),
+        verdict: Verdict::of_property(counterexample.is_some(), None),
         statement: text.statement.to_owned(),
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
         repeats_after: counterexample.and_then(Counterexample::repeats_after),

@@ -56,15 +56,10 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
 
 fn rule(model: &Model, explored: &Explored, id: TimedProperty) -> PropertyReport {
     let path = explored.path_to_broken(id);
-    let verdict = match (&path, explored.cut_off) {
-        (Some(_), _) => Verdict::Violated,
-        (None, Some(_)) => Verdict::Incomplete,
-        (None, None) => Verdict::Holds,
-    };
     PropertyReport {
         id: id.name().to_owned(),
         kind: id.kind().to_owned(),
-        verdict,
+        verdict: Verdict::of_property(path.is_some(), explored.cut_off),
         statement: id.statement().to_owned(),
         counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
         repeats_after: None,
@@ -72,15 +67,10 @@ fn rule(model: &Model, explored: &Explored, id: TimedProperty) -> PropertyReport
 }
 
 fn premise(explored: &Explored, id: TimedProperty) -> Option<PropertyReport> {
-    let verdict = match (explored.premises.met(id), explored.cut_off) {
-        (true, _) => Verdict::Reachable,
-        (false, Some(_)) => Verdict::Incomplete,
-        (false, None) => Verdict::Unreachable,
-    };
     id.premise().map(|premise| PropertyReport {
         id: format!("{}-premise", id.name()),
         kind: "premise".to_owned(),
-        verdict,
+        verdict: Verdict::of_premise(explored.premises.met(id), explored.cut_off),
         statement: premise.to_owned(),
         counterexample: Vec::new(),
         repeats_after: None,

@@ -125,13 +125,9 @@ impl Explored {
             depth: self.depth,
             expected: model.scenario().expected.map(|size| size.unique_states),
         });
-        if options.states_max.is_some_and(|max| states >= max) {
-            Some(CutOff::StateLimit)
-        } else if options.time_max.is_some_and(|max| start.elapsed() >= max) {
-            Some(CutOff::TimeLimit)
-        } else {
-            None
-        }
+        options
+            .states_reached(states)
+            .or(options.time_reached(start.elapsed()))
     }
 
     /// I12: a cycle of transitions in which no time passes would hold time up for ever. Takes away
