@@ -87,7 +87,7 @@ impl Chart {
                     .collect()
             }
             Entry::Heard { octets, .. } => self.arrow(time, lane, octets, false),
-            Entry::Dropped { cause, octets, .. } if cause == "simulated loss" => {
+            Entry::Dropped { cause, octets, .. } if cause.starts_with("simulated ") => {
                 self.arrow(time, lane, octets, true)
             }
             Entry::Dropped { cause, detail, .. } => {

@@ -6,6 +6,8 @@ use crossguard_codec::{DecodeError, Fault, ViewError};
 use crossguard_protocol::Ignored;
 use serde::Serialize;
 
+use crate::transport::Loss;
+
 /// Why something came to nothing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Cause {
@@ -18,7 +20,7 @@ pub enum Cause {
     /// A datagram arrived while the inbox was full.
     InboxFull,
     /// The fault layer dropped a datagram on purpose.
-    SimulatedLoss,
+    Simulated(Loss),
     /// The operating system did not take a datagram.
     NotSent,
     /// The operating system gave no datagrams any more.
@@ -38,7 +40,7 @@ impl Cause {
             Self::Ignored(Ignored::NotEngaged(..)) => "ignored: not engaged".to_owned(),
             Self::Ignored(why) => format!("ignored: {why}"),
             Self::InboxFull => "inbox full".to_owned(),
-            Self::SimulatedLoss => "simulated loss".to_owned(),
+            Self::Simulated(how) => how.name().to_owned(),
             Self::NotSent => "not sent".to_owned(),
             Self::LinkFailed => "link failed".to_owned(),
             Self::LogFull => "log full".to_owned(),

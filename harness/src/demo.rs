@@ -17,7 +17,7 @@ use crate::runtime::{Clock, Order, Running, Setup};
 use crate::site::{Place, Site};
 use crate::timing::{Summary, Timing};
 use crate::trace::{self, Entry, Record, Validated};
-use crate::transport::{Faults, Link, LinkError, Lossy};
+use crate::transport::{Faults, Halves, Link, LinkError, Transport, WithFaults};
 use crate::wire::Wire;
 
 /// The humanoid, which leads.
@@ -38,9 +38,9 @@ pub struct Options {
     pub trials: usize,
     /// How many times as fast as real the robots move.
     pub time_scale: f64,
-    /// Probability with which each receiver loses a datagram.
-    pub loss: f64,
-    /// Seed of losses and gait.
+    /// What happens to datagrams on the way to each robot.
+    pub faults: Faults,
+    /// Seed of faults and gait.
     pub seed: u64,
     /// Port of the first robot; the second has the next one.
     pub port: u16,
@@ -67,9 +67,9 @@ pub struct Outcome {
     pub retries: usize,
     /// How many times as fast as real the robots moved.
     pub speed: f64,
-    /// Probability with which each receiver lost a datagram.
-    pub loss: f64,
-    /// Seed of losses and gait.
+    /// What happened to datagrams on the way to each robot.
+    pub faults: String,
+    /// Seed of faults and gait.
     pub seed: u64,
     /// The state of each robot in the end.
     pub final_states: BTreeMap<String, String>,
@@ -150,20 +150,18 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(&Record)) -> Result<Dem
     };
     let ari = robot(ARI, Build::Humanoid, Place::new(0.0, -1.5), 1);
     let go2 = robot(GO2, Build::Quadruped, Place::new(-2.0, -2.5), 2);
-    let links = [(addresses[0], addresses[1]), (addresses[1], addresses[0])];
+    let open = |address, peer, seed| {
+        let peers = vec![peer];
+        let link = Link::Peers { address, peers };
+        let seed = options.seed.wrapping_add(seed);
+        WithFaults::new(link, options.faults.clone(), seed).open()
+    };
     // Both sockets are open before either robot says anything.
-    let opened = links.map(|(address, peer)| {
-        Link::Peers {
-            address,
-            peers: vec![peer],
-        }
-        .open()
-    });
-    let [first, second] = opened;
-    let (first, second) = (first?, second?);
+    let first = open(addresses[0], addresses[1], 3)?;
+    let second = open(addresses[1], addresses[0], 4)?;
     let robots = [
-        (ARI.0, ari.start(first, Some(plan.clone()), options, 3)),
-        (GO2.0, go2.start(second, None, options, 4)),
+        (ARI.0, ari.start(first, Some(plan.clone()))),
+        (GO2.0, go2.start(second, None)),
     ];
     Ok(Demo {
         robots,
@@ -187,17 +185,7 @@ struct Robot {
 }
 
 impl Robot {
-    fn start(
-        self,
-        (sender, receiver): (crate::transport::UdpSender, crate::transport::UdpReceiver),
-        plan: Option<Plan>,
-        options: &Options,
-        seed: u64,
-    ) -> Running {
-        let faults = Faults {
-            loss: options.loss,
-            seed: options.seed.wrapping_add(seed),
-        };
+    fn start(self, link: Halves, plan: Option<Plan>) -> Running {
         Setup {
             name: self.name.to_owned(),
             station: self.station,
@@ -206,8 +194,7 @@ impl Robot {
             config: Config::default(),
             wire: Wire::default(),
             application: Application::new(self.body, plan),
-            sender: Box::new(sender),
-            receiver: Box::new(Lossy::new(receiver, faults)),
+            link,
             log: self.log,
             clock: self.clock,
         }
@@ -311,7 +298,7 @@ impl Demo<'_> {
             trials: options.trials,
             retries,
             speed: options.time_scale,
-            loss: options.loss,
+            faults: options.faults.to_string(),
             seed: options.seed,
             final_states: self
                 .rest

@@ -16,7 +16,7 @@
 //!   events and the time go in, datagrams and outputs come out. A robot stack with its own loop
 //!   embeds this.
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
-//!   multicast, and simulated loss.
+//!   multicast, queues within a process, and a layer of seeded faults over any of them.
 //! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
 //!   be a step of the transition function.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.

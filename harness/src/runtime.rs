@@ -24,11 +24,14 @@ use crate::application::{Application, Wish};
 use crate::counters::Cause;
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crate::trace::{Entry, Record};
-use crate::transport::{Arrival, Receiver, Sender};
+use crate::transport::{Arrival, Halves, Receiver, Sender};
 use crate::wire::Wire;
 
 /// How many datagrams and orders may wait.
 const INBOX: usize = 256;
+
+/// How long the reader waits for a datagram before it looks whether it should stop.
+const READER_WAIT: Duration = Duration::from_millis(100);
 
 /// How often the body moves at least.
 const BODY_PERIOD: Duration = Duration::from_millis(5);
@@ -106,10 +109,8 @@ pub struct Setup {
     pub wire: Wire,
     /// Moves the body, and leads.
     pub application: Application,
-    /// Where datagrams go out.
-    pub sender: Box<dyn Sender>,
-    /// Where datagrams come in.
-    pub receiver: Box<dyn Receiver>,
+    /// Its link, open.
+    pub link: Halves,
     /// Where the log goes.
     pub log: SyncSender<Record>,
     /// The clock.
@@ -131,7 +132,7 @@ impl Setup {
         let stop = Arc::new(AtomicBool::new(false));
         let overflow = Arc::new(AtomicU64::new(0));
         let reader = Reader {
-            receiver: self.receiver,
+            receiver: self.link.receiver,
             deliveries: deliveries.clone(),
             overflow: Arc::clone(&overflow),
             stop: Arc::clone(&stop),
@@ -142,7 +143,7 @@ impl Setup {
             endpoint: Endpoint::new(robot, self.config, self.wire, now_ms),
             name: self.name,
             application: self.application,
-            sender: self.sender,
+            sender: self.link.sender,
             log: self.log,
             clock: self.clock,
             overflow,
@@ -202,7 +203,7 @@ struct Reader {
 impl Reader {
     fn run(mut self) {
         while !self.stop.load(Ordering::Relaxed) {
-            let delivery = match self.receiver.receive() {
+            let delivery = match self.receiver.receive(READER_WAIT) {
                 Ok(None) => continue,
                 Ok(Some(arrival)) => Delivery::Arrived(arrival),
                 Err(error) => Delivery::LinkFailed(error),
@@ -272,13 +273,10 @@ impl Loop {
 
     fn arrive(&mut self, arrival: Arrival) {
         match arrival {
-            Arrival::Datagram(octets) => self.handle(Stimulus::Datagram(&octets)),
-            Arrival::Lost(octets) => {
-                self.drop(
-                    Cause::SimulatedLoss,
-                    "by the fault layer".to_owned(),
-                    octets,
-                );
+            Arrival::Datagram { octets, .. } => self.handle(Stimulus::Datagram(&octets)),
+            Arrival::Lost { how, octets } => {
+                let detail = "by the fault layer".to_owned();
+                self.drop(Cause::Simulated(how), detail, octets);
             }
         }
     }

@@ -1,17 +1,50 @@
-//! Datagrams between robots: UDP, to the peers on the loopback interface or to a multicast group.
+//! Datagrams between robots, over whatever carries them.
+//!
+//! ```text
+//!   Transport::open ──► Sender    (one datagram to everybody in reach)
+//!                   └─► Receiver  (what comes in, one by one)
+//! ```
+//!
+//! [`Link`] is UDP: to the peers on the loopback interface, or to a multicast group. [`Air`] joins
+//! robots in one process. [`WithFaults`] lays seeded faults over either: what becomes of a datagram is
+//! drawn by a [`Channel`], the one place where faults are made; the simulator draws from it as well.
 
 mod faults;
+mod layer;
+mod memory;
 mod udp;
 
-pub use faults::{Faults, Lossy};
-pub use udp::{Link, LinkError, UdpReceiver, UdpSender};
+pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Loss, Outage};
+pub use layer::WithFaults;
+pub use memory::{Air, Port};
+pub use udp::{Link, LinkError};
+
+use std::net::SocketAddr;
+use std::time::Duration;
+
+/// A way to reach other robots.
+pub trait Transport {
+    /// Opens it. The two halves may be used by two threads.
+    ///
+    /// # Errors
+    /// Why it cannot be opened.
+    fn open(&self) -> Result<Halves, LinkError>;
+}
+
+/// An open transport.
+pub struct Halves {
+    /// Where datagrams go out.
+    pub sender: Box<dyn Sender>,
+    /// Where datagrams come in.
+    pub receiver: Box<dyn Receiver>,
+}
 
 /// Where datagrams go out.
 pub trait Sender: Send {
-    /// Sends one datagram to everybody in reach.
+    /// Sends one datagram to everybody in reach. It never waits for a receiver.
     ///
     /// # Errors
-    /// When the operating system did not take it for everybody.
+    /// When it was not taken for everybody.
     fn send(&mut self, octets: &[u8]) -> Result<(), NotSent>;
 }
 
@@ -29,18 +62,37 @@ pub struct NotSent {
 
 /// Where datagrams come in.
 pub trait Receiver: Send {
-    /// Waits for the next datagram, at most for a moment. `None` when there was none.
+    /// Waits for the next datagram, for so long at most. `None` when there was none.
     ///
     /// # Errors
     /// Those of the operating system that will not go away by themselves.
-    fn receive(&mut self) -> std::io::Result<Option<Arrival>>;
+    fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>>;
+}
+
+/// Who sent a datagram, as far as the transport can tell.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Source {
+    /// The address that it came from.
+    Address(SocketAddr),
+    /// The port of the [`Air`] that it came from.
+    Port(usize),
 }
 
 /// What came in.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Arrival {
     /// A datagram.
-    Datagram(Vec<u8>),
+    Datagram {
+        /// Who sent it.
+        from: Source,
+        /// What it holds.
+        octets: Vec<u8>,
+    },
     /// A datagram that the fault layer lost on purpose.
-    Lost(Vec<u8>),
+    Lost {
+        /// How.
+        how: Loss,
+        /// What it held.
+        octets: Vec<u8>,
+    },
 }

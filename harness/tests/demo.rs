@@ -83,6 +83,20 @@ fn with_three_of_ten_datagrams_lost_the_crossing_ends_well() {
 }
 
 #[test]
+fn bursts_repetition_and_delay_are_survived_and_counted() {
+    let faults = "burst=0.2x3,duplication=0.3,reordering=0.1,delay=1..20";
+    let result = json(&demo(&["--faults", faults, "--json"]));
+    assert_all_well(&result);
+    assert_eq!(
+        result["faults"],
+        "duplication=0.3,reordering=0.1,burst=0.2x3,delay=1..20"
+    );
+    let counters = &result["counters"]["Go2"];
+    assert!(counters["simulated burst loss"].as_u64() > Some(0));
+    assert_refused(&run(&["demo", "--faults", "rain=1"]), "no fault 'rain'");
+}
+
+#[test]
 fn the_log_holds_every_step_of_both_robots() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("demo.log");

@@ -8,6 +8,7 @@ use crossguard_codec::Identifiers;
 use crossguard_harness::chart::Chart;
 use crossguard_harness::demo::{self, ARI, GO2, Options, Outcome};
 use crossguard_harness::timing::{Statistic, Summary};
+use crossguard_harness::transport::Faults;
 
 use super::{Failure, print, print_json};
 
@@ -22,7 +23,10 @@ pub(super) struct Arguments {
     /// Probability with which each robot loses a datagram, from 0 to 0.9.
     #[arg(long, default_value_t = 0.0, value_parser = loss)]
     loss: f64,
-    /// Seed of the losses and of the robots' gait.
+    /// More faults on the way to each robot, like burst=0.4x8,duplication=0.1,delay=5..50.
+    #[arg(long, value_name = "LIST", default_value = "")]
+    faults: Faults,
+    /// Seed of the faults and of the robots' gait.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Port of the first robot on 127.0.0.1; the second has the next one.
@@ -68,7 +72,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let options = Options {
         trials: usize::from(arguments.trials),
         time_scale: arguments.speed,
-        loss: arguments.loss,
+        faults: Faults {
+            loss: arguments.faults.loss.max(arguments.loss),
+            ..arguments.faults.clone()
+        },
         seed: arguments.seed,
         port: arguments.port,
     };

@@ -16,7 +16,7 @@ use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_harness::robot_file::RobotFile;
 use crossguard_harness::runtime::{Clock, Order, Running, Setup};
 use crossguard_harness::trace::{self, Entry, Record};
-use crossguard_harness::transport::{Faults, Link, Lossy};
+use crossguard_harness::transport::{Faults, Link, Transport, WithFaults};
 use crossguard_harness::wire::Wire;
 use crossguard_protocol::{Input, Output, Robot, State};
 
@@ -40,7 +40,10 @@ pub(super) struct Arguments {
     /// Probability with which the robot loses a datagram, from 0 to 1.
     #[arg(long, default_value_t = 0.0)]
     loss: f64,
-    /// Seed of the losses and of the robot's gait.
+    /// More faults on the way to the robot, like burst=0.4x8,duplication=0.1,delay=5..50.
+    #[arg(long, value_name = "LIST", default_value = "")]
+    faults: Faults,
+    /// Seed of the faults and of the robot's gait.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Write the log to this file, one JSON object per line.
@@ -69,7 +72,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
         _ => file.link.clone(),
     };
-    let (sender, receiver) = link.open().map_err(Failure::input)?;
+    let faults = Faults {
+        loss: arguments.faults.loss.max(arguments.loss),
+        ..arguments.faults.clone()
+    };
+    let address = link.address();
+    let link = WithFaults::new(link, faults, arguments.seed).open();
+    let link = link.map_err(Failure::input)?;
     let log_file = match &arguments.log {
         Some(path) => Some(create(path)?),
         None => None,
@@ -85,10 +94,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     );
     let plan = file.autopilot.then(|| Plan::crossing(file.site));
     let (log, records) = sync_channel(4_096);
-    let faults = Faults {
-        loss: arguments.loss,
-        seed: arguments.seed,
-    };
     let running = Setup {
         name: file.name.clone(),
         station: file.station,
@@ -98,8 +103,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             identifiers: file.identifiers,
         },
         application: Application::new(body, plan),
-        sender: Box::new(sender),
-        receiver: Box::new(Lossy::new(receiver, faults)),
+        link,
         log,
         clock: Clock::start(),
     }
@@ -107,8 +111,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.json {
         let (name, station, counter) = (&file.name, file.station, boot.counter);
         print(format_args!(
-            "{name} is station {station}, boot {counter}, on {}. Type 'help' for help.",
-            link.address()
+            "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
         ))?;
     }
     let outcome = Console {
@@ -239,7 +242,7 @@ impl Console<'_> {
                     texts.push(format!("now {:?} ({})", state.state(), state.role()));
                 }
             }
-            Entry::Dropped { cause, detail, .. } if cause != "simulated loss" => {
+            Entry::Dropped { cause, detail, .. } if !cause.starts_with("simulated ") => {
                 texts.push(format!("dropped, {cause}: {detail}"));
             }
             Entry::Stopped { counters } => {

@@ -6,10 +6,7 @@ use std::time::Duration;
 
 use socket2::{Domain, InterfaceIndexOrAddress, Protocol, Socket, Type};
 
-use super::{Arrival, NotSent, Receiver, Sender};
-
-/// How long a receiver waits before it looks whether it should stop.
-const WAIT: Duration = Duration::from_millis(100);
+use super::{Arrival, Halves, NotSent, Receiver, Sender, Source, Transport};
 
 /// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
 const DATAGRAM_MAX: usize = 2_048;
@@ -66,28 +63,29 @@ pub enum LinkError {
         /// The names of those that there are.
         known: String,
     },
+    /// The port of an [`Air`](super::Air) is open already.
+    #[error("port {0} of the air is open already; each robot needs its own")]
+    PortInUse(usize),
 }
 
 /// The sending half of a link.
 #[derive(Debug)]
-pub struct UdpSender {
+struct UdpSender {
     socket: UdpSocket,
     to: Vec<SocketAddr>,
 }
 
 /// The receiving half of a link.
 #[derive(Debug)]
-pub struct UdpReceiver {
+struct UdpReceiver {
     socket: UdpSocket,
     buffer: Box<[u8; DATAGRAM_MAX]>,
+    /// For how long the socket waits.
+    wait: Duration,
 }
 
-impl Link {
-    /// Opens the link.
-    ///
-    /// # Errors
-    /// Why it cannot be opened.
-    pub fn open(&self) -> Result<(UdpSender, UdpReceiver), LinkError> {
+impl Transport for Link {
+    fn open(&self) -> Result<Halves, LinkError> {
         let (socket, to) = match self {
             Self::Peers { address, peers } => (bind(*address)?, peers.clone()),
             Self::Multicast { group, interface } => {
@@ -96,17 +94,19 @@ impl Link {
         };
         let address = self.address();
         let unusable = |cause| LinkError::Unusable { address, cause };
-        socket.set_read_timeout(Some(WAIT)).map_err(unusable)?;
-        let receiver = socket.try_clone().map_err(unusable)?;
-        Ok((
-            UdpSender { socket, to },
-            UdpReceiver {
-                socket: receiver,
-                buffer: Box::new([0; DATAGRAM_MAX]),
-            },
-        ))
+        let receiver = UdpReceiver {
+            socket: socket.try_clone().map_err(unusable)?,
+            buffer: Box::new([0; DATAGRAM_MAX]),
+            wait: Duration::ZERO,
+        };
+        Ok(Halves {
+            sender: Box::new(UdpSender { socket, to }),
+            receiver: Box::new(receiver),
+        })
     }
+}
 
+impl Link {
     /// The address that the link listens on.
     #[must_use]
     pub const fn address(&self) -> SocketAddr {
@@ -192,9 +192,18 @@ impl Sender for UdpSender {
 }
 
 impl Receiver for UdpReceiver {
-    fn receive(&mut self) -> std::io::Result<Option<Arrival>> {
+    fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
+        // Zero would stand for no limit.
+        let wait = at_most.max(Duration::from_micros(1));
+        if wait != self.wait {
+            self.socket.set_read_timeout(Some(wait))?;
+            self.wait = wait;
+        }
         match self.socket.recv_from(&mut *self.buffer) {
-            Ok((length, _)) => Ok(Some(Arrival::Datagram(self.buffer[..length].to_vec()))),
+            Ok((length, address)) => Ok(Some(Arrival::Datagram {
+                from: Source::Address(address),
+                octets: self.buffer[..length].to_vec(),
+            })),
             // A peer that is gone answers with ICMP, which shows up as a refused connection.
             Err(error)
                 if matches!(
@@ -228,12 +237,11 @@ mod tests {
             UdpSocket::bind(any_port()).unwrap(),
         );
         let peers = vec![a.local_addr().unwrap(), b.local_addr().unwrap()];
-        let (mut sender, _) = Link::Peers {
+        let link = Link::Peers {
             address: any_port(),
             peers,
-        }
-        .open()
-        .unwrap();
+        };
+        let mut sender = link.open().unwrap().sender;
         sender.send(b"hello").unwrap();
         for peer in [a, b] {
             let mut buffer = [0; 16];
@@ -246,13 +254,11 @@ mod tests {
         let taken = UdpSocket::bind(any_port()).unwrap().local_addr();
         let holder = UdpSocket::bind(taken.unwrap()).unwrap();
         let address = holder.local_addr().unwrap();
-        let error = Link::Peers {
+        let link = Link::Peers {
             address,
             peers: Vec::new(),
-        }
-        .open()
-        .unwrap_err();
-        assert!(matches!(error, LinkError::InUse { .. }), "{error}");
+        };
+        assert!(matches!(link.open(), Err(LinkError::InUse { .. })));
     }
 
     #[test]
@@ -262,7 +268,7 @@ mod tests {
                 group: group.parse().unwrap(),
                 interface: interface.to_owned(),
             };
-            link.open().unwrap_err()
+            link.open().err().unwrap()
         };
         assert!(matches!(
             open("127.0.0.1:4000", "lo"),
