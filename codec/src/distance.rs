@@ -29,6 +29,11 @@ pub fn distance(from: &Position, to: &Position) -> Decimetres {
 }
 
 fn metres(from: &Position, to: &Position) -> Option<f64> {
+    offset(from, to).map(|(x, y)| (x * x + y * y).sqrt())
+}
+
+/// How many metres `to` is east and north of `from`.
+pub(crate) fn offset(from: &Position, to: &Position) -> Option<(f64, f64)> {
     let (south, north) = (from.latitude?, to.latitude?);
     let mut east = to.longitude? - from.longitude?;
     if east > 180.0 {
@@ -43,7 +48,7 @@ fn metres(from: &Position, to: &Position) -> Option<f64> {
     let along = across * (1.0 - ECCENTRICITY_SQUARED) / flattening;
     let x = east.to_radians() * across * cosine;
     let y = (north - south).to_radians() * along;
-    Some((x * x + y * y).sqrt())
+    Some((x, y))
 }
 
 /// Cosine of an angle of at most 90 degrees by its series, exact to 10^-9.

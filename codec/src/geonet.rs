@@ -1,31 +1,71 @@
-//! The headers under a message: `GeoNetworking` and BTP-B.
+//! What is under a message: `GeoNetworking` and BTP-B.
 //!
 //! Basic header, common header, the extended headers of single-hop broadcast (SHB) and geo-broadcast
-//! (GBC) of EN 302 636-4-1, and BTP-B of EN 302 636-5-1. Without heap and without the standard
-//! library. Not for other transports, and not for the security envelope, which stands between basic
-//! and common header.
+//! (GBC) of EN 302 636-4-1, and BTP-B of EN 302 636-5-1.
 //!
 //! ```text
 //!  octet 0        4         12                    36        40      44
 //!        ├ basic ─┼ common ─┼ source position ────┼ media ──┼ BTP-B ┼ payload     SHB
 //!        ├ basic ─┼ common ─┼ number ┼ source position ┼ area ──┼ BTP-B ┼ payload  GBC
-//!                           12       16                40       56      60
+//!                 │         12       16                40       56      60
+//!                 └── what a security envelope covers, and stands around
 //! ```
 //!
-//! [`Headers::decode`] accepts exactly what [`Headers::encode`] gives: reserved bits are zero, and the
-//! payload length is that of what follows. All integers are big-endian.
+//! - [`Headers::decode`] accepts exactly what [`Headers::encode`] gives: reserved bits are zero, and
+//!   the payload length is that of what follows. All integers are big-endian.
+//! - [`Stack`] makes whole packets of messages and messages of packets, without input and output. It
+//!   is an end point: it forwards nothing.
+//! - [`ethernet`] frames a packet for a link that is no UDP socket.
+//!
+//! Without heap, but for what a security envelope takes.
 
+mod area;
 mod codec;
+mod duplicates;
+mod ego;
+mod envelope;
 mod error;
+pub mod ethernet;
 #[cfg(feature = "laws")]
 #[doc(hidden)]
 pub mod laws;
+mod stack;
 
 pub use codec::Encoded;
+pub use duplicates::{Duplicates, NUMBERS_MAX, SOURCES_MAX};
+pub use ego::EgoPosition;
+pub use envelope::{Envelope, EnvelopeError, Opened, Signer};
 pub use error::{Field, GeonetError};
+pub use stack::{Destination, Discarded, Indication, Request, SendError, Stack};
+
+/// Octets of the basic header.
+pub const BASIC_LEN: usize = 4;
 
 /// The longest headers, those of a geo-broadcast, in octets.
 pub const HEADERS_LEN_MAX: usize = 60;
+
+/// The longest packet, in octets: what an Ethernet frame carries.
+pub const PACKET_LEN_MAX: usize = 1_500;
+
+/// The first header of a packet, which no security envelope covers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct BasicHeader {
+    /// What follows it.
+    pub next: NextHeader,
+    /// How long the packet may live.
+    pub lifetime: Lifetime,
+    /// Over how many hops it may yet go.
+    pub remaining_hop_limit: u8,
+}
+
+/// What follows a basic header.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum NextHeader {
+    /// The common header.
+    Common,
+    /// A security envelope with the common header in it.
+    Secured,
+}
 
 /// The headers of a packet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -84,7 +124,7 @@ pub struct TrafficClass {
 }
 
 /// A `GeoNetworking` address.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Address {
     /// Whether it was configured by hand.
     pub is_manual: bool,
@@ -160,7 +200,55 @@ pub enum Shape {
     Ellipse,
 }
 
+impl Address {
+    /// The address of a station that goes by its station id: a link-layer address that is locally
+    /// administered, `02:00` and the four octets of the id. So it changes with the pseudonym.
+    ///
+    /// Of the station type the address has 5 bits; a larger one is `unknown`.
+    #[must_use]
+    pub const fn of_station(station: u32, station_type: u8) -> Self {
+        let [a, b, c, d] = station.to_be_bytes();
+        Self {
+            is_manual: false,
+            station_type: if station_type < 32 { station_type } else { 0 },
+            country_code: 0,
+            link_layer: [0x02, 0x00, a, b, c, d],
+        }
+    }
+}
+
+impl TrafficClass {
+    /// The class with this DCC profile, 0..3 for DP0..DP3.
+    #[must_use]
+    pub const fn of_profile(id: u8) -> Self {
+        Self {
+            store_carry_forward: false,
+            channel_offload: false,
+            id,
+        }
+    }
+}
+
 impl Lifetime {
+    /// The smallest lifetime that is not shorter than so many milliseconds; saturates at 6300 s.
+    #[must_use]
+    pub const fn of_milliseconds(milliseconds: u32) -> Self {
+        let (base, unit) = match milliseconds {
+            0..=3_150 => (LifetimeBase::FiftyMilliseconds, 50),
+            3_151..=63_000 => (LifetimeBase::OneSecond, 1_000),
+            63_001..=630_000 => (LifetimeBase::TenSeconds, 10_000),
+            _ => (LifetimeBase::HundredSeconds, 100_000),
+        };
+        let multiplier = milliseconds.div_ceil(unit);
+        #[expect(clippy::cast_possible_truncation, reason = "at most 63")]
+        let multiplier = if multiplier < 63 {
+            multiplier as u8
+        } else {
+            63
+        };
+        Self { multiplier, base }
+    }
+
     /// The lifetime in milliseconds.
     #[must_use]
     pub const fn milliseconds(self) -> u32 {

@@ -21,7 +21,8 @@
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
 //!   map to and from the protocol's view; [`view`] has its laws.
-//! - [`geonet`] has the headers under a message, `GeoNetworking` and BTP-B.
+//! - [`geonet`] has what is under a message, `GeoNetworking` and BTP-B: headers, whole packets and
+//!   the [`Stack`](geonet::Stack) that makes and takes them; [`Service`] says how each message goes.
 //! - [`Identifiers`] holds what no standard has assigned.
 //!
 //! ```
@@ -60,6 +61,7 @@ pub mod geonet;
 mod identifiers;
 mod message;
 mod rules;
+mod service;
 pub mod si;
 mod size;
 mod state;
@@ -74,6 +76,7 @@ pub use distance::distance;
 pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
 pub use identifiers::{IdentifierClash, Identifiers, MessageIdentifiers};
 pub use message::{Message, Pdu, Received, decode, encode, encode_into};
+pub use service::Service;
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
 pub use state::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, JobRole,

@@ -1,8 +1,8 @@
 //! Headers from octets and to octets.
 
 use super::{
-    Address, Area, Field, GeonetError, HEADERS_LEN_MAX, Headers, Lifetime, LifetimeBase,
-    LongPositionVector, Shape, TrafficClass, Transport,
+    Address, Area, BASIC_LEN, BasicHeader, Field, GeonetError, HEADERS_LEN_MAX, Headers, Lifetime,
+    LifetimeBase, LongPositionVector, NextHeader, Shape, TrafficClass, Transport,
 };
 
 /// Version 1, common header next.
@@ -105,15 +105,81 @@ impl Writer {
     }
 }
 
+impl BasicHeader {
+    /// Reads the basic header of a packet, and gives what follows it.
+    ///
+    /// # Errors
+    /// What is wrong with which field.
+    pub fn decode(packet: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
+        let reader = &mut Reader(packet);
+        let next = match reader.u8(Field::BasicNextHeader)? {
+            BASIC_COMMON => NextHeader::Common,
+            BASIC_SECURED => NextHeader::Secured,
+            found => {
+                return Err(GeonetError::Value {
+                    field: Field::BasicNextHeader,
+                    found: found.into(),
+                });
+            }
+        };
+        reader.zero_u8(Field::BasicReserved)?;
+        let header = Self {
+            next,
+            lifetime: Lifetime::of_octet(reader.u8(Field::Lifetime)?),
+            remaining_hop_limit: reader.u8(Field::RemainingHopLimit)?,
+        };
+        Ok((header, reader.0))
+    }
+
+    /// The octets of the basic header.
+    ///
+    /// # Errors
+    /// When the lifetime does not fit in its bits.
+    pub fn encode(&self) -> Result<[u8; BASIC_LEN], GeonetError> {
+        let next = match self.next {
+            NextHeader::Common => BASIC_COMMON,
+            NextHeader::Secured => BASIC_SECURED,
+        };
+        Ok([next, 0, self.lifetime.octet()?, self.remaining_hop_limit])
+    }
+}
+
 impl Headers {
+    /// The basic header of the packet, in front of this.
+    #[must_use]
+    pub const fn basic(&self, next: NextHeader) -> BasicHeader {
+        BasicHeader {
+            next,
+            lifetime: self.lifetime,
+            remaining_hop_limit: self.remaining_hop_limit,
+        }
+    }
+
     /// Reads the headers of a packet, and gives what follows them.
     ///
     /// # Errors
     /// What is wrong with which field. [`GeonetError::Secured`] where a security envelope follows the
-    /// basic header.
+    /// basic header; then there is [`BasicHeader::decode`] and [`decode_behind`](Self::decode_behind).
     pub fn decode(packet: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
-        let reader = &mut Reader(packet);
-        let (lifetime, remaining_hop_limit) = decode_basic(reader)?;
+        let (basic, rest) = BasicHeader::decode(packet)?;
+        match basic.next {
+            NextHeader::Common => Self::decode_behind(basic, rest),
+            NextHeader::Secured => Err(GeonetError::Secured),
+        }
+    }
+
+    /// Reads what follows a basic header, which may have come out of a security envelope, and gives
+    /// what follows the headers.
+    ///
+    /// # Errors
+    /// What is wrong with which field.
+    pub fn decode_behind(basic: BasicHeader, rest: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
+        let reader = &mut Reader(rest);
+        let BasicHeader {
+            lifetime,
+            remaining_hop_limit,
+            ..
+        } = basic;
         let next = reader.u8(Field::CommonNextHeader)?;
         expect(Field::CommonNextHeader, next.into(), BTP_B.into())?;
         let header_type = reader.u8(Field::HeaderType)?;
@@ -165,8 +231,7 @@ impl Headers {
             Transport::SingleHop { .. } => SINGLE_HOP,
             Transport::GeoBroadcast { area, .. } => area.shape.header_type(),
         };
-        let lifetime = self.lifetime.octet()?;
-        writer.put([BASIC_COMMON, 0, lifetime, self.remaining_hop_limit]);
+        writer.put(self.basic(NextHeader::Common).encode()?);
         let flags = if self.is_mobile { MOBILE } else { 0 };
         writer.put([BTP_B, header_type, self.traffic_class.octet()?, flags]);
         writer.put(announced.to_be_bytes());
@@ -190,18 +255,6 @@ impl Headers {
         writer.put(self.port_info.to_be_bytes());
         Ok(writer.0)
     }
-}
-
-fn decode_basic(reader: &mut Reader) -> Result<(Lifetime, u8), GeonetError> {
-    let next = reader.u8(Field::BasicNextHeader)?;
-    if next == BASIC_SECURED {
-        return Err(GeonetError::Secured);
-    }
-    expect(Field::BasicNextHeader, next.into(), BASIC_COMMON.into())?;
-    reader.zero_u8(Field::BasicReserved)?;
-    let lifetime = Lifetime::of_octet(reader.u8(Field::Lifetime)?);
-    let remaining_hop_limit = reader.u8(Field::RemainingHopLimit)?;
-    Ok((lifetime, remaining_hop_limit))
 }
 
 fn decode_transport(

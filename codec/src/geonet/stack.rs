@@ -1,0 +1,350 @@
+//! Packets of messages, and messages of packets, without input and output.
+//!
+//! ```text
+//!   message, port, ego position ──► headers ──► envelope ──► packet
+//!   packet ──► basic header ──► envelope ──► headers ──► area ──► duplicates ──► message, source
+//!                   └────────────┴─────────────┴──────────┴─────────┴──► Discarded
+//! ```
+
+use std::borrow::Cow;
+
+use super::{
+    Address, Area, BASIC_LEN, BasicHeader, Duplicates, EgoPosition, Envelope, EnvelopeError,
+    GeonetError, HEADERS_LEN_MAX, Headers, Lifetime, LongPositionVector, NextHeader,
+    PACKET_LEN_MAX, Signer, TrafficClass, Transport,
+};
+use crate::identifiers::Identifiers;
+use crate::service::Service;
+use crate::size::MESSAGE_LEN_MAX;
+
+/// How a message is to be sent.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Request {
+    /// BTP-B destination port.
+    pub port: u16,
+    /// BTP-B destination port info.
+    pub port_info: u16,
+    /// The ITS-AID that permits it.
+    pub its_aid: u32,
+    /// Its traffic class.
+    pub traffic_class: TrafficClass,
+    /// How long the packet may live.
+    pub lifetime: Lifetime,
+    /// To whom it goes.
+    pub destination: Destination,
+}
+
+/// To whom a message goes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Destination {
+    /// Everybody who hears it: single-hop broadcast.
+    Neighbours,
+    /// Everybody in an area: geo-broadcast.
+    Area {
+        /// The area.
+        area: Area,
+        /// Over how many hops, at least 1; `itsGnDefaultHopLimit` is 10.
+        hop_limit: u8,
+    },
+}
+
+/// A message that was received.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Indication<'a> {
+    /// Which service it is for.
+    pub service: Service,
+    /// The message.
+    pub message: Cow<'a, [u8]>,
+    /// Where its source was.
+    pub source: LongPositionVector,
+    /// The headers that it came with.
+    pub headers: Headers,
+    /// Who vouches for it; nobody, if it came without an envelope.
+    pub signer: Option<Signer>,
+}
+
+/// Why a packet was discarded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Discarded {
+    /// It is longer than any.
+    #[error("{length} octets are too many for a packet, the limit is {PACKET_LEN_MAX}")]
+    TooLong {
+        /// How many octets there are.
+        length: usize,
+    },
+    /// Its headers are wrong, or not supported.
+    #[error("{0}")]
+    Headers(#[from] GeonetError),
+    /// Its security envelope is not to be relied on.
+    #[error("{0}")]
+    Envelope(#[from] EnvelopeError),
+    /// The own station sent it.
+    #[error("a packet of the own station")]
+    OwnPacket,
+    /// There is no service at its port.
+    #[error("no service is at port {0}")]
+    UnknownPort(u16),
+    /// It was sent under another permission than the service at its port needs.
+    #[error("a packet for port {port} was sent with the permission {its_aid}")]
+    WrongPermission {
+        /// Its port.
+        port: u16,
+        /// The ITS-AID in its envelope.
+        its_aid: u32,
+    },
+    /// The own station is not in its destination area, or does not know where it is.
+    #[error("its destination area is elsewhere")]
+    Elsewhere,
+    /// It has been received before.
+    #[error("packet {sequence_number} of its source has been received before")]
+    Duplicate {
+        /// Its number.
+        sequence_number: u16,
+    },
+}
+
+impl Discarded {
+    /// The name of the cause, for counters.
+    #[must_use]
+    pub const fn cause(self) -> &'static str {
+        match self {
+            Self::TooLong { .. } => "too long",
+            Self::Headers(GeonetError::Truncated { .. }) => "truncated",
+            Self::Headers(GeonetError::PayloadLength { .. }) => "payload length",
+            Self::Headers(_) => "not supported",
+            Self::Envelope(error) => error.cause(),
+            Self::OwnPacket => "own packet",
+            Self::UnknownPort(_) => "unknown port",
+            Self::WrongPermission { .. } => "wrong permission for port",
+            Self::Elsewhere => "destination area elsewhere",
+            Self::Duplicate { .. } => "duplicate",
+        }
+    }
+}
+
+/// Why a message cannot be sent.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SendError {
+    /// The message is too long.
+    #[error("a message of {length} octets is too long, the limit is {MESSAGE_LEN_MAX}")]
+    TooLong {
+        /// How long it is.
+        length: usize,
+    },
+    /// The packet with its envelope does not fit into the buffer or on the link.
+    #[error("the packet is too long for its buffer")]
+    NoRoom,
+    /// A value does not fit in its header.
+    #[error("{0}")]
+    Headers(#[from] GeonetError),
+    /// It cannot be secured.
+    #[error("{0}")]
+    Envelope(#[from] EnvelopeError),
+}
+
+/// What is under the messages of one station.
+#[derive(Clone, Debug)]
+pub struct Stack {
+    identifiers: Identifiers,
+    address: Address,
+    envelope: Envelope,
+    next_sequence_number: u16,
+    duplicates: Duplicates,
+}
+
+impl Stack {
+    /// The stack of a station with this address.
+    #[must_use]
+    pub fn new(identifiers: Identifiers, address: Address, envelope: Envelope) -> Self {
+        Self {
+            identifiers,
+            address,
+            envelope,
+            next_sequence_number: 0,
+            duplicates: Duplicates::default(),
+        }
+    }
+
+    /// The address of the own station.
+    #[must_use]
+    pub const fn address(&self) -> Address {
+        self.address
+    }
+
+    /// The security envelope.
+    #[must_use]
+    pub const fn envelope(&self) -> &Envelope {
+        &self.envelope
+    }
+
+    /// The security envelope, to change its pseudonym and the like.
+    pub const fn envelope_mut(&mut self) -> &mut Envelope {
+        &mut self.envelope
+    }
+
+    /// Goes by another address from now on, after a change of pseudonym. Geo-broadcasts are numbered
+    /// from `sequence_number` on, which should be random.
+    pub const fn change_address(&mut self, address: Address, sequence_number: u16) {
+        self.address = address;
+        self.next_sequence_number = sequence_number;
+    }
+
+    /// Puts a message into a packet at the front of `packet`, and tells how long it is.
+    /// [`PACKET_LEN_MAX`] octets are enough.
+    ///
+    /// # Errors
+    /// Why it cannot be sent.
+    pub fn send(
+        &mut self,
+        ego: &EgoPosition,
+        request: &Request,
+        message: &[u8],
+        packet: &mut [u8],
+    ) -> Result<usize, SendError> {
+        let length = message.len();
+        if length > MESSAGE_LEN_MAX {
+            return Err(SendError::TooLong { length });
+        }
+        let headers = self.headers(ego, request);
+        let encoded = headers.encode(length)?;
+        let mut plain = [0; HEADERS_LEN_MAX + MESSAGE_LEN_MAX];
+        let header_length = encoded.as_ref().len();
+        let length = header_length + length;
+        plain[..header_length].copy_from_slice(encoded.as_ref());
+        plain[header_length..length].copy_from_slice(message);
+        let (basic, room) = packet
+            .split_first_chunk_mut::<BASIC_LEN>()
+            .ok_or(SendError::NoRoom)?;
+        let behind = &plain[BASIC_LEN..length];
+        if let Some(secured) = self.envelope.seal(ego, request.its_aid, behind, room)? {
+            *basic = headers.basic(NextHeader::Secured).encode()?;
+            return within_limit(BASIC_LEN + secured);
+        }
+        *basic = headers.basic(NextHeader::Common).encode()?;
+        let room = room.get_mut(..behind.len()).ok_or(SendError::NoRoom)?;
+        room.copy_from_slice(behind);
+        within_limit(length)
+    }
+
+    fn headers(&mut self, ego: &EgoPosition, request: &Request) -> Headers {
+        let (transport, hop_limit) = match request.destination {
+            Destination::Neighbours => (Transport::SingleHop { media: [0; 4] }, 1),
+            Destination::Area { area, hop_limit } => {
+                let sequence_number = self.next_sequence_number;
+                self.next_sequence_number = sequence_number.wrapping_add(1);
+                let transport = Transport::GeoBroadcast {
+                    sequence_number,
+                    area,
+                };
+                (transport, hop_limit)
+            }
+        };
+        Headers {
+            lifetime: request.lifetime,
+            remaining_hop_limit: hop_limit,
+            maximum_hop_limit: hop_limit,
+            traffic_class: request.traffic_class,
+            is_mobile: true,
+            source: ego.vector(self.address),
+            transport,
+            port: request.port,
+            port_info: request.port_info,
+        }
+    }
+
+    /// Takes a packet apart.
+    ///
+    /// # Errors
+    /// Why it is discarded.
+    pub fn receive<'a>(
+        &mut self,
+        ego: &EgoPosition,
+        packet: &'a [u8],
+    ) -> Result<Indication<'a>, Discarded> {
+        let length = packet.len();
+        if length > PACKET_LEN_MAX {
+            return Err(Discarded::TooLong { length });
+        }
+        let (basic, rest) = BasicHeader::decode(packet)?;
+        let (plain, permission) = match basic.next {
+            NextHeader::Common => {
+                self.envelope.admit_plain()?;
+                (Cow::Borrowed(rest), None)
+            }
+            NextHeader::Secured => {
+                let opened = self.envelope.open(ego, rest)?;
+                (opened.plain, Some((opened.its_aid, opened.signer)))
+            }
+        };
+        let (headers, message) = Headers::decode_behind(basic, &plain)?;
+        let header_length = plain.len() - message.len();
+        let service = self.admit(ego, &headers, permission.map(|(its_aid, _)| its_aid))?;
+        Ok(Indication {
+            service,
+            message: behind(plain, header_length),
+            source: headers.source,
+            headers,
+            signer: permission.map(|(_, signer)| signer),
+        })
+    }
+
+    /// The service that a packet is for, if it is for this station and new.
+    fn admit(
+        &mut self,
+        ego: &EgoPosition,
+        headers: &Headers,
+        its_aid: Option<u32>,
+    ) -> Result<Service, Discarded> {
+        let Headers { source, port, .. } = *headers;
+        if source.address == self.address {
+            return Err(Discarded::OwnPacket);
+        }
+        let service = Service::at_port(&self.identifiers, port);
+        let service = service.ok_or(Discarded::UnknownPort(port))?;
+        if let Some(its_aid) = its_aid
+            && its_aid != service.its_aid(&self.identifiers)
+        {
+            return Err(Discarded::WrongPermission { port, its_aid });
+        }
+        if let Transport::GeoBroadcast {
+            sequence_number,
+            area,
+        } = headers.transport
+        {
+            let is_here = ego
+                .coordinates
+                .is_some_and(|(latitude, longitude)| area.contains(latitude, longitude));
+            if !is_here {
+                return Err(Discarded::Elsewhere);
+            }
+            let now_ms = ego.timestamp_its;
+            if self
+                .duplicates
+                .check(source.address, sequence_number, now_ms)
+            {
+                return Err(Discarded::Duplicate { sequence_number });
+            }
+        }
+        Ok(service)
+    }
+}
+
+const fn within_limit(length: usize) -> Result<usize, SendError> {
+    if length > PACKET_LEN_MAX {
+        return Err(SendError::NoRoom);
+    }
+    Ok(length)
+}
+
+/// What stands behind the first octets.
+fn behind(octets: Cow<'_, [u8]>, length: usize) -> Cow<'_, [u8]> {
+    match octets {
+        Cow::Borrowed(octets) => Cow::Borrowed(&octets[length..]),
+        Cow::Owned(mut octets) => {
+            octets.drain(..length);
+            Cow::Owned(octets)
+        }
+    }
+}
