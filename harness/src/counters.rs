@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::{DecodeError, Fault, ViewError};
+use crossguard_codec::{DecodeError, Fault, Service, ViewError};
 use crossguard_protocol::Ignored;
 use serde::Serialize;
 
@@ -11,6 +11,10 @@ use crate::transport::Loss;
 /// Why something came to nothing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Cause {
+    /// A packet is not one for this station.
+    Discarded(&'static str),
+    /// A message that this station has no use for.
+    NoUse(Service),
     /// A datagram is not a message.
     Undecodable(&'static str),
     /// A message contradicts itself.
@@ -34,6 +38,8 @@ impl Cause {
     #[must_use]
     pub fn name(self) -> String {
         match self {
+            Self::Discarded(why) => format!("packet: {why}"),
+            Self::NoUse(service) => format!("no use for: {}", service.name()),
             Self::Undecodable(why) => format!("undecodable: {why}"),
             Self::Contradictory(why) => format!("contradictory: {why}"),
             // Not which robot it was about; that is in the log.

@@ -4,15 +4,16 @@
 //! datagrams and events, and carries out the effects in order:
 //!
 //! ```text
-//!  datagram ──► wire ──► inputs ─┐                    ┌─► transmit octets
-//!  event ────────────────────────┼─► Robot::step ─────┼─► act (start, stop, corridor, notice)
-//!  time passes ──────────────────┘                    └─► stepped (for the log)
+//!  packet ──► station ──► wire ──► inputs ─┐                    ┌─► transmit a packet
+//!  event ──────────────────────────────────┼─► Robot::step ─────┼─► act (start, stop, corridor, notice)
+//!  time passes ────────────────────────────┘                    └─► stepped (for the log)
 //! ```
 
 use std::collections::BTreeMap;
 
+use crossguard_codec::geonet::{EgoPosition, Indication};
 use crossguard_codec::si::generation_delta_time;
-use crossguard_codec::{ControlMode, RobotState, TaskParameters, TaskProgression};
+use crossguard_codec::{ControlMode, RobotState, Service, TaskParameters, TaskProgression};
 use crossguard_protocol::{
     Availability, Config, CorridorClosure, Event, FallbackPolicy, Ignored, Input, Maneuver, Millis,
     Notice, Output, Outputs, Rmcm, Robot, State, StationId, StopReason, TaskType, Unavailability,
@@ -20,6 +21,7 @@ use crossguard_protocol::{
 
 use crate::counters::{Cause, Counters};
 use crate::generation::{Generation, INTERVAL_MIN_MS, Trigger};
+use crate::station::Station;
 use crate::wire::{Heard, MessageKind, Wire};
 
 /// What time it is.
@@ -34,7 +36,7 @@ pub struct Moment {
 /// What an endpoint is told.
 #[derive(Clone, Copy, Debug)]
 pub enum Stimulus<'a> {
-    /// A datagram was received.
+    /// A datagram was received: a `GeoNetworking` packet.
     Datagram(&'a [u8]),
     /// The application tells an event.
     Event(Event),
@@ -72,7 +74,7 @@ pub enum Effect {
         /// Its octets.
         octets: Vec<u8>,
     },
-    /// Send these octets.
+    /// Send this packet.
     Transmit {
         /// Which message they are.
         kind: MessageKind,
@@ -80,6 +82,8 @@ pub enum Effect {
         trigger: Trigger,
         /// The message.
         octets: Vec<u8>,
+        /// The `GeoNetworking` packet with the message, which is what goes out.
+        packet: Vec<u8>,
     },
     /// The application is to do something.
     Act(Act),
@@ -121,6 +125,7 @@ pub struct Endpoint {
     robot: Robot,
     config: Config,
     wire: Wire,
+    station: Station,
     /// Until when the robot has been told that time passed.
     told_ms: u64,
     generation: Generation,
@@ -134,6 +139,7 @@ impl Endpoint {
     #[must_use]
     pub fn new(robot: Robot, config: Config, wire: Wire, now_ms: u64) -> Self {
         Self {
+            station: Station::new(&wire.identifiers, robot.station()),
             robot,
             config,
             wire,
@@ -154,6 +160,12 @@ impl Endpoint {
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// The ITS station under it.
+    #[must_use]
+    pub const fn station(&self) -> &Station {
+        &self.station
     }
 
     /// What came to nothing so far.
@@ -242,30 +254,48 @@ impl Endpoint {
         self.step(turn, Input::Elapsed(Millis(elapsed)), None);
     }
 
-    fn hear(&mut self, turn: &mut Turn, octets: &[u8]) {
-        match self.wire.hear(self.robot.station(), &turn.state, octets) {
-            Ok(Heard {
-                kind,
-                from,
-                inputs,
-                parameters,
-                ..
-            }) => {
-                turn.effects.push(Effect::Heard {
-                    kind,
-                    from,
-                    octets: octets.to_vec(),
-                });
-                for input in inputs {
-                    self.step(turn, input, parameters);
+    /// Takes a packet in, if it is for this station.
+    fn hear(&mut self, turn: &mut Turn, packet: &[u8]) {
+        let ego = turn.ego();
+        match self.station.receive(&ego, packet) {
+            Ok(indication) => self.hear_message(turn, packet, &indication),
+            Err(discarded) => {
+                let cause = Cause::Discarded(discarded.cause());
+                self.drop(turn, cause, discarded.to_string(), packet.to_vec());
+            }
+        }
+    }
+
+    fn hear_message(&mut self, turn: &mut Turn, packet: &[u8], indication: &Indication<'_>) {
+        let (service, octets) = (indication.service, &*indication.message);
+        let dropped = match service {
+            Service::Ram | Service::Rmcm => {
+                match self.wire.hear(self.robot.station(), &turn.state, octets) {
+                    Ok(heard) if heard.kind == service => return self.heed(turn, octets, heard),
+                    Ok(heard) => (
+                        Cause::Discarded("message of another port"),
+                        format!("{} at the port of {}", heard.kind.name(), service.name()),
+                    ),
+                    Err(unheard) => ((&unheard).into(), unheard.to_string()),
                 }
             }
-            Err(unheard) => self.drop(
-                turn,
-                (&unheard).into(),
-                unheard.to_string(),
-                octets.to_vec(),
+            other => (
+                Cause::NoUse(other),
+                "the robot does not take it in".to_owned(),
             ),
+        };
+        self.drop(turn, dropped.0, dropped.1, packet.to_vec());
+    }
+
+    /// What a robot's message means to the transition function.
+    fn heed(&mut self, turn: &mut Turn, octets: &[u8], heard: Heard) {
+        turn.effects.push(Effect::Heard {
+            kind: heard.kind,
+            from: heard.from,
+            octets: octets.to_vec(),
+        });
+        for input in heard.inputs {
+            self.step(turn, input, heard.parameters);
         }
     }
 
@@ -355,13 +385,21 @@ impl Endpoint {
         trigger: Trigger,
         octets: Result<Vec<u8>, crate::wire::Unsendable>,
     ) {
-        match octets {
-            Ok(octets) => turn.effects.push(Effect::Transmit {
+        let outcome = octets
+            .map_err(|error| error.to_string())
+            .and_then(|octets| {
+                let packet = self.station.send(&turn.ego(), kind, &octets);
+                let packet = packet.map_err(|error| error.to_string())?;
+                Ok((octets, packet))
+            });
+        match outcome {
+            Ok((octets, packet)) => turn.effects.push(Effect::Transmit {
                 kind,
                 trigger,
                 octets,
+                packet,
             }),
-            Err(error) => self.drop(turn, Cause::NotSent, error.to_string(), Vec::new()),
+            Err(error) => self.drop(turn, Cause::NotSent, error, Vec::new()),
         }
     }
 
@@ -394,6 +432,11 @@ struct Turn {
 impl Turn {
     fn generation_delta_time(&self) -> u16 {
         generation_delta_time(self.moment.timestamp_its)
+    }
+
+    /// Where the robot is, for its packets.
+    fn ego(&self) -> EgoPosition {
+        EgoPosition::of(&self.state, self.moment.timestamp_its)
     }
 }
 

@@ -5,16 +5,17 @@
 //! no rule of the protocol.
 //!
 //! ```text
-//!   datagrams ──► transport ──► wire ──┐             ┌──► application ──► body
-//!                                      ▼             │        │
-//!   clock ───────────────────────► endpoint ◄────────┼────────┘ events
-//!                                  Robot::step ──────┤
-//!   datagrams ◄── transport ◄── wire ◄── generation ◄┘──► trace (log)
+//!   packets ──► transport ──► station ──► wire ──┐             ┌──► application ──► body
+//!                                                ▼             │        │
+//!   clock ─────────────────────────────────► endpoint ◄────────┼────────┘ events
+//!                                            Robot::step ──────┤
+//!   packets ◄── transport ◄── station ◄── wire ◄── generation ◄┘──► trace (log)
 //! ```
 //!
 //! - [`endpoint::Endpoint`] joins them without doing any input or output of its own: datagrams,
 //!   events and the time go in, datagrams and outputs come out. A robot stack with its own loop
 //!   embeds this.
+//! - [`station`] is what makes it an ITS station: messages in `GeoNetworking` packets.
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
 //!   multicast, queues within a process, and a layer of seeded faults over any of them.
 //! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
@@ -37,6 +38,7 @@ pub mod operator;
 pub mod robot_file;
 pub mod runtime;
 pub mod site;
+pub mod station;
 pub mod timing;
 pub mod trace;
 pub mod transport;

@@ -377,8 +377,9 @@ impl Loop {
                 kind,
                 trigger,
                 octets,
+                packet,
             } => {
-                if let Err(error) = self.sender.send(&octets) {
+                if let Err(error) = self.sender.send(&packet) {
                     self.drop(Cause::NotSent, error.to_string(), Vec::new());
                 }
                 self.log(Entry::Sent {

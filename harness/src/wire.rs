@@ -6,20 +6,12 @@ use crossguard_codec::{
     task_parameters_of, view_of_ram, views_of_rmcm,
 };
 use crossguard_protocol::{Answer, Availability, Command, Input, Ram, Rmcm, StationId};
-use serde::{Deserialize, Serialize};
 
 use crate::counters::Cause;
+use crate::station::message_of;
 
-/// Which message octets are.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-pub enum MessageKind {
-    /// Robot awareness message.
-    #[serde(rename = "RAM")]
-    Ram,
-    /// Robot maneuver coordination message.
-    #[serde(rename = "RMCM")]
-    Rmcm,
-}
+/// Which message octets are: that of which service.
+pub use crossguard_codec::Service as MessageKind;
 
 /// What a received message says.
 #[derive(Clone, Debug)]
@@ -179,7 +171,7 @@ pub enum Unsendable {
     NotEncodable(#[from] EncodeError),
 }
 
-/// What `octets` say to whoever listens in: for charts and tools.
+/// What `octets`, a message or a packet with one, say to whoever listens in: for charts and tools.
 ///
 /// # Errors
 /// Why they say nothing.
@@ -187,5 +179,6 @@ pub fn overhear(identifiers: &Identifiers, octets: &[u8]) -> Result<Heard, Unhea
     let wire = Wire {
         identifiers: *identifiers,
     };
-    wire.hear(StationId(u32::MAX), &RobotState::default(), octets)
+    let message = message_of(octets);
+    wire.hear(StationId(u32::MAX), &RobotState::default(), message)
 }

@@ -8,12 +8,21 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use crossguard_codec::{Identifiers, MessageIdentifiers, RobotState};
+use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::{Identifiers, MessageIdentifiers, RobotState, Service};
+use crossguard_harness::station::Station;
 use crossguard_harness::wire::Wire;
 use crossguard_protocol::{Availability, Robot, StationId};
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use support::*;
+
+/// A packet with these octets, from a station that has no part in anything.
+fn packet(service: Service, message: &[u8]) -> Vec<u8> {
+    Station::new(&Identifiers::default(), StationId(77))
+        .send(&EgoPosition::default(), service, message)
+        .unwrap()
+}
 
 /// A RAM of a robot that has no part in anything.
 fn ram(identifiers: Identifiers) -> Vec<u8> {
@@ -38,19 +47,31 @@ fn hostile_datagrams() -> Vec<Vec<u8>> {
     let mut noise = ChaCha8Rng::seed_from_u64(1);
     let mut random = vec![0; 200];
     noise.fill_bytes(&mut random);
+    let other_version = ram(Identifiers {
+        ram: version(9),
+        ..Identifiers::default()
+    });
+    let a_ram = |message: &[u8]| packet(Service::Ram, message);
+    let mut cut_short = a_ram(&good);
+    cut_short.truncate(50);
+    let mut secured = a_ram(&good);
+    secured[0] = 0x12;
     vec![
         Vec::new(),
         vec![1],
-        good[..good.len() / 2].to_vec(),
-        [good.clone(), vec![0]].concat(),
-        ram(Identifiers {
-            ram: version(9),
-            ..Identifiers::default()
-        }),
+        good.clone(),
         random,
-        vec![0xff; 1_900],
+        vec![0x11; 1_900],
+        cut_short,
+        secured,
+        packet(Service::Denm, &good),
+        packet(Service::Rmcm, &good),
+        a_ram(&[1]),
+        a_ram(&good[..good.len() / 2]),
+        a_ram(&[good.clone(), vec![0]].concat()),
+        a_ram(&other_version),
         // The header of a CAM.
-        vec![2, 2, 0, 0, 0, 5, 0, 0, 0, 0],
+        a_ram(&[2, 2, 0, 0, 0, 5, 0, 0, 0, 0]),
     ]
 }
 
@@ -91,12 +112,18 @@ fn the_crossing_goes_on_among_garbage_and_each_kind_is_counted_by_its_cause() {
     for robot in ["ARI", "Go2"] {
         let counters = &result["counters"][robot];
         for cause in [
+            "packet: truncated",
+            "packet: too long",
+            "packet: not supported",
+            "packet: payload length",
+            "packet: secured, and security is off",
+            "packet: message of another port",
+            "no use for: DENM",
             "undecodable: too short",
             "undecodable: truncated",
             "undecodable: trailing octets",
             "undecodable: unknown protocolVersion",
             "undecodable: unknown messageId",
-            "undecodable: too long",
         ] {
             assert!(
                 counters[cause].as_u64().unwrap_or_default() > 0,

@@ -54,11 +54,6 @@ impl Envelope {
     ///
     /// # Errors
     /// Why it cannot be sent.
-    #[expect(
-        clippy::unused_self,
-        clippy::needless_pass_by_ref_mut,
-        reason = "it is off"
-    )]
     pub fn seal(
         &mut self,
         _ego: &EgoPosition,
@@ -66,7 +61,9 @@ impl Envelope {
         _plain: &[u8],
         _secured: &mut [u8],
     ) -> Result<Option<usize>, EnvelopeError> {
-        Ok(None)
+        match self {
+            Self::Off => Ok(None),
+        }
     }
 
     /// Opens the envelope that follows a basic header.

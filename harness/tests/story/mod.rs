@@ -246,11 +246,11 @@ impl Street {
                         state,
                     },
                 ),
-                Effect::Transmit { kind, octets, .. } => {
+                Effect::Transmit { kind, packet, .. } => {
                     if kind == MessageKind::Ram {
-                        self.actor(station).newest_ram.clone_from(&octets);
+                        self.actor(station).newest_ram.clone_from(&packet);
                     }
-                    on_air.push_back((station, kind, octets));
+                    on_air.push_back((station, kind, packet));
                 }
                 Effect::Act(act) => self.actor(station).carry_out(act),
                 Effect::Heard { .. } => {}
