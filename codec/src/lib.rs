@@ -23,6 +23,7 @@
 //!   map to and from the protocol's view; [`view`] has its laws.
 //! - [`geonet`] has what is under a message, `GeoNetworking` and BTP-B: headers, whole packets and
 //!   the [`Stack`](geonet::Stack) that makes and takes them; [`Service`] says how each message goes.
+//! - `security` (with the feature of that name) signs and verifies packets by TS 103 097.
 //! - [`Identifiers`] holds what no standard has assigned.
 //!
 //! ```
@@ -61,6 +62,8 @@ pub mod geonet;
 mod identifiers;
 mod message;
 mod rules;
+#[cfg(feature = "security")]
+pub mod security;
 mod service;
 pub mod si;
 mod size;

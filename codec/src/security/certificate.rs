@@ -1,0 +1,412 @@
+//! Certificates (IEEE 1609.2, clause 6.4; TS 103 097, clauses 6 and 7.2).
+
+use std::fmt;
+
+use super::coer::Reader;
+use super::crypto::{self, Digest, PublicKey, Signature};
+use super::permissions::{IssuePermission, Permission, Ssp, SspRange, Subjects};
+use super::region::{Place, Region};
+use super::rejected::{Malformed, Rejected};
+use super::time::{Duration, Unit, Validity};
+
+/// The longest certificate that is taken, in octets. One that comes with a message is far below.
+pub const CERTIFICATE_LEN_MAX: usize = 1_024;
+/// How many permissions, regions and the like a certificate may list.
+const LIST_MAX: u32 = 32;
+
+/// The last 8 octets of a certificate's SHA-256, by which it is called.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct HashedId8(pub [u8; 8]);
+
+/// The last 3 octets of a certificate's SHA-256, by which it is asked for.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct HashedId3(pub [u8; 3]);
+
+impl HashedId8 {
+    /// The short form.
+    #[must_use]
+    pub const fn short(self) -> HashedId3 {
+        let [.., a, b, c] = self.0;
+        HashedId3([a, b, c])
+    }
+}
+
+impl fmt::Display for HashedId8 {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|octet| write!(f, "{octet:02x}"))
+    }
+}
+
+impl fmt::Debug for HashedId8 {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "HashedId8({self})")
+    }
+}
+
+/// Who issued a certificate.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Issuer {
+    /// The holder of this certificate.
+    Certificate(HashedId8),
+    /// Itself: a root.
+    Itself,
+}
+
+/// A certificate whose octets are in canonical form. Nothing is said of whether it can be trusted.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Certificate {
+    octets: Box<[u8]>,
+    digest: Digest,
+    to_be_signed: Digest,
+    signature: Signature,
+    content: Content,
+}
+
+/// What a certificate says.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Content {
+    /// Who issued it.
+    pub issuer: Issuer,
+    /// Its name; pseudonym tickets have none.
+    pub name: Option<String>,
+    /// When it is valid.
+    pub validity: Validity,
+    /// Where it is valid; anywhere, if that is not said.
+    pub region: Option<Region>,
+    /// What messages its holder may send.
+    pub permissions: Vec<Permission>,
+    /// What certificates its holder may issue.
+    pub issue_permissions: Vec<IssuePermission>,
+    /// The key of its holder.
+    pub key: PublicKey,
+}
+
+impl Certificate {
+    /// Reads a certificate, which must be all of the octets.
+    ///
+    /// # Errors
+    /// Why they are not one, or one that the kit does not support.
+    pub fn decode(octets: &[u8]) -> Result<Self, Rejected> {
+        let mut reader = Reader::new(octets);
+        let certificate = Self::read(&mut reader)?;
+        reader.finish("certificate")?;
+        Ok(certificate)
+    }
+
+    pub(super) fn read(reader: &mut Reader) -> Result<Self, Rejected> {
+        let all = reader.rest();
+        // A signature is present, version 3, type explicit.
+        reader.expect(0x80, "certificate")?;
+        reader.expect(3, "certificate.version")?;
+        reader.expect(0, "certificate.type")?;
+        let issuer = read_issuer(reader)?;
+        let before = reader.rest();
+        let content = Content::read(reader, issuer)?;
+        let to_be_signed = consumed(before, reader);
+        let signature = Signature::read(reader)?;
+        let octets = consumed(all, reader);
+        if octets.len() > CERTIFICATE_LEN_MAX {
+            let field = "certificate";
+            return Err(Malformed::TooMany { field }.into());
+        }
+        Ok(Self {
+            digest: crypto::sha256(octets),
+            to_be_signed: crypto::sha256(to_be_signed),
+            octets: octets.into(),
+            signature,
+            content,
+        })
+    }
+
+    /// Its octets.
+    #[must_use]
+    pub fn octets(&self) -> &[u8] {
+        &self.octets
+    }
+
+    /// What it says.
+    #[must_use]
+    pub const fn content(&self) -> &Content {
+        &self.content
+    }
+
+    /// What it is called.
+    #[must_use]
+    pub fn id(&self) -> HashedId8 {
+        let mut id = [0; 8];
+        id.copy_from_slice(&self.digest[24..]);
+        HashedId8(id)
+    }
+
+    pub(super) const fn digest(&self) -> &Digest {
+        &self.digest
+    }
+
+    /// Whether `issuer` signed it, or it itself.
+    pub(super) fn is_signed_by(&self, issuer: Option<&Self>) -> bool {
+        let key = issuer.map_or(&self.content.key, |issuer| &issuer.content.key);
+        let above = issuer.map_or_else(|| crypto::sha256(&[]), |issuer| issuer.digest);
+        let digest = crypto::sha256(&[self.to_be_signed, above].concat());
+        key.verifies(&digest, &self.signature)
+    }
+}
+
+/// What `reader` has read since `before` was yet to be read.
+pub(super) fn consumed<'a>(before: &'a [u8], reader: &Reader<'a>) -> &'a [u8] {
+    &before[..before.len() - reader.rest().len()]
+}
+
+fn read_issuer(reader: &mut Reader) -> Result<Issuer, Rejected> {
+    let field = "certificate.issuer";
+    match reader.octet(field)? {
+        0x80 => Ok(Issuer::Certificate(HashedId8(reader.array(field)?))),
+        0x81 => match reader.octet(field)? {
+            0 => Ok(Issuer::Itself),
+            _ => Err(Rejected::Unsupported("a hash other than SHA-256")),
+        },
+        0x82 | 0x83 => Err(Rejected::Unsupported("a hash other than SHA-256")),
+        found => Err(Malformed::Value { field, found }.into()),
+    }
+}
+
+/// Bits of the preamble of `ToBeSignedCertificate`.
+mod present {
+    pub(super) const ADDITIONS: u8 = 0x80;
+    pub(super) const REGION: u8 = 0x40;
+    pub(super) const ASSURANCE: u8 = 0x20;
+    pub(super) const PERMISSIONS: u8 = 0x10;
+    pub(super) const ISSUE: u8 = 0x08;
+    pub(super) const REQUEST: u8 = 0x04;
+    pub(super) const ROLLOVER: u8 = 0x02;
+    pub(super) const ENCRYPTION: u8 = 0x01;
+}
+
+impl Content {
+    fn read(reader: &mut Reader, issuer: Issuer) -> Result<Self, Rejected> {
+        let preamble = reader.octet("toBeSigned")?;
+        let has = |bit| preamble & bit != 0;
+        if has(present::REQUEST | present::ROLLOVER) {
+            return Err(Rejected::AgainstProfile(
+                "a certificate's request permissions",
+            ));
+        }
+        let name = read_name(reader)?;
+        reader.expect_zeros(5, "cracaId, crlSeries")?;
+        let validity = read_validity(reader)?;
+        let region = has(present::REGION).then(|| read_region(reader));
+        let region = region.transpose()?;
+        if has(present::ASSURANCE) {
+            reader.octet("assuranceLevel")?;
+        }
+        let permissions = list(has(present::PERMISSIONS), reader, read_permission)?;
+        let issue_permissions = list(has(present::ISSUE), reader, read_issue_permission)?;
+        if has(present::ENCRYPTION) {
+            skip_encryption_key(reader)?;
+        }
+        let key = read_verification_key(reader)?;
+        if has(present::ADDITIONS) {
+            reader.additions::<0>("toBeSigned")?;
+        }
+        Ok(Self {
+            issuer,
+            name,
+            validity,
+            region,
+            permissions,
+            issue_permissions,
+            key,
+        })
+    }
+
+    /// Whether it is for pseudonyms: no name, and no certificates to issue.
+    #[must_use]
+    pub fn is_ticket(&self) -> bool {
+        self.name.is_none() && self.issue_permissions.is_empty() && self.issuer != Issuer::Itself
+    }
+}
+
+impl Reader<'_> {
+    fn expect_zeros(&mut self, length: usize, field: &'static str) -> Result<(), Malformed> {
+        match self.take(length, field)?.iter().find(|octet| **octet != 0) {
+            Some(&found) => Err(Malformed::Value { field, found }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A SEQUENCE OF, empty if it is absent, but not if it is present.
+fn list<T>(
+    is_present: bool,
+    reader: &mut Reader,
+    mut read: impl FnMut(&mut Reader) -> Result<T, Rejected>,
+) -> Result<Vec<T>, Rejected> {
+    if !is_present {
+        return Ok(Vec::new());
+    }
+    let quantity = reader.quantity(LIST_MAX, "toBeSigned")?;
+    (0..quantity).map(|_| read(reader)).collect()
+}
+
+fn read_name(reader: &mut Reader) -> Result<Option<String>, Rejected> {
+    let field = "toBeSigned.id";
+    match reader.octet(field)? {
+        0x81 => {
+            let name = std::str::from_utf8(reader.opaque(field)?);
+            let name = name.map_err(|_| Malformed::NotCanonical { field })?;
+            Ok(Some(name.to_owned()))
+        }
+        0x83 => Ok(None),
+        0x80 | 0x82 => Err(Rejected::AgainstProfile(
+            "a certificate id but name and none",
+        )),
+        found => Err(Malformed::Value { field, found }.into()),
+    }
+}
+
+fn read_validity(reader: &mut Reader) -> Result<Validity, Malformed> {
+    let field = "validityPeriod";
+    let start = reader.u32(field)?;
+    let tag = reader.octet(field)?;
+    let unit = tag
+        .checked_sub(0x80)
+        .and_then(|unit| Unit::ALL.get(usize::from(unit)))
+        .ok_or(Malformed::Value { field, found: tag })?;
+    let duration = Duration {
+        number: reader.u16(field)?,
+        unit: *unit,
+    };
+    Ok(Validity { start, duration })
+}
+
+fn read_place(reader: &mut Reader) -> Result<Place, Malformed> {
+    Ok(Place {
+        latitude: reader.i32("latitude")?,
+        longitude: reader.i32("longitude")?,
+    })
+}
+
+fn read_region(reader: &mut Reader) -> Result<Region, Rejected> {
+    let field = "region";
+    match reader.octet(field)? {
+        0x80 => Ok(Region::Circle {
+            centre: read_place(reader)?,
+            radius: reader.u16(field)?,
+        }),
+        0x81 => {
+            let corners = |reader: &mut Reader| Ok((read_place(reader)?, read_place(reader)?));
+            Ok(Region::Rectangles(list(true, reader, corners)?))
+        }
+        0x82 | 0x83 => Err(Rejected::Unsupported("a region but circles and rectangles")),
+        found => Err(Malformed::Value { field, found }.into()),
+    }
+}
+
+/// A preamble of which only the first bits are in use.
+fn preamble(reader: &mut Reader, used: u8, field: &'static str) -> Result<u8, Malformed> {
+    match reader.octet(field)? {
+        found if found & !used == 0 => Ok(found),
+        found => Err(Malformed::Value { field, found }),
+    }
+}
+
+fn read_permission(reader: &mut Reader) -> Result<Permission, Rejected> {
+    let field = "appPermissions";
+    let has_ssp = preamble(reader, 0x80, field)? != 0;
+    let its_aid = reader.unsigned("psid")?;
+    let ssp = match has_ssp.then(|| reader.octet("ssp")).transpose()? {
+        None => Ssp::Default,
+        Some(0x80) => Ssp::Opaque(reader.opaque("ssp")?.to_vec()),
+        Some(0x81) => {
+            let mut inner = Reader::new(reader.opaque("ssp")?);
+            let bits = inner.opaque("bitmapSsp")?.to_vec();
+            inner.finish("bitmapSsp")?;
+            Ssp::Bitmap(bits)
+        }
+        Some(found) => return Err(Malformed::Value { field, found }.into()),
+    };
+    Ok(Permission { its_aid, ssp })
+}
+
+fn read_issue_permission(reader: &mut Reader) -> Result<IssuePermission, Rejected> {
+    let field = "certIssuePermissions";
+    let given = preamble(reader, 0xe0, field)?;
+    let subjects = match reader.octet("subjectPermissions")? {
+        0x80 => Subjects::These(list(true, reader, read_range)?),
+        0x81 => Subjects::All,
+        found => return Err(Malformed::Value { field, found }.into()),
+    };
+    let mut integer = |bit: u8, default| {
+        let is_given = given & bit != 0;
+        let value = is_given.then(|| reader.small_integer("chainLength"));
+        let value = value.transpose()?;
+        if value == Some(default) {
+            // A default that is spelled out.
+            return Err(Malformed::NotCanonical { field });
+        }
+        Ok(value.unwrap_or(default))
+    };
+    let (min_chain_length, chain_length_range) = (integer(0x80, 1)?, integer(0x40, 0)?);
+    let for_applications = given & 0x20 == 0 || reader.octet("eeType")? & 0x80 != 0;
+    Ok(IssuePermission {
+        subjects,
+        min_chain_length,
+        chain_length_range,
+        for_applications,
+    })
+}
+
+fn read_range(reader: &mut Reader) -> Result<(u32, SspRange), Rejected> {
+    let field = "sspRange";
+    let has_range = preamble(reader, 0x80, field)? != 0;
+    let its_aid = reader.unsigned("psid")?;
+    let range = match has_range.then(|| reader.octet(field)).transpose()? {
+        None | Some(0x81) => SspRange::All,
+        Some(0x80) => {
+            let one = |reader: &mut Reader| Ok(reader.opaque(field)?.to_vec());
+            SspRange::Opaque(list(true, reader, one)?)
+        }
+        Some(0x82) => {
+            let mut inner = Reader::new(reader.opaque(field)?);
+            let value = inner.opaque("sspValue")?.to_vec();
+            let mask = inner.opaque("sspBitmask")?.to_vec();
+            inner.finish("bitmapSspRange")?;
+            if value.len() != mask.len() {
+                return Err(Malformed::NotCanonical { field }.into());
+            }
+            SspRange::Bitmap { value, mask }
+        }
+        Some(found) => return Err(Malformed::Value { field, found }.into()),
+    };
+    Ok((its_aid, range))
+}
+
+/// The kit does not encrypt; a key for it is passed over.
+fn skip_encryption_key(reader: &mut Reader) -> Result<(), Rejected> {
+    let field = "encryptionKey";
+    reader.octet(field)?;
+    match reader.octet(field)? {
+        0x80 | 0x81 => {}
+        _ => return Err(Rejected::Unsupported("an encryption key but ECIES")),
+    }
+    let length = match reader.octet(field)? {
+        0x82 | 0x83 => 32,
+        0x84 => 64,
+        found => return Err(Malformed::Value { field, found }.into()),
+    };
+    reader.take(length, field)?;
+    Ok(())
+}
+
+fn read_verification_key(reader: &mut Reader) -> Result<PublicKey, Rejected> {
+    let field = "verifyKeyIndicator";
+    match reader.octet(field)? {
+        0x80 => {}
+        0x81 => return Err(Rejected::Unsupported("an implicit certificate")),
+        found => return Err(Malformed::Value { field, found }.into()),
+    }
+    match reader.octet(field)? {
+        0x80 => PublicKey::read(reader, field),
+        0x81..=0x84 => Err(Rejected::Unsupported("a curve other than NIST P-256")),
+        found => Err(Malformed::Value { field, found }.into()),
+    }
+}

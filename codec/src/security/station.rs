@@ -1,0 +1,123 @@
+//! One station's security: its pseudonyms, and whom it believes.
+
+use super::certificate::HashedId8;
+use super::envelope::SignedMessage;
+use super::region::Place;
+use super::rejected::Rejected;
+use super::signer::{Sealer, Ticket, Unsigned};
+use super::time::Time64;
+use super::trust::TrustStore;
+use super::verifier::{Tolerances, Verified, Verifier};
+
+/// A station that signs and verifies.
+///
+/// Both belong together: a station whose certificate others do not know sends it at once, and one that
+/// hears of a certificate that it does not know asks for it (TS 103 097, clause 7.1.1).
+#[derive(Clone, Debug)]
+pub struct Station {
+    sealer: Sealer,
+    verifier: Verifier,
+}
+
+impl Station {
+    /// A station with these pseudonyms that trusts these roots, at `now`.
+    ///
+    /// # Errors
+    /// When no pseudonym is valid.
+    pub fn new(
+        trust: TrustStore,
+        tickets: Vec<Ticket>,
+        tolerances: Tolerances,
+        now: Time64,
+    ) -> Result<Self, Unsigned> {
+        let sealer = Sealer::new(tickets, now)?;
+        let own = sealer.ids().collect();
+        Ok(Self {
+            verifier: Verifier::new(trust, tolerances, own),
+            sealer,
+        })
+    }
+
+    /// What the ticket in use is called.
+    #[must_use]
+    pub fn pseudonym(&self) -> HashedId8 {
+        self.sealer.ticket().certificate().id()
+    }
+
+    /// The ticket in use.
+    #[must_use]
+    pub fn ticket(&self) -> &Ticket {
+        self.sealer.ticket()
+    }
+
+    /// What is remembered of others.
+    #[must_use]
+    pub const fn verifier(&self) -> &Verifier {
+        &self.verifier
+    }
+
+    /// Puts a payload into an envelope, under the permission `its_aid`.
+    ///
+    /// # Errors
+    /// Why it cannot be signed.
+    pub fn seal(&mut self, now: Time64, its_aid: u32, payload: &[u8]) -> Result<Vec<u8>, Unsigned> {
+        let requests = self.verifier.take_wanted();
+        self.sealer.seal(now, its_aid, payload, &requests)
+    }
+
+    /// Checks a message that was heard at `now`. `place` is where its sender says it is, in what it
+    /// signed.
+    ///
+    /// # Errors
+    /// Why it cannot be relied on.
+    pub fn verify(
+        &mut self,
+        now: Time64,
+        place: Option<Place>,
+        message: &SignedMessage,
+    ) -> Result<Verified, Rejected> {
+        let verified = self.verifier.verify(now, place, message);
+        match &verified {
+            Ok(verified) => {
+                if verified.is_new {
+                    self.sealer.introduce();
+                }
+                self.answer(message);
+            }
+            // Whoever is unknown here does not know this station either.
+            Err(Rejected::UnknownSigner(_)) => self.sealer.introduce(),
+            Err(_) => {}
+        }
+        verified
+    }
+
+    /// Whether there is a pseudonym to change to.
+    #[must_use]
+    pub fn can_change(&self, now: Time64) -> bool {
+        self.sealer.next(now).is_some()
+    }
+
+    /// Changes to the next pseudonym that is valid, and tells its name. Station id and link address
+    /// must change with it, and all of that only while the identity is not locked.
+    ///
+    /// # Errors
+    /// When there is no other.
+    pub fn change_pseudonym(&mut self, now: Time64) -> Result<HashedId8, Unsigned> {
+        let next = self.sealer.next(now).ok_or(Unsigned::NoValidTicket)?;
+        self.sealer.change(next);
+        Ok(self.pseudonym())
+    }
+
+    /// Certificates that another station asks for: the own one, or that of an authority.
+    fn answer(&mut self, message: &SignedMessage) {
+        let own = self.pseudonym().short();
+        for id in message.header.requests() {
+            if id == own {
+                self.sealer.introduce();
+            } else if let Some(authority) = self.verifier.trust().authority(id) {
+                let authority = authority.clone();
+                self.sealer.pass_on(&authority);
+            }
+        }
+    }
+}

@@ -1,0 +1,414 @@
+//! What is believed, and what is rejected under which cause.
+
+use crossguard_codec::security::{
+    Certificate, Duration, HashedId8, Issuer, Permission, Place, Region, Rejected, SignedMessage,
+    Signer, Ssp, Station, TICKETS_MAX, Ticket, Tolerances, TrustStore, Unsigned, Untrusted, issue,
+    issue::Terms,
+};
+
+use crate::pki::{
+    CAM, NOW, NOW_S, PAYLOAD, Pki, RAM, RMCM, after_ms, authority_terms, hear, issue_for, key,
+    permission, root_terms, ticket_terms, validity,
+};
+
+fn is_in_full(envelope: &[u8]) -> bool {
+    let message = SignedMessage::decode(envelope).unwrap();
+    matches!(message.signer, Signer::Certificate(_))
+}
+
+#[test]
+fn the_certificate_comes_once_per_second_and_digests_in_between() {
+    let pki = Pki::new(1);
+    let (mut sender, mut receiver) = (pki.station(10), pki.station(11));
+    for step in 0..25 {
+        let now = after_ms(step * 100);
+        let envelope = sender.seal(now, RAM, PAYLOAD).unwrap();
+        assert_eq!(is_in_full(&envelope), step % 10 == 0, "at {step}");
+        let verified = hear(&mut receiver, now, &envelope).unwrap();
+        assert_eq!(verified.signer, sender.pseudonym());
+        assert_eq!(verified.is_new, step == 0);
+    }
+    assert_eq!(receiver.verifier().known_tickets(), 1);
+}
+
+#[test]
+fn an_unknown_certificate_is_asked_for_and_sent() {
+    let pki = Pki::new(1);
+    let (mut sender, mut receiver) = (pki.station(10), pki.station(11));
+    sender.seal(NOW, RAM, PAYLOAD).unwrap();
+    receiver.seal(NOW, RAM, PAYLOAD).unwrap();
+    let envelope = sender.seal(after_ms(100), RAM, PAYLOAD).unwrap();
+    let unknown = Err(Rejected::UnknownSigner(sender.pseudonym()));
+    assert_eq!(hear(&mut receiver, after_ms(100), &envelope), unknown);
+
+    let asking = receiver.seal(after_ms(110), RAM, PAYLOAD).unwrap();
+    let requests: Vec<_> = SignedMessage::decode(&asking)
+        .unwrap()
+        .header
+        .requests()
+        .collect();
+    assert_eq!(requests, [sender.pseudonym().short()]);
+    assert!(is_in_full(&asking), "neither is the receiver known");
+    hear(&mut sender, after_ms(110), &asking).unwrap();
+    let envelope = sender.seal(after_ms(200), RAM, PAYLOAD).unwrap();
+    assert!(is_in_full(&envelope), "it was asked for");
+    hear(&mut receiver, after_ms(200), &envelope).unwrap();
+    let envelope = receiver.seal(after_ms(300), RAM, PAYLOAD).unwrap();
+    let message = SignedMessage::decode(&envelope).unwrap();
+    assert_eq!(message.header.requests().count(), 0, "asked once");
+}
+
+#[test]
+fn an_unknown_authority_is_asked_for_and_sent() {
+    let pki = Pki::new(1);
+    let mut sender = pki.station(10);
+    let mut only_root = TrustStore::default();
+    only_root.add_root(pki.root.clone()).unwrap();
+    let ticket = pki.ticket(11, &ticket_terms());
+    let mut receiver = Station::new(only_root, vec![ticket], Tolerances::default(), NOW).unwrap();
+
+    let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
+    let foreign = Err(Rejected::ForeignIssuer(pki.authority.id()));
+    assert_eq!(hear(&mut receiver, NOW, &envelope), foreign);
+    let asking = receiver.seal(after_ms(10), RAM, PAYLOAD).unwrap();
+    hear(&mut sender, after_ms(10), &asking).unwrap();
+    // The own certificate is due at once as well, and the authority's follows it.
+    let first = sender.seal(after_ms(100), RAM, PAYLOAD).unwrap();
+    assert!(is_in_full(&first));
+    let second = sender.seal(after_ms(200), RAM, PAYLOAD).unwrap();
+    assert!(second.len() > first.len());
+    let unknown = Err(Rejected::UnknownSigner(sender.pseudonym()));
+    assert_eq!(hear(&mut receiver, after_ms(200), &second), unknown);
+    assert_eq!(receiver.verifier().trust().authorities().len(), 1);
+    assert_eq!(
+        hear(&mut receiver, after_ms(201), &first).unwrap().signer,
+        sender.pseudonym()
+    );
+}
+
+#[test]
+fn the_same_message_is_believed_once() {
+    let pki = Pki::new(1);
+    let (mut sender, mut receiver) = (pki.station(10), pki.station(11));
+    // Also when all of them are generated in the same millisecond.
+    let envelopes: Vec<_> = (0..4)
+        .map(|_| sender.seal(NOW, RAM, PAYLOAD).unwrap())
+        .collect();
+    for envelope in &envelopes {
+        assert!(hear(&mut receiver, NOW, envelope).is_ok());
+    }
+    for envelope in &envelopes {
+        assert_eq!(hear(&mut receiver, NOW, envelope), Err(Rejected::Replayed));
+    }
+}
+
+#[test]
+fn nothing_is_replayed_after_its_ticket_was_forgotten() {
+    let pki = Pki::new(1);
+    let mut receiver = pki.station(11);
+    let mut sender = pki.station(10);
+    let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
+    hear(&mut receiver, NOW, &envelope).unwrap();
+    let others = (0..u16::try_from(TICKETS_MAX).unwrap()).map(|n| {
+        let terms = Terms {
+            // Another certificate for the same key.
+            validity: validity(NOW_S - 60 - u32::from(n), Duration::hours(100)),
+            ..ticket_terms()
+        };
+        pki.station_with(12, &terms, NOW)
+    });
+    for (at, mut other) in (1..).zip(others) {
+        let now = after_ms(at);
+        let envelope = other.seal(now, RAM, PAYLOAD).unwrap();
+        hear(&mut receiver, now, &envelope).unwrap();
+    }
+    assert_eq!(receiver.verifier().known_tickets(), TICKETS_MAX);
+    let now = after_ms(1_000);
+    assert_eq!(hear(&mut receiver, now, &envelope), Err(Rejected::Replayed));
+    let newer = sender.seal(now, RAM, PAYLOAD).unwrap();
+    assert!(hear(&mut receiver, now, &newer).is_ok());
+}
+
+#[test]
+fn messages_are_fresh_for_two_seconds() {
+    let pki = Pki::new(1);
+    let mut sender = pki.station(10);
+    let envelope = sender.seal(after_ms(5_000), RAM, PAYLOAD).unwrap();
+    for (now, expected) in [
+        (7_000, None),
+        (7_001, Some(Rejected::TooOld { age_us: 2_001_000 })),
+        (4_780, None),
+        (4_779, Some(Rejected::FromTheFuture { ahead_us: 221_000 })),
+    ] {
+        let heard = hear(&mut pki.station(11), after_ms(now), &envelope);
+        assert_eq!(heard.err(), expected, "at {now} ms");
+    }
+}
+
+#[test]
+fn tickets_expire() {
+    let pki = Pki::new(1);
+    let terms = Terms {
+        validity: validity(NOW_S, Duration::hours(1)),
+        ..ticket_terms()
+    };
+    let hour_ms = 3_600_000;
+    let mut sender = pki.station_with(10, &terms, NOW);
+    let envelope = sender.seal(after_ms(hour_ms - 1), RAM, PAYLOAD).unwrap();
+    let mut receiver = pki.station(11);
+    hear(&mut receiver, after_ms(hour_ms - 1), &envelope).unwrap();
+    // A message from before that is heard after it; one after it cannot be signed.
+    let late = hear(&mut pki.station(12), after_ms(hour_ms), &envelope);
+    assert_eq!(late, Err(Rejected::CertificateExpired));
+    let sealed = sender.seal(after_ms(hour_ms), RAM, PAYLOAD);
+    assert_eq!(sealed, Err(Unsigned::NoValidTicket));
+    // The other way round, and by digest, for a ticket that is known.
+    let mut early = pki.station_with(10, &terms, NOW);
+    let envelope = early.seal(after_ms(100), RAM, PAYLOAD).unwrap();
+    let heard = hear(&mut receiver, after_ms(0).min(crate::pki::NOW), &envelope);
+    assert!(heard.is_ok());
+    let soon = crossguard_codec::security::Time64(NOW.0 - 100_000);
+    let heard = hear(&mut pki.station(13), soon, &envelope);
+    assert_eq!(heard, Err(Rejected::CertificateNotYetValid));
+}
+
+#[test]
+fn a_foreign_root_is_foreign_whatever_it_is_called() {
+    let (pki, foreign) = (Pki::new(1), Pki::new(3));
+    let mut receiver = pki.station(11);
+    let envelope = foreign.station(10).seal(NOW, RAM, PAYLOAD).unwrap();
+    let rejected = Err(Rejected::ForeignIssuer(foreign.authority.id()));
+    assert_eq!(hear(&mut receiver, NOW, &envelope), rejected);
+
+    // A ticket that names the right authority, but was signed by another.
+    let key = key(10);
+    let forged = issue::certificate(
+        Issuer::Certificate(pki.authority.id()),
+        pki.authority.octets(),
+        &foreign.authority_key,
+        key.public_key(),
+        &ticket_terms(),
+    )
+    .unwrap();
+    let rejected = Err(Rejected::CertificateSignature(forged.id()));
+    let ticket = Ticket::new(forged, key).unwrap();
+    let mut sender = Station::new(pki.trust(), vec![ticket], Tolerances::default(), NOW).unwrap();
+    let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
+    assert_eq!(hear(&mut receiver, NOW, &envelope), rejected);
+    assert_eq!(receiver.verifier().known_tickets(), 0);
+}
+
+#[test]
+fn a_ticket_permits_what_it_lists() {
+    let pki = Pki::new(1);
+    let terms = Terms {
+        permissions: vec![permission(RAM)],
+        ..ticket_terms()
+    };
+    let mut sender = pki.station_with(10, &terms, NOW);
+    assert_eq!(
+        sender.seal(NOW, RMCM, PAYLOAD),
+        Err(Unsigned::NotPermitted(RMCM))
+    );
+    // One that signs all the same: the ITS-AID in the header is the other one's.
+    let mut envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
+    let at = envelope
+        .windows(3)
+        .position(|w| w == [2, 0x40, 0x60])
+        .unwrap();
+    envelope[at + 2] = 0x61;
+    let mut receiver = pki.station(11);
+    let rejected = Err(Rejected::NotPermitted(RMCM));
+    assert_eq!(hear(&mut receiver, NOW, &envelope), rejected);
+}
+
+#[test]
+fn an_issuer_gives_only_what_it_may() {
+    let pki = Pki::new(1);
+    let forged = |issuer: &Certificate, terms: &Terms| {
+        let key = key(10);
+        let certificate = issue::certificate(
+            Issuer::Certificate(issuer.id()),
+            issuer.octets(),
+            &pki.authority_key,
+            key.public_key(),
+            terms,
+        );
+        let ticket = Ticket::new(certificate.unwrap(), key).unwrap();
+        let mut sender =
+            Station::new(pki.trust(), vec![ticket], Tolerances::default(), NOW).unwrap();
+        let its_aid = terms.permissions[0].its_aid;
+        let envelope = sender.seal(NOW, its_aid, PAYLOAD).unwrap();
+        hear(&mut pki.station(11), NOW, &envelope).unwrap_err()
+    };
+    let beyond = Terms {
+        permissions: vec![permission(637)],
+        ..ticket_terms()
+    };
+    assert_eq!(
+        forged(&pki.authority, &beyond),
+        Rejected::IssuerNotPermitted(637)
+    );
+    let longer = Terms {
+        validity: validity(NOW_S, Duration::years(30)),
+        ..ticket_terms()
+    };
+    assert_eq!(forged(&pki.authority, &longer), Rejected::BeyondIssuer);
+    // A root issues no tickets.
+    assert_eq!(
+        forged(&pki.root, &ticket_terms()),
+        Rejected::ForeignIssuer(pki.root.id())
+    );
+}
+
+#[test]
+fn an_authority_gets_only_what_its_root_has() {
+    let root_key = key(1);
+    let root = issue::root(&root_key, &root_terms()).unwrap();
+    let mut trust = TrustStore::default();
+    trust.add_root(root.clone()).unwrap();
+    let mut add = |terms: &Terms, signing| {
+        let issuer = Issuer::Certificate(root.id());
+        let holder = key(2).public_key();
+        let authority = issue::certificate(issuer, root.octets(), signing, holder, terms);
+        trust.add_authority(authority.unwrap()).unwrap_err()
+    };
+    let beyond = Terms {
+        issue_permissions: vec![issue_for(&[637], 1)],
+        ..authority_terms()
+    };
+    let longer = Terms {
+        validity: validity(NOW_S, Duration::years(20)),
+        ..authority_terms()
+    };
+    let none = Terms {
+        permissions: vec![permission(RAM)],
+        issue_permissions: Vec::new(),
+        ..authority_terms()
+    };
+    assert_eq!(
+        add(&beyond, &root_key),
+        Rejected::IssuerNotPermitted(637).into()
+    );
+    assert_eq!(add(&longer, &root_key), Rejected::BeyondIssuer.into());
+    assert!(matches!(add(&none, &root_key), Untrusted::MayNotIssue(_)));
+    assert!(matches!(
+        add(&authority_terms(), &key(9)),
+        Untrusted::Rejected(Rejected::CertificateSignature(_))
+    ));
+}
+
+#[test]
+fn a_certificate_is_valid_in_its_region_and_that_of_its_issuers() {
+    let here = Place {
+        latitude: 487_654_321,
+        longitude: 91_234_567,
+    };
+    let elsewhere = Place {
+        latitude: 497_654_321,
+        ..here
+    };
+    let around = Region::Circle {
+        centre: here,
+        radius: 1_000,
+    };
+    let regional = |on_ticket: bool| {
+        let region = Some(around.clone());
+        let (authority, ticket) = if on_ticket {
+            (None, region)
+        } else {
+            (region, None)
+        };
+        let authority_terms = Terms {
+            region: authority,
+            ..authority_terms()
+        };
+        let pki = Pki::with(1, &root_terms(), &authority_terms);
+        let terms = Terms {
+            region: ticket,
+            ..ticket_terms()
+        };
+        let mut sender = pki.station_with(10, &terms, NOW);
+        (pki.station(11), sender.seal(NOW, RAM, PAYLOAD).unwrap())
+    };
+    for on_ticket in [true, false] {
+        let (mut receiver, envelope) = regional(on_ticket);
+        let message = SignedMessage::decode(&envelope).unwrap();
+        for place in [Some(elsewhere), None] {
+            let heard = receiver.verify(NOW, place, &message);
+            assert_eq!(heard, Err(Rejected::OutsideRegion));
+        }
+        assert!(receiver.verify(NOW, Some(here), &message).is_ok());
+    }
+}
+
+#[test]
+fn authorities_sign_no_messages_and_nobody_poses_as_the_receiver() {
+    let pki = Pki::new(1);
+    let authority = Ticket::new(pki.authority.clone(), pki.authority_key.clone());
+    assert_eq!(
+        authority.unwrap_err(),
+        Unsigned::NotATicket(pki.authority.id())
+    );
+    let other_key = Ticket::new(
+        pki.ticket(10, &ticket_terms()).certificate().clone(),
+        key(9),
+    );
+    assert!(matches!(other_key.unwrap_err(), Unsigned::OtherKey(_)));
+
+    let mut receiver = pki.station(10);
+    let envelope = pki.station(10).seal(NOW, RAM, PAYLOAD).unwrap();
+    assert_eq!(
+        hear(&mut receiver, NOW, &envelope),
+        Err(Rejected::OwnTicket)
+    );
+}
+
+#[test]
+fn profiles_are_kept() {
+    let pki = Pki::new(1);
+    let terms = Terms {
+        permissions: vec![Permission {
+            its_aid: CAM,
+            ssp: Ssp::Default,
+        }],
+        ..ticket_terms()
+    };
+    let envelope = pki
+        .station_with(10, &terms, NOW)
+        .seal(NOW, CAM, PAYLOAD)
+        .unwrap();
+    let header = envelope
+        .windows(3)
+        .position(|w| w == [0x40, 1, 36])
+        .unwrap();
+    let with = |edit: &dyn Fn(&mut Vec<u8>)| {
+        let mut envelope = envelope.clone();
+        edit(&mut envelope);
+        SignedMessage::decode(&envelope).unwrap_err()
+    };
+    let profile = |field| Rejected::AgainstProfile(field);
+    assert_eq!(with(&|e| e[header] = 0), profile("no generationTime"));
+    assert_eq!(with(&|e| e[header] = 0x48), profile("p2pcdLearningRequest"));
+    assert_eq!(
+        with(&|e| e[header + 2] = 37),
+        profile("no generationLocation")
+    );
+    let expiring = with(&|e| {
+        e[header] = 0x60;
+        e.splice(header + 11..header + 11, [0; 8]);
+    });
+    assert_eq!(expiring, profile("expiryTime"));
+    assert_eq!(with(&|e| e[1] = 0x80), Rejected::NotSigned);
+    assert_eq!(
+        with(&|e| e[2] = 1),
+        Rejected::Unsupported("a hash other than SHA-256")
+    );
+}
+
+#[test]
+fn the_name_of_a_certificate_is_the_end_of_its_digest() {
+    let id = HashedId8([1, 2, 3, 4, 5, 6, 7, 0xab]);
+    assert_eq!(id.to_string(), "01020304050607ab");
+    assert_eq!(id.short().0, [6, 7, 0xab]);
+}
