@@ -112,6 +112,18 @@ pub enum BrokenRule {
         /// The field.
         field: &'static str,
     },
+    /// A container without octets.
+    #[error("a container of {field} has no octets")]
+    NoOctets {
+        /// The list of containers.
+        field: &'static str,
+    },
+    /// A container of a CPM that may come once comes twice.
+    #[error("container {0} of the CPM comes twice, or the originator is two things")]
+    ContainerTwice(u8),
+    /// A container of a CPM that the standard defines is given as octets.
+    #[error("container {0} of the CPM has a type of its own")]
+    KnownContainer(u8),
     /// A cluster is bounded by another shape than the dictionary allows.
     #[error("clusterBoundingBoxShape is neither a rectangle nor a circle nor a polygon")]
     ClusterShape,

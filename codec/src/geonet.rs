@@ -31,6 +31,8 @@ pub mod ethernet;
 pub mod laws;
 mod stack;
 
+use serde::{Deserialize, Serialize};
+
 pub use codec::Encoded;
 pub use duplicates::{Duplicates, NUMBERS_MAX, SOURCES_MAX};
 pub use ego::EgoPosition;
@@ -68,7 +70,8 @@ pub enum NextHeader {
 }
 
 /// The headers of a packet.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Headers {
     /// How long the packet may live.
     pub lifetime: Lifetime,
@@ -91,7 +94,8 @@ pub struct Headers {
 }
 
 /// The lifetime of a packet, a multiple of its base.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Lifetime {
     /// 0..63.
     pub multiplier: u8,
@@ -100,7 +104,8 @@ pub struct Lifetime {
 }
 
 /// The base of a [`Lifetime`].
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum LifetimeBase {
     /// 50 ms.
     FiftyMilliseconds,
@@ -113,7 +118,8 @@ pub enum LifetimeBase {
 }
 
 /// The traffic class of a packet.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct TrafficClass {
     /// Whether a forwarder keeps it until there is a neighbour (SCF).
     pub store_carry_forward: bool,
@@ -124,7 +130,8 @@ pub struct TrafficClass {
 }
 
 /// A `GeoNetworking` address.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Address {
     /// Whether it was configured by hand.
     pub is_manual: bool,
@@ -137,7 +144,8 @@ pub struct Address {
 }
 
 /// Where and how fast a station was at a time.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct LongPositionVector {
     /// The station.
     pub address: Address,
@@ -156,7 +164,8 @@ pub struct LongPositionVector {
 }
 
 /// To whom a packet goes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Transport {
     /// To everybody who hears it.
     SingleHop {
@@ -173,7 +182,8 @@ pub enum Transport {
 }
 
 /// A destination area.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Area {
     /// Its shape.
     pub shape: Shape,
@@ -190,7 +200,8 @@ pub struct Area {
 }
 
 /// The shape of an [`Area`] (EN 302 931).
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Shape {
     /// A circle.
     Circle,

@@ -1,4 +1,4 @@
-//! Identifiers that no standard has assigned, in one place.
+//! Identifiers that no standard has assigned, and versions that no header tells, in one place.
 //!
 //! RAM and RMCM have no messageId, BTP port or ITS-AID of their own, and the common data dictionary
 //! has no station type for robots. The defaults are experimental: message identifiers without a name
@@ -20,6 +20,21 @@ pub struct Identifiers {
     /// Station type of a robot in the basic container; 12, `lightVruVehicle`, by default: the
     /// nearest that receivers know.
     pub robot_station_type: u8,
+    /// The common data dictionary that VAM and CPM on the channel are built on.
+    pub dictionary: Dictionary,
+}
+
+/// A version of the common data dictionary (TS 102 894-2). The header of a VAM or CPM is the same with
+/// both, and what is behind it is not.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+pub enum Dictionary {
+    /// v2.1.1: VAM of TS 103 300-3 v2.2.1, and CPM of TS 103 324 v2.1.1 as it was published.
+    #[serde(rename = "2.1.1")]
+    V2_1_1,
+    /// v2.4.1, with the same bits as v2.2.1 and v2.3.1: VAM of TS 103 300-3 v2.3.1.
+    #[default]
+    #[serde(rename = "2.4.1")]
+    V2_4_1,
 }
 
 /// The identifiers of one message.
@@ -57,6 +72,7 @@ impl Default for Identifiers {
                 its_aid: 16_481,
             },
             robot_station_type: 12,
+            dictionary: Dictionary::default(),
         }
     }
 }

@@ -17,7 +17,8 @@
 //!   messages are accepted, extension additions of newer senders are skipped, and everything else is
 //!   an error that names the field. [`encode_into`] writes to a buffer of the caller's.
 //! - [`asn1`] has the types that rasn makes of the modules: the reference that the core is compared
-//!   with, the JSON view of the core's messages, and what the core does not have, the VAM.
+//!   with, the JSON view of the core's messages, and what the core does not have.
+//! - [`its`] has the messages of other stations: CAM, VAM and CPM.
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
 //!   map to and from the protocol's view; [`view`] has its laws.
@@ -60,6 +61,7 @@ mod distance;
 mod error;
 pub mod geonet;
 mod identifiers;
+pub mod its;
 mod message;
 mod rules;
 #[cfg(feature = "security")]
@@ -77,7 +79,7 @@ pub use crate::core::cdd::{PATH_HISTORY_MAX, PATH_PREDICTION_MAX};
 pub use containers::position_of;
 pub use distance::distance;
 pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
-pub use identifiers::{IdentifierClash, Identifiers, MessageIdentifiers};
+pub use identifiers::{Dictionary, IdentifierClash, Identifiers, MessageIdentifiers};
 pub use message::{Message, Pdu, Received, decode, encode, encode_into};
 pub use service::Service;
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};

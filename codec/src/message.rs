@@ -1,19 +1,19 @@
 //! Whole messages as octets: the header first, then the codec. RAM and RMCM are those of the
-//! [core](crate::core), which is their codec; octets of a VAM go through rasn and the rules.
+//! [core](crate::core), which is their codec; those of other stations are in [`its`](crate::its).
 
 use serde::{Deserialize, Serialize};
 
-use crate::asn1::vam::VAM;
-use crate::core::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B, StationId};
+use crate::core::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B};
 use crate::core::ram::RAM;
 use crate::core::rmcm::RMCM;
-use crate::core::{Fault, Reader, Uper};
-use crate::error::{DecodeError, EncodeError, FieldPath};
+use crate::core::{Reader, Uper};
+use crate::error::{DecodeError, EncodeError};
 use crate::identifiers::Identifiers;
 use crate::size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
-use crate::{core, rules, uper, wire};
+use crate::{core, wire};
 
-/// A complete message that this crate encodes and decodes: [`RAM`], [`RMCM`] or [`VAM`].
+/// A complete message that this crate encodes and decodes: [`RAM`], [`RMCM`] or one of
+/// [`its`](crate::its).
 pub trait Pdu: sealed::Sealed {
     /// Name of the message.
     const NAME: &'static str;
@@ -25,13 +25,13 @@ pub trait Pdu: sealed::Sealed {
     fn expected_header(identifiers: &Identifiers) -> (u8, u8);
 }
 
-mod sealed {
-    use super::{DecodeError, EncodeError, Received};
+pub(crate) mod sealed {
+    use super::{DecodeError, EncodeError, Identifiers, Received};
 
     /// Keeps the set of messages closed, and their codec out of sight.
     pub trait Sealed: Sized {
         fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError>;
-        fn read(octets: &[u8]) -> Result<Received<Self>, DecodeError>;
+        fn read(identifiers: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError>;
     }
 }
 
@@ -43,7 +43,7 @@ macro_rules! by_the_core {
                 core::encode(self, buffer).map_err(EncodeError::of_core::<Self>)
             }
 
-            fn read(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
+            fn read(_: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
                 let decoded = core::decode(octets);
                 let (message, extended) = decoded.map_err(DecodeError::of_core::<Self>)?;
                 Ok(Received { message, extended })
@@ -54,28 +54,6 @@ macro_rules! by_the_core {
 
 by_the_core!(RAM);
 by_the_core!(RMCM);
-
-impl sealed::Sealed for VAM {
-    fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
-        rules::check_vam(self)?;
-        let octets = uper::encode(self)?;
-        let Some(buffer) = buffer.get_mut(..octets.len()) else {
-            return Err(EncodeError::Malformed {
-                field: FieldPath::default(),
-                fault: Fault::BufferFull,
-            });
-        };
-        buffer.copy_from_slice(&octets);
-        Ok(octets.len())
-    }
-
-    fn read(octets: &[u8]) -> Result<Received<Self>, DecodeError> {
-        let uper::Decoded { value, extended } = uper::decode::<Self>(octets)?;
-        rules::check_vam(&value)?;
-        let message = value;
-        Ok(Received { message, extended })
-    }
-}
 
 impl Pdu for RAM {
     const NAME: &'static str = "RAM";
@@ -102,22 +80,6 @@ impl Pdu for RMCM {
     }
 }
 
-impl Pdu for VAM {
-    const NAME: &'static str = "VAM";
-    const LEN_MAX: usize = MESSAGE_LEN_MAX;
-    fn header(&self) -> ItsPduHeader {
-        ItsPduHeader {
-            protocol_version: OrdinalNumber1B(self.header.protocol_version.0),
-            message_id: MessageId(self.header.message_id.0),
-            station_id: StationId(self.header.station_id.0),
-        }
-    }
-    /// Assigned by TS 103 300-3 v2.3.1.
-    fn expected_header(_: &Identifiers) -> (u8, u8) {
-        (3, 16)
-    }
-}
-
 /// A message as it was received.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Received<M> {
@@ -131,8 +93,8 @@ pub struct Received<M> {
 /// The canonical encoding of `message`.
 ///
 /// # Errors
-/// When the header is not that of the message, or a rule of a VAM is broken. Every other RAM and RMCM
-/// has an encoding.
+/// When the header is not that of the message. Every other RAM and RMCM has an encoding; other messages
+/// may hold numbers and sizes that have none.
 pub fn encode<M: Pdu>(identifiers: &Identifiers, message: &M) -> Result<Vec<u8>, EncodeError> {
     let mut octets = vec![0; M::LEN_MAX];
     let length = encode_into(identifiers, message, &mut octets)?;
@@ -172,7 +134,7 @@ pub fn encode_into<M: Pdu>(
 ///
 /// Exactly the canonical encodings are accepted, with or without extension additions that this crate
 /// does not know. No input makes it panic. A RAM or an RMCM takes no heap, neither when it is accepted
-/// nor when it is refused; what a VAM allocates is bounded by [`MESSAGE_LEN_MAX`].
+/// nor when it is refused; what another message allocates is bounded by [`MESSAGE_LEN_MAX`].
 ///
 /// # Errors
 /// Why the octets are not such a message, and which field says so.
@@ -196,11 +158,11 @@ pub fn decode<M: Pdu>(
             known,
         });
     }
-    M::read(octets)
+    M::read(identifiers, octets)
 }
 
 /// The header that begins every message.
-fn header_of(octets: &[u8]) -> Result<ItsPduHeader, DecodeError> {
+pub(crate) fn header_of(octets: &[u8]) -> Result<ItsPduHeader, DecodeError> {
     let length = octets.len();
     if length > MESSAGE_LEN_MAX {
         return Err(DecodeError::TooLong {

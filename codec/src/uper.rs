@@ -23,7 +23,7 @@ use rasn::types::BitString;
 use crate::core::Fault;
 use crate::error::{DecodeError, EncodeError, FieldPath};
 use decoder::Decoder;
-use source::{Rejected, Skipped, Source};
+use source::{Edit, Rejected, Source};
 
 /// A decoded value, and how many SEQUENCEs in it had unknown extension additions.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -76,16 +76,13 @@ where
             count: source.left() / 8,
         });
     }
-    let skipped = source.into_skipped();
-    if skipped.is_empty() {
+    let (extended, edits) = source.into_edits();
+    if edits.is_empty() {
         check_canonical(octets, &value)?;
     } else {
-        check_canonical(&without_additions(octets, bits, &skipped), &value)?;
+        check_canonical(&without_additions(octets, bits, &edits), &value)?;
     }
-    Ok(Decoded {
-        value,
-        extended: skipped.len(),
-    })
+    Ok(Decoded { value, extended })
 }
 
 /// What is wrong with the octets, and in which field.
@@ -104,18 +101,23 @@ fn malformed(source: &Source<'_>, rejected: &Rejected) -> DecodeError {
     DecodeError::Malformed { field, bit, fault }
 }
 
-/// The encoding that a sender without the additions would have sent; `octets` has this many `bits`
-/// before its padding.
-fn without_additions(octets: &[u8], bits: usize, skipped: &[Skipped]) -> Vec<u8> {
-    let mut known = BitString::from_slice(octets);
-    known.truncate(bits);
-    for additions in skipped {
-        known.set(additions.marker, false);
+/// The encoding that a sender without unknown additions would have sent; `octets` has this many
+/// `bits` before its padding.
+fn without_additions(octets: &[u8], bits: usize, edits: &[Edit]) -> Vec<u8> {
+    let received = BitString::from_slice(octets);
+    let mut known = BitString::new();
+    let mut next = 0;
+    for Edit {
+        start,
+        end,
+        instead,
+    } in edits
+    {
+        known.extend_from_bitslice(&received[next..*start]);
+        known.extend(instead);
+        next = *end;
     }
-    // From the back, so that the bits in front keep their places.
-    for additions in skipped.iter().rev() {
-        drop(known.drain(additions.start..additions.end));
-    }
+    known.extend_from_bitslice(&received[next..bits]);
     known.resize(known.len().next_multiple_of(8), false);
     known.into_vec()
 }

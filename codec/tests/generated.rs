@@ -9,7 +9,9 @@ use std::{env, fs};
 use rasn_compiler::prelude::*;
 
 /// In the order of their imports.
-const MODULES: [&str; 5] = ["CDD", "Common", "VAM", "RAM", "RMCM"];
+const MODULES: [&str; 8] = [
+    "CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211",
+];
 
 /// Set to write the generated file instead of comparing it.
 const UPDATE: &str = "CROSSGUARD_UPDATE_GENERATED";
@@ -47,6 +49,11 @@ fn compile() -> String {
 fn correct(generated: &str) -> String {
     // An inner subtype constraint becomes a value constraint that it is not.
     let generated = generated.replace("value(\"0..\"), identifier", "identifier");
+    // rasn forgets the size of a list that is an extension addition.
+    let generated = generated.replace(
+        "extension_addition, identifier = \"extensionContainers\"",
+        "extension_addition, size(\"1..=8\", extensible), identifier = \"extensionContainers\"",
+    );
     let mut corrected = vec![HEADER.to_owned()];
     let mut lines = generated.lines();
     while let Some(line) = lines.next() {
@@ -73,6 +80,7 @@ fn with_serde_view(item: &str) -> String {
         ("FixedBitString<", "fixed_bits"),
         ("BitString)", "bits"),
         ("Integer)", "integer"),
+        ("OctetString)", "octets"),
     ];
     for (inner, view) in views {
         if let Some((start, end)) = item.split_once(&format!("(pub {inner}")) {

@@ -345,6 +345,42 @@ fn a_message_of_the_demo_survives_decoding_and_encoding() {
     assert_eq!(again.stdout, decoded.stdout);
 }
 
+/// The golden vectors of the codec's file, by name.
+fn golden(file: &str, name: &str) -> String {
+    let path = format!(
+        "{}/../codec/tests/golden/{file}",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let text = std::fs::read_to_string(path).unwrap();
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix(&format!("{name}: ")));
+    line.unwrap().to_owned()
+}
+
+#[test]
+fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() {
+    for (file, name, kind, standard) in [
+        ("its.txt", "C4", "cam", "TS 103 900 v2.3.1"),
+        ("its.txt", "P2", "cpm", "TS 103 324 v2.1.1"),
+        ("vam.txt", "V11", "vam", "TS 103 300-3 v2.3.1"),
+        ("packets.txt", "G1", "cam", "EN 302 637-2 v1.4.1"),
+    ] {
+        let digits = golden(file, name);
+        let decoded = run(&["codec", "decode", "--hex", &digits]);
+        assert_eq!(decoded.status.code(), Some(0), "{}", stderr(&decoded));
+        let value = json(&decoded);
+        assert!(value["message"][kind].is_object(), "{value}");
+        assert!(value["standard"].as_str().unwrap().starts_with(standard));
+        assert_eq!(value["packet"].is_object(), name == "G1");
+        let encoded = run_with(&["codec", "encode"], &decoded.stdout);
+        assert_eq!(stdout(&encoded).trim(), digits, "{}", stderr(&encoded));
+    }
+    let older = golden("its.txt", "W2");
+    let decoded = run(&["codec", "decode", "--dictionary", "2.1.1", "--hex", &older]);
+    assert!(json(&decoded)["message"]["vam211"].is_object());
+}
+
 #[test]
 fn what_is_no_message_is_refused_with_the_field_or_the_cause() {
     let good = a_message();
@@ -364,7 +400,12 @@ fn what_is_no_message_is_refused_with_the_field_or_the_cause() {
         &format!("09{}", &good[2..]),
         "protocolVersion 9 of RMCM is unknown, 1 is known",
     );
-    refused("0202000000050000", "messageId 2 is not that of RAM or RMCM");
+    refused(
+        "0201000000050000",
+        "messageId 1 is not that of RAM, RMCM, CAM, VAM or CPM",
+    );
+    refused("0202000000050000", "the message ends within it");
+    refused("11001a01", "the packet ends within CommonNextHeader");
     refused("xyz", "not hexadecimal digits");
     assert_refused(&run_with(&["codec", "encode"], b"{"), "not JSON");
     assert_refused(

@@ -6,6 +6,912 @@
     unused,
     clippy::too_many_arguments
 )]
+pub mod crossguard_cam {
+    extern crate alloc;
+    use super::crossguard_cdd::{
+        AccelerationComponent, BasicContainer, Curvature, CurvatureCalculationMode, DriveDirection,
+        ExteriorLights, GenerationDeltaTime, HeadingValue, ItsPduHeader, LanePosition, Latitude,
+        Longitude, PathHistory, Speed, TimestampIts, VehicleWidth, YawRate,
+    };
+    use core::borrow::Borrow;
+    use rasn::prelude::*;
+    use serde::{Deserialize, Serialize};
+    use std::sync::LazyLock;
+    /// What controls the longitudinal motion. CDD AccelerationControl.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct AccelerationControl(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<7usize>);
+    /// TS 103 900 BasicVehicleContainerHighFrequency.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct BasicVehicleContainerHighFrequency {
+        pub heading: Heading,
+        pub speed: Speed,
+        #[rasn(identifier = "driveDirection")]
+        #[serde(rename = "driveDirection")]
+        pub drive_direction: DriveDirection,
+        #[rasn(identifier = "vehicleLength")]
+        #[serde(rename = "vehicleLength")]
+        pub vehicle_length: VehicleLength,
+        #[rasn(identifier = "vehicleWidth")]
+        #[serde(rename = "vehicleWidth")]
+        pub vehicle_width: VehicleWidth,
+        #[rasn(identifier = "longitudinalAcceleration")]
+        #[serde(rename = "longitudinalAcceleration")]
+        pub longitudinal_acceleration: AccelerationComponent,
+        pub curvature: Curvature,
+        #[rasn(identifier = "curvatureCalculationMode")]
+        #[serde(rename = "curvatureCalculationMode")]
+        pub curvature_calculation_mode: CurvatureCalculationMode,
+        #[rasn(identifier = "yawRate")]
+        #[serde(rename = "yawRate")]
+        pub yaw_rate: YawRate,
+        #[rasn(identifier = "accelerationControl")]
+        #[serde(rename = "accelerationControl")]
+        pub acceleration_control: Option<AccelerationControl>,
+        #[rasn(identifier = "lanePosition")]
+        #[serde(rename = "lanePosition")]
+        pub lane_position: Option<LanePosition>,
+        #[rasn(identifier = "steeringWheelAngle")]
+        #[serde(rename = "steeringWheelAngle")]
+        pub steering_wheel_angle: Option<SteeringWheelAngle>,
+        #[rasn(identifier = "lateralAcceleration")]
+        #[serde(rename = "lateralAcceleration")]
+        pub lateral_acceleration: Option<AccelerationComponent>,
+        #[rasn(identifier = "verticalAcceleration")]
+        #[serde(rename = "verticalAcceleration")]
+        pub vertical_acceleration: Option<AccelerationComponent>,
+        #[rasn(identifier = "performanceClass")]
+        #[serde(rename = "performanceClass")]
+        pub performance_class: Option<PerformanceClass>,
+        #[rasn(identifier = "cenDsrcTollingZone")]
+        #[serde(rename = "cenDsrcTollingZone")]
+        pub cen_dsrc_tolling_zone: Option<CenDsrcTollingZone>,
+    }
+    impl BasicVehicleContainerHighFrequency {
+        pub fn new(
+            heading: Heading,
+            speed: Speed,
+            drive_direction: DriveDirection,
+            vehicle_length: VehicleLength,
+            vehicle_width: VehicleWidth,
+            longitudinal_acceleration: AccelerationComponent,
+            curvature: Curvature,
+            curvature_calculation_mode: CurvatureCalculationMode,
+            yaw_rate: YawRate,
+            acceleration_control: Option<AccelerationControl>,
+            lane_position: Option<LanePosition>,
+            steering_wheel_angle: Option<SteeringWheelAngle>,
+            lateral_acceleration: Option<AccelerationComponent>,
+            vertical_acceleration: Option<AccelerationComponent>,
+            performance_class: Option<PerformanceClass>,
+            cen_dsrc_tolling_zone: Option<CenDsrcTollingZone>,
+        ) -> Self {
+            Self {
+                heading,
+                speed,
+                drive_direction,
+                vehicle_length,
+                vehicle_width,
+                longitudinal_acceleration,
+                curvature,
+                curvature_calculation_mode,
+                yaw_rate,
+                acceleration_control,
+                lane_position,
+                steering_wheel_angle,
+                lateral_acceleration,
+                vertical_acceleration,
+                performance_class,
+                cen_dsrc_tolling_zone,
+            }
+        }
+    }
+    /// TS 103 900 BasicVehicleContainerLowFrequency; of the path 23 points are meant to be used.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct BasicVehicleContainerLowFrequency {
+        #[rasn(identifier = "vehicleRole")]
+        #[serde(rename = "vehicleRole")]
+        pub vehicle_role: VehicleRole,
+        #[rasn(identifier = "exteriorLights")]
+        #[serde(rename = "exteriorLights")]
+        pub exterior_lights: ExteriorLights,
+        #[rasn(identifier = "pathHistory")]
+        #[serde(rename = "pathHistory")]
+        pub path_history: PathHistory,
+    }
+    impl BasicVehicleContainerLowFrequency {
+        pub fn new(
+            vehicle_role: VehicleRole,
+            exterior_lights: ExteriorLights,
+            path_history: PathHistory,
+        ) -> Self {
+            Self {
+                vehicle_role,
+                exterior_lights,
+                path_history,
+            }
+        }
+    }
+    /// Cooperative awareness message: header protocolVersion 2, messageId 2. TS 103 900 CAM.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct CAM {
+        pub header: ItsPduHeader,
+        pub cam: CamPayload,
+    }
+    impl CAM {
+        pub fn new(header: ItsPduHeader, cam: CamPayload) -> Self {
+            Self { header, cam }
+        }
+    }
+    /// The octets of a container's own encoding.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct CamContainerData(#[serde(with = "crate::asn1::view::octets")] pub OctetString);
+    /// TS 103 900 CamParameters.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct CamParameters {
+        #[rasn(identifier = "basicContainer")]
+        #[serde(rename = "basicContainer")]
+        pub basic_container: BasicContainer,
+        #[rasn(identifier = "highFrequencyContainer")]
+        #[serde(rename = "highFrequencyContainer")]
+        pub high_frequency_container: HighFrequencyContainer,
+        #[rasn(identifier = "lowFrequencyContainer")]
+        #[serde(rename = "lowFrequencyContainer")]
+        pub low_frequency_container: Option<LowFrequencyContainer>,
+        #[rasn(identifier = "specialVehicleContainer")]
+        #[serde(rename = "specialVehicleContainer")]
+        pub special_vehicle_container: Option<SpecialVehicleContainer>,
+        #[rasn(extension_addition, size("1..=8", extensible), identifier = "extensionContainers")]
+        #[serde(rename = "extensionContainers")]
+        pub extension_containers: Option<WrappedExtensionContainers>,
+    }
+    impl CamParameters {
+        pub fn new(
+            basic_container: BasicContainer,
+            high_frequency_container: HighFrequencyContainer,
+            low_frequency_container: Option<LowFrequencyContainer>,
+            special_vehicle_container: Option<SpecialVehicleContainer>,
+            extension_containers: Option<WrappedExtensionContainers>,
+        ) -> Self {
+            Self {
+                basic_container,
+                high_frequency_container,
+                low_frequency_container,
+                special_vehicle_container,
+                extension_containers,
+            }
+        }
+    }
+    /// TS 103 900 CamPayload.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct CamPayload {
+        #[rasn(identifier = "generationDeltaTime")]
+        #[serde(rename = "generationDeltaTime")]
+        pub generation_delta_time: GenerationDeltaTime,
+        #[rasn(identifier = "camParameters")]
+        #[serde(rename = "camParameters")]
+        pub cam_parameters: CamParameters,
+    }
+    impl CamPayload {
+        pub fn new(
+            generation_delta_time: GenerationDeltaTime,
+            cam_parameters: CamParameters,
+        ) -> Self {
+            Self {
+                generation_delta_time,
+                cam_parameters,
+            }
+        }
+    }
+    /// What happened: cause and sub cause. CDD CauseCode, and CauseCodeV2 up to cause 128.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct CauseCode {
+        #[rasn(value("0..=255"), identifier = "causeCode")]
+        #[serde(rename = "causeCode")]
+        pub cause_code: u8,
+        #[rasn(value("0..=255"), identifier = "subCauseCode")]
+        #[serde(rename = "subCauseCode")]
+        pub sub_cause_code: u8,
+    }
+    impl CauseCode {
+        pub fn new(cause_code: u8, sub_cause_code: u8) -> Self {
+            Self {
+                cause_code,
+                sub_cause_code,
+            }
+        }
+    }
+    /// Where not to disturb a tolling station. CDD CenDsrcTollingZone.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct CenDsrcTollingZone {
+        #[rasn(identifier = "protectedZoneLatitude")]
+        #[serde(rename = "protectedZoneLatitude")]
+        pub protected_zone_latitude: Latitude,
+        #[rasn(identifier = "protectedZoneLongitude")]
+        #[serde(rename = "protectedZoneLongitude")]
+        pub protected_zone_longitude: Longitude,
+        #[rasn(identifier = "cenDsrcTollingZoneId")]
+        #[serde(rename = "cenDsrcTollingZoneId")]
+        pub cen_dsrc_tolling_zone_id: Option<ProtectedZoneId>,
+    }
+    impl CenDsrcTollingZone {
+        pub fn new(
+            protected_zone_latitude: Latitude,
+            protected_zone_longitude: Longitude,
+            cen_dsrc_tolling_zone_id: Option<ProtectedZoneId>,
+        ) -> Self {
+            Self {
+                protected_zone_latitude,
+                protected_zone_longitude,
+                cen_dsrc_tolling_zone_id,
+            }
+        }
+    }
+    /// Lanes that are closed. CDD ClosedLanes.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct ClosedLanes {
+        #[rasn(identifier = "innerhardShoulderStatus")]
+        #[serde(rename = "innerhardShoulderStatus")]
+        pub innerhard_shoulder_status: Option<HardShoulderStatus>,
+        #[rasn(identifier = "outerhardShoulderStatus")]
+        #[serde(rename = "outerhardShoulderStatus")]
+        pub outerhard_shoulder_status: Option<HardShoulderStatus>,
+        #[rasn(identifier = "drivingLaneStatus")]
+        #[serde(rename = "drivingLaneStatus")]
+        pub driving_lane_status: Option<DrivingLaneStatus>,
+    }
+    impl ClosedLanes {
+        pub fn new(
+            innerhard_shoulder_status: Option<HardShoulderStatus>,
+            outerhard_shoulder_status: Option<HardShoulderStatus>,
+            driving_lane_status: Option<DrivingLaneStatus>,
+        ) -> Self {
+            Self {
+                innerhard_shoulder_status,
+                outerhard_shoulder_status,
+                driving_lane_status,
+            }
+        }
+    }
+    /// CDD DangerousGoodsBasic.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum DangerousGoodsBasic {
+        explosives1 = 0,
+        explosives2 = 1,
+        explosives3 = 2,
+        explosives4 = 3,
+        explosives5 = 4,
+        explosives6 = 5,
+        flammableGases = 6,
+        nonFlammableGases = 7,
+        toxicGases = 8,
+        flammableLiquids = 9,
+        flammableSolids = 10,
+        substancesLiableToSpontaneousCombustion = 11,
+        substancesEmittingFlammableGasesUponContactWithWater = 12,
+        oxidizingSubstances = 13,
+        organicPeroxides = 14,
+        toxicSubstances = 15,
+        infectiousSubstances = 16,
+        radioactiveMaterial = 17,
+        corrosiveSubstances = 18,
+        miscellaneousDangerousSubstances = 19,
+    }
+    /// TS 103 900 DangerousGoodsContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct DangerousGoodsContainer {
+        #[rasn(identifier = "dangerousGoodsBasic")]
+        #[serde(rename = "dangerousGoodsBasic")]
+        pub dangerous_goods_basic: DangerousGoodsBasic,
+    }
+    impl DangerousGoodsContainer {
+        pub fn new(dangerous_goods_basic: DangerousGoodsBasic) -> Self {
+            Self {
+                dangerous_goods_basic,
+            }
+        }
+    }
+    /// A bit for each lane, 1 when it is closed. CDD DrivingLaneStatus.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=13"))]
+    pub struct DrivingLaneStatus(#[serde(with = "crate::asn1::view::bits")] pub BitString);
+    /// TRUE while passengers get in and out. CDD EmbarkationStatus.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(delegate)]
+    pub struct EmbarkationStatus(pub bool);
+    /// TS 103 900 EmergencyContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct EmergencyContainer {
+        #[rasn(identifier = "lightBarSirenInUse")]
+        #[serde(rename = "lightBarSirenInUse")]
+        pub light_bar_siren_in_use: LightBarSirenInUse,
+        #[rasn(identifier = "incidentIndication")]
+        #[serde(rename = "incidentIndication")]
+        pub incident_indication: Option<CauseCode>,
+        #[rasn(identifier = "emergencyPriority")]
+        #[serde(rename = "emergencyPriority")]
+        pub emergency_priority: Option<EmergencyPriority>,
+    }
+    impl EmergencyContainer {
+        pub fn new(
+            light_bar_siren_in_use: LightBarSirenInUse,
+            incident_indication: Option<CauseCode>,
+            emergency_priority: Option<EmergencyPriority>,
+        ) -> Self {
+            Self {
+                light_bar_siren_in_use,
+                incident_indication,
+                emergency_priority,
+            }
+        }
+    }
+    /// CDD EmergencyPriority.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct EmergencyPriority(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<2usize>);
+    /// 1 two-wheeler, 2 horizon, 3 very low frequency, 4 path prediction, 5 lane positions, 6 movement
+    /// control. TS 103 900 ExtensionContainerId.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=16", extensible))]
+    pub struct ExtensionContainerId(#[serde(with = "crate::asn1::view::integer")] pub Integer);
+    /// CDD HardShoulderStatus.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum HardShoulderStatus {
+        availableForStopping = 0,
+        closed = 1,
+        availableForDriving = 2,
+    }
+    /// Heading with its confidence. CDD Heading.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct Heading {
+        #[rasn(identifier = "headingValue")]
+        #[serde(rename = "headingValue")]
+        pub heading_value: HeadingValue,
+        #[rasn(identifier = "headingConfidence")]
+        #[serde(rename = "headingConfidence")]
+        pub heading_confidence: HeadingConfidence,
+    }
+    impl Heading {
+        pub fn new(heading_value: HeadingValue, heading_confidence: HeadingConfidence) -> Self {
+            Self {
+                heading_value,
+                heading_confidence,
+            }
+        }
+    }
+    /// 0.1 degree, rounded up, at 95 %. CDD HeadingConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=127"))]
+    pub struct HeadingConfidence(pub u8);
+    /// What changes quickly, of a vehicle or a road-side unit. TS 103 900 HighFrequencyContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    #[non_exhaustive]
+    pub enum HighFrequencyContainer {
+        basicVehicleContainerHighFrequency(BasicVehicleContainerHighFrequency),
+        rsuContainerHighFrequency(RSUContainerHighFrequency),
+    }
+    /// CDD LightBarSirenInUse.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct LightBarSirenInUse(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<2usize>);
+    /// What changes slowly. TS 103 900 LowFrequencyContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    #[non_exhaustive]
+    pub enum LowFrequencyContainer {
+        basicVehicleContainerLowFrequency(BasicVehicleContainerLowFrequency),
+    }
+    /// How old the data of the vehicle may be. CDD PerformanceClass.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=7"))]
+    pub struct PerformanceClass(pub u8);
+    /// Where others are not to be disturbed. CDD ProtectedCommunicationZone.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct ProtectedCommunicationZone {
+        #[rasn(identifier = "protectedZoneType")]
+        #[serde(rename = "protectedZoneType")]
+        pub protected_zone_type: ProtectedZoneType,
+        #[rasn(identifier = "expiryTime")]
+        #[serde(rename = "expiryTime")]
+        pub expiry_time: Option<TimestampIts>,
+        #[rasn(identifier = "protectedZoneLatitude")]
+        #[serde(rename = "protectedZoneLatitude")]
+        pub protected_zone_latitude: Latitude,
+        #[rasn(identifier = "protectedZoneLongitude")]
+        #[serde(rename = "protectedZoneLongitude")]
+        pub protected_zone_longitude: Longitude,
+        #[rasn(identifier = "protectedZoneRadius")]
+        #[serde(rename = "protectedZoneRadius")]
+        pub protected_zone_radius: Option<ProtectedZoneRadius>,
+        #[rasn(identifier = "protectedZoneId")]
+        #[serde(rename = "protectedZoneId")]
+        pub protected_zone_id: Option<ProtectedZoneId>,
+    }
+    impl ProtectedCommunicationZone {
+        pub fn new(
+            protected_zone_type: ProtectedZoneType,
+            expiry_time: Option<TimestampIts>,
+            protected_zone_latitude: Latitude,
+            protected_zone_longitude: Longitude,
+            protected_zone_radius: Option<ProtectedZoneRadius>,
+            protected_zone_id: Option<ProtectedZoneId>,
+        ) -> Self {
+            Self {
+                protected_zone_type,
+                expiry_time,
+                protected_zone_latitude,
+                protected_zone_longitude,
+                protected_zone_radius,
+                protected_zone_id,
+            }
+        }
+    }
+    /// CDD ProtectedCommunicationZonesRSU.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=16"))]
+    pub struct ProtectedCommunicationZonesRSU(pub SequenceOf<ProtectedCommunicationZone>);
+    /// CDD ProtectedZoneId.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=134217727"))]
+    pub struct ProtectedZoneId(pub u32);
+    /// 1 m. CDD ProtectedZoneRadius.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=255", extensible))]
+    pub struct ProtectedZoneRadius(#[serde(with = "crate::asn1::view::integer")] pub Integer);
+    /// CDD ProtectedZoneType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    #[non_exhaustive]
+    pub enum ProtectedZoneType {
+        permanentCenDsrcTolling = 0,
+        #[rasn(extension_addition)]
+        temporaryCenDsrcTolling = 1,
+    }
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct PtActivation {
+        #[rasn(identifier = "ptActivationType")]
+        #[serde(rename = "ptActivationType")]
+        pub pt_activation_type: PtActivationType,
+        #[rasn(identifier = "ptActivationData")]
+        #[serde(rename = "ptActivationData")]
+        pub pt_activation_data: PtActivationData,
+    }
+    impl PtActivation {
+        pub fn new(
+            pt_activation_type: PtActivationType,
+            pt_activation_data: PtActivationData,
+        ) -> Self {
+            Self {
+                pt_activation_type,
+                pt_activation_data,
+            }
+        }
+    }
+    /// CDD PtActivationData.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=20"))]
+    pub struct PtActivationData(#[serde(with = "crate::asn1::view::octets")] pub OctetString);
+    /// CDD PtActivationType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=255"))]
+    pub struct PtActivationType(pub u8);
+    /// TS 103 900 PublicTransportContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct PublicTransportContainer {
+        #[rasn(identifier = "embarkationStatus")]
+        #[serde(rename = "embarkationStatus")]
+        pub embarkation_status: EmbarkationStatus,
+        #[rasn(identifier = "ptActivation")]
+        #[serde(rename = "ptActivation")]
+        pub pt_activation: Option<PtActivation>,
+    }
+    impl PublicTransportContainer {
+        pub fn new(
+            embarkation_status: EmbarkationStatus,
+            pt_activation: Option<PtActivation>,
+        ) -> Self {
+            Self {
+                embarkation_status,
+                pt_activation,
+            }
+        }
+    }
+    /// TS 103 900 RSUContainerHighFrequency.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct RSUContainerHighFrequency {
+        #[rasn(identifier = "protectedCommunicationZonesRSU")]
+        #[serde(rename = "protectedCommunicationZonesRSU")]
+        pub protected_communication_zones_rsu: Option<ProtectedCommunicationZonesRSU>,
+    }
+    impl RSUContainerHighFrequency {
+        pub fn new(
+            protected_communication_zones_rsu: Option<ProtectedCommunicationZonesRSU>,
+        ) -> Self {
+            Self {
+                protected_communication_zones_rsu,
+            }
+        }
+    }
+    /// TS 103 900 RescueContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct RescueContainer {
+        #[rasn(identifier = "lightBarSirenInUse")]
+        #[serde(rename = "lightBarSirenInUse")]
+        pub light_bar_siren_in_use: LightBarSirenInUse,
+    }
+    impl RescueContainer {
+        pub fn new(light_bar_siren_in_use: LightBarSirenInUse) -> Self {
+            Self {
+                light_bar_siren_in_use,
+            }
+        }
+    }
+    /// TS 103 900 RoadWorksContainerBasic.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct RoadWorksContainerBasic {
+        #[rasn(identifier = "roadworksSubCauseCode")]
+        #[serde(rename = "roadworksSubCauseCode")]
+        pub roadworks_sub_cause_code: Option<RoadworksSubCauseCode>,
+        #[rasn(identifier = "lightBarSirenInUse")]
+        #[serde(rename = "lightBarSirenInUse")]
+        pub light_bar_siren_in_use: LightBarSirenInUse,
+        #[rasn(identifier = "closedLanes")]
+        #[serde(rename = "closedLanes")]
+        pub closed_lanes: Option<ClosedLanes>,
+    }
+    impl RoadWorksContainerBasic {
+        pub fn new(
+            roadworks_sub_cause_code: Option<RoadworksSubCauseCode>,
+            light_bar_siren_in_use: LightBarSirenInUse,
+            closed_lanes: Option<ClosedLanes>,
+        ) -> Self {
+            Self {
+                roadworks_sub_cause_code,
+                light_bar_siren_in_use,
+                closed_lanes,
+            }
+        }
+    }
+    /// CDD RoadworksSubCauseCode.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=255"))]
+    pub struct RoadworksSubCauseCode(pub u8);
+    /// TS 103 900 SafetyCarContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct SafetyCarContainer {
+        #[rasn(identifier = "lightBarSirenInUse")]
+        #[serde(rename = "lightBarSirenInUse")]
+        pub light_bar_siren_in_use: LightBarSirenInUse,
+        #[rasn(identifier = "incidentIndication")]
+        #[serde(rename = "incidentIndication")]
+        pub incident_indication: Option<CauseCode>,
+        #[rasn(identifier = "trafficRule")]
+        #[serde(rename = "trafficRule")]
+        pub traffic_rule: Option<TrafficRule>,
+        #[rasn(identifier = "speedLimit")]
+        #[serde(rename = "speedLimit")]
+        pub speed_limit: Option<SpeedLimit>,
+    }
+    impl SafetyCarContainer {
+        pub fn new(
+            light_bar_siren_in_use: LightBarSirenInUse,
+            incident_indication: Option<CauseCode>,
+            traffic_rule: Option<TrafficRule>,
+            speed_limit: Option<SpeedLimit>,
+        ) -> Self {
+            Self {
+                light_bar_siren_in_use,
+                incident_indication,
+                traffic_rule,
+                speed_limit,
+            }
+        }
+    }
+    /// TS 103 900 SpecialTransportContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct SpecialTransportContainer {
+        #[rasn(identifier = "specialTransportType")]
+        #[serde(rename = "specialTransportType")]
+        pub special_transport_type: SpecialTransportType,
+        #[rasn(identifier = "lightBarSirenInUse")]
+        #[serde(rename = "lightBarSirenInUse")]
+        pub light_bar_siren_in_use: LightBarSirenInUse,
+    }
+    impl SpecialTransportContainer {
+        pub fn new(
+            special_transport_type: SpecialTransportType,
+            light_bar_siren_in_use: LightBarSirenInUse,
+        ) -> Self {
+            Self {
+                special_transport_type,
+                light_bar_siren_in_use,
+            }
+        }
+    }
+    /// CDD SpecialTransportType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct SpecialTransportType(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<4usize>);
+    /// What a vehicle with a special role says. TS 103 900 SpecialVehicleContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    #[non_exhaustive]
+    pub enum SpecialVehicleContainer {
+        publicTransportContainer(PublicTransportContainer),
+        specialTransportContainer(SpecialTransportContainer),
+        dangerousGoodsContainer(DangerousGoodsContainer),
+        roadWorksContainerBasic(RoadWorksContainerBasic),
+        rescueContainer(RescueContainer),
+        emergencyContainer(EmergencyContainer),
+        safetyCarContainer(SafetyCarContainer),
+    }
+    /// 1 km/h. CDD SpeedLimit.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=255"))]
+    pub struct SpeedLimit(pub u8);
+    /// Angle of the steering wheel. CDD SteeringWheelAngle.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct SteeringWheelAngle {
+        #[rasn(identifier = "steeringWheelAngleValue")]
+        #[serde(rename = "steeringWheelAngleValue")]
+        pub steering_wheel_angle_value: SteeringWheelAngleValue,
+        #[rasn(identifier = "steeringWheelAngleConfidence")]
+        #[serde(rename = "steeringWheelAngleConfidence")]
+        pub steering_wheel_angle_confidence: SteeringWheelAngleConfidence,
+    }
+    impl SteeringWheelAngle {
+        pub fn new(
+            steering_wheel_angle_value: SteeringWheelAngleValue,
+            steering_wheel_angle_confidence: SteeringWheelAngleConfidence,
+        ) -> Self {
+            Self {
+                steering_wheel_angle_value,
+                steering_wheel_angle_confidence,
+            }
+        }
+    }
+    /// 1.5 degrees, at 95 %. CDD SteeringWheelAngleConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=127"))]
+    pub struct SteeringWheelAngleConfidence(pub u8);
+    /// 1.5 degrees, to the left positive. CDD SteeringWheelAngleValue.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("-511..=512"))]
+    pub struct SteeringWheelAngleValue(pub i16);
+    /// CDD TrafficRule.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    #[non_exhaustive]
+    pub enum TrafficRule {
+        noPassing = 0,
+        noPassingForTrucks = 1,
+        passToRight = 2,
+        passToLeft = 3,
+        #[rasn(extension_addition)]
+        passToLeftOrRight = 4,
+    }
+    /// Length of a vehicle, and what the trailer makes of it. CDD VehicleLength.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct VehicleLength {
+        #[rasn(identifier = "vehicleLengthValue")]
+        #[serde(rename = "vehicleLengthValue")]
+        pub vehicle_length_value: VehicleLengthValue,
+        #[rasn(identifier = "vehicleLengthConfidenceIndication")]
+        #[serde(rename = "vehicleLengthConfidenceIndication")]
+        pub vehicle_length_confidence_indication: VehicleLengthConfidenceIndication,
+    }
+    impl VehicleLength {
+        pub fn new(
+            vehicle_length_value: VehicleLengthValue,
+            vehicle_length_confidence_indication: VehicleLengthConfidenceIndication,
+        ) -> Self {
+            Self {
+                vehicle_length_value,
+                vehicle_length_confidence_indication,
+            }
+        }
+    }
+    /// Whether there is a trailer. CDD VehicleLengthConfidenceIndication.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VehicleLengthConfidenceIndication {
+        noTrailerPresent = 0,
+        trailerPresentWithKnownLength = 1,
+        trailerPresentWithUnknownLength = 2,
+        trailerPresenceIsUnknown = 3,
+        unavailable = 4,
+    }
+    /// 0.1 m, rounded up; 1022 stands for more than 102.1 m. CDD VehicleLengthValue.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=1023"))]
+    pub struct VehicleLengthValue(pub u16);
+    /// What a vehicle is there for. CDD VehicleRole.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VehicleRole {
+        default = 0,
+        publicTransport = 1,
+        specialTransport = 2,
+        dangerousGoods = 3,
+        roadWork = 4,
+        rescue = 5,
+        emergency = 6,
+        safetyCar = 7,
+        agriculture = 8,
+        commercial = 9,
+        military = 10,
+        roadOperator = 11,
+        taxi = 12,
+        uvar = 13,
+        rfu1 = 14,
+        rfu2 = 15,
+    }
+    /// One of them. TS 103 900 WrappedExtensionContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct WrappedExtensionContainer {
+        #[rasn(identifier = "containerId")]
+        #[serde(rename = "containerId")]
+        pub container_id: ExtensionContainerId,
+        #[rasn(identifier = "containerData")]
+        #[serde(rename = "containerData")]
+        pub container_data: CamContainerData,
+    }
+    impl WrappedExtensionContainer {
+        pub fn new(container_id: ExtensionContainerId, container_data: CamContainerData) -> Self {
+            Self {
+                container_id,
+                container_data,
+            }
+        }
+    }
+    /// Containers of later versions, by number. TS 103 900 WrappedExtensionContainers.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=8", extensible))]
+    pub struct WrappedExtensionContainers(pub SequenceOf<WrappedExtensionContainer>);
+}
+#[allow(
+    non_camel_case_types,
+    non_snake_case,
+    non_upper_case_globals,
+    unused,
+    clippy::too_many_arguments
+)]
 pub mod crossguard_cdd {
     extern crate alloc;
     use core::borrow::Borrow;
@@ -1662,6 +2568,12 @@ pub mod crossguard_cdd {
         left = 0,
         right = 1,
     }
+    /// 0.1 m, rounded up; 61 stands for more than 6.0 m. CDD VehicleWidth.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=62"))]
+    pub struct VehicleWidth(pub u8);
     /// Vertical acceleration, upwards positive. CDD VerticalAcceleration.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
@@ -1903,6 +2815,1871 @@ pub mod crossguard_cdd {
     )]
     #[rasn(delegate, value("-32766..=32767"))]
     pub struct YawRateValue(pub i16);
+}
+#[allow(
+    non_camel_case_types,
+    non_snake_case,
+    non_upper_case_globals,
+    unused,
+    clippy::too_many_arguments
+)]
+pub mod crossguard_cdd211 {
+    extern crate alloc;
+    use super::crossguard_cdd::{
+        AccelerationChangeIndication, AltitudeConfidence, BasicContainer, CardinalNumber1B,
+        CartesianAngle, ClusterJoinInfo, ClusterLeaveInfo, ConfidenceLevel, Curvature,
+        CurvatureCalculationMode, DeltaAltitude, DeltaLatitude, DeltaLongitude,
+        DeltaTimeQuarterSecond, DeltaTimeTenthOfSecond, GenerationDeltaTime,
+        HeadingChangeIndication, Identifier2B, ItsPduHeader, LanePosition, LaneType,
+        LateralAcceleration, LongitudinalAcceleration, MapPosition, PathPoint,
+        PosConfidenceEllipse, SequenceOfSafeDistanceIndication,
+        SequenceOfTrajectoryInterceptionIndication, Speed, StabilityChangeIndication,
+        TrafficParticipantType, VerticalAcceleration, VruClusterInformation, VruExteriorLights,
+        Wgs84Angle, YawRate,
+    };
+    use super::crossguard_cpm::{
+        Acceleration3dWithConfidence, CartesianAngularVelocityComponent,
+        CartesianPosition3dWithConfidence, CorrelationColumn, DeltaTimeMilliSecondSigned,
+        EulerAnglesWithConfidence, MatrixIncludedComponents, ObjectDimension,
+        ObjectPerceptionQuality, OtherSubClass, SequenceOfIdentifier1B, Velocity3dWithConfidence,
+    };
+    use core::borrow::Borrow;
+    use rasn::prelude::*;
+    use serde::{Deserialize, Serialize};
+    use std::sync::LazyLock;
+    /// CDD v2.1.1 ClusterBreakupInfo.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct ClusterBreakupInfo211 {
+        #[rasn(identifier = "clusterBreakupReason")]
+        #[serde(rename = "clusterBreakupReason")]
+        pub cluster_breakup_reason: ClusterBreakupReason211,
+        #[rasn(identifier = "breakupTime")]
+        #[serde(rename = "breakupTime")]
+        pub breakup_time: DeltaTimeQuarterSecond,
+    }
+    impl ClusterBreakupInfo211 {
+        pub fn new(
+            cluster_breakup_reason: ClusterBreakupReason211,
+            breakup_time: DeltaTimeQuarterSecond,
+        ) -> Self {
+            Self {
+                cluster_breakup_reason,
+                breakup_time,
+            }
+        }
+    }
+    /// CDD v2.1.1 ClusterBreakupReason.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum ClusterBreakupReason211 {
+        notProvided = 0,
+        clusteringPurposeCompleted = 1,
+        leaderMovedOutOfClusterBoundingBox = 2,
+        joiningAnotherCluster = 3,
+        enteringLowRiskAreaBasedOnMaps = 4,
+        receptionOfCpmContainingCluster = 5,
+        max = 15,
+    }
+    /// Where across the road. CDD v2.1.1 GeneralizedLanePosition.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    #[non_exhaustive]
+    pub enum GeneralizedLanePosition211 {
+        trafficLanePosition(LanePosition),
+        nonTrafficLanePosition(LanePositionAndType211),
+        trafficIslandPosition(TrafficIslandPosition211),
+        mapPosition(MapPosition),
+    }
+    /// CDD v2.1.1 LanePositionAndType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct LanePositionAndType211 {
+        #[rasn(identifier = "transversalPosition")]
+        #[serde(rename = "transversalPosition")]
+        pub transversal_position: LanePosition,
+        #[rasn(identifier = "laneType")]
+        #[serde(rename = "laneType")]
+        pub lane_type: LaneType,
+    }
+    impl LanePositionAndType211 {
+        pub fn new(transversal_position: LanePosition, lane_type: LaneType) -> Self {
+            Self {
+                transversal_position,
+                lane_type,
+            }
+        }
+    }
+    /// CDD v2.1.1 LowerTriangularPositiveSemidefiniteMatrices.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=4"))]
+    pub struct LowerTriangularPositiveSemidefiniteMatrices211(
+        pub SequenceOf<LowerTriangularPositiveSemidefiniteMatrix211>,
+    );
+    /// CDD v2.1.1 LowerTriangularPositiveSemidefiniteMatrix.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct LowerTriangularPositiveSemidefiniteMatrix211 {
+        #[rasn(identifier = "componentsIncludedIntheMatrix")]
+        #[serde(rename = "componentsIncludedIntheMatrix")]
+        pub components_included_inthe_matrix: MatrixIncludedComponents,
+        pub matrix: LowerTriangularPositiveSemidefiniteMatrixColumns211,
+    }
+    impl LowerTriangularPositiveSemidefiniteMatrix211 {
+        pub fn new(
+            components_included_inthe_matrix: MatrixIncludedComponents,
+            matrix: LowerTriangularPositiveSemidefiniteMatrixColumns211,
+        ) -> Self {
+            Self {
+                components_included_inthe_matrix,
+                matrix,
+            }
+        }
+    }
+    /// CDD v2.1.1 LowerTriangularPositiveSemidefiniteMatrixColumns.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=13"))]
+    pub struct LowerTriangularPositiveSemidefiniteMatrixColumns211(
+        pub SequenceOf<CorrelationColumn>,
+    );
+    /// CDD v2.1.1 ObjectClass.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    #[non_exhaustive]
+    pub enum ObjectClass211 {
+        #[rasn(value("0..=14"))]
+        vehicleSubClass(TrafficParticipantType),
+        vruSubClass(VruProfileAndSubprofile211),
+        groupSubClass(VruClusterInformation),
+        otherSubClass(OtherSubClass),
+    }
+    /// What an object may be. CDD v2.1.1 ObjectClassDescription.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=8"))]
+    pub struct ObjectClassDescription211(pub SequenceOf<ObjectClassWithConfidence211>);
+    /// CDD v2.1.1 ObjectClassWithConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct ObjectClassWithConfidence211 {
+        #[rasn(identifier = "objectClass")]
+        #[serde(rename = "objectClass")]
+        pub object_class: ObjectClass211,
+        pub confidence: ConfidenceLevel,
+    }
+    impl ObjectClassWithConfidence211 {
+        pub fn new(object_class: ObjectClass211, confidence: ConfidenceLevel) -> Self {
+            Self {
+                object_class,
+                confidence,
+            }
+        }
+    }
+    /// Always 40 points. CDD v2.1.1 PathHistory.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("40"))]
+    pub struct PathHistory211(pub SequenceOf<PathPoint>);
+    /// CDD v2.1.1 PathPointPredicted.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct PathPointPredicted211 {
+        #[rasn(identifier = "deltaLatitude")]
+        #[serde(rename = "deltaLatitude")]
+        pub delta_latitude: DeltaLatitude,
+        #[rasn(identifier = "deltaLongitude")]
+        #[serde(rename = "deltaLongitude")]
+        pub delta_longitude: DeltaLongitude,
+        #[rasn(identifier = "horizontalPositionConfidence")]
+        #[serde(rename = "horizontalPositionConfidence")]
+        pub horizontal_position_confidence: Option<PosConfidenceEllipse>,
+        #[rasn(
+            default = "path_point_predicted211_delta_altitude_default",
+            identifier = "deltaAltitude"
+        )]
+        #[serde(rename = "deltaAltitude")]
+        pub delta_altitude: DeltaAltitude,
+        #[rasn(
+            default = "path_point_predicted211_altitude_confidence_default",
+            identifier = "altitudeConfidence"
+        )]
+        #[serde(rename = "altitudeConfidence")]
+        pub altitude_confidence: AltitudeConfidence,
+        #[rasn(identifier = "pathDeltaTime")]
+        #[serde(rename = "pathDeltaTime")]
+        pub path_delta_time: DeltaTimeTenthOfSecond,
+    }
+    impl PathPointPredicted211 {
+        pub fn new(
+            delta_latitude: DeltaLatitude,
+            delta_longitude: DeltaLongitude,
+            horizontal_position_confidence: Option<PosConfidenceEllipse>,
+            delta_altitude: DeltaAltitude,
+            altitude_confidence: AltitudeConfidence,
+            path_delta_time: DeltaTimeTenthOfSecond,
+        ) -> Self {
+            Self {
+                delta_latitude,
+                delta_longitude,
+                horizontal_position_confidence,
+                delta_altitude,
+                altitude_confidence,
+                path_delta_time,
+            }
+        }
+    }
+    fn path_point_predicted211_delta_altitude_default() -> DeltaAltitude {
+        DeltaAltitude(12800)
+    }
+    fn path_point_predicted211_altitude_confidence_default() -> AltitudeConfidence {
+        AltitudeConfidence::unavailable
+    }
+    /// CDD v2.1.1 PathPredicted.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("0..=15", extensible))]
+    pub struct PathPredicted211(pub SequenceOf<PathPointPredicted211>);
+    /// An object, relative to the reference position: x to the east, y to the north, z up. CDD
+    /// PerceivedObject.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct PerceivedObject211 {
+        #[rasn(identifier = "objectId")]
+        #[serde(rename = "objectId")]
+        pub object_id: Option<Identifier2B>,
+        #[rasn(identifier = "measurementDeltaTime")]
+        #[serde(rename = "measurementDeltaTime")]
+        pub measurement_delta_time: DeltaTimeMilliSecondSigned,
+        pub position: CartesianPosition3dWithConfidence,
+        pub velocity: Option<Velocity3dWithConfidence>,
+        pub acceleration: Option<Acceleration3dWithConfidence>,
+        pub angles: Option<EulerAnglesWithConfidence>,
+        #[rasn(identifier = "zAngularVelocity")]
+        #[serde(rename = "zAngularVelocity")]
+        pub z_angular_velocity: Option<CartesianAngularVelocityComponent>,
+        #[rasn(identifier = "lowerTriangularCorrelationMatrices")]
+        #[serde(rename = "lowerTriangularCorrelationMatrices")]
+        pub lower_triangular_correlation_matrices:
+            Option<LowerTriangularPositiveSemidefiniteMatrices211>,
+        #[rasn(identifier = "objectDimensionZ")]
+        #[serde(rename = "objectDimensionZ")]
+        pub object_dimension_z: Option<ObjectDimension>,
+        #[rasn(identifier = "objectDimensionY")]
+        #[serde(rename = "objectDimensionY")]
+        pub object_dimension_y: Option<ObjectDimension>,
+        #[rasn(identifier = "objectDimensionX")]
+        #[serde(rename = "objectDimensionX")]
+        pub object_dimension_x: Option<ObjectDimension>,
+        #[rasn(value("0..=2047"), identifier = "objectAge")]
+        #[serde(rename = "objectAge")]
+        pub object_age: Option<DeltaTimeMilliSecondSigned>,
+        #[rasn(identifier = "objectPerceptionQuality")]
+        #[serde(rename = "objectPerceptionQuality")]
+        pub object_perception_quality: Option<ObjectPerceptionQuality>,
+        #[rasn(identifier = "sensorIdList")]
+        #[serde(rename = "sensorIdList")]
+        pub sensor_id_list: Option<SequenceOfIdentifier1B>,
+        pub classification: Option<ObjectClassDescription211>,
+        #[rasn(identifier = "mapPosition")]
+        #[serde(rename = "mapPosition")]
+        pub map_position: Option<MapPosition>,
+    }
+    impl PerceivedObject211 {
+        pub fn new(
+            object_id: Option<Identifier2B>,
+            measurement_delta_time: DeltaTimeMilliSecondSigned,
+            position: CartesianPosition3dWithConfidence,
+            velocity: Option<Velocity3dWithConfidence>,
+            acceleration: Option<Acceleration3dWithConfidence>,
+            angles: Option<EulerAnglesWithConfidence>,
+            z_angular_velocity: Option<CartesianAngularVelocityComponent>,
+            lower_triangular_correlation_matrices: Option<
+                LowerTriangularPositiveSemidefiniteMatrices211,
+            >,
+            object_dimension_z: Option<ObjectDimension>,
+            object_dimension_y: Option<ObjectDimension>,
+            object_dimension_x: Option<ObjectDimension>,
+            object_age: Option<DeltaTimeMilliSecondSigned>,
+            object_perception_quality: Option<ObjectPerceptionQuality>,
+            sensor_id_list: Option<SequenceOfIdentifier1B>,
+            classification: Option<ObjectClassDescription211>,
+            map_position: Option<MapPosition>,
+        ) -> Self {
+            Self {
+                object_id,
+                measurement_delta_time,
+                position,
+                velocity,
+                acceleration,
+                angles,
+                z_angular_velocity,
+                lower_triangular_correlation_matrices,
+                object_dimension_z,
+                object_dimension_y,
+                object_dimension_x,
+                object_age,
+                object_perception_quality,
+                sensor_id_list,
+                classification,
+                map_position,
+            }
+        }
+    }
+    /// TS 103 324 PerceivedObjectContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct PerceivedObjectContainer211 {
+        #[rasn(identifier = "numberOfPerceivedObjects")]
+        #[serde(rename = "numberOfPerceivedObjects")]
+        pub number_of_perceived_objects: CardinalNumber1B,
+        #[rasn(identifier = "perceivedObjects")]
+        #[serde(rename = "perceivedObjects")]
+        pub perceived_objects: PerceivedObjects211,
+    }
+    impl PerceivedObjectContainer211 {
+        pub fn new(
+            number_of_perceived_objects: CardinalNumber1B,
+            perceived_objects: PerceivedObjects211,
+        ) -> Self {
+            Self {
+                number_of_perceived_objects,
+                perceived_objects,
+            }
+        }
+    }
+    /// TS 103 324 PerceivedObjects.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("0..=255", extensible))]
+    pub struct PerceivedObjects211(pub SequenceOf<PerceivedObject211>);
+    /// CDD v2.1.1 TrafficIslandPosition.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct TrafficIslandPosition211 {
+        #[rasn(identifier = "oneSide")]
+        #[serde(rename = "oneSide")]
+        pub one_side: LanePositionAndType211,
+        #[rasn(identifier = "otherSide")]
+        #[serde(rename = "otherSide")]
+        pub other_side: LanePositionAndType211,
+    }
+    impl TrafficIslandPosition211 {
+        pub fn new(one_side: LanePositionAndType211, other_side: LanePositionAndType211) -> Self {
+            Self {
+                one_side,
+                other_side,
+            }
+        }
+    }
+    /// VRU awareness message: header protocolVersion 3, messageId 16. TS 103 300-3 VAM.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct VAM211 {
+        pub header: ItsPduHeader,
+        pub vam: VruAwareness211,
+    }
+    impl VAM211 {
+        pub fn new(header: ItsPduHeader, vam: VruAwareness211) -> Self {
+            Self { header, vam }
+        }
+    }
+    /// TS 103 300-3 VamParameters.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct VamParameters211 {
+        #[rasn(identifier = "basicContainer")]
+        #[serde(rename = "basicContainer")]
+        pub basic_container: BasicContainer,
+        #[rasn(identifier = "vruHighFrequencyContainer")]
+        #[serde(rename = "vruHighFrequencyContainer")]
+        pub vru_high_frequency_container: VruHighFrequencyContainer211,
+        #[rasn(identifier = "vruLowFrequencyContainer")]
+        #[serde(rename = "vruLowFrequencyContainer")]
+        pub vru_low_frequency_container: Option<VruLowFrequencyContainer211>,
+        #[rasn(identifier = "vruClusterInformationContainer")]
+        #[serde(rename = "vruClusterInformationContainer")]
+        pub vru_cluster_information_container: Option<VruClusterInformationContainer211>,
+        #[rasn(identifier = "vruClusterOperationContainer")]
+        #[serde(rename = "vruClusterOperationContainer")]
+        pub vru_cluster_operation_container: Option<VruClusterOperationContainer211>,
+        #[rasn(identifier = "vruMotionPredictionContainer")]
+        #[serde(rename = "vruMotionPredictionContainer")]
+        pub vru_motion_prediction_container: Option<VruMotionPredictionContainer211>,
+    }
+    impl VamParameters211 {
+        pub fn new(
+            basic_container: BasicContainer,
+            vru_high_frequency_container: VruHighFrequencyContainer211,
+            vru_low_frequency_container: Option<VruLowFrequencyContainer211>,
+            vru_cluster_information_container: Option<VruClusterInformationContainer211>,
+            vru_cluster_operation_container: Option<VruClusterOperationContainer211>,
+            vru_motion_prediction_container: Option<VruMotionPredictionContainer211>,
+        ) -> Self {
+            Self {
+                basic_container,
+                vru_high_frequency_container,
+                vru_low_frequency_container,
+                vru_cluster_information_container,
+                vru_cluster_operation_container,
+                vru_motion_prediction_container,
+            }
+        }
+    }
+    /// TS 103 300-3 VruAwareness.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct VruAwareness211 {
+        #[rasn(identifier = "generationDeltaTime")]
+        #[serde(rename = "generationDeltaTime")]
+        pub generation_delta_time: GenerationDeltaTime,
+        #[rasn(identifier = "vamParameters")]
+        #[serde(rename = "vamParameters")]
+        pub vam_parameters: VamParameters211,
+    }
+    impl VruAwareness211 {
+        pub fn new(
+            generation_delta_time: GenerationDeltaTime,
+            vam_parameters: VamParameters211,
+        ) -> Self {
+            Self {
+                generation_delta_time,
+                vam_parameters,
+            }
+        }
+    }
+    /// The group that the sender leads. TS 103 300-3 VruClusterInformationContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct VruClusterInformationContainer211 {
+        #[rasn(identifier = "vruClusterInformation")]
+        #[serde(rename = "vruClusterInformation")]
+        pub vru_cluster_information: VruClusterInformation,
+    }
+    impl VruClusterInformationContainer211 {
+        pub fn new(vru_cluster_information: VruClusterInformation) -> Self {
+            Self {
+                vru_cluster_information,
+            }
+        }
+    }
+    /// Joining, leaving and breaking up a group. TS 103 300-3 VruClusterOperationContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct VruClusterOperationContainer211 {
+        #[rasn(identifier = "clusterJoinInfo")]
+        #[serde(rename = "clusterJoinInfo")]
+        pub cluster_join_info: Option<ClusterJoinInfo>,
+        #[rasn(identifier = "clusterLeaveInfo")]
+        #[serde(rename = "clusterLeaveInfo")]
+        pub cluster_leave_info: Option<ClusterLeaveInfo>,
+        #[rasn(identifier = "clusterBreakupInfo")]
+        #[serde(rename = "clusterBreakupInfo")]
+        pub cluster_breakup_info: Option<ClusterBreakupInfo211>,
+        #[rasn(identifier = "clusterIdChangeTimeInfo")]
+        #[serde(rename = "clusterIdChangeTimeInfo")]
+        pub cluster_id_change_time_info: Option<DeltaTimeQuarterSecond>,
+    }
+    impl VruClusterOperationContainer211 {
+        pub fn new(
+            cluster_join_info: Option<ClusterJoinInfo>,
+            cluster_leave_info: Option<ClusterLeaveInfo>,
+            cluster_breakup_info: Option<ClusterBreakupInfo211>,
+            cluster_id_change_time_info: Option<DeltaTimeQuarterSecond>,
+        ) -> Self {
+            Self {
+                cluster_join_info,
+                cluster_leave_info,
+                cluster_breakup_info,
+                cluster_id_change_time_info,
+            }
+        }
+    }
+    /// CDD v2.1.1 VruDeviceUsage.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruDeviceUsage211 {
+        unavailable = 0,
+        other = 1,
+        idle = 2,
+        listeningToAudio = 3,
+        typing = 4,
+        calling = 5,
+        playingGames = 6,
+        reading = 7,
+        viewing = 8,
+        max = 255,
+    }
+    /// CDD v2.1.1 VruEnvironment.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruEnvironment211 {
+        unavailable = 0,
+        intersectionCrossing = 1,
+        zebraCrossing = 2,
+        sidewalk = 3,
+        onVehicleRoad = 4,
+        protectedGeographicArea = 5,
+        max = 255,
+    }
+    /// What changes quickly. TS 103 300-3 VruHighFrequencyContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct VruHighFrequencyContainer211 {
+        pub heading: Wgs84Angle,
+        pub speed: Speed,
+        #[rasn(identifier = "longitudinalAcceleration")]
+        #[serde(rename = "longitudinalAcceleration")]
+        pub longitudinal_acceleration: LongitudinalAcceleration,
+        pub curvature: Option<Curvature>,
+        #[rasn(identifier = "curvatureCalculationMode")]
+        #[serde(rename = "curvatureCalculationMode")]
+        pub curvature_calculation_mode: Option<CurvatureCalculationMode>,
+        #[rasn(identifier = "yawRate")]
+        #[serde(rename = "yawRate")]
+        pub yaw_rate: Option<YawRate>,
+        #[rasn(identifier = "lateralAcceleration")]
+        #[serde(rename = "lateralAcceleration")]
+        pub lateral_acceleration: Option<LateralAcceleration>,
+        #[rasn(identifier = "verticalAcceleration")]
+        #[serde(rename = "verticalAcceleration")]
+        pub vertical_acceleration: Option<VerticalAcceleration>,
+        #[rasn(identifier = "vruLanePosition")]
+        #[serde(rename = "vruLanePosition")]
+        pub vru_lane_position: Option<GeneralizedLanePosition211>,
+        pub environment: Option<VruEnvironment211>,
+        #[rasn(identifier = "movementControl")]
+        #[serde(rename = "movementControl")]
+        pub movement_control: Option<VruMovementControl211>,
+        pub orientation: Option<Wgs84Angle>,
+        #[rasn(identifier = "rollAngle")]
+        #[serde(rename = "rollAngle")]
+        pub roll_angle: Option<CartesianAngle>,
+        #[rasn(identifier = "deviceUsage")]
+        #[serde(rename = "deviceUsage")]
+        pub device_usage: Option<VruDeviceUsage211>,
+    }
+    impl VruHighFrequencyContainer211 {
+        pub fn new(
+            heading: Wgs84Angle,
+            speed: Speed,
+            longitudinal_acceleration: LongitudinalAcceleration,
+            curvature: Option<Curvature>,
+            curvature_calculation_mode: Option<CurvatureCalculationMode>,
+            yaw_rate: Option<YawRate>,
+            lateral_acceleration: Option<LateralAcceleration>,
+            vertical_acceleration: Option<VerticalAcceleration>,
+            vru_lane_position: Option<GeneralizedLanePosition211>,
+            environment: Option<VruEnvironment211>,
+            movement_control: Option<VruMovementControl211>,
+            orientation: Option<Wgs84Angle>,
+            roll_angle: Option<CartesianAngle>,
+            device_usage: Option<VruDeviceUsage211>,
+        ) -> Self {
+            Self {
+                heading,
+                speed,
+                longitudinal_acceleration,
+                curvature,
+                curvature_calculation_mode,
+                yaw_rate,
+                lateral_acceleration,
+                vertical_acceleration,
+                vru_lane_position,
+                environment,
+                movement_control,
+                orientation,
+                roll_angle,
+                device_usage,
+            }
+        }
+    }
+    /// What changes slowly. TS 103 300-3 VruLowFrequencyContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct VruLowFrequencyContainer211 {
+        #[rasn(identifier = "profileAndSubprofile")]
+        #[serde(rename = "profileAndSubprofile")]
+        pub profile_and_subprofile: VruProfileAndSubprofile211,
+        #[rasn(identifier = "sizeClass")]
+        #[serde(rename = "sizeClass")]
+        pub size_class: Option<VruSizeClass211>,
+        #[rasn(identifier = "exteriorLights")]
+        #[serde(rename = "exteriorLights")]
+        pub exterior_lights: Option<VruExteriorLights>,
+    }
+    impl VruLowFrequencyContainer211 {
+        pub fn new(
+            profile_and_subprofile: VruProfileAndSubprofile211,
+            size_class: Option<VruSizeClass211>,
+            exterior_lights: Option<VruExteriorLights>,
+        ) -> Self {
+            Self {
+                profile_and_subprofile,
+                size_class,
+                exterior_lights,
+            }
+        }
+    }
+    /// Where the sender comes from and goes to. TS 103 300-3 VruMotionPredictionContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct VruMotionPredictionContainer211 {
+        #[rasn(identifier = "pathHistory")]
+        #[serde(rename = "pathHistory")]
+        pub path_history: Option<PathHistory211>,
+        #[rasn(identifier = "pathPrediction")]
+        #[serde(rename = "pathPrediction")]
+        pub path_prediction: Option<PathPredicted211>,
+        #[rasn(identifier = "safeDistance")]
+        #[serde(rename = "safeDistance")]
+        pub safe_distance: Option<SequenceOfSafeDistanceIndication>,
+        #[rasn(identifier = "trajectoryInterceptionIndication")]
+        #[serde(rename = "trajectoryInterceptionIndication")]
+        pub trajectory_interception_indication: Option<SequenceOfTrajectoryInterceptionIndication>,
+        #[rasn(identifier = "accelerationChangeIndication")]
+        #[serde(rename = "accelerationChangeIndication")]
+        pub acceleration_change_indication: Option<AccelerationChangeIndication>,
+        #[rasn(identifier = "headingChangeIndication")]
+        #[serde(rename = "headingChangeIndication")]
+        pub heading_change_indication: Option<HeadingChangeIndication>,
+        #[rasn(identifier = "stabilityChangeIndication")]
+        #[serde(rename = "stabilityChangeIndication")]
+        pub stability_change_indication: Option<StabilityChangeIndication>,
+    }
+    impl VruMotionPredictionContainer211 {
+        pub fn new(
+            path_history: Option<PathHistory211>,
+            path_prediction: Option<PathPredicted211>,
+            safe_distance: Option<SequenceOfSafeDistanceIndication>,
+            trajectory_interception_indication: Option<SequenceOfTrajectoryInterceptionIndication>,
+            acceleration_change_indication: Option<AccelerationChangeIndication>,
+            heading_change_indication: Option<HeadingChangeIndication>,
+            stability_change_indication: Option<StabilityChangeIndication>,
+        ) -> Self {
+            Self {
+                path_history,
+                path_prediction,
+                safe_distance,
+                trajectory_interception_indication,
+                acceleration_change_indication,
+                heading_change_indication,
+                stability_change_indication,
+            }
+        }
+    }
+    /// CDD v2.1.1 VruMovementControl.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruMovementControl211 {
+        unavailable = 0,
+        braking = 1,
+        hardBraking = 2,
+        stopPedaling = 3,
+        brakingAndStopPedaling = 4,
+        hardBrakingAndStopPedaling = 5,
+        noReaction = 6,
+        max = 255,
+    }
+    /// CDD v2.1.1 VruProfileAndSubprofile.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    #[non_exhaustive]
+    pub enum VruProfileAndSubprofile211 {
+        pedestrian(VruSubProfilePedestrian211),
+        bicyclistAndLightVruVehicle(VruSubProfileBicyclist211),
+        motorcyclist(VruSubProfileMotorcyclist211),
+        animal(VruSubProfileAnimal211),
+    }
+    /// CDD v2.1.1 VruSizeClass.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruSizeClass211 {
+        unavailable = 0,
+        low = 1,
+        medium = 2,
+        high = 3,
+        max = 15,
+    }
+    /// CDD v2.1.1 VruSubProfileAnimal.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruSubProfileAnimal211 {
+        unavailable = 0,
+        #[rasn(identifier = "wild-animal")]
+        #[serde(rename = "wild-animal")]
+        wild_animal = 1,
+        #[rasn(identifier = "farm-animal")]
+        #[serde(rename = "farm-animal")]
+        farm_animal = 2,
+        #[rasn(identifier = "service-animal")]
+        #[serde(rename = "service-animal")]
+        service_animal = 3,
+        max = 15,
+    }
+    /// CDD v2.1.1 VruSubProfileBicyclist.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruSubProfileBicyclist211 {
+        unavailable = 0,
+        bicyclist = 1,
+        #[rasn(identifier = "wheelchair-user")]
+        #[serde(rename = "wheelchair-user")]
+        wheelchair_user = 2,
+        #[rasn(identifier = "horse-and-rider")]
+        #[serde(rename = "horse-and-rider")]
+        horse_and_rider = 3,
+        rollerskater = 4,
+        #[rasn(identifier = "e-scooter")]
+        #[serde(rename = "e-scooter")]
+        e_scooter = 5,
+        #[rasn(identifier = "personal-transporter")]
+        #[serde(rename = "personal-transporter")]
+        personal_transporter = 6,
+        pedelec = 7,
+        #[rasn(identifier = "speed-pedelec")]
+        #[serde(rename = "speed-pedelec")]
+        speed_pedelec = 8,
+        max = 15,
+    }
+    /// CDD v2.1.1 VruSubProfileMotorcyclist.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruSubProfileMotorcyclist211 {
+        unavailable = 0,
+        moped = 1,
+        motorcycle = 2,
+        #[rasn(identifier = "motorcycle-and-sidecar-right")]
+        #[serde(rename = "motorcycle-and-sidecar-right")]
+        motorcycle_and_sidecar_right = 3,
+        #[rasn(identifier = "motorcycle-and-sidecar-left")]
+        #[serde(rename = "motorcycle-and-sidecar-left")]
+        motorcycle_and_sidecar_left = 4,
+        max = 15,
+    }
+    /// CDD v2.1.1 VruSubProfilePedestrian.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum VruSubProfilePedestrian211 {
+        unavailable = 0,
+        #[rasn(identifier = "ordinary-pedestrian")]
+        #[serde(rename = "ordinary-pedestrian")]
+        ordinary_pedestrian = 1,
+        #[rasn(identifier = "road-worker")]
+        #[serde(rename = "road-worker")]
+        road_worker = 2,
+        #[rasn(identifier = "first-responder")]
+        #[serde(rename = "first-responder")]
+        first_responder = 3,
+        max = 15,
+    }
+}
+#[allow(
+    non_camel_case_types,
+    non_snake_case,
+    non_upper_case_globals,
+    unused,
+    clippy::too_many_arguments
+)]
+pub mod crossguard_cpm {
+    extern crate alloc;
+    use super::crossguard_cdd::{
+        AccelerationComponent, AccelerationConfidence, Altitude, CardinalNumber1B, CartesianAngle,
+        ConfidenceLevel, Identifier1B, Identifier2B, ItsPduHeader, Latitude, Longitude,
+        MapPosition, MapReference, ObjectDimensionValue, PosConfidenceEllipse, Shape, Speed,
+        SpeedConfidence, TimestampIts, TrafficParticipantType, VehicleWidth, VruClusterInformation,
+        VruProfileAndSubprofile, Wgs84Angle,
+    };
+    use core::borrow::Borrow;
+    use rasn::prelude::*;
+    use serde::{Deserialize, Serialize};
+    use std::sync::LazyLock;
+    /// CDD Acceleration3dWithConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    pub enum Acceleration3dWithConfidence {
+        polarAcceleration(AccelerationPolarWithZ),
+        cartesianAcceleration(AccelerationCartesian),
+    }
+    /// CDD AccelerationCartesian.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct AccelerationCartesian {
+        #[rasn(identifier = "xAcceleration")]
+        #[serde(rename = "xAcceleration")]
+        pub x_acceleration: AccelerationComponent,
+        #[rasn(identifier = "yAcceleration")]
+        #[serde(rename = "yAcceleration")]
+        pub y_acceleration: AccelerationComponent,
+        #[rasn(identifier = "zAcceleration")]
+        #[serde(rename = "zAcceleration")]
+        pub z_acceleration: Option<AccelerationComponent>,
+    }
+    impl AccelerationCartesian {
+        pub fn new(
+            x_acceleration: AccelerationComponent,
+            y_acceleration: AccelerationComponent,
+            z_acceleration: Option<AccelerationComponent>,
+        ) -> Self {
+            Self {
+                x_acceleration,
+                y_acceleration,
+                z_acceleration,
+            }
+        }
+    }
+    /// CDD AccelerationMagnitude.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct AccelerationMagnitude {
+        #[rasn(identifier = "accelerationMagnitudeValue")]
+        #[serde(rename = "accelerationMagnitudeValue")]
+        pub acceleration_magnitude_value: AccelerationMagnitudeValue,
+        #[rasn(identifier = "accelerationConfidence")]
+        #[serde(rename = "accelerationConfidence")]
+        pub acceleration_confidence: AccelerationConfidence,
+    }
+    impl AccelerationMagnitude {
+        pub fn new(
+            acceleration_magnitude_value: AccelerationMagnitudeValue,
+            acceleration_confidence: AccelerationConfidence,
+        ) -> Self {
+            Self {
+                acceleration_magnitude_value,
+                acceleration_confidence,
+            }
+        }
+    }
+    /// 0.1 m/s^2. CDD AccelerationMagnitudeValue.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=161"))]
+    pub struct AccelerationMagnitudeValue(pub u8);
+    /// CDD AccelerationPolarWithZ.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct AccelerationPolarWithZ {
+        #[rasn(identifier = "accelerationMagnitude")]
+        #[serde(rename = "accelerationMagnitude")]
+        pub acceleration_magnitude: AccelerationMagnitude,
+        #[rasn(identifier = "accelerationDirection")]
+        #[serde(rename = "accelerationDirection")]
+        pub acceleration_direction: CartesianAngle,
+        #[rasn(identifier = "zAcceleration")]
+        #[serde(rename = "zAcceleration")]
+        pub z_acceleration: Option<AccelerationComponent>,
+    }
+    impl AccelerationPolarWithZ {
+        pub fn new(
+            acceleration_magnitude: AccelerationMagnitude,
+            acceleration_direction: CartesianAngle,
+            z_acceleration: Option<AccelerationComponent>,
+        ) -> Self {
+            Self {
+                acceleration_magnitude,
+                acceleration_direction,
+                z_acceleration,
+            }
+        }
+    }
+    /// CDD AngularSpeedConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum AngularSpeedConfidence {
+        #[rasn(identifier = "degSec-01")]
+        #[serde(rename = "degSec-01")]
+        degSec_01 = 0,
+        #[rasn(identifier = "degSec-02")]
+        #[serde(rename = "degSec-02")]
+        degSec_02 = 1,
+        #[rasn(identifier = "degSec-05")]
+        #[serde(rename = "degSec-05")]
+        degSec_05 = 2,
+        #[rasn(identifier = "degSec-10")]
+        #[serde(rename = "degSec-10")]
+        degSec_10 = 3,
+        #[rasn(identifier = "degSec-20")]
+        #[serde(rename = "degSec-20")]
+        degSec_20 = 4,
+        #[rasn(identifier = "degSec-50")]
+        #[serde(rename = "degSec-50")]
+        degSec_50 = 5,
+        outOfRange = 6,
+        unavailable = 7,
+    }
+    /// CDD CardinalNumber3b.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=8"))]
+    pub struct CardinalNumber3b(pub u8);
+    /// CDD CartesianAngularVelocityComponent.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct CartesianAngularVelocityComponent {
+        pub value: CartesianAngularVelocityComponentValue,
+        pub confidence: AngularSpeedConfidence,
+    }
+    impl CartesianAngularVelocityComponent {
+        pub fn new(
+            value: CartesianAngularVelocityComponentValue,
+            confidence: AngularSpeedConfidence,
+        ) -> Self {
+            Self { value, confidence }
+        }
+    }
+    /// 1 degree/s. CDD CartesianAngularVelocityComponentValue, with its spelling of one name.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("-255..=256"))]
+    pub struct CartesianAngularVelocityComponentValue(pub i16);
+    /// 0.01 m. CDD CartesianCoordinateLarge.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("-131072..=131071"))]
+    pub struct CartesianCoordinateLarge(pub i32);
+    /// CDD CartesianCoordinateWithConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct CartesianCoordinateWithConfidence {
+        pub value: CartesianCoordinateLarge,
+        pub confidence: CoordinateConfidence,
+    }
+    impl CartesianCoordinateWithConfidence {
+        pub fn new(value: CartesianCoordinateLarge, confidence: CoordinateConfidence) -> Self {
+            Self { value, confidence }
+        }
+    }
+    /// CDD CartesianPosition3dWithConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct CartesianPosition3dWithConfidence {
+        #[rasn(identifier = "xCoordinate")]
+        #[serde(rename = "xCoordinate")]
+        pub x_coordinate: CartesianCoordinateWithConfidence,
+        #[rasn(identifier = "yCoordinate")]
+        #[serde(rename = "yCoordinate")]
+        pub y_coordinate: CartesianCoordinateWithConfidence,
+        #[rasn(identifier = "zCoordinate")]
+        #[serde(rename = "zCoordinate")]
+        pub z_coordinate: Option<CartesianCoordinateWithConfidence>,
+    }
+    impl CartesianPosition3dWithConfidence {
+        pub fn new(
+            x_coordinate: CartesianCoordinateWithConfidence,
+            y_coordinate: CartesianCoordinateWithConfidence,
+            z_coordinate: Option<CartesianCoordinateWithConfidence>,
+        ) -> Self {
+            Self {
+                x_coordinate,
+                y_coordinate,
+                z_coordinate,
+            }
+        }
+    }
+    /// Collective perception message: header protocolVersion 2, messageId 14. TS 103 324
+    /// CollectivePerceptionMessage.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct CollectivePerceptionMessage {
+        pub header: ItsPduHeader,
+        pub payload: CpmPayload,
+    }
+    impl CollectivePerceptionMessage {
+        pub fn new(header: ItsPduHeader, payload: CpmPayload) -> Self {
+            Self { header, payload }
+        }
+    }
+    /// 0.01 m. CDD CoordinateConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=4096"))]
+    pub struct CoordinateConfidence(pub u16);
+    /// 0.01. CDD CorrelationCellValue.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("-100..=101"))]
+    pub struct CorrelationCellValue(pub i8);
+    /// CDD CorrelationColumn.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=13", extensible))]
+    pub struct CorrelationColumn(pub SequenceOf<CorrelationCellValue>);
+    /// The octets of a container's own encoding.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct CpmContainerData(#[serde(with = "crate::asn1::view::octets")] pub OctetString);
+    /// What the container is: OriginatingVehicleContainer, OriginatingRsuContainer,
+    /// SensorInformationContainer, PerceptionRegionContainer, PerceivedObjectContainer. TS 103 324
+    /// CpmContainerId.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=16"))]
+    pub struct CpmContainerId(pub u8);
+    /// TS 103 324 CpmPayload.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct CpmPayload {
+        #[rasn(identifier = "managementContainer")]
+        #[serde(rename = "managementContainer")]
+        pub management_container: ManagementContainer,
+        #[rasn(identifier = "cpmContainers")]
+        #[serde(rename = "cpmContainers")]
+        pub cpm_containers: WrappedCpmContainers,
+    }
+    impl CpmPayload {
+        pub fn new(
+            management_container: ManagementContainer,
+            cpm_containers: WrappedCpmContainers,
+        ) -> Self {
+            Self {
+                management_container,
+                cpm_containers,
+            }
+        }
+    }
+    /// 1 ms, negative before the reference time. CDD DeltaTimeMilliSecondSigned.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("-2048..=2047"))]
+    pub struct DeltaTimeMilliSecondSigned(pub i16);
+    /// CDD EulerAnglesWithConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct EulerAnglesWithConfidence {
+        #[rasn(identifier = "zAngle")]
+        #[serde(rename = "zAngle")]
+        pub z_angle: CartesianAngle,
+        #[rasn(identifier = "yAngle")]
+        #[serde(rename = "yAngle")]
+        pub y_angle: Option<CartesianAngle>,
+        #[rasn(identifier = "xAngle")]
+        #[serde(rename = "xAngle")]
+        pub x_angle: Option<CartesianAngle>,
+    }
+    impl EulerAnglesWithConfidence {
+        pub fn new(
+            z_angle: CartesianAngle,
+            y_angle: Option<CartesianAngle>,
+            x_angle: Option<CartesianAngle>,
+        ) -> Self {
+            Self {
+                z_angle,
+                y_angle,
+                x_angle,
+            }
+        }
+    }
+    /// CDD LowerTriangularPositiveSemidefiniteMatrices.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=4"))]
+    pub struct LowerTriangularPositiveSemidefiniteMatrices(
+        pub SequenceOf<LowerTriangularPositiveSemidefiniteMatrix>,
+    );
+    /// CDD LowerTriangularPositiveSemidefiniteMatrix.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct LowerTriangularPositiveSemidefiniteMatrix {
+        #[rasn(identifier = "componentsIncludedIntheMatrix")]
+        #[serde(rename = "componentsIncludedIntheMatrix")]
+        pub components_included_inthe_matrix: MatrixIncludedComponents,
+        pub matrix: LowerTriangularPositiveSemidefiniteMatrixColumns,
+    }
+    impl LowerTriangularPositiveSemidefiniteMatrix {
+        pub fn new(
+            components_included_inthe_matrix: MatrixIncludedComponents,
+            matrix: LowerTriangularPositiveSemidefiniteMatrixColumns,
+        ) -> Self {
+            Self {
+                components_included_inthe_matrix,
+                matrix,
+            }
+        }
+    }
+    /// CDD LowerTriangularPositiveSemidefiniteMatrixColumns.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=13", extensible))]
+    pub struct LowerTriangularPositiveSemidefiniteMatrixColumns(pub SequenceOf<CorrelationColumn>);
+    /// Where and when the sender perceived. TS 103 324 ManagementContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct ManagementContainer {
+        #[rasn(identifier = "referenceTime")]
+        #[serde(rename = "referenceTime")]
+        pub reference_time: TimestampIts,
+        #[rasn(identifier = "referencePosition")]
+        #[serde(rename = "referencePosition")]
+        pub reference_position: ReferencePosition,
+        #[rasn(identifier = "segmentationInfo")]
+        #[serde(rename = "segmentationInfo")]
+        pub segmentation_info: Option<MessageSegmentationInfo>,
+        #[rasn(identifier = "messageRateRange")]
+        #[serde(rename = "messageRateRange")]
+        pub message_rate_range: Option<MessageRateRange>,
+    }
+    impl ManagementContainer {
+        pub fn new(
+            reference_time: TimestampIts,
+            reference_position: ReferencePosition,
+            segmentation_info: Option<MessageSegmentationInfo>,
+            message_rate_range: Option<MessageRateRange>,
+        ) -> Self {
+            Self {
+                reference_time,
+                reference_position,
+                segmentation_info,
+                message_rate_range,
+            }
+        }
+    }
+    /// CDD MatrixIncludedComponents.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("13", extensible))]
+    pub struct MatrixIncludedComponents(#[serde(with = "crate::asn1::view::bits")] pub BitString);
+    /// mantissa times 10 to the exponent, in Hz. CDD MessageRateHz.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct MessageRateHz {
+        #[rasn(value("1..=100"))]
+        pub mantissa: u8,
+        #[rasn(value("-5..=2"))]
+        pub exponent: i8,
+    }
+    impl MessageRateHz {
+        pub fn new(mantissa: u8, exponent: i8) -> Self {
+            Self { mantissa, exponent }
+        }
+    }
+    /// TS 103 324 MessageRateRange.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct MessageRateRange {
+        #[rasn(identifier = "messageRateMin")]
+        #[serde(rename = "messageRateMin")]
+        pub message_rate_min: MessageRateHz,
+        #[rasn(identifier = "messageRateMax")]
+        #[serde(rename = "messageRateMax")]
+        pub message_rate_max: MessageRateHz,
+    }
+    impl MessageRateRange {
+        pub fn new(message_rate_min: MessageRateHz, message_rate_max: MessageRateHz) -> Self {
+            Self {
+                message_rate_min,
+                message_rate_max,
+            }
+        }
+    }
+    /// CDD MessageSegmentationInfo.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct MessageSegmentationInfo {
+        #[rasn(identifier = "totalMsgNo")]
+        #[serde(rename = "totalMsgNo")]
+        pub total_msg_no: CardinalNumber3b,
+        #[rasn(identifier = "thisMsgNo")]
+        #[serde(rename = "thisMsgNo")]
+        pub this_msg_no: OrdinalNumber3b,
+    }
+    impl MessageSegmentationInfo {
+        pub fn new(total_msg_no: CardinalNumber3b, this_msg_no: OrdinalNumber3b) -> Self {
+            Self {
+                total_msg_no,
+                this_msg_no,
+            }
+        }
+    }
+    /// CDD ObjectClass. Of the vehicles only unknown, passengerCar to tram, and agricultural are meant,
+    /// which takes as many bits as 0..14.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    #[non_exhaustive]
+    pub enum ObjectClass {
+        #[rasn(value("0..=14"))]
+        vehicleSubClass(TrafficParticipantType),
+        vruSubClass(VruProfileAndSubprofile),
+        groupSubClass(VruClusterInformation),
+        otherSubClass(OtherSubClass),
+    }
+    /// What an object may be. CDD ObjectClassDescription.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=8"))]
+    pub struct ObjectClassDescription(pub SequenceOf<ObjectClassWithConfidence>);
+    /// CDD ObjectClassWithConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct ObjectClassWithConfidence {
+        #[rasn(identifier = "objectClass")]
+        #[serde(rename = "objectClass")]
+        pub object_class: ObjectClass,
+        pub confidence: ConfidenceLevel,
+    }
+    impl ObjectClassWithConfidence {
+        pub fn new(object_class: ObjectClass, confidence: ConfidenceLevel) -> Self {
+            Self {
+                object_class,
+                confidence,
+            }
+        }
+    }
+    /// Extent of an object. CDD ObjectDimension.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct ObjectDimension {
+        pub value: ObjectDimensionValue,
+        pub confidence: ObjectDimensionConfidence,
+    }
+    impl ObjectDimension {
+        pub fn new(value: ObjectDimensionValue, confidence: ObjectDimensionConfidence) -> Self {
+            Self { value, confidence }
+        }
+    }
+    /// 0.1 m. CDD ObjectDimensionConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=32"))]
+    pub struct ObjectDimensionConfidence(pub u8);
+    /// CDD ObjectPerceptionQuality.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=15"))]
+    pub struct ObjectPerceptionQuality(pub u8);
+    /// CDD OrdinalNumber3b.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=8"))]
+    pub struct OrdinalNumber3b(pub u8);
+    /// TS 103 324 OriginatingRsuContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct OriginatingRsuContainer {
+        #[rasn(identifier = "mapReference")]
+        #[serde(rename = "mapReference")]
+        pub map_reference: Option<MapReference>,
+    }
+    impl OriginatingRsuContainer {
+        pub fn new(map_reference: Option<MapReference>) -> Self {
+            Self { map_reference }
+        }
+    }
+    /// TS 103 324 OriginatingVehicleContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct OriginatingVehicleContainer {
+        #[rasn(identifier = "orientationAngle")]
+        #[serde(rename = "orientationAngle")]
+        pub orientation_angle: Wgs84Angle,
+        #[rasn(identifier = "pitchAngle")]
+        #[serde(rename = "pitchAngle")]
+        pub pitch_angle: Option<CartesianAngle>,
+        #[rasn(identifier = "rollAngle")]
+        #[serde(rename = "rollAngle")]
+        pub roll_angle: Option<CartesianAngle>,
+        #[rasn(identifier = "trailerDataSet")]
+        #[serde(rename = "trailerDataSet")]
+        pub trailer_data_set: Option<TrailerDataSet>,
+    }
+    impl OriginatingVehicleContainer {
+        pub fn new(
+            orientation_angle: Wgs84Angle,
+            pitch_angle: Option<CartesianAngle>,
+            roll_angle: Option<CartesianAngle>,
+            trailer_data_set: Option<TrailerDataSet>,
+        ) -> Self {
+            Self {
+                orientation_angle,
+                pitch_angle,
+                roll_angle,
+                trailer_data_set,
+            }
+        }
+    }
+    /// CDD OtherSubClass.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=255"))]
+    pub struct OtherSubClass(pub u8);
+    /// An object, relative to the reference position: x to the east, y to the north, z up. CDD
+    /// PerceivedObject.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct PerceivedObject {
+        #[rasn(identifier = "objectId")]
+        #[serde(rename = "objectId")]
+        pub object_id: Option<Identifier2B>,
+        #[rasn(identifier = "measurementDeltaTime")]
+        #[serde(rename = "measurementDeltaTime")]
+        pub measurement_delta_time: DeltaTimeMilliSecondSigned,
+        pub position: CartesianPosition3dWithConfidence,
+        pub velocity: Option<Velocity3dWithConfidence>,
+        pub acceleration: Option<Acceleration3dWithConfidence>,
+        pub angles: Option<EulerAnglesWithConfidence>,
+        #[rasn(identifier = "zAngularVelocity")]
+        #[serde(rename = "zAngularVelocity")]
+        pub z_angular_velocity: Option<CartesianAngularVelocityComponent>,
+        #[rasn(identifier = "lowerTriangularCorrelationMatrices")]
+        #[serde(rename = "lowerTriangularCorrelationMatrices")]
+        pub lower_triangular_correlation_matrices:
+            Option<LowerTriangularPositiveSemidefiniteMatrices>,
+        #[rasn(identifier = "objectDimensionZ")]
+        #[serde(rename = "objectDimensionZ")]
+        pub object_dimension_z: Option<ObjectDimension>,
+        #[rasn(identifier = "objectDimensionY")]
+        #[serde(rename = "objectDimensionY")]
+        pub object_dimension_y: Option<ObjectDimension>,
+        #[rasn(identifier = "objectDimensionX")]
+        #[serde(rename = "objectDimensionX")]
+        pub object_dimension_x: Option<ObjectDimension>,
+        #[rasn(value("0..=2047"), identifier = "objectAge")]
+        #[serde(rename = "objectAge")]
+        pub object_age: Option<DeltaTimeMilliSecondSigned>,
+        #[rasn(identifier = "objectPerceptionQuality")]
+        #[serde(rename = "objectPerceptionQuality")]
+        pub object_perception_quality: Option<ObjectPerceptionQuality>,
+        #[rasn(identifier = "sensorIdList")]
+        #[serde(rename = "sensorIdList")]
+        pub sensor_id_list: Option<SequenceOfIdentifier1B>,
+        pub classification: Option<ObjectClassDescription>,
+        #[rasn(identifier = "mapPosition")]
+        #[serde(rename = "mapPosition")]
+        pub map_position: Option<MapPosition>,
+    }
+    impl PerceivedObject {
+        pub fn new(
+            object_id: Option<Identifier2B>,
+            measurement_delta_time: DeltaTimeMilliSecondSigned,
+            position: CartesianPosition3dWithConfidence,
+            velocity: Option<Velocity3dWithConfidence>,
+            acceleration: Option<Acceleration3dWithConfidence>,
+            angles: Option<EulerAnglesWithConfidence>,
+            z_angular_velocity: Option<CartesianAngularVelocityComponent>,
+            lower_triangular_correlation_matrices: Option<
+                LowerTriangularPositiveSemidefiniteMatrices,
+            >,
+            object_dimension_z: Option<ObjectDimension>,
+            object_dimension_y: Option<ObjectDimension>,
+            object_dimension_x: Option<ObjectDimension>,
+            object_age: Option<DeltaTimeMilliSecondSigned>,
+            object_perception_quality: Option<ObjectPerceptionQuality>,
+            sensor_id_list: Option<SequenceOfIdentifier1B>,
+            classification: Option<ObjectClassDescription>,
+            map_position: Option<MapPosition>,
+        ) -> Self {
+            Self {
+                object_id,
+                measurement_delta_time,
+                position,
+                velocity,
+                acceleration,
+                angles,
+                z_angular_velocity,
+                lower_triangular_correlation_matrices,
+                object_dimension_z,
+                object_dimension_y,
+                object_dimension_x,
+                object_age,
+                object_perception_quality,
+                sensor_id_list,
+                classification,
+                map_position,
+            }
+        }
+    }
+    /// TS 103 324 PerceivedObjectContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct PerceivedObjectContainer {
+        #[rasn(identifier = "numberOfPerceivedObjects")]
+        #[serde(rename = "numberOfPerceivedObjects")]
+        pub number_of_perceived_objects: CardinalNumber1B,
+        #[rasn(identifier = "perceivedObjects")]
+        #[serde(rename = "perceivedObjects")]
+        pub perceived_objects: PerceivedObjects,
+    }
+    impl PerceivedObjectContainer {
+        pub fn new(
+            number_of_perceived_objects: CardinalNumber1B,
+            perceived_objects: PerceivedObjects,
+        ) -> Self {
+            Self {
+                number_of_perceived_objects,
+                perceived_objects,
+            }
+        }
+    }
+    /// TS 103 324 PerceivedObjectIds.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("0..=255", extensible))]
+    pub struct PerceivedObjectIds(pub SequenceOf<Identifier2B>);
+    /// TS 103 324 PerceivedObjects.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("0..=255", extensible))]
+    pub struct PerceivedObjects(pub SequenceOf<PerceivedObject>);
+    /// Where the sender sees how well. TS 103 324 PerceptionRegion.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct PerceptionRegion {
+        #[rasn(identifier = "measurementDeltaTime")]
+        #[serde(rename = "measurementDeltaTime")]
+        pub measurement_delta_time: DeltaTimeMilliSecondSigned,
+        #[rasn(identifier = "perceptionRegionConfidence")]
+        #[serde(rename = "perceptionRegionConfidence")]
+        pub perception_region_confidence: ConfidenceLevel,
+        #[rasn(identifier = "perceptionRegionShape")]
+        #[serde(rename = "perceptionRegionShape")]
+        pub perception_region_shape: Shape,
+        #[rasn(identifier = "shadowingApplies")]
+        #[serde(rename = "shadowingApplies")]
+        pub shadowing_applies: bool,
+        #[rasn(identifier = "sensorIdList")]
+        #[serde(rename = "sensorIdList")]
+        pub sensor_id_list: Option<SequenceOfIdentifier1B>,
+        #[rasn(identifier = "numberOfPerceivedObjects")]
+        #[serde(rename = "numberOfPerceivedObjects")]
+        pub number_of_perceived_objects: Option<CardinalNumber1B>,
+        #[rasn(identifier = "perceivedObjectIds")]
+        #[serde(rename = "perceivedObjectIds")]
+        pub perceived_object_ids: Option<PerceivedObjectIds>,
+    }
+    impl PerceptionRegion {
+        pub fn new(
+            measurement_delta_time: DeltaTimeMilliSecondSigned,
+            perception_region_confidence: ConfidenceLevel,
+            perception_region_shape: Shape,
+            shadowing_applies: bool,
+            sensor_id_list: Option<SequenceOfIdentifier1B>,
+            number_of_perceived_objects: Option<CardinalNumber1B>,
+            perceived_object_ids: Option<PerceivedObjectIds>,
+        ) -> Self {
+            Self {
+                measurement_delta_time,
+                perception_region_confidence,
+                perception_region_shape,
+                shadowing_applies,
+                sensor_id_list,
+                number_of_perceived_objects,
+                perceived_object_ids,
+            }
+        }
+    }
+    /// TS 103 324 PerceptionRegionContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=256", extensible))]
+    pub struct PerceptionRegionContainer(pub SequenceOf<PerceptionRegion>);
+    /// Position with confidence under its older field names. CDD ReferencePosition.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct ReferencePosition {
+        pub latitude: Latitude,
+        pub longitude: Longitude,
+        #[rasn(identifier = "positionConfidenceEllipse")]
+        #[serde(rename = "positionConfidenceEllipse")]
+        pub position_confidence_ellipse: PosConfidenceEllipse,
+        pub altitude: Altitude,
+    }
+    impl ReferencePosition {
+        pub fn new(
+            latitude: Latitude,
+            longitude: Longitude,
+            position_confidence_ellipse: PosConfidenceEllipse,
+            altitude: Altitude,
+        ) -> Self {
+            Self {
+                latitude,
+                longitude,
+                position_confidence_ellipse,
+                altitude,
+            }
+        }
+    }
+    /// A sensor of the sender. TS 103 324 SensorInformation.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct SensorInformation {
+        #[rasn(identifier = "sensorId")]
+        #[serde(rename = "sensorId")]
+        pub sensor_id: Identifier1B,
+        #[rasn(identifier = "sensorType")]
+        #[serde(rename = "sensorType")]
+        pub sensor_type: SensorType,
+        #[rasn(identifier = "perceptionRegionShape")]
+        #[serde(rename = "perceptionRegionShape")]
+        pub perception_region_shape: Option<Shape>,
+        #[rasn(identifier = "perceptionRegionConfidence")]
+        #[serde(rename = "perceptionRegionConfidence")]
+        pub perception_region_confidence: Option<ConfidenceLevel>,
+        #[rasn(identifier = "shadowingApplies")]
+        #[serde(rename = "shadowingApplies")]
+        pub shadowing_applies: bool,
+    }
+    impl SensorInformation {
+        pub fn new(
+            sensor_id: Identifier1B,
+            sensor_type: SensorType,
+            perception_region_shape: Option<Shape>,
+            perception_region_confidence: Option<ConfidenceLevel>,
+            shadowing_applies: bool,
+        ) -> Self {
+            Self {
+                sensor_id,
+                sensor_type,
+                perception_region_shape,
+                perception_region_confidence,
+                shadowing_applies,
+            }
+        }
+    }
+    /// TS 103 324 SensorInformationContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=128", extensible))]
+    pub struct SensorInformationContainer(pub SequenceOf<SensorInformation>);
+    /// CDD SensorType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=31"))]
+    pub struct SensorType(pub u8);
+    /// CDD SequenceOfIdentifier1B.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=128", extensible))]
+    pub struct SequenceOfIdentifier1B(pub SequenceOf<Identifier1B>);
+    /// 0.1 m. CDD StandardLength1B.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=255"))]
+    pub struct StandardLength1B(pub u8);
+    /// A trailer of the sender. CDD TrailerData.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct TrailerData {
+        #[rasn(identifier = "refPointId")]
+        #[serde(rename = "refPointId")]
+        pub ref_point_id: Identifier1B,
+        #[rasn(identifier = "hitchPointOffset")]
+        #[serde(rename = "hitchPointOffset")]
+        pub hitch_point_offset: StandardLength1B,
+        #[rasn(identifier = "frontOverhang")]
+        #[serde(rename = "frontOverhang")]
+        pub front_overhang: Option<StandardLength1B>,
+        #[rasn(identifier = "rearOverhang")]
+        #[serde(rename = "rearOverhang")]
+        pub rear_overhang: Option<StandardLength1B>,
+        #[rasn(identifier = "trailerWidth")]
+        #[serde(rename = "trailerWidth")]
+        pub trailer_width: Option<VehicleWidth>,
+        #[rasn(identifier = "hitchAngle")]
+        #[serde(rename = "hitchAngle")]
+        pub hitch_angle: CartesianAngle,
+    }
+    impl TrailerData {
+        pub fn new(
+            ref_point_id: Identifier1B,
+            hitch_point_offset: StandardLength1B,
+            front_overhang: Option<StandardLength1B>,
+            rear_overhang: Option<StandardLength1B>,
+            trailer_width: Option<VehicleWidth>,
+            hitch_angle: CartesianAngle,
+        ) -> Self {
+            Self {
+                ref_point_id,
+                hitch_point_offset,
+                front_overhang,
+                rear_overhang,
+                trailer_width,
+                hitch_angle,
+            }
+        }
+    }
+    /// TS 103 324 TrailerDataSet.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=8", extensible))]
+    pub struct TrailerDataSet(pub SequenceOf<TrailerData>);
+    /// CDD Velocity3dWithConfidence.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(choice, automatic_tags)]
+    pub enum Velocity3dWithConfidence {
+        polarVelocity(VelocityPolarWithZ),
+        cartesianVelocity(VelocityCartesian),
+    }
+    /// CDD VelocityCartesian.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct VelocityCartesian {
+        #[rasn(identifier = "xVelocity")]
+        #[serde(rename = "xVelocity")]
+        pub x_velocity: VelocityComponent,
+        #[rasn(identifier = "yVelocity")]
+        #[serde(rename = "yVelocity")]
+        pub y_velocity: VelocityComponent,
+        #[rasn(identifier = "zVelocity")]
+        #[serde(rename = "zVelocity")]
+        pub z_velocity: Option<VelocityComponent>,
+    }
+    impl VelocityCartesian {
+        pub fn new(
+            x_velocity: VelocityComponent,
+            y_velocity: VelocityComponent,
+            z_velocity: Option<VelocityComponent>,
+        ) -> Self {
+            Self {
+                x_velocity,
+                y_velocity,
+                z_velocity,
+            }
+        }
+    }
+    /// CDD VelocityComponent.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct VelocityComponent {
+        pub value: VelocityComponentValue,
+        pub confidence: SpeedConfidence,
+    }
+    impl VelocityComponent {
+        pub fn new(value: VelocityComponentValue, confidence: SpeedConfidence) -> Self {
+            Self { value, confidence }
+        }
+    }
+    /// 0.01 m/s. CDD VelocityComponentValue.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("-16383..=16383"))]
+    pub struct VelocityComponentValue(pub i16);
+    /// CDD VelocityPolarWithZ.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct VelocityPolarWithZ {
+        #[rasn(identifier = "velocityMagnitude")]
+        #[serde(rename = "velocityMagnitude")]
+        pub velocity_magnitude: Speed,
+        #[rasn(identifier = "velocityDirection")]
+        #[serde(rename = "velocityDirection")]
+        pub velocity_direction: CartesianAngle,
+        #[rasn(identifier = "zVelocity")]
+        #[serde(rename = "zVelocity")]
+        pub z_velocity: Option<VelocityComponent>,
+    }
+    impl VelocityPolarWithZ {
+        pub fn new(
+            velocity_magnitude: Speed,
+            velocity_direction: CartesianAngle,
+            z_velocity: Option<VelocityComponent>,
+        ) -> Self {
+            Self {
+                velocity_magnitude,
+                velocity_direction,
+                z_velocity,
+            }
+        }
+    }
+    /// A container and its number. TS 103 324 WrappedCpmContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct WrappedCpmContainer {
+        #[rasn(identifier = "containerId")]
+        #[serde(rename = "containerId")]
+        pub container_id: CpmContainerId,
+        #[rasn(identifier = "containerData")]
+        #[serde(rename = "containerData")]
+        pub container_data: CpmContainerData,
+    }
+    impl WrappedCpmContainer {
+        pub fn new(container_id: CpmContainerId, container_data: CpmContainerData) -> Self {
+            Self {
+                container_id,
+                container_data,
+            }
+        }
+    }
+    /// TS 103 324 WrappedCpmContainers.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=8", extensible))]
+    pub struct WrappedCpmContainers(pub SequenceOf<WrappedCpmContainer>);
 }
 #[allow(
     non_camel_case_types,

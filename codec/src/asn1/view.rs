@@ -1,4 +1,4 @@
-//! Serde views of types that rasn gives none: bit strings as hexadecimal text, as in the JSON encoding
+//! Serde views of types that rasn gives none: bit and octet strings as hexadecimal text, as in the JSON encoding
 //! rules (ITU-T X.697), and extensible integers as numbers.
 
 use std::fmt::Write as _;
@@ -101,6 +101,29 @@ pub(super) mod bits {
             return Err(D::Error::custom("the bit string is too long"));
         }
         Ok(super::from_hex(&value, length)?.collect())
+    }
+}
+
+/// An octet string: `"0280"`.
+pub(super) mod octets {
+    use rasn::types::OctetString;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(in crate::asn1) fn serialize<S: Serializer>(
+        octets: &OctetString,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let bits =
+            (octets.iter()).flat_map(|octet| (0..8).rev().map(move |bit| octet >> bit & 1 == 1));
+        super::to_hex(bits).serialize(serializer)
+    }
+
+    pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<OctetString, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let bits: rasn::types::BitString = super::from_hex(&text, text.len() * 4)?.collect();
+        Ok(bits.into_vec().into())
     }
 }
 

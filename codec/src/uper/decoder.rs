@@ -1,14 +1,14 @@
 //! The strict UPER decoder behind the `rasn::Decode` implementations of the generated types.
 //!
 //! It knows the part of X.691 that the modules of `asn1/*.asn` use: bounded integers, BOOLEAN, NULL,
-//! ENUMERATED, BIT STRING of fixed size, SEQUENCE, SEQUENCE OF and CHOICE. Every other type is
+//! ENUMERATED, BIT STRING, OCTET STRING, SEQUENCE, SEQUENCE OF and CHOICE. Every other type is
 //! [`Fault::Unsupported`].
 
 use rasn::types::constraints::{Bounded, Extensible, Size};
 use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
 use rasn::{Codec, Decode};
 
-use super::source::{Rejected, Source};
+use super::source::{Additions, Rejected, Source};
 use crate::core::Fault;
 
 type Result<T> = std::result::Result<T, Rejected>;
@@ -20,6 +20,10 @@ pub(super) struct Decoder<'s, 'a> {
     presence: u64,
     /// How many of them are yet to come.
     optional_left: u32,
+    /// Whether the extension bit of the SEQUENCE is set.
+    is_extended: bool,
+    /// Its extension additions, once the root has been read.
+    additions: Option<Additions>,
 }
 
 /// How many bits a number of this many values has.
@@ -36,6 +40,8 @@ impl<'s, 'a> Decoder<'s, 'a> {
             source,
             presence: 0,
             optional_left: 0,
+            is_extended: false,
+            additions: None,
         }
     }
 
@@ -183,10 +189,6 @@ impl rasn::Decoder for Decoder<'_, '_> {
         F: FnOnce(&mut Self) -> Result<D>,
     {
         const {
-            assert!(
-                EC == 0,
-                "extension additions of a SEQUENCE are yet to be decoded"
-            );
             assert!(D::FIELDS.number_of_optional_and_default_fields() <= 64);
         }
         let marker = self.source.position();
@@ -198,10 +200,16 @@ impl rasn::Decoder for Decoder<'_, '_> {
             source: self.source,
             presence,
             optional_left,
+            is_extended,
+            additions: None,
         };
         let value = decode_fn(&mut components)?;
         if is_extended {
-            self.source.skip_additions(marker)?;
+            let additions = match components.additions {
+                Some(additions) => additions,
+                None => self.source.additions()?,
+            };
+            self.source.skip_additions(marker, EC, additions)?;
         }
         Ok(value)
     }
@@ -309,11 +317,16 @@ impl rasn::Decoder for Decoder<'_, '_> {
         self.unsupported()
     }
 
-    fn decode_octet_string<'b, T>(&'b mut self, _: Tag, _: &Constraints) -> Result<T>
+    /// X.691 clause 17.
+    fn decode_octet_string<'b, T>(&'b mut self, _: Tag, constraints: &Constraints) -> Result<T>
     where
         T: From<&'b [u8]> + From<Vec<u8>>,
     {
-        self.unsupported()
+        let length = match constraints.size() {
+            Some(size) => self.size(Some(size))?,
+            None => self.source.length()?,
+        };
+        self.source.octets(length).map(T::from)
     }
 
     fn decode_set_of<D: Decode + Eq + std::hash::Hash>(
@@ -341,18 +354,40 @@ impl rasn::Decoder for Decoder<'_, '_> {
 
     fn decode_extension_addition_with_explicit_tag_and_constraints<D: Decode>(
         &mut self,
-        _: Tag,
-        _: &Constraints,
+        tag: Tag,
+        constraints: &Constraints,
     ) -> Result<Option<D>> {
-        self.unsupported()
+        self.decode_extension_addition_with_tag_and_constraints(tag, constraints)
     }
 
+    /// X.691 clause 19.9.
     fn decode_extension_addition_with_tag_and_constraints<D: Decode>(
         &mut self,
         _: Tag,
-        _: &Constraints,
+        constraints: &Constraints,
     ) -> Result<Option<D>> {
-        self.unsupported()
+        if !self.is_extended {
+            return Ok(None);
+        }
+        let mut additions = match self.additions.take() {
+            Some(additions) => additions,
+            None => self.source.additions()?,
+        };
+        let is_present = additions.next_is_present();
+        self.additions = Some(additions);
+        if !is_present {
+            return Ok(None);
+        }
+        let mut addition = Decoder::new(self.source);
+        let read = || {
+            // rasn gives no constraints for those that the type of the addition has itself.
+            if constraints.size().is_none() && constraints.value().is_none() {
+                D::decode(&mut addition)
+            } else {
+                D::decode_with_constraints(&mut addition, constraints)
+            }
+        };
+        self.source.open_type(read).map(Some)
     }
 
     fn decode_extension_addition_group<const RC: usize, const EC: usize, D>(

@@ -18,19 +18,49 @@ pub(super) struct Source<'a> {
     end: Cell<usize>,
     /// What is wrong, and at which bit.
     fault: Cell<Option<(usize, Fault)>>,
-    /// Extension additions that were skipped, in the order of their bits.
-    skipped: RefCell<Vec<Skipped>>,
+    /// How many SEQUENCEs had extension additions that were skipped.
+    extended: Cell<usize>,
+    /// What a sender without these additions would have sent in their place.
+    edits: RefCell<Vec<Edit>>,
 }
 
-/// The unknown extension additions of one SEQUENCE, by their bits.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Skipped {
-    /// The extension bit.
-    pub(super) marker: usize,
-    /// The first bit behind the root.
+/// Bits of the message, and what stands there without unknown extension additions.
+#[derive(Clone, Debug)]
+pub(super) struct Edit {
+    /// The first bit.
     pub(super) start: usize,
-    /// The bit behind the last addition.
+    /// The bit behind the last one.
     pub(super) end: usize,
+    /// The bits in their place.
+    pub(super) instead: Vec<bool>,
+}
+
+/// The extension additions of one SEQUENCE: which of them are present.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Additions {
+    /// Where their number stands.
+    start: usize,
+    /// The first bit behind their presence bits.
+    end: usize,
+    /// How many there may be.
+    count: usize,
+    /// How many of them have been asked for.
+    next: usize,
+    /// Presence bits, the first addition highest of `count`.
+    presence: u64,
+}
+
+impl Additions {
+    /// Whether the next one is present.
+    pub(super) fn next_is_present(&mut self) -> bool {
+        let is_present = self.is_present(self.next);
+        self.next += 1;
+        is_present
+    }
+
+    fn is_present(&self, index: usize) -> bool {
+        index < self.count && self.presence >> (self.count - 1 - index) & 1 == 1
+    }
 }
 
 impl<'a> Source<'a> {
@@ -40,7 +70,8 @@ impl<'a> Source<'a> {
             position: Cell::new(0),
             end: Cell::new(octets.len() * 8),
             fault: Cell::new(None),
-            skipped: RefCell::new(Vec::new()),
+            extended: Cell::new(0),
+            edits: RefCell::new(Vec::new()),
         }
     }
 
@@ -86,13 +117,25 @@ impl<'a> Source<'a> {
         self.bits(1).map(|bit| bit == 1)
     }
 
+    /// The next octets, which need not begin at an octet.
+    pub(super) fn octets(&self, count: usize) -> Result<Vec<u8>, Rejected> {
+        if count * 8 > self.left() {
+            return Err(self.reject_at(self.end.get(), Fault::Truncated));
+        }
+        let octet = |_| {
+            let octet = self.bits(8)?;
+            Ok(u8::try_from(octet).unwrap_or(u8::MAX))
+        };
+        (0..count).map(octet).collect()
+    }
+
     fn bit_at(&self, bit: usize) -> bool {
         self.octets[bit / 8] >> (7 - bit % 8) & 1 == 1
     }
 
     /// A length determinant in octets (X.691 clause 11.9), which no message can exceed in its
     /// two shorter forms.
-    fn length(&self) -> Result<usize, Rejected> {
+    pub(super) fn length(&self) -> Result<usize, Rejected> {
         let start = self.position();
         let mut length = self.bits(8)?;
         if length >= 0x80 {
@@ -160,33 +203,78 @@ impl<'a> Source<'a> {
         Ok(usize::try_from(self.bits(6)?).ok())
     }
 
-    /// Skips the extension additions of a SEQUENCE (X.691 clause 19.7 to 19.9), none of which is
-    /// known. `marker` is its extension bit.
-    pub(super) fn skip_additions(&self, marker: usize) -> Result<(), Rejected> {
+    /// Which extension additions a SEQUENCE has (X.691 clause 19.7 and 19.8).
+    pub(super) fn additions(&self) -> Result<Additions, Rejected> {
         let start = self.position();
         let Some(last) = self.small_number()? else {
             return Err(self.reject_at(start, Fault::TooManyAdditions));
         };
         let bitmap_start = self.position();
-        let mut present = 0;
-        for _ in 0..=last {
-            present += usize::from(self.bit()?);
-        }
-        if present == 0 {
+        #[expect(clippy::cast_possible_truncation, reason = "at most 64")]
+        let presence = self.bits(last as u32 + 1)?;
+        if presence == 0 {
             return Err(self.reject_at(bitmap_start, Fault::NoAddition));
         }
-        for _ in 0..present {
+        Ok(Additions {
+            start,
+            end: self.position(),
+            count: last + 1,
+            next: 0,
+            presence,
+        })
+    }
+
+    /// Skips the extension additions of a SEQUENCE behind those that are known and have been read.
+    /// `marker` is its extension bit.
+    pub(super) fn skip_additions(
+        &self,
+        marker: usize,
+        known: usize,
+        additions: Additions,
+    ) -> Result<(), Rejected> {
+        let start = self.position();
+        let unknown = (known..additions.count).filter(|&index| additions.is_present(index));
+        let unknown = unknown.count();
+        for _ in 0..unknown {
             self.skip_open_type()?;
         }
         let end = self.position();
-        self.skipped
-            .borrow_mut()
-            .push(Skipped { marker, start, end });
+        let known: Vec<bool> = (0..known)
+            .map(|index| additions.is_present(index))
+            .collect();
+        let mut edits = self.edits.borrow_mut();
+        let mut replace = |start, end, instead| {
+            edits.push(Edit {
+                start,
+                end,
+                instead,
+            });
+        };
+        if unknown > 0 {
+            self.extended.set(self.extended.get() + 1);
+        }
+        if known.contains(&true) {
+            // The number of known ones in the place of that of the sender's.
+            let last = known.len() - 1;
+            let number = (0..7).rev().map(|bit| last >> bit & 1 == 1);
+            replace(
+                additions.start,
+                additions.end,
+                number.chain(known).collect(),
+            );
+            replace(start, end, Vec::new());
+        } else {
+            replace(marker, marker + 1, vec![false]);
+            replace(additions.start, end, Vec::new());
+        }
         Ok(())
     }
 
-    /// The extension additions that were skipped, in the order of their bits.
-    pub(super) fn into_skipped(self) -> Vec<Skipped> {
-        self.skipped.into_inner()
+    /// How many SEQUENCEs had additions that were skipped, and what stands there without them, in the
+    /// order of the bits.
+    pub(super) fn into_edits(self) -> (usize, Vec<Edit>) {
+        let mut edits = self.edits.into_inner();
+        edits.sort_by_key(|edit| (edit.start, edit.end));
+        (self.extended.get(), edits)
     }
 }

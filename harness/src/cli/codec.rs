@@ -3,14 +3,16 @@
 use std::io::{IsTerminal, Read, Write};
 use std::path::PathBuf;
 
-use crossguard_codec::{Identifiers, Message};
+use crossguard_codec::geonet::{BasicHeader, Headers};
+use crossguard_codec::its::ItsMessage;
+use crossguard_codec::{Dictionary, Identifiers};
 use serde::Serialize;
 
 use super::{Failure, print, print_json};
 
 #[derive(clap::Subcommand)]
 pub(super) enum Command {
-    /// Print a message as JSON.
+    /// Print a message (RAM, RMCM, CAM, VAM, CPM) or a `GeoNetworking` packet with one as JSON.
     #[command(after_help = EXAMPLES)]
     Decode {
         /// Read the message from this file; from standard input by default.
@@ -22,8 +24,11 @@ pub(super) enum Command {
         /// The input is the octets themselves, not hexadecimal digits.
         #[arg(long, conflicts_with = "hex")]
         binary: bool,
+        /// The common data dictionary that VAM and CPM are built on; no header tells.
+        #[arg(long, value_enum, default_value = "2.4.1")]
+        dictionary: Version,
     },
-    /// Print the octets of a message that is given as JSON, in hexadecimal digits.
+    /// Print the octets of a message or packet that is given as JSON, in hexadecimal digits.
     Encode {
         /// Read the JSON from this file; from standard input by default.
         #[arg(value_name = "FILE")]
@@ -32,6 +37,29 @@ pub(super) enum Command {
         #[arg(long)]
         binary: bool,
     },
+}
+
+/// A version of TS 102 894-2.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(super) enum Version {
+    /// TS 103 300-3 v2.2.1, TS 103 324 v2.1.1 as published.
+    #[value(name = "2.1.1")]
+    V2_1_1,
+    /// TS 103 300-3 v2.3.1; the same bits as 2.2.1 and 2.3.1.
+    #[value(name = "2.4.1")]
+    V2_4_1,
+}
+
+impl Version {
+    pub(super) fn identifiers(self) -> Identifiers {
+        Identifiers {
+            dictionary: match self {
+                Self::V2_1_1 => Dictionary::V2_1_1,
+                Self::V2_4_1 => Dictionary::V2_4_1,
+            },
+            ..Identifiers::default()
+        }
+    }
 }
 
 const EXAMPLES: &str = "Examples:\n  crossguard codec decode --hex 01f0...\n  \
@@ -45,7 +73,12 @@ struct Decoded {
     /// How many parts had extension additions that this version does not know.
     #[serde(skip_serializing_if = "is_zero")]
     extended: usize,
-    message: Message,
+    /// The standard that the message is of.
+    standard: &'static str,
+    /// The headers of the packet, if it was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    packet: Option<Headers>,
+    message: ItsMessage,
 }
 
 #[expect(
@@ -58,50 +91,75 @@ const fn is_zero(n: &usize) -> bool {
 
 pub(super) fn run(command: &Command) -> Result<(), Failure> {
     match command {
-        Command::Decode { file, hex, binary } => {
+        Command::Decode {
+            file,
+            hex,
+            binary,
+            dictionary,
+        } => {
             let octets = match hex {
                 Some(digits) => from_hex(digits.as_bytes())?,
                 None if *binary => read(file.as_ref())?,
                 None => from_hex(&read(file.as_ref())?)?,
             };
-            decode(&octets)
+            decode(&dictionary.identifiers(), &octets)
         }
         Command::Encode { file, binary } => encode(&read(file.as_ref())?, *binary),
     }
 }
 
-fn decode(octets: &[u8]) -> Result<(), Failure> {
-    let received = Message::decode(&Identifiers::default(), octets).map_err(Failure::input)?;
-    let (octets, extended, message) = (octets.len(), received.extended, received.message);
+fn decode(identifiers: &Identifiers, octets: &[u8]) -> Result<(), Failure> {
+    // No message has the protocolVersion that the first octet of a packet would be.
+    let (packet, message) = match BasicHeader::decode(octets) {
+        Ok(_) => {
+            let (headers, message) = Headers::decode(octets)
+                .map_err(|error| Failure::Input(format!("a GeoNetworking packet: {error}")))?;
+            (Some(headers), message)
+        }
+        Err(_) => (None, octets),
+    };
+    let received = ItsMessage::decode(identifiers, message).map_err(Failure::input)?;
     print_json(&Decoded {
-        octets,
-        extended,
-        message,
+        octets: octets.len(),
+        extended: received.extended,
+        standard: received.message.standard(),
+        packet,
+        message: received.message,
     })
 }
 
 fn encode(json: &[u8], binary: bool) -> Result<(), Failure> {
-    let octets = message_of(json)?
-        .encode(&Identifiers::default())
-        .map_err(Failure::input)?;
+    let (packet, message) = message_of(json)?;
+    let message = message.encode(&Identifiers::default());
+    let mut octets = message.map_err(Failure::input)?;
+    if let Some(packet) = packet {
+        let headers = packet.encode(octets.len()).map_err(Failure::input)?;
+        octets.splice(..0, headers.as_ref().iter().copied());
+    }
     if binary {
         return Ok(std::io::stdout().write_all(&octets)?);
     }
     print(hex::encode(octets))
 }
 
-/// The message in JSON, alone or as `decode` prints it.
-fn message_of(json: &[u8]) -> Result<Message, Failure> {
+/// The message in JSON, alone or as `decode` prints it, with the headers of its packet.
+fn message_of(json: &[u8]) -> Result<(Option<Headers>, ItsMessage), Failure> {
     let value: serde_json::Value = serde_json::from_slice(json)
         .map_err(|error| Failure::Input(format!("not JSON: {error}")))?;
-    let message = match value {
+    let (packet, message) = match value {
         serde_json::Value::Object(mut object) if object.contains_key("message") => {
-            object.remove("message").unwrap_or_default()
+            let message = object.remove("message").unwrap_or_default();
+            (object.remove("packet"), message)
         }
-        other => other,
+        other => (None, other),
     };
-    serde_json::from_value(message)
-        .map_err(|error| Failure::Input(format!("not a message: {error}")))
+    let packet = packet
+        .map(serde_json::from_value)
+        .transpose()
+        .map_err(|error| Failure::Input(format!("not the headers of a packet: {error}")))?;
+    let message = serde_json::from_value(message)
+        .map_err(|error| Failure::Input(format!("not a message: {error}")))?;
+    Ok((packet, message))
 }
 
 fn read(file: Option<&PathBuf>) -> Result<Vec<u8>, Failure> {
