@@ -20,7 +20,10 @@ use crossguard_protocol::{
 };
 
 use crate::counters::{Cause, Counters};
-use crate::generation::{Generation, INTERVAL_MIN_MS, Trigger};
+use crate::ras::clustering::{self, Clustering, PerceivedVru};
+use crate::ras::generation::{
+    Generation, INTERVAL_MAX_MS, INTERVAL_MIN_MS, Limits, Status, Trigger,
+};
 use crate::station::Station;
 use crate::wire::{Heard, MessageKind, Wire};
 
@@ -49,6 +52,9 @@ pub enum Stimulus<'a> {
         /// Where and how.
         parameters: TaskParameters,
     },
+    /// All road users that the robot's sensors have now. Places are metres to the east and to the
+    /// north of the robot's reference position.
+    Perceived(&'a [PerceivedVru]),
     /// Nothing but that time has passed.
     Time,
 }
@@ -131,6 +137,12 @@ pub struct Endpoint {
     generation: Generation,
     /// Parameters of each follower's newest command, for its repetition.
     orders: BTreeMap<StationId, TaskParameters>,
+    /// Who is around the robot.
+    clustering: Clustering,
+    /// RAM sent; they announce one cluster after the other.
+    rams_sent: usize,
+    /// Shortest interval that congestion control allows, in ms.
+    congestion_ms: u64,
     counters: Counters,
 }
 
@@ -138,6 +150,8 @@ impl Endpoint {
     /// The endpoint of a robot that has just booted, at `now_ms`.
     #[must_use]
     pub fn new(robot: Robot, config: Config, wire: Wire, now_ms: u64) -> Self {
+        let seed = cluster_seed(&robot);
+        let clustering = Clustering::new(clustering::Settings::default(), seed);
         Self {
             station: Station::new(&wire.identifiers, robot.station()),
             robot,
@@ -146,8 +160,21 @@ impl Endpoint {
             told_ms: now_ms,
             generation: Generation::default(),
             orders: BTreeMap::new(),
+            clustering,
+            rams_sent: 0,
+            congestion_ms: INTERVAL_MIN_MS,
             counters: Counters::default(),
         }
+    }
+
+    /// Says how people around the robot are clustered; those known so far are forgotten.
+    pub fn cluster_by(&mut self, settings: clustering::Settings) {
+        self.clustering = Clustering::new(settings, cluster_seed(&self.robot));
+    }
+
+    /// Congestion control says that two RAM outside of a session are at least so many ms apart.
+    pub fn hold_back(&mut self, congestion_ms: u64) {
+        self.congestion_ms = congestion_ms;
     }
 
     /// The protocol state.
@@ -215,6 +242,10 @@ impl Endpoint {
                 parameters,
             } => {
                 self.order(&mut turn, follower, task, parameters);
+            }
+            Stimulus::Perceived(people) => {
+                let now_ms = turn.moment.now_ms;
+                self.clustering.perceive(now_ms, [0.0, 0.0], people);
             }
             Stimulus::Time => {}
         }
@@ -340,7 +371,10 @@ impl Endpoint {
         });
         for output in outputs.iter() {
             match *output {
-                Output::SendRam => self.send_ram(turn, Trigger::Protocol),
+                Output::SendRam => {
+                    let event = self.generation.event(&self.status(&turn.state));
+                    self.send_ram(turn, event.unwrap_or(Trigger::Heartbeat));
+                }
                 Output::SendRmcm(rmcm) => self.send_rmcm(turn, rmcm),
                 Output::Ignored(reason) => self.counters.count(Cause::Ignored(reason)),
                 output => {
@@ -355,14 +389,20 @@ impl Endpoint {
     fn send_ram(&mut self, turn: &mut Turn, trigger: Trigger) {
         let now_ms = turn.moment.now_ms;
         let low_frequency = self.generation.low_frequency_due(now_ms);
+        let clusters = self.clustering.clusters();
+        let cluster = clusters.get(self.rams_sent % clusters.len().max(1));
+        let status = self.status(&turn.state);
         let octets = self.wire.ram(
             &turn.state,
-            &self.robot.ram(),
-            self.robot.availability(),
+            &status.view,
+            status.availability,
             turn.generation_delta_time(),
             low_frequency,
+            cluster,
         );
-        self.generation.sent(now_ms, &turn.state, low_frequency);
+        self.rams_sent = self.rams_sent.wrapping_add(1);
+        self.generation
+            .sent(now_ms, trigger, &turn.state, status, low_frequency);
         self.transmit(turn, MessageKind::Ram, trigger, octets);
     }
 
@@ -414,10 +454,29 @@ impl Endpoint {
 
     /// Outside of a session, sends a RAM when the generation rules say so.
     fn generate(&mut self, turn: &mut Turn) {
-        if self.robot.next_ram().is_none()
-            && let Some(trigger) = self.generation.trigger(turn.moment.now_ms, &turn.state)
+        if self.robot.next_ram().is_some() {
+            return;
+        }
+        let (now_ms, status) = (turn.moment.now_ms, self.status(&turn.state));
+        let limits = Limits {
+            congestion_ms: self.congestion_ms,
+            // Every cluster is announced about once a second.
+            max_ms: INTERVAL_MAX_MS / (self.clustering.count() as u64).max(1),
+        };
+        if let Some(trigger) = self
+            .generation
+            .trigger(now_ms, limits, &turn.state, &status)
         {
             self.send_ram(turn, trigger);
+        }
+    }
+
+    /// What a RAM says now that events are about.
+    fn status(&self, state: &RobotState) -> Status {
+        Status {
+            view: self.robot.ram(),
+            availability: self.robot.availability(),
+            progression: state.task_progression,
         }
     }
 }
@@ -438,6 +497,11 @@ impl Turn {
     fn ego(&self) -> EgoPosition {
         EgoPosition::of(&self.state, self.moment.timestamp_its)
     }
+}
+
+/// Ids of clusters differ from robot to robot and from boot to boot.
+fn cluster_seed(robot: &Robot) -> u64 {
+    u64::from(robot.station().0) << 16 ^ u64::from(robot.boot())
 }
 
 /// What an output means to the application.

@@ -9,13 +9,15 @@
 //!                                                ▼             │        │
 //!   clock ─────────────────────────────────► endpoint ◄────────┼────────┘ events
 //!                                            Robot::step ──────┤
-//!   packets ◄── transport ◄── station ◄── wire ◄── generation ◄┘──► trace (log)
+//!   packets ◄── transport ◄── station ◄── wire ◄── ras ◄───────┘──► trace (log)
 //! ```
 //!
 //! - [`endpoint::Endpoint`] joins them without doing any input or output of its own: datagrams,
 //!   events and the time go in, datagrams and outputs come out. A robot stack with its own loop
 //!   embeds this.
 //! - [`station`] is what makes it an ITS station: messages in `GeoNetworking` packets.
+//! - [`ras`] has the rules of the Robot Awareness Service: when a RAM is sent and why, and clusters of
+//!   the people around a robot.
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
 //!   multicast, queues within a process, and a layer of seeded faults over any of them.
 //! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
@@ -33,8 +35,8 @@ pub mod chart;
 pub mod counters;
 pub mod demo;
 pub mod endpoint;
-pub mod generation;
 pub mod operator;
+pub mod ras;
 pub mod robot_file;
 pub mod runtime;
 pub mod site;

@@ -10,7 +10,7 @@ use std::io::{BufRead, Write};
 use crossguard_protocol::{Config, Input, Outputs, Robot, Settings, StationId};
 use serde::{Deserialize, Serialize};
 
-use crate::generation::Trigger;
+use crate::ras::generation::Trigger;
 use crate::wire::MessageKind;
 
 /// One line of a log.

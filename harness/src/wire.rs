@@ -8,6 +8,9 @@ use crossguard_codec::{
 use crossguard_protocol::{Answer, Availability, Command, Input, Ram, Rmcm, StationId};
 
 use crate::counters::Cause;
+use crate::ras::clustering::Cluster;
+use crate::ras::containers;
+use crate::ras::motion::Plane;
 use crate::station::message_of;
 
 /// Which message octets are: that of which service.
@@ -38,7 +41,7 @@ pub struct Wire {
 }
 
 impl Wire {
-    /// The octets of a RAM.
+    /// The octets of a RAM, which announces a cluster around the robot's own position.
     ///
     /// # Errors
     /// When the view or state is one that no message can carry.
@@ -49,9 +52,10 @@ impl Wire {
         availability: Availability,
         generation_delta_time: u16,
         with_low_frequency: bool,
+        cluster: Option<&Cluster>,
     ) -> Result<Vec<u8>, Unsendable> {
         let ids = &self.identifiers;
-        let ram = ram_from(
+        let mut ram = ram_from(
             ids,
             state,
             view,
@@ -59,6 +63,9 @@ impl Wire {
             generation_delta_time,
             with_low_frequency,
         )?;
+        if let Some(plane) = Plane::around(&state.position) {
+            containers::write(&mut ram, &plane, cluster);
+        }
         Ok(encode(ids, &ram)?)
     }
 

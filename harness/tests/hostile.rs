@@ -34,6 +34,7 @@ fn ram(identifiers: Identifiers) -> Vec<u8> {
             Availability::Available,
             0,
             false,
+            None,
         )
         .unwrap()
 }

@@ -1,0 +1,451 @@
+//! The station of a vulnerable road user (VRU): when it sends a VAM, when it leaves its announcement to
+//! a robot, and when it takes it up again. TS 103 300-3 clauses 5.4 and 6; the parameters are those of
+//! its tables 14 to 17.
+//!
+//! ```text
+//!                       hears itself covered by a RAM
+//!        ┌──────────┐ ─────────────────────────────────────────► ┌─────────┐
+//!   ───► │standalone│ ── cluster VAM ──► joining ── after 3 s ──► │ passive │  sends nothing
+//!        └──────────┘                    (join info)              └────┬────┘
+//!             ▲       after 1 s                                        │ left, lost, disbanded,
+//!             └────────────────────── leaving (leave info) ◄───────────┘ join failed
+//! ```
+//!
+//! A device that [understands RAM](Understands::Ram) is passive as soon as a RAM covers it: the robot
+//! has seen it, so there is nothing to join. An [unmodified](Understands::ClusterVam) one knows cluster
+//! VAMs only, and joins by their rules. Both resume by the same timers.
+//!
+//! Not here: redundancy mitigation, zero-risk areas, the trajectory interception trigger, and leading a
+//! cluster, which a robot does.
+
+use serde::{Deserialize, Serialize};
+
+use super::area::Area;
+use super::generation::Trigger;
+use super::motion::{Change, Motion};
+
+/// Shortest interval between two VAM, in ms (`T_GenVamMin`).
+pub const INTERVAL_MIN_MS: u64 = 100;
+/// Longest interval between two VAM, in ms (`T_GenVamMax`).
+pub const INTERVAL_MAX_MS: u64 = 5_000;
+/// Shortest interval between two low-frequency containers, in ms (`T_GenVamLFMin`).
+pub const LOW_FREQUENCY_INTERVAL_MS: u64 = 2_000;
+/// How long joining is announced, in ms (`timeClusterJoinNotification`).
+pub const JOIN_NOTIFICATION_MS: u64 = 3_000;
+/// Until when the head has to confirm a join, in ms (`timeClusterJoinSuccess`).
+pub const JOIN_SUCCESS_MS: u64 = 500;
+/// After how long without a message from its head a cluster is lost, in ms (`timeClusterContinuity`).
+pub const CONTINUITY_MS: u64 = 2_000;
+/// How long leaving is announced, in ms (`timeClusterLeaveNotification`).
+pub const LEAVE_NOTIFICATION_MS: u64 = 1_000;
+/// Who is further outside of the bounding shape is out of the cluster, in metres (`maxClusterDistance`,
+/// 3..5).
+pub const DISTANCE_MAX_M: f64 = 3.0;
+/// Largest difference of velocity to the cluster, as a share of its own (`maxClusterVelocityDifference`).
+pub const VELOCITY_DIFFERENCE_MAX: f64 = 0.05;
+/// Members that a cluster has at most (`maxClusterSize`).
+pub const SIZE_MAX: u8 = 20;
+/// Two stations that are both slower stand, and then their velocities do not differ, in m/s. ETSI says
+/// nothing of it, and 5 % of nothing is nothing.
+pub const STANDING_MPS: f64 = 0.3;
+
+/// When a VAM is due.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum VamRule {
+    /// By motion, and at the latest after 5 s (clause 6.2).
+    Etsi,
+    /// Every so many milliseconds, whatever happens.
+    Periodic(u64),
+}
+
+/// Which announcements of a cluster a device understands.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Understands {
+    /// RAM.
+    Ram,
+    /// Cluster VAM, as every ETSI device.
+    ClusterVam,
+}
+
+/// What a device hears of the cluster of one head.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Announcement<'a> {
+    /// Station id of the head.
+    pub head: u32,
+    /// By which message.
+    pub by: Understands,
+    /// The cluster; `None` for a head that has none any more.
+    pub cluster: Option<AnnouncedCluster<'a>>,
+}
+
+/// The cluster of an [`Announcement`].
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct AnnouncedCluster<'a> {
+    /// Its id, if it says one.
+    pub id: Option<u8>,
+    /// What bounds it.
+    pub area: &'a Area,
+    /// How many belong to it.
+    pub cardinality: u8,
+    /// Its velocity in m/s, to the east and to the north; from a cluster VAM.
+    pub velocity_mps: Option<[f64; 2]>,
+}
+
+/// What came of an announcement.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Reaction {
+    /// The device does not understand this message.
+    NotUnderstood,
+    /// It does not cover the device.
+    Outside,
+    /// The cluster moves otherwise than the device.
+    VelocityDiffers,
+    /// The cluster has as many members as it may have.
+    Full,
+    /// The device is in another cluster.
+    InAnother,
+    /// The device begins to join.
+    Joins,
+    /// The device falls silent.
+    Suspends,
+    /// It goes on as it was.
+    GoesOn,
+    /// The device takes its VAM up again.
+    Resumes,
+}
+
+/// Why a device left a cluster (TS 102 894-2 `ClusterLeaveReason`).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum LeaveReason {
+    /// Nothing was heard of its head.
+    ClusterLeaderLost = 1,
+    /// Its head has no cluster any more.
+    ClusterDisbandedByLeader = 2,
+    /// It went out of the bounding shape.
+    OutOfClusterBoundingBox = 3,
+    /// It moves otherwise than the cluster.
+    OutOfClusterSpeedRange = 4,
+    /// It no longer met the conditions while it joined.
+    CancelledJoin = 6,
+    /// The head did not confirm.
+    FailedJoin = 7,
+}
+
+/// What the device says of clusters in its VAM.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Operation {
+    /// It joins a cluster.
+    Join {
+        /// Which.
+        id: u8,
+        /// When it falls silent, in ms on the device's clock.
+        at_ms: u64,
+    },
+    /// It left a cluster.
+    Leave {
+        /// Which.
+        id: u8,
+        /// Why.
+        reason: LeaveReason,
+    },
+}
+
+/// A VAM that is due.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct DueVam {
+    /// Why.
+    pub trigger: VamTrigger,
+    /// Whether it has the low-frequency container.
+    pub low_frequency: bool,
+    /// What it says of clusters.
+    pub operation: Option<Operation>,
+}
+
+/// Why a VAM is sent.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum VamTrigger {
+    /// By motion, by the interval, or because it is the first.
+    Motion(Trigger),
+    /// It begins to join a cluster.
+    Join,
+    /// It has left a cluster.
+    Leave,
+}
+
+/// Whether a device announces itself.
+#[derive(Clone, PartialEq, Debug)]
+pub enum State {
+    /// It sends VAM (`VRU-ACTIVE-STANDALONE`).
+    Standalone,
+    /// It sends VAM that announce that it joins.
+    Joining(Membership),
+    /// It sends nothing (`VRU-PASSIVE`).
+    Passive(Membership),
+    /// It sends VAM that say that it left.
+    Leaving {
+        /// The id of the cluster that it left, if it had one.
+        id: Option<u8>,
+        /// Why.
+        reason: LeaveReason,
+        /// Since when, in ms.
+        since_ms: u64,
+    },
+}
+
+/// The cluster that a device is in or joins.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Membership {
+    /// Station id of its head.
+    pub head: u32,
+    /// Its id, if it says one.
+    pub id: Option<u8>,
+    /// Since when it is in this state, in ms.
+    pub since_ms: u64,
+    /// When the device heard the last time that it is covered, in ms.
+    pub covered_ms: u64,
+    /// What bounded the cluster then.
+    pub area: Area,
+    /// The velocity of the cluster then, from a cluster VAM.
+    pub velocity_mps: Option<[f64; 2]>,
+}
+
+/// The station of a VRU.
+#[derive(Clone, Debug)]
+pub struct VruStation {
+    rule: VamRule,
+    understands: Understands,
+    state: State,
+    /// The last VAM: when, and what it said of the motion.
+    said: Option<(u64, Motion)>,
+    last_low_frequency_ms: Option<u64>,
+    /// A VAM that is due at once.
+    pending: Option<VamTrigger>,
+}
+
+impl VruStation {
+    /// A device that has just been switched on.
+    #[must_use]
+    pub fn new(rule: VamRule, understands: Understands) -> Self {
+        Self {
+            rule,
+            understands,
+            state: State::Standalone,
+            said: None,
+            last_low_frequency_ms: None,
+            pending: None,
+        }
+    }
+
+    /// Whether it announces itself.
+    #[must_use]
+    pub const fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Whether it leaves its announcement to a robot.
+    #[must_use]
+    pub const fn is_passive(&self) -> bool {
+        matches!(self.state, State::Passive(_))
+    }
+
+    /// Takes in an announcement, at `now_ms`, in this motion.
+    pub fn hear(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement<'_>) -> Reaction {
+        if heard.by != self.understands {
+            return Reaction::NotUnderstood;
+        }
+        match &mut self.state {
+            State::Joining(membership) | State::Passive(membership) => {
+                if membership.head != heard.head {
+                    return Reaction::InAnother;
+                }
+                let Some(cluster) = heard.cluster else {
+                    let id = membership.id;
+                    self.leave(now_ms, id, LeaveReason::ClusterDisbandedByLeader);
+                    return Reaction::Resumes;
+                };
+                if !cluster.area.contains(motion.position_m) {
+                    return Reaction::Outside;
+                }
+                membership.id = cluster.id;
+                membership.covered_ms = now_ms;
+                membership.area = cluster.area.clone();
+                membership.velocity_mps = cluster.velocity_mps;
+                Reaction::GoesOn
+            }
+            State::Standalone | State::Leaving { .. } => self.consider(now_ms, motion, heard),
+        }
+    }
+
+    /// Whether the device, which is in no cluster, enters this one.
+    fn consider(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement<'_>) -> Reaction {
+        let Some(cluster) = heard.cluster else {
+            return Reaction::GoesOn;
+        };
+        let by_vam = self.understands == Understands::ClusterVam;
+        let near_m = if by_vam { DISTANCE_MAX_M } else { 0.0 };
+        if cluster.area.distance_m(motion.position_m) > near_m {
+            return Reaction::Outside;
+        }
+        if !is_of_velocity(motion, cluster.velocity_mps) {
+            return Reaction::VelocityDiffers;
+        }
+        if by_vam && cluster.cardinality >= SIZE_MAX {
+            return Reaction::Full;
+        }
+        let membership = Membership {
+            head: heard.head,
+            id: cluster.id,
+            since_ms: now_ms,
+            covered_ms: now_ms,
+            area: cluster.area.clone(),
+            velocity_mps: cluster.velocity_mps,
+        };
+        if by_vam {
+            self.state = State::Joining(membership);
+            self.pending = Some(VamTrigger::Join);
+            Reaction::Joins
+        } else {
+            self.state = State::Passive(membership);
+            self.pending = None;
+            Reaction::Suspends
+        }
+    }
+
+    /// The VAM that is due at `now_ms`, if one is; it counts as sent. To be asked every 100 ms at least
+    /// (`T_CheckVamGen`). `congestion_ms` is the shortest interval that congestion control allows.
+    pub fn poll(&mut self, now_ms: u64, motion: &Motion, congestion_ms: u64) -> Option<DueVam> {
+        self.pass(now_ms, motion);
+        if self.is_passive() {
+            return None;
+        }
+        let elapsed = self.said.map(|(last_ms, _)| now_ms.saturating_sub(last_ms));
+        if elapsed.is_some_and(|it| it < congestion_ms.max(INTERVAL_MIN_MS)) {
+            return None;
+        }
+        let trigger = self
+            .pending
+            .take()
+            .or_else(|| self.by_rule(elapsed, motion))?;
+        let operation = self.operation();
+        let low_frequency = operation.is_some()
+            || self
+                .last_low_frequency_ms
+                .is_none_or(|last| now_ms.saturating_sub(last) >= LOW_FREQUENCY_INTERVAL_MS);
+        self.said = Some((now_ms, *motion));
+        if low_frequency {
+            self.last_low_frequency_ms = Some(now_ms);
+        }
+        Some(DueVam {
+            trigger,
+            low_frequency,
+            operation,
+        })
+    }
+
+    fn by_rule(&self, elapsed: Option<u64>, motion: &Motion) -> Option<VamTrigger> {
+        let (Some(elapsed), Some((_, before))) = (elapsed, &self.said) else {
+            return Some(VamTrigger::Motion(Trigger::First));
+        };
+        let interval = |limit_ms| (elapsed >= limit_ms).then_some(Trigger::Interval);
+        let trigger = match self.rule {
+            VamRule::Periodic(interval_ms) => interval(interval_ms),
+            VamRule::Etsi => Trigger::of_motion(&Change::of_motion(before, motion))
+                .or_else(|| interval(INTERVAL_MAX_MS)),
+        };
+        trigger.map(VamTrigger::Motion)
+    }
+
+    /// What time and motion do to the membership.
+    fn pass(&mut self, now_ms: u64, motion: &Motion) {
+        let since = |then_ms: u64| now_ms.saturating_sub(then_ms);
+        let by_vam = self.understands == Understands::ClusterVam;
+        match &self.state {
+            State::Standalone => {}
+            State::Leaving { since_ms, .. } => {
+                if since(*since_ms) >= LEAVE_NOTIFICATION_MS {
+                    self.state = State::Standalone;
+                }
+            }
+            State::Joining(membership) => {
+                if membership.broken(now_ms, motion).is_some() {
+                    let id = membership.id;
+                    self.leave(now_ms, id, LeaveReason::CancelledJoin);
+                } else if since(membership.since_ms) >= JOIN_NOTIFICATION_MS {
+                    let membership = Membership {
+                        since_ms: now_ms,
+                        ..membership.clone()
+                    };
+                    self.state = State::Passive(membership);
+                }
+            }
+            State::Passive(membership) => {
+                let unconfirmed = by_vam && membership.covered_ms < membership.since_ms;
+                if unconfirmed && since(membership.since_ms) >= JOIN_SUCCESS_MS {
+                    let id = membership.id;
+                    self.leave(now_ms, id, LeaveReason::FailedJoin);
+                } else if let Some(reason) = membership.broken(now_ms, motion) {
+                    let id = membership.id;
+                    self.leave(now_ms, id, reason);
+                }
+            }
+        }
+    }
+
+    fn leave(&mut self, now_ms: u64, id: Option<u8>, reason: LeaveReason) {
+        self.state = State::Leaving {
+            id,
+            reason,
+            since_ms: now_ms,
+        };
+        self.pending = Some(VamTrigger::Leave);
+    }
+
+    fn operation(&self) -> Option<Operation> {
+        match &self.state {
+            State::Joining(membership) => Some(Operation::Join {
+                id: membership.id?,
+                at_ms: membership.since_ms + JOIN_NOTIFICATION_MS,
+            }),
+            State::Leaving { id, reason, .. } => Some(Operation::Leave {
+                id: (*id)?,
+                reason: *reason,
+            }),
+            State::Standalone | State::Passive(_) => None,
+        }
+    }
+}
+
+impl Membership {
+    /// Why the device cannot stay, if it cannot.
+    fn broken(&self, now_ms: u64, motion: &Motion) -> Option<LeaveReason> {
+        if now_ms.saturating_sub(self.covered_ms) >= CONTINUITY_MS {
+            Some(LeaveReason::ClusterLeaderLost)
+        } else if self.area.distance_m(motion.position_m) > DISTANCE_MAX_M {
+            Some(LeaveReason::OutOfClusterBoundingBox)
+        } else if !is_of_velocity(motion, self.velocity_mps) {
+            Some(LeaveReason::OutOfClusterSpeedRange)
+        } else {
+            None
+        }
+    }
+}
+
+/// Whether a device moves as a cluster does. A cluster of unknown velocity moves as everybody.
+fn is_of_velocity(motion: &Motion, cluster: Option<[f64; 2]>) -> bool {
+    let Some([east, north]) = cluster else {
+        return true;
+    };
+    let [own_east, own_north] = motion.velocity_mps();
+    let cluster_mps = east.hypot(north);
+    let difference = (own_east - east).hypot(own_north - north);
+    difference <= VELOCITY_DIFFERENCE_MAX * cluster_mps
+        || (cluster_mps < STANDING_MPS && motion.speed_mps < STANDING_MPS)
+}
+
+#[cfg(test)]
+mod tests;
