@@ -128,7 +128,10 @@ fn every_ram_says_why_it_was_sent() {
 
     street.endpoint.hold_back(500);
     street.state.speed = Some(1.0.into());
-    street.hears(600, Stimulus::Time);
+    assert_eq!(
+        why(street.hears(1_000, Stimulus::Time)),
+        Some(Trigger::Interval)
+    );
     street.state.speed = Some(2.0.into());
     assert_eq!(why(street.hears(400, Stimulus::Time)), None);
     assert_eq!(why(street.hears(100, Stimulus::Time)), Some(Trigger::Speed));
