@@ -66,6 +66,7 @@ impl Street {
                 kind: MessageKind::Ram,
                 trigger,
                 octets,
+                ..
             } => Some((*trigger, announced(octets))),
             _ => None,
         });
