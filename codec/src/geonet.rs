@@ -29,6 +29,8 @@ pub mod ethernet;
 #[cfg(feature = "laws")]
 #[doc(hidden)]
 pub mod laws;
+#[cfg(feature = "security")]
+mod secured;
 mod stack;
 
 use serde::{Deserialize, Serialize};
@@ -36,8 +38,10 @@ use serde::{Deserialize, Serialize};
 pub use codec::Encoded;
 pub use duplicates::{Duplicates, NUMBERS_MAX, SOURCES_MAX};
 pub use ego::EgoPosition;
-pub use envelope::{Envelope, EnvelopeError, Opened, Signer};
+pub use envelope::{Envelope, EnvelopeError, Opened, Permits, Signer};
 pub use error::{Field, GeonetError};
+#[cfg(feature = "security")]
+pub use secured::{Demand, Secured};
 pub use stack::{Destination, Discarded, Indication, Request, SendError, Stack};
 
 /// Octets of the basic header.

@@ -63,6 +63,7 @@ pub mod geonet;
 mod identifiers;
 pub mod its;
 mod message;
+mod part;
 mod rules;
 #[cfg(feature = "security")]
 pub mod security;
@@ -81,6 +82,7 @@ pub use distance::distance;
 pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
 pub use identifiers::{Dictionary, IdentifierClash, Identifiers, MessageIdentifiers};
 pub use message::{Message, Pdu, Received, decode, encode, encode_into};
+pub use part::{Part, SSP_VERSION};
 pub use service::Service;
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
 pub use state::{

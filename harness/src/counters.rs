@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crossguard_codec::geonet::Discarded;
 use crossguard_codec::{DecodeError, Fault, Service, ViewError};
 use crossguard_protocol::Ignored;
 use serde::Serialize;
@@ -13,6 +14,8 @@ use crate::transport::Loss;
 pub enum Cause {
     /// A packet is not one for this station.
     Discarded(&'static str),
+    /// A packet cannot be relied on.
+    Rejected(&'static str),
     /// A message that this station has no use for.
     NoUse(Service),
     /// A datagram is not a message.
@@ -39,6 +42,7 @@ impl Cause {
     pub fn name(self) -> String {
         match self {
             Self::Discarded(why) => format!("packet: {why}"),
+            Self::Rejected(why) => format!("security: {why}"),
             Self::NoUse(service) => format!("no use for: {}", service.name()),
             Self::Undecodable(why) => format!("undecodable: {why}"),
             Self::Contradictory(why) => format!("contradictory: {why}"),
@@ -50,6 +54,17 @@ impl Cause {
             Self::NotSent => "not sent".to_owned(),
             Self::LinkFailed => "link failed".to_owned(),
             Self::LogFull => "log full".to_owned(),
+        }
+    }
+}
+
+impl From<Discarded> for Cause {
+    fn from(discarded: Discarded) -> Self {
+        match discarded {
+            Discarded::Envelope(_) | Discarded::WrongPermission { .. } => {
+                Self::Rejected(discarded.cause())
+            }
+            _ => Self::Discarded(discarded.cause()),
         }
     }
 }

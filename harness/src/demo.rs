@@ -15,6 +15,7 @@ use crate::application::{Application, Plan, Wish};
 use crate::body::{Body, Build};
 use crate::runtime::{Clock, Order, Running, Setup};
 use crate::site::{Place, Site};
+use crate::station::Security;
 use crate::timing::{Summary, Timing};
 use crate::trace::{self, Entry, Record, Validated};
 use crate::transport::{Faults, Halves, Link, LinkError, Transport, WithFaults};
@@ -193,6 +194,7 @@ impl Robot {
             boot: 1,
             config: Config::default(),
             wire: Wire::default(),
+            security: Security::default(),
             application: Application::new(self.body, plan),
             link,
             log: self.log,

@@ -15,8 +15,9 @@ use crossguard_codec::geonet::{EgoPosition, Indication};
 use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{ControlMode, RobotState, Service, TaskParameters, TaskProgression};
 use crossguard_protocol::{
-    Availability, Config, CorridorClosure, Event, FallbackPolicy, Ignored, Input, Maneuver, Millis,
-    Notice, Output, Outputs, Rmcm, Robot, State, StationId, StopReason, TaskType, Unavailability,
+    Availability, Config, CorridorClosure, Event, FallbackPolicy, Identity, Ignored, Input,
+    Maneuver, Millis, Notice, Output, Outputs, Rmcm, Robot, State, StationId, StopReason, TaskType,
+    Unavailability,
 };
 
 use crate::counters::{Cause, Counters};
@@ -24,7 +25,7 @@ use crate::ras::clustering::{self, Clustering, PerceivedVru};
 use crate::ras::generation::{
     Generation, INTERVAL_MAX_MS, INTERVAL_MIN_MS, Limits, Status, Trigger,
 };
-use crate::station::Station;
+use crate::station::{Security, Station};
 use crate::wire::{Heard, MessageKind, Wire};
 
 /// What time it is.
@@ -177,6 +178,13 @@ impl Endpoint {
         self.congestion_ms = congestion_ms;
     }
 
+    /// The same with security.
+    #[must_use]
+    pub fn with_security(mut self, security: Security) -> Self {
+        self.station = self.station.with_security(security, self.told_ms);
+        self
+    }
+
     /// The protocol state.
     #[must_use]
     pub const fn robot(&self) -> &Robot {
@@ -233,6 +241,7 @@ impl Endpoint {
             effects: Vec::new(),
         };
         self.elapse(&mut turn);
+        self.renew_pseudonym(&mut turn);
         match stimulus {
             Stimulus::Datagram(octets) => self.hear(&mut turn, octets),
             Stimulus::Event(event) => self.tell(&mut turn, event),
@@ -285,14 +294,26 @@ impl Endpoint {
         self.step(turn, Input::Elapsed(Millis(elapsed)), None);
     }
 
+    /// Changes the pseudonym when that is due and no session knows the robot by its old one.
+    fn renew_pseudonym(&mut self, turn: &mut Turn) {
+        if self.robot.identity() == Identity::Unlocked
+            && let Some(station) = self
+                .station
+                .renew_pseudonym(&turn.ego(), turn.moment.now_ms)
+        {
+            let changed = Input::Local(Event::IdentityChanged(station));
+            self.step(turn, changed, None);
+        }
+    }
+
     /// Takes a packet in, if it is for this station.
     fn hear(&mut self, turn: &mut Turn, packet: &[u8]) {
         let ego = turn.ego();
         match self.station.receive(&ego, packet) {
             Ok(indication) => self.hear_message(turn, packet, &indication),
             Err(discarded) => {
-                let cause = Cause::Discarded(discarded.cause());
-                self.drop(turn, cause, discarded.to_string(), packet.to_vec());
+                let detail = discarded.to_string();
+                self.drop(turn, discarded.into(), detail, packet.to_vec());
             }
         }
     }
@@ -302,7 +323,17 @@ impl Endpoint {
         let dropped = match service {
             Service::Ram | Service::Rmcm => {
                 match self.wire.hear(self.robot.station(), &turn.state, octets) {
-                    Ok(heard) if heard.kind == service => return self.heed(turn, octets, heard),
+                    Ok(heard) if heard.kind == service => {
+                        let sender = (indication.signer, indication.permits);
+                        let now_ms = turn.moment.now_ms;
+                        match self
+                            .station
+                            .check_entitled(sender, heard.from, &heard.inputs, now_ms)
+                        {
+                            Ok(()) => return self.heed(turn, octets, heard),
+                            Err(why) => (Cause::Rejected(why.cause()), why.to_string()),
+                        }
+                    }
                     Ok(heard) => (
                         Cause::Discarded("message of another port"),
                         format!("{} at the port of {}", heard.kind.name(), service.name()),

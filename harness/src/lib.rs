@@ -18,6 +18,7 @@
 //! - [`station`] is what makes it an ITS station: messages in `GeoNetworking` packets.
 //! - [`ras`] has the rules of the Robot Awareness Service: when a RAM is sent and why, and clusters of
 //!   the people around a robot.
+//! - [`pki`] has the certificates and keys that it signs with, for tests.
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
 //!   multicast, queues within a process, and a layer of seeded faults over any of them.
 //! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
@@ -36,6 +37,7 @@ pub mod counters;
 pub mod demo;
 pub mod endpoint;
 pub mod operator;
+pub mod pki;
 pub mod ras;
 pub mod robot_file;
 pub mod runtime;

@@ -23,6 +23,7 @@ use crossguard_protocol::{Config, Event, Phase, Robot, StationId};
 use crate::application::{Application, Wish};
 use crate::counters::Cause;
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crate::station::Security;
 use crate::trace::{Entry, Record};
 use crate::transport::{Arrival, Halves, Receiver, Sender};
 use crate::wire::Wire;
@@ -107,6 +108,8 @@ pub struct Setup {
     pub config: Config,
     /// Encodes and decodes.
     pub wire: Wire,
+    /// Whether it signs and verifies.
+    pub security: Security,
     /// Moves the body, and leads.
     pub application: Application,
     /// Its link, open.
@@ -140,7 +143,8 @@ impl Setup {
         let now_ms = self.clock.now_us() / 1_000;
         let robot = Robot::new(self.station, self.boot);
         let mut turn = Loop {
-            endpoint: Endpoint::new(robot, self.config, self.wire, now_ms),
+            endpoint: Endpoint::new(robot, self.config, self.wire, now_ms)
+                .with_security(self.security),
             name: self.name,
             application: self.application,
             sender: self.link.sender,

@@ -117,7 +117,7 @@ fn the_crossing_goes_on_among_garbage_and_each_kind_is_counted_by_its_cause() {
             "packet: too long",
             "packet: not supported",
             "packet: payload length",
-            "packet: secured, and security is off",
+            "security: secured, and security is off",
             "packet: message of another port",
             "no use for: DENM",
             "undecodable: too short",

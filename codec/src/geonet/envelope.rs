@@ -2,7 +2,11 @@
 
 use std::borrow::Cow;
 
-use super::EgoPosition;
+use super::{BasicHeader, EgoPosition};
+#[cfg(feature = "security")]
+use super::{Headers, secured::Secured};
+#[cfg(feature = "security")]
+use crate::security::{Rejected, Unsigned};
 
 /// What stands around a packet behind its basic header.
 #[derive(Clone, Debug, Default)]
@@ -11,11 +15,39 @@ pub enum Envelope {
     /// Nothing. Packets go out as they are, and secured ones are not understood.
     #[default]
     Off,
+    /// Packets are signed, and those of others verified.
+    #[cfg(feature = "security")]
+    Secured(Box<Secured>),
 }
 
 /// Who vouches for a packet: the digest of its certificate (`HashedId8`).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Signer(pub [u8; 8]);
+
+/// What the sender of a packet may say within its service: the first bits of its service specific
+/// permissions (SSP).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Permits(Option<u16>);
+
+impl Permits {
+    /// Everything: that of a packet which nobody vouches for.
+    pub const EVERYTHING: Self = Self(None);
+
+    /// What these bits allow, the first being the most significant.
+    #[must_use]
+    pub const fn of_bits(bits: u16) -> Self {
+        Self(Some(bits))
+    }
+
+    /// Whether what a bit stands for may be said, 0 being the first and 15 the last.
+    #[must_use]
+    pub const fn allows(self, bit: u32) -> bool {
+        match self.0 {
+            None => true,
+            Some(bits) => bit < 16 && bits.wrapping_shl(bit) & 0x8000 != 0,
+        }
+    }
+}
 
 /// What was in an envelope.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -26,6 +58,8 @@ pub struct Opened<'a> {
     pub its_aid: u32,
     /// Who vouches for it.
     pub signer: Signer,
+    /// What it may say.
+    pub permits: Permits,
 }
 
 /// Why an envelope cannot be made or opened, or a packet is not taken without one.
@@ -35,6 +69,17 @@ pub enum EnvelopeError {
     /// A secured packet, and security is off.
     #[error("the packet is secured, and security is off")]
     SecurityIsOff,
+    /// The envelope does not fit in the packet.
+    #[error("the packet is too long with its envelope")]
+    NoRoom,
+    /// The packet cannot be signed.
+    #[cfg(feature = "security")]
+    #[error("{0}")]
+    Unsigned(#[from] Unsigned),
+    /// The packet cannot be relied on.
+    #[cfg(feature = "security")]
+    #[error("{0}")]
+    Rejected(#[from] Rejected),
 }
 
 impl EnvelopeError {
@@ -43,6 +88,11 @@ impl EnvelopeError {
     pub const fn cause(self) -> &'static str {
         match self {
             Self::SecurityIsOff => "secured, and security is off",
+            Self::NoRoom => "too long with its envelope",
+            #[cfg(feature = "security")]
+            Self::Unsigned(_) => "cannot be signed",
+            #[cfg(feature = "security")]
+            Self::Rejected(rejected) => rejected.cause(),
         }
     }
 }
@@ -54,15 +104,24 @@ impl Envelope {
     ///
     /// # Errors
     /// Why it cannot be sent.
+    #[cfg_attr(not(feature = "security"), expect(unused_variables))]
     pub fn seal(
         &mut self,
-        _ego: &EgoPosition,
-        _its_aid: u32,
-        _plain: &[u8],
-        _secured: &mut [u8],
+        ego: &EgoPosition,
+        its_aid: u32,
+        plain: &[u8],
+        secured: &mut [u8],
     ) -> Result<Option<usize>, EnvelopeError> {
         match self {
             Self::Off => Ok(None),
+            #[cfg(feature = "security")]
+            Self::Secured(station) => {
+                let envelope = station.seal(ego, its_aid, plain)?;
+                let room = secured.get_mut(..envelope.len());
+                room.ok_or(EnvelopeError::NoRoom)?
+                    .copy_from_slice(&envelope);
+                Ok(Some(envelope.len()))
+            }
         }
     }
 
@@ -70,13 +129,20 @@ impl Envelope {
     ///
     /// # Errors
     /// Why its content cannot be relied on.
+    #[cfg_attr(not(feature = "security"), expect(unused_variables))]
     pub fn open<'a>(
         &mut self,
-        _ego: &EgoPosition,
-        _secured: &'a [u8],
+        ego: &EgoPosition,
+        basic: BasicHeader,
+        secured: &'a [u8],
     ) -> Result<Opened<'a>, EnvelopeError> {
         match self {
             Self::Off => Err(EnvelopeError::SecurityIsOff),
+            #[cfg(feature = "security")]
+            Self::Secured(station) => Ok(station.open(ego, secured, |plain| {
+                let (headers, _) = Headers::decode_behind(basic, plain).ok()?;
+                Some(headers.source)
+            })?),
         }
     }
 
@@ -84,9 +150,24 @@ impl Envelope {
     ///
     /// # Errors
     /// Why not.
-    pub fn admit_plain(&mut self) -> Result<(), EnvelopeError> {
+    pub fn admit_plain(&self) -> Result<(), EnvelopeError> {
         match self {
             Self::Off => Ok(()),
+            #[cfg(feature = "security")]
+            Self::Secured(station) => Ok(station.admit_plain()?),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_are_counted_from_the_front() {
+        let permits = Permits::of_bits(0xc001);
+        let allowed: Vec<_> = (0..32).filter(|bit| permits.allows(*bit)).collect();
+        assert_eq!(allowed, [0, 1, 15]);
+        assert!((0..32).all(|bit| Permits::EVERYTHING.allows(bit)));
     }
 }

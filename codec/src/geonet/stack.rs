@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use super::{
     Address, Area, BASIC_LEN, BasicHeader, Duplicates, EgoPosition, Envelope, EnvelopeError,
     GeonetError, HEADERS_LEN_MAX, Headers, Lifetime, LongPositionVector, NextHeader,
-    PACKET_LEN_MAX, Signer, TrafficClass, Transport,
+    PACKET_LEN_MAX, Permits, Signer, TrafficClass, Transport,
 };
 use crate::identifiers::Identifiers;
 use crate::service::Service;
@@ -61,6 +61,8 @@ pub struct Indication<'a> {
     pub headers: Headers,
     /// Who vouches for it; nobody, if it came without an envelope.
     pub signer: Option<Signer>,
+    /// What it may say within the service.
+    pub permits: Permits,
 }
 
 /// Why a packet was discarded.
@@ -274,19 +276,21 @@ impl Stack {
                 (Cow::Borrowed(rest), None)
             }
             NextHeader::Secured => {
-                let opened = self.envelope.open(ego, rest)?;
-                (opened.plain, Some((opened.its_aid, opened.signer)))
+                let opened = self.envelope.open(ego, basic, rest)?;
+                let permission = (opened.its_aid, opened.signer, opened.permits);
+                (opened.plain, Some(permission))
             }
         };
         let (headers, message) = Headers::decode_behind(basic, &plain)?;
         let header_length = plain.len() - message.len();
-        let service = self.admit(ego, &headers, permission.map(|(its_aid, _)| its_aid))?;
+        let service = self.admit(ego, &headers, permission.map(|(its_aid, ..)| its_aid))?;
         Ok(Indication {
             service,
             message: behind(plain, header_length),
             source: headers.source,
             headers,
-            signer: permission.map(|(_, signer)| signer),
+            signer: permission.map(|(_, signer, _)| signer),
+            permits: permission.map_or(Permits::EVERYTHING, |(.., permits)| permits),
         })
     }
 

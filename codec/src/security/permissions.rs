@@ -60,18 +60,15 @@ pub enum SspRange {
 }
 
 impl Ssp {
-    /// Whether this bit of a bitmap is set, the first being 0; never if it is no bitmap, too short,
-    /// or of another version.
+    /// The first 16 bits of a bitmap of this version; none, if it is no bitmap or of another version.
     #[must_use]
-    pub fn has_bit(&self, version: u8, bit: usize) -> bool {
+    pub fn bits(&self, version: u8) -> u16 {
         match self {
-            Self::Bitmap(octets) => {
-                octets.first() == Some(&version)
-                    && octets
-                        .get(1 + bit / 8)
-                        .is_some_and(|octet| octet & (0x80 >> (bit % 8)) != 0)
+            Self::Bitmap(octets) if octets.first() == Some(&version) => {
+                let octet = |at: usize| octets.get(at).copied().unwrap_or_default();
+                u16::from_be_bytes([octet(1), octet(2)])
             }
-            Self::Default | Self::Opaque(_) => false,
+            _ => 0,
         }
     }
 }
@@ -255,11 +252,12 @@ mod tests {
     }
 
     #[test]
-    fn a_bit_counts_only_in_its_version() {
-        assert!(bits(&[1, 0x80]).has_bit(1, 0));
-        assert!(!bits(&[1, 0x80]).has_bit(1, 1));
-        assert!(!bits(&[2, 0x80]).has_bit(1, 0));
-        assert!(!bits(&[1]).has_bit(1, 0));
-        assert!(!Ssp::Default.has_bit(1, 0));
+    fn bits_count_only_in_their_version() {
+        assert_eq!(bits(&[1, 0xc0]).bits(1), 0xc000);
+        assert_eq!(bits(&[1, 0xc0, 0x01, 0xff]).bits(1), 0xc001);
+        assert_eq!(bits(&[2, 0xc0]).bits(1), 0);
+        assert_eq!(bits(&[]).bits(1), 0);
+        assert_eq!(Ssp::Default.bits(1), 0);
+        assert_eq!(Ssp::Opaque(vec![1, 0xff]).bits(1), 0);
     }
 }

@@ -108,9 +108,6 @@ pub enum Rejected {
     /// The certificate does not permit to send such messages.
     #[error("the certificate does not permit ITS-AID {0}")]
     NotPermitted(u32),
-    /// The certificate does not permit what the message says (service specific permissions).
-    #[error("the certificate does not permit to {0}")]
-    BeyondServicePermissions(&'static str),
     /// The sender is outside of the region of its certificate, or does not say where it is.
     #[error("the sender is outside of the region of its certificate")]
     OutsideRegion,
@@ -147,7 +144,6 @@ impl Rejected {
             Self::BeyondIssuer => "validity beyond issuer",
             Self::IssuerNotPermitted(_) => "issuer not permitted",
             Self::NotPermitted(_) => "not permitted",
-            Self::BeyondServicePermissions(_) => "beyond service permissions",
             Self::OutsideRegion => "outside region",
             Self::Replayed => "replayed",
             Self::CertificateSignature(_) => "wrong certificate signature",

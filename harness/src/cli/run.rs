@@ -102,6 +102,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         wire: Wire {
             identifiers: file.identifiers,
         },
+        security: crossguard_harness::station::Security::default(),
         application: Application::new(body, plan),
         link,
         log,

@@ -1,0 +1,87 @@
+//! Packets that are signed and verified.
+
+use std::borrow::Cow;
+
+use super::{EgoPosition, LongPositionVector, Opened, Permits, Signer};
+use crate::part::SSP_VERSION;
+use crate::security::{HashedId8, Place, Rejected, SignedMessage, Station, Time64, Unsigned};
+
+/// What is demanded of the packets of others.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Demand {
+    /// Nothing: packets without an envelope are taken as well. One with a wrong envelope is not.
+    Nothing,
+    /// A signature: nothing is taken without one that can be relied on.
+    Signature,
+}
+
+/// A station that signs its packets and verifies those of others.
+#[derive(Clone, Debug)]
+pub struct Secured {
+    station: Station,
+    demand: Demand,
+}
+
+impl Secured {
+    /// A station that demands this of others.
+    #[must_use]
+    pub const fn new(station: Station, demand: Demand) -> Self {
+        Self { station, demand }
+    }
+
+    /// Its pseudonyms, and what it knows of others.
+    #[must_use]
+    pub const fn station(&self) -> &Station {
+        &self.station
+    }
+
+    /// Changes to the next pseudonym, and tells its name. The address and the station id must change
+    /// with it, and all of that only while the identity is not locked.
+    ///
+    /// # Errors
+    /// When there is no other that is valid.
+    pub fn change_pseudonym(&mut self, ego: &EgoPosition) -> Result<HashedId8, Unsigned> {
+        self.station.change_pseudonym(now(ego))
+    }
+
+    pub(super) fn seal(
+        &mut self,
+        ego: &EgoPosition,
+        its_aid: u32,
+        plain: &[u8],
+    ) -> Result<Vec<u8>, Unsigned> {
+        self.station.seal(now(ego), its_aid, plain)
+    }
+
+    /// `source` tells where the sender of a packet is, from its headers, which are signed.
+    pub(super) fn open<'a>(
+        &mut self,
+        ego: &EgoPosition,
+        secured: &'a [u8],
+        source: impl FnOnce(&[u8]) -> Option<LongPositionVector>,
+    ) -> Result<Opened<'a>, Rejected> {
+        let message = SignedMessage::decode(secured)?;
+        let place = source(message.payload).map(|source| Place {
+            latitude: source.latitude,
+            longitude: source.longitude,
+        });
+        let verified = self.station.verify(now(ego), place, &message)?;
+        Ok(Opened {
+            plain: Cow::Borrowed(message.payload),
+            its_aid: message.header.its_aid,
+            signer: Signer(verified.signer.0),
+            permits: Permits::of_bits(verified.ssp.bits(SSP_VERSION)),
+        })
+    }
+
+    pub(super) const fn admit_plain(&self) -> Result<(), Rejected> {
+        match self.demand {
+            Demand::Nothing => Ok(()),
+            Demand::Signature => Err(Rejected::Unsecured),
+        }
+    }
+}
+
+const fn now(ego: &EgoPosition) -> Time64 {
+    Time64::of_timestamp_its(ego.timestamp_its)
+}

@@ -1,0 +1,79 @@
+//! The part that a message takes in a session, and the permission that it needs.
+//!
+//! No standard has service specific permissions for RAM and RMCM. Those of the kit are a bitmap of two
+//! octets: the version of the bitmap, 1, and bits for the parts in the order of [`Part`]. A ticket
+//! without the bit of a part says nothing in that part, whatever ITS-AID it is for.
+
+use crossguard_protocol::{Coordination, Farewell, Ram, Rmcm};
+
+/// Version of the bitmap of service specific permissions.
+pub const SSP_VERSION: u8 = 1;
+
+/// A part in a session that needs a permission.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Part {
+    /// Asks for help, leads, commands: the first bit.
+    Lead,
+    /// Offers help, follows, answers: the second bit.
+    Help,
+}
+
+impl Part {
+    /// Its bit, 0 being the first after the version.
+    #[must_use]
+    pub const fn bit(self) -> u32 {
+        self as u32
+    }
+
+    /// The bitmap that permits these parts.
+    #[must_use]
+    pub fn bitmap(parts: &[Self]) -> [u8; 2] {
+        let bits = parts.iter().fold(0, |bits, part| bits | 0x80 >> part.bit());
+        [SSP_VERSION, bits]
+    }
+
+    /// What it is called in messages to people.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Lead => "lead",
+            Self::Help => "help",
+        }
+    }
+
+    /// The parts that a RAM takes: that of its role, and that of a session which it names as over.
+    pub fn of_ram(ram: &Ram) -> impl Iterator<Item = Self> {
+        let role = match ram.coordination {
+            Coordination::None => None,
+            Coordination::NeedHelp { .. } | Coordination::Leader { .. } => Some(Self::Lead),
+            Coordination::OfferHelp { .. } | Coordination::Follower { .. } => Some(Self::Help),
+        };
+        let farewell = ram.farewell.map(|farewell| match farewell {
+            Farewell::Ended(_) => Self::Lead,
+            Farewell::Left(_) => Self::Help,
+        });
+        role.into_iter().chain(farewell)
+    }
+
+    /// The part that an RMCM takes.
+    #[must_use]
+    pub const fn of_rmcm(rmcm: &Rmcm) -> Self {
+        match rmcm {
+            Rmcm::Command(_) => Self::Lead,
+            Rmcm::Answer(_) => Self::Help,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_part_has_its_bit() {
+        assert_eq!(Part::bitmap(&[]), [1, 0]);
+        assert_eq!(Part::bitmap(&[Part::Lead]), [1, 0x80]);
+        assert_eq!(Part::bitmap(&[Part::Help]), [1, 0x40]);
+        assert_eq!(Part::bitmap(&[Part::Help, Part::Lead]), [1, 0xc0]);
+    }
+}
