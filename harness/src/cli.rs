@@ -8,6 +8,7 @@ mod demo;
 mod explore;
 mod fsm;
 mod run;
+mod simulate;
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
@@ -39,6 +40,8 @@ enum Command {
     Explore(explore::Arguments),
     /// Print the state diagram of the protocol, drawn from what the transition function does.
     Fsm(fsm::Arguments),
+    /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
+    Simulate(Box<simulate::Arguments>),
     /// Convert messages between octets and JSON.
     #[command(subcommand)]
     Codec(codec::Command),
@@ -81,6 +84,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Codec(command) => codec::run(&command),
     };
     match done {

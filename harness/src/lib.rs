@@ -16,9 +16,10 @@
 //!   events and the time go in, datagrams and outputs come out. A robot stack with its own loop
 //!   embeds this.
 //! - [`station`] is what makes it an ITS station: messages in `GeoNetworking` packets.
+//! - [`pki`] has the certificates and keys that it signs with, for tests.
 //! - [`ras`] has the rules of the Robot Awareness Service: when a RAM is sent and why, and clusters of
 //!   the people around a robot.
-//! - [`pki`] has the certificates and keys that it signs with, for tests.
+//! - [`evaluation`] simulates the paper's street grid: how many people robots see, and the channel load.
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
 //!   multicast, queues within a process, and a layer of seeded faults over any of them.
 //! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
@@ -36,6 +37,7 @@ pub mod chart;
 pub mod counters;
 pub mod demo;
 pub mod endpoint;
+pub mod evaluation;
 pub mod operator;
 pub mod pki;
 pub mod ras;

@@ -2,7 +2,7 @@
 //!
 //! Pure rules, without a clock, a link or a random source of their own: what was perceived, heard and
 //! how late it is goes in, what to send and why comes out. The live [endpoint](crate::endpoint) and
-//! the evaluation call the same functions.
+//! the [evaluation](crate::evaluation) call the same functions.
 //!
 //! ```text
 //!  perceived road users ──► clustering ──► containers ──► RAM ───────► vru (understands RAM)

@@ -143,6 +143,12 @@ impl Clustering {
         }
     }
 
+    /// How clusters are made.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// Takes in what the robot at `robot_m` perceives at `now_ms`: all road users that its sensors
     /// have now, near and far.
     pub fn perceive(&mut self, now_ms: u64, robot_m: Point, perceived: &[PerceivedVru]) {

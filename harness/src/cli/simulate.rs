@@ -1,0 +1,282 @@
+//! `crossguard simulate`.
+
+mod options;
+mod output;
+
+use std::path::PathBuf;
+
+use crossguard_harness::evaluation::coverage::greedy;
+use crossguard_harness::evaluation::matrix;
+use crossguard_harness::evaluation::messages::Sizes;
+use crossguard_harness::evaluation::paper;
+use crossguard_harness::evaluation::sumo::{Plan, Sumo};
+use crossguard_harness::evaluation::trace::{Run, Traces};
+use serde::Serialize;
+
+use self::options::{Air, Matrix, Output, Parameters, Placement, Streets};
+use super::{Failure, print, print_json};
+
+#[derive(clap::Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    rank: Rank,
+}
+
+#[derive(clap::Subcommand)]
+enum Command {
+    /// How many of the people on foot robots see: the observation coverage ratio.
+    Obs(Obs),
+    /// How busy the radio channel is, and how much less when robots stand in for people's devices.
+    Cbr(Cbr),
+    /// Record mobility with SUMO, which runs as a process of its own.
+    Record(Record),
+}
+
+#[derive(clap::Args)]
+struct Obs {
+    #[command(flatten)]
+    matrix: Matrix,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(clap::Args)]
+struct Cbr {
+    #[command(flatten)]
+    matrix: Matrix,
+    #[command(flatten)]
+    air: Air,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// Without a subcommand: where robots should stand.
+#[derive(clap::Args)]
+struct Rank {
+    /// Rank the intersections by the coverage that a robot there adds to those ranked before.
+    #[arg(long, value_name = "HOW", default_value = "greedy")]
+    place: Placement,
+    #[command(flatten)]
+    matrix: Matrix,
+    /// Print the ranking as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(clap::Args)]
+struct Record {
+    #[command(flatten)]
+    streets: Streets,
+    /// Numbers of people on foot, a file for each.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "20,50,100",
+        value_name = "N,…"
+    )]
+    pedestrians: Vec<usize>,
+    /// How many runs a file has; their seeds are 1, 2, 3 and so on.
+    #[arg(long, default_value_t = 10, value_name = "N")]
+    seeds: usize,
+    /// The folder that the files are written to.
+    #[arg(long, default_value = ".", value_name = "FOLDER")]
+    output: PathBuf,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.command {
+        Some(Command::Obs(arguments)) => obs(arguments),
+        Some(Command::Cbr(arguments)) => cbr(arguments),
+        Some(Command::Record(arguments)) => record(arguments),
+        None => place(&arguments.rank),
+    }
+}
+
+/// What a matrix says.
+#[derive(Serialize)]
+struct Report<'a, C> {
+    preset: &'a str,
+    parameters: &'a Parameters,
+    cells: &'a [C],
+}
+
+fn obs(arguments: &Obs) -> Result<(), Failure> {
+    let matrix = &arguments.matrix;
+    let traces = matrix.traces(arguments.output.json)?;
+    let cells = matrix::obs(&traces, &matrix.axes());
+    let parameters = matrix.parameters(&traces, None);
+    let charts = [("coverage.svg", paper::coverage_figure(&cells))];
+    output::write_charts(&arguments.output, &charts)?;
+    output::write_csv(&arguments.output, &cells)?;
+    finish(&arguments.output, matrix, &parameters, &cells)
+}
+
+fn cbr(arguments: &Cbr) -> Result<(), Failure> {
+    let matrix = &arguments.matrix;
+    let behaviour = arguments.air.behaviour().map_err(Failure::Input)?;
+    let traces = matrix.traces(arguments.output.json)?;
+    let sizes = Sizes::measure().map_err(Failure::input)?;
+    let bar = output::progress(arguments.output.json, "runs");
+    let done = |finished: usize, of: usize| {
+        bar.set_length(of as u64);
+        bar.set_position(finished as u64);
+    };
+    let cells = matrix::cbr(&traces, &matrix.axes(), &behaviour, &sizes, done);
+    bar.finish_and_clear();
+    let cells = cells.map_err(Failure::input)?;
+    let parameters = matrix.parameters(&traces, Some(behaviour));
+    let charts = [
+        ("mcbr.svg", paper::load_figure(&cells)),
+        ("reduction.svg", paper::reduction_figure(&cells)),
+    ];
+    output::write_charts(&arguments.output, &charts)?;
+    output::write_csv(&arguments.output, &cells)?;
+    finish(&arguments.output, matrix, &parameters, &cells)
+}
+
+/// Prints the cells, as JSON or as a table under the parameters.
+fn finish<C: Serialize + output::Row>(
+    output: &Output,
+    matrix: &Matrix,
+    parameters: &Parameters,
+    cells: &[C],
+) -> Result<(), Failure> {
+    if output.json {
+        return print_json(&Report {
+            preset: matrix.preset.name(),
+            parameters,
+            cells,
+        });
+    }
+    output::print_parameters(parameters)?;
+    print(output::table(cells))
+}
+
+#[derive(Serialize)]
+struct Ranked {
+    rank: usize,
+    node_m: [f64; 2],
+    robot_m: [f64; 2],
+    obs_percent: f64,
+    gained_percent: f64,
+}
+
+fn place(arguments: &Rank) -> Result<(), Failure> {
+    let Placement::Greedy = arguments.place;
+    let matrix = &arguments.matrix;
+    let mut rankings = Vec::new();
+    for traces in matrix.traces(arguments.json)? {
+        for &radius_m in &matrix.radius {
+            let (nodes, site) = (traces.grid.nodes(), matrix.site());
+            let places: Vec<_> = nodes
+                .iter()
+                .map(|node| traces.grid.robot_at(*node, site))
+                .collect();
+            let runs: Vec<Run> = traces.runs.iter().take(matrix.seeds).cloned().collect();
+            let mut before = 0.0;
+            let order = greedy(&runs, &places, radius_m).into_iter().enumerate();
+            let ranked = order.map(|(rank, (index, covered))| {
+                let gained = 100.0 * (covered - before);
+                before = covered;
+                Ranked {
+                    rank: rank + 1,
+                    node_m: nodes[index],
+                    robot_m: places[index],
+                    obs_percent: 100.0 * covered,
+                    gained_percent: gained,
+                }
+            });
+            rankings.push(Intersections {
+                pedestrians: traces.pedestrians(),
+                radius_m,
+                ranking: ranked.collect(),
+            });
+        }
+    }
+    if arguments.json {
+        return print_json(&rankings);
+    }
+    rankings.iter().try_for_each(print_ranking)
+}
+
+#[derive(Serialize)]
+struct Intersections {
+    pedestrians: usize,
+    radius_m: f64,
+    ranking: Vec<Ranked>,
+}
+
+fn print_ranking(ranking: &Intersections) -> Result<(), Failure> {
+    print(format_args!(
+        "{} pedestrians, {} m",
+        ranking.pedestrians, ranking.radius_m
+    ))?;
+    for it in &ranking.ranking {
+        let [x, y] = it.node_m;
+        print(format_args!(
+            "{:>4}. intersection ({x:.0}, {y:.0}) m: +{:.2} %, {:.2} % together",
+            it.rank, it.gained_percent, it.obs_percent
+        ))?;
+    }
+    print("")
+}
+
+fn record(arguments: &Record) -> Result<(), Failure> {
+    let Some(folder) = &arguments.streets.sumo else {
+        return Err(Failure::Input(
+            "--sumo FOLDER is needed: where SUMO's programs are (python3 -m venv v && v/bin/pip \
+             install eclipse-sumo, then v/bin)"
+                .to_owned(),
+        ));
+    };
+    std::fs::create_dir_all(&arguments.output).map_err(Failure::input)?;
+    let sumo = Sumo::in_folder(folder);
+    let streets = &arguments.streets;
+    let seeds: Vec<u64> = (1..).take(arguments.seeds).collect();
+    for &pedestrians in &arguments.pedestrians {
+        let plan = streets.plan(pedestrians);
+        let traces = streets.record(&sumo, &plan, &seeds, false)?;
+        let name = format!("{}-{pedestrians}.json.gz", streets.preset_name());
+        let path = arguments.output.join(name);
+        let file = std::fs::File::create(&path).and_then(|file| traces.write(file));
+        file.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+        print(format_args!(
+            "{}: {} runs of {} s",
+            path.display(),
+            arguments.seeds,
+            plan.duration_s
+        ))?;
+    }
+    Ok(())
+}
+
+impl Streets {
+    /// Records runs on a grid of this shape.
+    fn record(
+        &self,
+        sumo: &Sumo,
+        plan: &Plan,
+        seeds: &[u64],
+        is_json: bool,
+    ) -> Result<Traces, Failure> {
+        let mut grid = self.grid();
+        grid.check().map_err(Failure::input)?;
+        grid.mobility = sumo.version().map_err(Failure::input)?;
+        let bar = output::progress(is_json, "SUMO");
+        bar.set_length(seeds.len() as u64);
+        let mut runs = Vec::new();
+        for &seed in seeds {
+            runs.push(sumo.run(&grid, plan, seed).map_err(Failure::input)?);
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(Traces {
+            grid,
+            sample_ms: plan.sample_ms,
+            runs,
+        })
+    }
+}

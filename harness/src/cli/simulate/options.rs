@@ -1,0 +1,372 @@
+//! What `crossguard simulate` can be told.
+
+use std::fs::File;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use crossguard_harness::evaluation::grid::{Grid, Preset, Site};
+use crossguard_harness::evaluation::matrix::Axes;
+use crossguard_harness::evaluation::shipped;
+use crossguard_harness::evaluation::simulation::Behaviour;
+use crossguard_harness::evaluation::sumo::{Plan, Sumo};
+use crossguard_harness::evaluation::trace::Traces;
+use crossguard_harness::ras::vru::{Understands, VamRule};
+use serde::Serialize;
+
+use super::Failure;
+
+/// The streets, and who moves on them.
+#[derive(clap::Args)]
+pub(super) struct Streets {
+    /// Assumptions on the geometry, which the paper does not state.
+    #[arg(long, value_enum, default_value = "kerb")]
+    pub(super) preset: Preset,
+    /// Make fresh mobility with SUMO, whose programs are in this folder.
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) sumo: Option<PathBuf>,
+    /// Intersections along a side of the grid, for --sumo.
+    #[arg(long, value_name = "N", requires = "sumo")]
+    grid_size: Option<u32>,
+    /// Vehicles, for --sumo.
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    vehicles: usize,
+    /// Length of a run in seconds, for --sumo.
+    #[arg(long, value_name = "SECONDS", default_value_t = 200)]
+    duration: u32,
+}
+
+impl Streets {
+    pub(super) const fn preset_name(&self) -> &'static str {
+        self.preset.name()
+    }
+
+    pub(super) fn grid(&self) -> Grid {
+        let grid = self.preset.grid();
+        Grid {
+            nodes_per_side: self.grid_size.unwrap_or(grid.nodes_per_side),
+            ..grid
+        }
+    }
+
+    pub(super) fn plan(&self, pedestrians: usize) -> Plan {
+        Plan {
+            vehicles: self.vehicles,
+            pedestrians,
+            duration_s: self.duration,
+            ..Plan::default()
+        }
+    }
+}
+
+/// The cells of the evaluation.
+#[derive(clap::Args)]
+pub(super) struct Matrix {
+    #[command(flatten)]
+    streets: Streets,
+    /// Use these trace files instead of those that come along.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["sumo", "pedestrians"], num_args = 1..)]
+    traces: Vec<PathBuf>,
+    /// Numbers of robots: the first one at the middle intersection, the others around it.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "0,1,9",
+        value_name = "N,…"
+    )]
+    robots: Vec<usize>,
+    /// Numbers of people on foot.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "20,50,100",
+        value_name = "N,…"
+    )]
+    pedestrians: Vec<usize>,
+    /// Perception radii of robots, in metres.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "10,15",
+        value_name = "M,…"
+    )]
+    pub(super) radius: Vec<f64>,
+    /// Where at an intersection robots stand; the preset says it otherwise.
+    #[arg(long, value_enum)]
+    site: Option<Site>,
+    /// Seeds to take the mean over, at most; with --sumo, so many fresh runs.
+    #[arg(long, default_value_t = 10, value_name = "N")]
+    pub(super) seeds: usize,
+    /// The first seed of fresh runs, for --sumo.
+    #[arg(long, default_value_t = 1_001, value_name = "SEED")]
+    first_seed: u64,
+    /// Threads; as many as there are processors by default.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+impl std::ops::Deref for Matrix {
+    type Target = Streets;
+
+    fn deref(&self) -> &Streets {
+        &self.streets
+    }
+}
+
+impl Matrix {
+    pub(super) fn site(&self) -> Site {
+        self.site.unwrap_or_else(|| self.preset.site())
+    }
+
+    pub(super) fn axes(&self) -> Axes {
+        let processors = || std::thread::available_parallelism().ok();
+        Axes {
+            robots: self.robots.clone(),
+            radii_m: self.radius.clone(),
+            site: self.site(),
+            seeds: self.seeds,
+            threads: self
+                .threads
+                .or_else(processors)
+                .map_or(1, NonZeroUsize::get),
+        }
+    }
+
+    /// The traces: files, fresh ones, or those that come along.
+    pub(super) fn traces(&self, is_json: bool) -> Result<Vec<Traces>, Failure> {
+        self.check()?;
+        let traces = if !self.traces.is_empty() {
+            self.traces
+                .iter()
+                .map(read)
+                .collect::<Result<Vec<_>, _>>()?
+        } else if let Some(folder) = &self.sumo {
+            let sumo = Sumo::in_folder(folder);
+            let fresh = |&pedestrians: &usize| {
+                let seeds: Vec<u64> = (self.first_seed..).take(self.seeds).collect();
+                self.record(&sumo, &self.plan(pedestrians), &seeds, is_json)
+            };
+            self.pedestrians
+                .iter()
+                .map(fresh)
+                .collect::<Result<Vec<_>, _>>()?
+        } else {
+            let shipped = |&pedestrians: &usize| match shipped::traces(self.preset, pedestrians) {
+                Some(traces) => traces.map_err(Failure::input),
+                None => Err(Failure::Input(format!(
+                    "traces come along for {:?} pedestrians, not for {pedestrians}: make some with --sumo",
+                    shipped::PEDESTRIANS
+                ))),
+            };
+            self.pedestrians
+                .iter()
+                .map(shipped)
+                .collect::<Result<Vec<_>, _>>()?
+        };
+        let nodes = traces
+            .iter()
+            .map(|it| it.grid.nodes_per_side.pow(2) as usize)
+            .min();
+        let most = self.robots.iter().max().copied().unwrap_or(0);
+        match nodes {
+            Some(nodes) if nodes < most => Err(Failure::Input(format!(
+                "{most} robots need as many intersections, and there are {nodes}"
+            ))),
+            _ => Ok(traces),
+        }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        if let Some(radius_m) = self.radius.iter().find(|it| !(0.0..=100.0).contains(*it)) {
+            return Err(Failure::Input(format!(
+                "a radius is 0 to 100 m, not {radius_m} m"
+            )));
+        }
+        if self.seeds == 0 || self.pedestrians.contains(&0) {
+            return Err(Failure::Input(
+                "at least one seed and one pedestrian are needed".to_owned(),
+            ));
+        }
+        if self.sumo.is_some() && !(10..=3_600).contains(&self.duration) {
+            return Err(Failure::Input("a run takes 10 to 3600 s".to_owned()));
+        }
+        Ok(())
+    }
+
+    /// What the results depend on.
+    pub(super) fn parameters(&self, traces: &[Traces], behaviour: Option<Behaviour>) -> Parameters {
+        let first = traces.first();
+        let grid = first.map_or_else(|| self.grid(), |traces| traces.grid.clone());
+        let corner_m = grid.corner_m();
+        Parameters {
+            robot_site: self.site(),
+            robot_offset_m: if self.site() == Site::Center {
+                0.0
+            } else {
+                corner_m
+            },
+            grid,
+            vehicles: first
+                .and_then(|it| Some(it.runs.first()?.vehicles.len()))
+                .unwrap_or(0),
+            seeds: traces
+                .iter()
+                .map(|it| it.runs.len().min(self.seeds))
+                .min()
+                .unwrap_or(0),
+            duration_s: first.map_or(0, |traces| traces.duration_ms() / 1_000),
+            sample_ms: first.map_or(0, |traces| traces.sample_ms),
+            behaviour,
+        }
+    }
+}
+
+fn read(path: &PathBuf) -> Result<Traces, Failure> {
+    let file = File::open(path).map_err(crossguard_harness::evaluation::trace::TraceError::from);
+    let traces = file.and_then(Traces::read);
+    traces.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+}
+
+/// What the results depend on besides robots, people and radius.
+#[derive(Serialize)]
+pub(super) struct Parameters {
+    grid: Grid,
+    robot_site: Site,
+    robot_offset_m: f64,
+    vehicles: usize,
+    seeds: usize,
+    duration_s: u64,
+    sample_ms: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    behaviour: Option<Behaviour>,
+}
+
+/// How robots are placed.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(super) enum Placement {
+    /// The best intersection first, then the best one besides it, and so on.
+    Greedy,
+}
+
+/// Where results go.
+#[derive(clap::Args)]
+pub(super) struct Output {
+    /// Print the results as JSON, and nothing else.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Write the results to this file as comma-separated values.
+    #[arg(long, value_name = "FILE")]
+    pub(super) csv: Option<PathBuf>,
+    /// Draw the figures into this folder, as SVG.
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) svg: Option<PathBuf>,
+}
+
+/// Which announcements of a robot people's devices understand.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Devices {
+    /// RAM; they fall silent when one covers them.
+    Ram,
+    /// Cluster VAM, as every ETSI device; robots send them besides RAM.
+    ClusterVam,
+}
+
+/// What goes over the air. The paper states none of it.
+#[derive(clap::Args)]
+pub(super) struct Air {
+    /// When devices send VAM: 'etsi', or so many per second (0.2 to 10).
+    #[arg(
+        long,
+        default_value = "10",
+        value_name = "etsi|HZ",
+        help_heading = "Air"
+    )]
+    vam: String,
+    /// When robots send RAM: 'rules', which is once a second for a robot that stands, or so many per
+    /// second (1 to 10).
+    #[arg(
+        long,
+        default_value = "rules",
+        value_name = "rules|HZ",
+        help_heading = "Air"
+    )]
+    ram: String,
+    /// When vehicles send CAM: 'rules', or so many per second (1 to 10).
+    #[arg(
+        long,
+        default_value = "rules",
+        value_name = "rules|HZ",
+        help_heading = "Air"
+    )]
+    cam: String,
+    /// Which announcements devices understand.
+    #[arg(long, value_enum, default_value = "ram", help_heading = "Air")]
+    devices: Devices,
+    /// Share of people with a device.
+    #[arg(long, default_value_t = 1.0, value_name = "0..1", help_heading = "Air")]
+    v2x_share: f64,
+    /// Vehicles are gone after so many seconds, as when trips end; they stay by default.
+    #[arg(long, value_name = "SECONDS", help_heading = "Air")]
+    vehicles_leave: Option<f64>,
+    /// No contention and no collisions.
+    #[arg(long, help_heading = "Air")]
+    ideal: bool,
+    /// Path loss exponent.
+    #[arg(long, default_value_t = 2.2, value_name = "N", help_heading = "Air")]
+    path_loss_exponent: f64,
+    /// Packets are not signed.
+    #[arg(long, help_heading = "Air")]
+    unsigned: bool,
+    /// Reactive congestion control (TS 102 687) holds stations back.
+    #[arg(long, help_heading = "Air")]
+    dcc: bool,
+}
+
+impl Air {
+    /// The behaviour of all stations.
+    pub(super) fn behaviour(&self) -> Result<Behaviour, String> {
+        if !(0.0..=1.0).contains(&self.v2x_share) {
+            return Err("--v2x-share is 0 to 1".to_owned());
+        }
+        if !(1.0..=6.0).contains(&self.path_loss_exponent) {
+            return Err("--path-loss-exponent is 1 to 6".to_owned());
+        }
+        let mut behaviour = Behaviour {
+            vam: match interval_ms("--vam", &self.vam, "etsi", 0.2)? {
+                None => VamRule::Etsi,
+                Some(interval_ms) => VamRule::Periodic(interval_ms),
+            },
+            understands: match self.devices {
+                Devices::Ram => Understands::Ram,
+                Devices::ClusterVam => Understands::ClusterVam,
+            },
+            v2x_share: self.v2x_share,
+            ram_interval_ms: interval_ms("--ram", &self.ram, "rules", 1.0)?,
+            cam_interval_ms: interval_ms("--cam", &self.cam, "rules", 1.0)?,
+            vehicles_leave_s: self.vehicles_leave,
+            signed: !self.unsigned,
+            dcc: self.dcc,
+            ..Behaviour::default()
+        };
+        behaviour.radio.exponent = self.path_loss_exponent;
+        behaviour.radio.ideal = self.ideal;
+        Ok(behaviour)
+    }
+}
+
+/// The interval of a rate; `None` when it is by rules.
+fn interval_ms(option: &str, text: &str, rules: &str, min_hz: f64) -> Result<Option<u64>, String> {
+    if text == rules {
+        return Ok(None);
+    }
+    match text.parse::<f64>() {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "100..5000"
+        )]
+        Ok(hz) if (min_hz..=10.0).contains(&hz) => Ok(Some((1_000.0 / hz).round() as u64)),
+        _ => Err(format!(
+            "{option} is '{rules}' or {min_hz} to 10 per second, not {text:?}"
+        )),
+    }
+}

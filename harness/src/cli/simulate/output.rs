@@ -1,0 +1,225 @@
+//! How results of `crossguard simulate` are printed and written.
+
+use std::path::Path;
+
+use comfy_table::Table;
+use comfy_table::presets::NOTHING;
+use crossguard_harness::evaluation::matrix::{CbrCell, ObsCell};
+use crossguard_harness::evaluation::plot::BarChart;
+use crossguard_harness::evaluation::statistics::Estimate;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::options::{Output, Parameters};
+use super::{Failure, print};
+use crate::cli::shows_progress;
+
+/// A row of a table for people, and of one for programs.
+pub(super) trait Row {
+    /// Heads of the columns for people.
+    fn head() -> Vec<&'static str>;
+    /// The columns for people.
+    fn columns(&self) -> Vec<String>;
+}
+
+fn percent(it: Estimate) -> String {
+    format!("{:.2} ± {:.2} %", it.mean, it.sd)
+}
+
+impl Row for ObsCell {
+    fn head() -> Vec<&'static str> {
+        vec!["robots", "pedestrians", "radius", "coverage"]
+    }
+
+    fn columns(&self) -> Vec<String> {
+        vec![
+            self.robots.to_string(),
+            self.pedestrians.to_string(),
+            format!("{} m", self.radius_m),
+            percent(self.obs_percent),
+        ]
+    }
+}
+
+impl Row for CbrCell {
+    fn head() -> Vec<&'static str> {
+        vec![
+            "robots",
+            "pedestrians",
+            "radius",
+            "mCBR",
+            "reduction",
+            "by the law",
+            "silent devices",
+            "VAM share",
+            "VAM/s",
+            "CAM/s",
+            "RAM/s",
+            "collided",
+        ]
+    }
+
+    fn columns(&self) -> Vec<String> {
+        let scaled = Estimate {
+            mean: 100.0 * self.mcbr.mean,
+            sd: 100.0 * self.mcbr.sd,
+        };
+        let [vam, cam, ram] = self.messages_per_s.map(|it| format!("{:.1}", it.mean));
+        vec![
+            self.robots.to_string(),
+            self.pedestrians.to_string(),
+            format!("{} m", self.radius_m),
+            percent(scaled),
+            percent(self.reduction_percent),
+            format!("{:.2} %", self.predicted_percent.mean),
+            format!("{:.2} %", self.passive_percent.mean),
+            format!("{:.1} %", self.vam_share_percent.mean),
+            vam,
+            cam,
+            ram,
+            format!("{:.2} %", self.collided_percent.mean),
+        ]
+    }
+}
+
+/// The cells as a table for people.
+pub(super) fn table<C: Row>(cells: &[C]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING);
+    table.set_header(C::head());
+    for cell in cells {
+        table.add_row(cell.columns());
+    }
+    table
+}
+
+/// What the results depend on, one line each.
+pub(super) fn print_parameters(parameters: &Parameters) -> Result<(), Failure> {
+    let value = serde_json::to_value(parameters).map_err(Failure::input)?;
+    print("Assumptions, most of which the paper does not state:")?;
+    print_value(2, &value)?;
+    print("")
+}
+
+fn print_value(indent: usize, value: &serde_json::Value) -> Result<(), Failure> {
+    let Some(fields) = value.as_object() else {
+        return Ok(());
+    };
+    for (name, value) in fields {
+        let name = name.replace('_', " ");
+        if value.is_object() && value.as_object().is_some_and(|it| it.len() > 1) {
+            print(format_args!("{:indent$}{name}:", ""))?;
+            print_value(indent + 2, value)?;
+        } else {
+            let value = value.to_string().replace('"', "");
+            print(format_args!("{:indent$}{name}: {value}", ""))?;
+        }
+    }
+    Ok(())
+}
+
+/// Cells as comma-separated values.
+pub(super) trait Csv {
+    /// Names of the columns.
+    const COLUMNS: &'static [&'static str];
+    /// The columns.
+    fn row(&self) -> Vec<String>;
+}
+
+/// Writes cells to the file that was asked for, if one was.
+pub(super) fn write_csv<C: Csv>(output: &Output, cells: &[C]) -> Result<(), Failure> {
+    let Some(path) = &output.csv else {
+        return Ok(());
+    };
+    let failed = |error: csv::Error| Failure::Input(format!("{}: {error}", path.display()));
+    let mut file = csv::Writer::from_path(path).map_err(failed)?;
+    file.write_record(C::COLUMNS).map_err(failed)?;
+    for cell in cells {
+        file.write_record(cell.row()).map_err(failed)?;
+    }
+    file.flush().map_err(|error| failed(error.into()))
+}
+
+impl Csv for ObsCell {
+    const COLUMNS: &'static [&'static str] = &[
+        "robots",
+        "pedestrians",
+        "radius_m",
+        "obs_percent_mean",
+        "obs_percent_sd",
+    ];
+
+    fn row(&self) -> Vec<String> {
+        let numbers = [self.radius_m, self.obs_percent.mean, self.obs_percent.sd];
+        let counts = [self.robots, self.pedestrians].map(|it| it.to_string());
+        counts
+            .into_iter()
+            .chain(numbers.map(|it| it.to_string()))
+            .collect()
+    }
+}
+
+impl Csv for CbrCell {
+    const COLUMNS: &'static [&'static str] = &[
+        "robots",
+        "pedestrians",
+        "radius_m",
+        "mcbr_mean",
+        "mcbr_sd",
+        "reduction_percent_mean",
+        "reduction_percent_sd",
+        "predicted_percent_mean",
+        "passive_percent_mean",
+        "vam_share_percent_mean",
+        "vam_per_s_mean",
+        "cam_per_s_mean",
+        "ram_per_s_mean",
+        "collided_percent_mean",
+    ];
+
+    fn row(&self) -> Vec<String> {
+        let [vam, cam, ram] = self.messages_per_s;
+        let numbers = [
+            self.radius_m,
+            self.mcbr.mean,
+            self.mcbr.sd,
+            self.reduction_percent.mean,
+            self.reduction_percent.sd,
+            self.predicted_percent.mean,
+            self.passive_percent.mean,
+            self.vam_share_percent.mean,
+            vam.mean,
+            cam.mean,
+            ram.mean,
+            self.collided_percent.mean,
+        ];
+        let counts = [self.robots, self.pedestrians].map(|it| it.to_string());
+        counts
+            .into_iter()
+            .chain(numbers.map(|it| it.to_string()))
+            .collect()
+    }
+}
+
+/// Draws charts into the folder that was asked for, if one was.
+pub(super) fn write_charts(output: &Output, charts: &[(&str, BarChart)]) -> Result<(), Failure> {
+    let Some(folder) = &output.svg else {
+        return Ok(());
+    };
+    let failed = |path: &Path, error| Failure::Input(format!("{}: {error}", path.display()));
+    std::fs::create_dir_all(folder).map_err(|error| failed(folder, error))?;
+    for (name, chart) in charts {
+        let path = folder.join(name);
+        std::fs::write(&path, chart.to_svg()).map_err(|error| failed(&path, error))?;
+    }
+    Ok(())
+}
+
+/// A bar that shows how far it is, to people only.
+pub(super) fn progress(is_json: bool, of: &'static str) -> ProgressBar {
+    if !shows_progress(is_json) {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} {eta}");
+    let bar = ProgressBar::new(0).with_message(of);
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

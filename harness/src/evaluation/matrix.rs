@@ -1,0 +1,288 @@
+//! The whole matrix: robots, people, radii and seeds, over all cores.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde::Serialize;
+
+use super::coverage::coverage;
+use super::grid::Site;
+use super::messages::Sizes;
+use super::robot::RobotError;
+use super::simulation::{Behaviour, Measured, simulate};
+use super::statistics::Estimate;
+use super::trace::Traces;
+
+/// What to vary.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Axes {
+    /// Numbers of robots.
+    pub robots: Vec<usize>,
+    /// Perception radii, in metres.
+    pub radii_m: Vec<f64>,
+    /// Where at an intersection robots stand.
+    pub site: Site,
+    /// Seeds at most.
+    pub seeds: usize,
+    /// Threads at most.
+    pub threads: usize,
+}
+
+/// Coverage in a cell of the matrix.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct ObsCell {
+    /// Robots.
+    pub robots: usize,
+    /// People on foot.
+    pub pedestrians: usize,
+    /// Perception radius in metres.
+    pub radius_m: f64,
+    /// Observation coverage ratio, in percent.
+    pub obs_percent: Estimate,
+}
+
+/// Channel load in a cell of the matrix.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct CbrCell {
+    /// Robots.
+    pub robots: usize,
+    /// People on foot.
+    pub pedestrians: usize,
+    /// Perception radius in metres.
+    pub radius_m: f64,
+    /// Mean channel busy ratio, 0..1.
+    pub mcbr: Estimate,
+    /// How much less it is than without robots, in percent of that.
+    pub reduction_percent: Estimate,
+    /// What the law says: coverage times the share of VAM less that of RAM, in percent.
+    pub predicted_percent: Estimate,
+    /// Share of devices' time without VAM of their own, in percent.
+    pub passive_percent: Estimate,
+    /// Share of VAM in the air time without robots, in percent.
+    pub vam_share_percent: Estimate,
+    /// VAM, CAM and RAM per second.
+    pub messages_per_s: [Estimate; 3],
+    /// Share of frames that overlapped with another, in percent.
+    pub collided_percent: Estimate,
+}
+
+/// Coverage in every cell.
+#[must_use]
+pub fn obs(traces: &[Traces], axes: &Axes) -> Vec<ObsCell> {
+    let mut cells = Vec::new();
+    for traces in traces {
+        for &robots in &axes.robots {
+            let places = traces.grid.robots(robots, axes.site);
+            for &radius_m in &axes.radii_m {
+                let runs = traces.runs.iter().take(axes.seeds);
+                let percent = runs.map(|run| 100.0 * coverage(run, &places, radius_m));
+                cells.push(ObsCell {
+                    robots,
+                    pedestrians: traces.pedestrians(),
+                    radius_m,
+                    obs_percent: Estimate::of(percent),
+                });
+            }
+        }
+    }
+    cells
+}
+
+/// One run of the matrix.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Job {
+    traces: usize,
+    run: usize,
+    robots: usize,
+    radius_m: f64,
+}
+
+/// What came of a [`Job`].
+#[derive(Clone, Copy, Debug)]
+struct Done {
+    measured: Measured,
+    coverage: f64,
+}
+
+/// Channel load in every cell; `done` is told after every run how many of how many there are.
+///
+/// # Errors
+/// When a message cannot be encoded.
+pub fn cbr(
+    traces: &[Traces],
+    axes: &Axes,
+    behaviour: &Behaviour,
+    sizes: &Sizes,
+    done: impl Fn(usize, usize) + Sync,
+) -> Result<Vec<CbrCell>, RobotError> {
+    let jobs = jobs(traces, axes);
+    let results = Mutex::new(vec![None; jobs.len()]);
+    let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let failed = Mutex::new(None);
+    std::thread::scope(|scope| {
+        for _ in 0..axes.threads.clamp(1, jobs.len().max(1)) {
+            scope.spawn(|| {
+                // A job that is taken is the thread's own.
+                while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    match measure(traces, axes, behaviour, sizes, job) {
+                        Ok(it) => set(&results, &jobs, job, it),
+                        Err(error) => {
+                            failed
+                                .lock()
+                                .unwrap_or_else(std::sync::PoisonError::into_inner)
+                                .replace(error);
+                            return;
+                        }
+                    }
+                    done(finished.fetch_add(1, Ordering::Relaxed) + 1, jobs.len());
+                }
+            });
+        }
+    });
+    if let Some(error) = failed
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+    {
+        return Err(error);
+    }
+    let results = results
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let find = |wanted: Job| {
+        let index = jobs.iter().position(|job| *job == wanted)?;
+        results[index]
+    };
+    Ok(cells(traces, axes, find))
+}
+
+fn set(results: &Mutex<Vec<Option<Done>>>, jobs: &[Job], job: &Job, done: Done) {
+    if let Some(index) = jobs.iter().position(|it| it == job) {
+        results
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(done);
+    }
+}
+
+/// Without robots there is one run whatever the radius; it is what the others are compared with.
+fn jobs(traces: &[Traces], axes: &Axes) -> Vec<Job> {
+    let mut jobs = Vec::new();
+    for (index, file) in traces.iter().enumerate() {
+        for run in 0..file.runs.len().min(axes.seeds) {
+            jobs.push(baseline(index, run));
+            for &robots in axes.robots.iter().filter(|robots| **robots > 0) {
+                jobs.extend(axes.radii_m.iter().map(|&radius_m| Job {
+                    traces: index,
+                    run,
+                    robots,
+                    radius_m,
+                }));
+            }
+        }
+    }
+    jobs
+}
+
+const fn baseline(traces: usize, run: usize) -> Job {
+    Job {
+        traces,
+        run,
+        robots: 0,
+        radius_m: 0.0,
+    }
+}
+
+fn measure(
+    traces: &[Traces],
+    axes: &Axes,
+    behaviour: &Behaviour,
+    sizes: &Sizes,
+    job: &Job,
+) -> Result<Done, RobotError> {
+    let file = &traces[job.traces];
+    let run = &file.runs[job.run];
+    let places = file.grid.robots(job.robots, axes.site);
+    let mut behaviour = behaviour.clone();
+    behaviour.clustering.radius_m = job.radius_m;
+    Ok(Done {
+        measured: simulate(run, file.duration_ms(), &places, &behaviour, sizes)?,
+        coverage: coverage(run, &places, job.radius_m),
+    })
+}
+
+fn cells(traces: &[Traces], axes: &Axes, find: impl Fn(Job) -> Option<Done>) -> Vec<CbrCell> {
+    let mut cells = Vec::new();
+    for (index, file) in traces.iter().enumerate() {
+        let runs = file.runs.len().min(axes.seeds);
+        let before: Vec<Done> = (0..runs)
+            .filter_map(|run| find(baseline(index, run)))
+            .collect();
+        for &robots in &axes.robots {
+            for &radius_m in &axes.radii_m {
+                let job = |run| Job {
+                    traces: index,
+                    run,
+                    robots,
+                    radius_m,
+                };
+                let job = |run| {
+                    if robots == 0 {
+                        baseline(index, run)
+                    } else {
+                        job(run)
+                    }
+                };
+                let after: Vec<Done> = (0..runs).filter_map(|run| find(job(run))).collect();
+                cells.push(cell(robots, file.pedestrians(), radius_m, &before, &after));
+            }
+        }
+    }
+    cells
+}
+
+fn cell(
+    robots: usize,
+    pedestrians: usize,
+    radius_m: f64,
+    before: &[Done],
+    after: &[Done],
+) -> CbrCell {
+    let percent = |of: fn(&Done) -> f64| Estimate::of(after.iter().map(|it| 100.0 * of(it)));
+    let rate = |of: fn(&Measured) -> f64| Estimate::of(after.iter().map(|it| of(&it.measured)));
+    let pairs = || before.iter().zip(after);
+    let reduction = pairs().map(|(before, after)| {
+        100.0 * (1.0 - after.measured.mcbr / before.measured.mcbr.max(f64::MIN_POSITIVE))
+    });
+    let predicted = pairs().map(|(before, after)| {
+        100.0 * predicted_reduction(&before.measured, &after.measured, after.coverage)
+    });
+    CbrCell {
+        robots,
+        pedestrians,
+        radius_m,
+        mcbr: Estimate::of(after.iter().map(|it| it.measured.mcbr)),
+        reduction_percent: Estimate::of(reduction),
+        predicted_percent: Estimate::of(predicted),
+        passive_percent: percent(|it| it.measured.passive),
+        vam_share_percent: Estimate::of(before.iter().map(|it| 100.0 * vam_share(&it.measured))),
+        messages_per_s: [
+            rate(|it| it.vam_rate),
+            rate(|it| it.cam_rate),
+            rate(|it| it.ram_rate),
+        ],
+        collided_percent: percent(|it| it.measured.collided),
+    }
+}
+
+/// Share of VAM in the air time, 0..1.
+#[must_use]
+pub fn vam_share(measured: &Measured) -> f64 {
+    measured.vam_load / (measured.vam_load + measured.cam_load).max(f64::MIN_POSITIVE)
+}
+
+/// The law of the channel load: devices that a robot stands in for take `quiet` of the VAM away, and its
+/// RAM come on top. Both as shares of the air time without robots.
+#[must_use]
+pub fn predicted_reduction(before: &Measured, after: &Measured, quiet: f64) -> f64 {
+    let load = (before.vam_load + before.cam_load).max(f64::MIN_POSITIVE);
+    quiet * vam_share(before) - after.ram_load / load
+}
