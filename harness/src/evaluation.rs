@@ -16,6 +16,7 @@
 //!
 //! `doc/evaluation.md` says which assumptions reproduce the paper, and which do not.
 
+mod cam;
 pub mod coverage;
 pub mod grid;
 pub mod matrix;
@@ -30,4 +31,5 @@ pub mod statistics;
 pub mod sumo;
 pub mod trace;
 
+pub use cam::CamError;
 pub use robot::RobotError;

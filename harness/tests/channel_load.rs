@@ -32,7 +32,7 @@ fn moving(from: Point, to: Point, seconds: f64) -> Track {
 }
 
 fn measure(run: &Run, robots: &[Point], behaviour: &Behaviour) -> Measured {
-    let sizes = Sizes::measure().unwrap();
+    let sizes = Sizes::measure(5).unwrap();
     simulate(run, SECONDS * 1_000, robots, behaviour, &sizes).unwrap()
 }
 

@@ -118,7 +118,7 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     let matrix = &arguments.matrix;
     let behaviour = arguments.air.behaviour().map_err(Failure::Input)?;
     let traces = matrix.traces(arguments.output.json)?;
-    let sizes = Sizes::measure().map_err(Failure::input)?;
+    let sizes = Sizes::measure(behaviour.cam_path_points).map_err(Failure::input)?;
     let bar = output::progress(arguments.output.json, "runs");
     let done = |finished: usize, of: usize| {
         bar.set_length(of as u64);

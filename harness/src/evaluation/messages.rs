@@ -6,6 +6,7 @@
 use crossguard_codec::{ConfidenceEllipse, Measurement, Position, RobotState};
 use serde::{Deserialize, Serialize};
 
+use super::cam::{CamError, cam_octets};
 use crate::ras::generation::Trigger;
 use crate::ras::vam::{Content, VamError, vam};
 use crate::ras::vru::{DueVam, LeaveReason, Operation, VamTrigger};
@@ -66,11 +67,12 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Encodes one message of each kind.
+    /// Encodes one message of each kind; the path history of a CAM's low-frequency container has this many
+    /// points.
     ///
     /// # Errors
     /// When a message cannot be encoded.
-    pub fn measure() -> Result<Self, VamError> {
+    pub fn measure(cam_path_points: usize) -> Result<Self, SizeError> {
         let octets = |low_frequency, operation| {
             let due = DueVam {
                 trigger: VamTrigger::Motion(Trigger::First),
@@ -86,7 +88,7 @@ impl Sizes {
         Ok(Self {
             vam: [octets(false, None)?, octets(true, None)?],
             vam_operation: [octets(true, Some(join))?, octets(true, Some(leave))?],
-            cam: CAM,
+            cam: [cam_octets(None)?, cam_octets(Some(cam_path_points))?],
         })
     }
 
@@ -107,8 +109,16 @@ impl Sizes {
     }
 }
 
-/// A vehicle's CAM, without and with a low-frequency container whose path history has two points.
-const CAM: [usize; 2] = [41, 58];
+/// Why a message has no size.
+#[derive(Debug, thiserror::Error)]
+pub enum SizeError {
+    /// A VAM cannot be made.
+    #[error("VAM: {0}")]
+    Vam(#[from] VamError),
+    /// A CAM cannot be made.
+    #[error("CAM: {0}")]
+    Cam(#[from] CamError),
+}
 
 /// Confidences as a phone would give them; they do not change the size of a VAM.
 fn state_of_a_pedestrian() -> RobotState {
@@ -150,7 +160,7 @@ mod tests {
     /// 34 and 36 octets are those of the golden vectors V1 and V5.
     #[test]
     fn a_vam_has_the_size_of_the_golden_vectors() {
-        let sizes = Sizes::measure().unwrap();
+        let sizes = Sizes::measure(5).unwrap();
         assert_eq!(sizes.vam[0], 34);
         assert_eq!(sizes.vam[1], 36);
         assert!(

@@ -26,7 +26,8 @@ use crate::ras::vru::{Understands, VamRule, VruStation};
 pub(super) const CHECK_US: u64 = 100_000;
 /// How long a message takes to be built at most, in microseconds.
 const ASSEMBLY_MAX_US: u64 = 10_000;
-/// What happens before is not counted, in microseconds.
+/// Stations are switched on one after the other until then, and what happens before is not counted, in
+/// microseconds.
 pub const SETTLING_US: u64 = 5_000_000;
 /// Frames that a station keeps waiting at most; a further one takes the place of the oldest.
 const QUEUE_MAX: usize = 2;
@@ -48,6 +49,8 @@ pub struct Behaviour {
     pub cluster_vam_interval_ms: u64,
     /// Interval of CAM in ms; `None` is by the generation rules.
     pub cam_interval_ms: Option<u64>,
+    /// Points in the path history of a CAM's low-frequency container.
+    pub cam_path_points: usize,
     /// How long vehicles are there, in seconds from the beginning; `None` is all the time.
     pub vehicles_leave_s: Option<f64>,
     /// Whether packets are signed.
@@ -69,6 +72,7 @@ impl Default for Behaviour {
             ram_interval_ms: None,
             cluster_vam_interval_ms: 500,
             cam_interval_ms: None,
+            cam_path_points: 5,
             vehicles_leave_s: None,
             signed: true,
             dcc: false,
@@ -278,8 +282,8 @@ impl<'a> Simulation<'a> {
         let mut random = ChaCha8Rng::seed_from_u64(run.seed);
         let mut events = BinaryHeap::from([Reverse((WINDOW_US, Event::Window))]);
         for number in 0..stations.len() {
-            let phase_us = random.random_range(0..CHECK_US);
-            events.push(Reverse((phase_us, Event::Check(number))));
+            let on_us = random.random_range(0..SETTLING_US);
+            events.push(Reverse((on_us, Event::Check(number))));
         }
         let mut simulation = Self {
             behaviour,

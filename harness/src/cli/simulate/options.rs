@@ -298,6 +298,9 @@ pub(super) struct Air {
         help_heading = "Air"
     )]
     cam: String,
+    /// Points in the path history of CAM, which goes along every half second.
+    #[arg(long, default_value_t = 5, value_name = "0..40", help_heading = "Air")]
+    cam_path_points: usize,
     /// Which announcements devices understand.
     #[arg(long, value_enum, default_value = "ram", help_heading = "Air")]
     devices: Devices,
@@ -342,6 +345,7 @@ impl Air {
             v2x_share: self.v2x_share,
             ram_interval_ms: interval_ms("--ram", &self.ram, "rules", 1.0)?,
             cam_interval_ms: interval_ms("--cam", &self.cam, "rules", 1.0)?,
+            cam_path_points: self.cam_path_points,
             vehicles_leave_s: self.vehicles_leave,
             signed: !self.unsigned,
             dcc: self.dcc,
