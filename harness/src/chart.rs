@@ -74,6 +74,9 @@ impl Chart {
                 outputs,
                 state,
             } => {
+                if let Input::Local(Event::IdentityChanged(station)) = input {
+                    self.lanes[lane].station = *station;
+                }
                 let mut notes: Vec<_> = note_of_input(input).into_iter().collect();
                 notes.extend(outputs.iter().filter_map(note_of_output));
                 let after = state.state();

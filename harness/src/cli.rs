@@ -7,7 +7,9 @@ mod codec;
 mod demo;
 mod explore;
 mod fsm;
+mod pki;
 mod run;
+mod security;
 mod simulate;
 
 use std::io::{ErrorKind, IsTerminal, Write};
@@ -45,6 +47,9 @@ enum Command {
     /// Convert messages between octets and JSON.
     #[command(subcommand)]
     Codec(codec::Command),
+    /// Make and show the certificates and keys of a PKI for tests.
+    #[command(subcommand)]
+    Pki(pki::Command),
 }
 
 /// How a subcommand ends, when not well.
@@ -86,6 +91,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Codec(command) => codec::run(&command),
+        Command::Pki(command) => pki::run(&command),
     };
     match done {
         Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,

@@ -15,7 +15,7 @@ use crate::application::{Application, Plan, Wish};
 use crate::body::{Body, Build};
 use crate::runtime::{Clock, Order, Running, Setup};
 use crate::site::{Place, Site};
-use crate::station::Security;
+use crate::station::{Mode, Security};
 use crate::timing::{Summary, Timing};
 use crate::trace::{self, Entry, Record, Validated};
 use crate::transport::{Faults, Halves, Link, LinkError, Transport, WithFaults};
@@ -45,6 +45,10 @@ pub struct Options {
     pub seed: u64,
     /// Port of the first robot; the second has the next one.
     pub port: u16,
+    /// How much security there is.
+    pub security_mode: Mode,
+    /// The security of each robot.
+    pub security: [Security; 2],
 }
 
 /// What came of a demonstration.
@@ -72,6 +76,8 @@ pub struct Outcome {
     pub faults: String,
     /// Seed of faults and gait.
     pub seed: u64,
+    /// How much security there was.
+    pub security: Mode,
     /// The state of each robot in the end.
     pub final_states: BTreeMap<String, String>,
     /// What came to nothing, by robot and cause.
@@ -133,7 +139,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(&Record)) -> Result<Dem
     let clock = Clock::start();
     let addresses = [options.port, options.port.wrapping_add(1)]
         .map(|port| SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
-    let robot = |(name, station), build, place, seed| {
+    let robot = |(name, station), build, place, seed, security: &Security| {
         let body = Body::new(
             build,
             site,
@@ -147,10 +153,12 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(&Record)) -> Result<Dem
             body,
             clock,
             log: SyncSender::clone(&log),
+            security: security.clone(),
         }
     };
-    let ari = robot(ARI, Build::Humanoid, Place::new(0.0, -1.5), 1);
-    let go2 = robot(GO2, Build::Quadruped, Place::new(-2.0, -2.5), 2);
+    let [of_ari, of_go2] = &options.security;
+    let ari = robot(ARI, Build::Humanoid, Place::new(0.0, -1.5), 1, of_ari);
+    let go2 = robot(GO2, Build::Quadruped, Place::new(-2.0, -2.5), 2, of_go2);
     let open = |address, peer, seed| {
         let peers = vec![peer];
         let link = Link::Peers { address, peers };
@@ -183,6 +191,7 @@ struct Robot {
     body: Body,
     clock: Clock,
     log: SyncSender<Record>,
+    security: Security,
 }
 
 impl Robot {
@@ -194,7 +203,7 @@ impl Robot {
             boot: 1,
             config: Config::default(),
             wire: Wire::default(),
-            security: Security::default(),
+            security: self.security,
             application: Application::new(self.body, plan),
             link,
             log: self.log,
@@ -302,6 +311,7 @@ impl Demo<'_> {
             speed: options.time_scale,
             faults: options.faults.to_string(),
             seed: options.seed,
+            security: options.security_mode,
             final_states: self
                 .rest
                 .iter()

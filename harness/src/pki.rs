@@ -26,7 +26,7 @@ use crossguard_codec::{Identifiers, Part, Service};
 use crate::station::Credentials;
 
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.
-const EARLY_S: u64 = 60;
+pub const EARLY_S: u64 = 60;
 
 /// What time it is on the scale of certificates, by the system's clock.
 #[must_use]
@@ -421,13 +421,25 @@ pub fn read_credentials(folder: &Path) -> Result<Credentials, PkiError> {
 /// # Errors
 /// When it cannot be read.
 pub fn certificates_in(folder: &Path) -> Result<Vec<PathBuf>, PkiError> {
+    paths_in(folder, |path| {
+        path.extension()
+            .is_some_and(|extension| extension == "cert")
+    })
+}
+
+/// The folders in a folder, by name.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn folders_in(folder: &Path) -> Result<Vec<PathBuf>, PkiError> {
+    paths_in(folder, Path::is_dir)
+}
+
+fn paths_in(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, PkiError> {
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder).map_err(at(folder))? {
         let path = entry.map_err(at(folder))?.path();
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "cert")
-        {
+        if wanted(&path) {
             paths.push(path);
         }
     }

@@ -7,6 +7,7 @@ use comfy_table::{CellAlignment, Table};
 use crossguard_codec::Identifiers;
 use crossguard_harness::chart::Chart;
 use crossguard_harness::demo::{self, ARI, GO2, Options, Outcome};
+use crossguard_harness::station::Mode;
 use crossguard_harness::timing::{Statistic, Summary};
 use crossguard_harness::transport::Faults;
 
@@ -32,6 +33,8 @@ pub(super) struct Arguments {
     /// Port of the first robot on 127.0.0.1; the second has the next one.
     #[arg(long, default_value_t = 47_401, value_parser = clap::value_parser!(u16).range(1_024..=65_534))]
     port: u16,
+    #[command(flatten)]
+    security: super::security::SecurityArguments,
     /// Write the log to this file, one JSON object per line.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
@@ -78,6 +81,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
         seed: arguments.seed,
         port: arguments.port,
+        security_mode: arguments.security.mode(),
+        security: arguments.security.of_robots([ARI.0, GO2.0])?,
     };
     let mut log_file = match &arguments.log {
         Some(path) => Some(create(path)?),
@@ -86,7 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shows_chart = !arguments.json && !arguments.quiet;
     let mut chart = Chart::new(&[ARI, GO2], Identifiers::default());
     if shows_chart {
-        introduce(&options)?;
+        introduce(&options, arguments.security.is_throw_away())?;
         print(chart.header())?;
     }
     // If nobody reads the chart any more, the crossing goes on, and the log is complete.
@@ -118,12 +123,22 @@ fn create(path: &std::path::Path) -> Result<std::fs::File, Failure> {
         .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
 }
 
-fn introduce(options: &Options) -> Result<(), Failure> {
+fn introduce(options: &Options, is_throw_away: bool) -> Result<(), Failure> {
+    let security = match options.security_mode {
+        Mode::Off => "are not signed",
+        Mode::Sign => "are signed, and need not be",
+        Mode::Enforce => "are signed and verified",
+    };
+    let pki = match (options.security_mode, is_throw_away) {
+        (Mode::Off, _) => "",
+        (_, true) => ", by certificates that are made for this run",
+        (_, false) => ", by the certificates given",
+    };
     // Both maneuvers of the crossing as they are planned, and half a second around them.
     let seconds = 26.0 / options.time_scale + 1.5;
     print(format_args!(
         "A pedestrian wants to cross. {} and {} coordinate over UDP on 127.0.0.1:{} and :{}.\n\
-         They move {} times as fast as real: about {seconds:.0} s per crossing.\n",
+         They move {} times as fast as real: about {seconds:.0} s per crossing. Packets {security}{pki}.\n",
         ARI.0,
         GO2.0,
         options.port,

@@ -46,6 +46,8 @@ pub(super) struct Arguments {
     /// Seed of the faults and of the robot's gait.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    #[command(flatten)]
+    security: super::security::SecurityArguments,
     /// Write the log to this file, one JSON object per line.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
@@ -83,6 +85,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => Some(create(path)?),
         None => None,
     };
+    let security = arguments.security.of_robot(&file.name)?;
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
     let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
     let body = Body::new(
@@ -102,7 +105,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         wire: Wire {
             identifiers: file.identifiers,
         },
-        security: crossguard_harness::station::Security::default(),
+        security,
         application: Application::new(body, plan),
         link,
         log,

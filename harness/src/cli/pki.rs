@@ -1,0 +1,549 @@
+//! `crossguard pki`.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration as StdDuration, UNIX_EPOCH};
+
+use clap::{ArgAction, ValueEnum};
+use crossguard_codec::security::{
+    Certificate, Content, Duration, Issuer, Permission, Place, Region, Ssp, Subjects, Time64,
+};
+use crossguard_codec::si::timestamp_its;
+use crossguard_codec::{Identifiers, Part, Service};
+use crossguard_harness::pki::{self, Holder, PkiError, Term};
+use serde::Serialize;
+
+use super::{Failure, print, print_json};
+
+/// 2004-01-01T00:00:00Z, in seconds since 1970.
+const EPOCH_S: u64 = 1_072_915_200;
+
+#[derive(clap::Subcommand)]
+#[command(after_help = AFTER_HELP)]
+pub(super) enum Command {
+    /// Make a whole PKI: a root, an authority, and pseudonyms for robots.
+    Init {
+        /// The folder, which is made if need be.
+        folder: PathBuf,
+        /// A robot; give the option once for each.
+        #[arg(long = "robot", value_name = "NAME", default_values = ["ARI", "Go2"])]
+        robots: Vec<String>,
+        #[command(flatten)]
+        pseudonyms: Pseudonyms,
+        #[command(flatten)]
+        output: Form,
+    },
+    /// Make a root, which vouches for authorities.
+    Root {
+        /// The folder, which is made if need be.
+        folder: PathBuf,
+        #[command(flatten)]
+        authority: Office,
+        #[command(flatten)]
+        output: Form,
+    },
+    /// Make an authority below the root in a folder, which issues pseudonyms.
+    Authority {
+        /// The folder with the root.
+        folder: PathBuf,
+        #[command(flatten)]
+        authority: Office,
+        #[command(flatten)]
+        output: Form,
+    },
+    /// Issue pseudonyms (authorization tickets) for a robot.
+    Tickets {
+        /// The folder with the authority.
+        folder: PathBuf,
+        /// The robot; what it needs is put into robots/NAME.
+        #[arg(long, value_name = "NAME")]
+        robot: String,
+        #[command(flatten)]
+        pseudonyms: Pseudonyms,
+        #[command(flatten)]
+        output: Form,
+    },
+    /// Show certificates.
+    Show {
+        /// Certificates, or folders with them.
+        #[arg(required = true)]
+        paths: Vec<PathBuf>,
+        #[command(flatten)]
+        output: Form,
+    },
+}
+
+const AFTER_HELP: &str = "The PKI is for tests: keys lie in files, there is no enrolment, and nothing \
+is revoked.\n\nExamples:\n  crossguard pki init pki\n  crossguard demo --security enforce --pki pki\n  \
+crossguard pki tickets pki --robot guest --part help --hours 1\n  crossguard pki show pki --json";
+
+#[derive(clap::Args)]
+pub(super) struct Form {
+    /// Print the certificates as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What a root or an authority is for.
+#[derive(clap::Args)]
+pub(super) struct Office {
+    /// Its name.
+    #[arg(long)]
+    name: Option<String>,
+    /// For how many years it is valid.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=50))]
+    years: u16,
+    /// An ITS-AID that pseudonyms below it may be for; by default those of all services.
+    #[arg(long = "its-aid", value_name = "NUMBER", action = ArgAction::Append)]
+    its_aids: Vec<u32>,
+    #[command(flatten)]
+    where_valid: Where,
+}
+
+/// What pseudonyms are for.
+#[derive(clap::Args)]
+pub(super) struct Pseudonyms {
+    /// How many.
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1_000))]
+    count: u16,
+    /// For how many hours they are valid.
+    #[arg(long, default_value_t = 168, value_parser = clap::value_parser!(u16).range(1..))]
+    hours: u16,
+    /// In how many hours they begin to be valid; negative for the past.
+    #[arg(
+        long,
+        default_value_t = 0,
+        allow_negative_numbers = true,
+        value_name = "HOURS"
+    )]
+    start_in: i32,
+    /// The parts that the robot may take in sessions.
+    #[arg(long = "part", value_enum, default_values = ["lead", "help"])]
+    parts: Vec<PartName>,
+    /// Instead of RAM and RMCM: an ITS-AID, with its service specific permissions as a bitmap in
+    /// hexadecimal digits if it has some.
+    #[arg(long = "its-aid", value_name = "NUMBER[:DIGITS]", action = ArgAction::Append,
+        value_parser = permission)]
+    its_aids: Vec<Permission>,
+    #[command(flatten)]
+    where_valid: Where,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum PartName {
+    /// Ask for help, lead and command.
+    Lead,
+    /// Offer help, follow and answer.
+    Help,
+}
+
+/// Where certificates are valid; anywhere, if nothing is said.
+#[derive(clap::Args)]
+pub(super) struct Where {
+    /// Valid in a circle only: its centre in degrees and its radius in metres.
+    #[arg(long, value_name = "LAT,LON,RADIUS", value_parser = circle, allow_hyphen_values = true)]
+    circle: Option<Region>,
+    /// Valid in a rectangle only: its sides in degrees; give the option once for each.
+    #[arg(long, value_name = "NORTH,WEST,SOUTH,EAST", value_parser = rectangle,
+        conflicts_with = "circle", allow_hyphen_values = true)]
+    rectangle: Vec<(Place, Place)>,
+}
+
+impl Where {
+    fn region(&self) -> Option<Region> {
+        let rectangles =
+            (!self.rectangle.is_empty()).then(|| Region::Rectangles(self.rectangle.clone()));
+        self.circle.clone().or(rectangles)
+    }
+}
+
+fn permission(text: &str) -> Result<Permission, String> {
+    let (number, ssp) = match text.split_once(':') {
+        Some((number, digits)) => {
+            let bits = hex::decode(digits).map_err(|error| format!("'{digits}': {error}"))?;
+            if !(1..=32).contains(&bits.len()) {
+                return Err("1 to 32 octets of service specific permissions are wanted".to_owned());
+            }
+            (number, Ssp::Bitmap(bits))
+        }
+        None => (text, Ssp::Default),
+    };
+    let its_aid = number
+        .parse()
+        .map_err(|_| format!("'{number}' is no ITS-AID, a number like 16480"))?;
+    Ok(Permission { its_aid, ssp })
+}
+
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let numbers: Result<Vec<_>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+    numbers
+        .ok()
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| format!("{N} numbers with commas between them are wanted"))
+}
+
+fn place(latitude: f64, longitude: f64) -> Result<Place, String> {
+    if !(-90.0..=90.0).contains(&latitude) || !(-179.999_999_9..=180.0).contains(&longitude) {
+        return Err(format!(
+            "{latitude}, {longitude} is not a latitude and longitude in degrees"
+        ));
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "in range")]
+    let units = |degrees: f64| (degrees * 1e7).round() as i32;
+    Ok(Place {
+        latitude: units(latitude),
+        longitude: units(longitude),
+    })
+}
+
+fn circle(text: &str) -> Result<Region, String> {
+    let [latitude, longitude, radius] = numbers(text)?;
+    if !(1.0..=65_535.0).contains(&radius) {
+        return Err(format!("a radius of {radius} m: 1 to 65535 are possible"));
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "in range"
+    )]
+    Ok(Region::Circle {
+        centre: place(latitude, longitude)?,
+        radius: radius as u16,
+    })
+}
+
+fn rectangle(text: &str) -> Result<(Place, Place), String> {
+    let [north, west, south, east] = numbers(text)?;
+    if south > north || west > east {
+        return Err("north must be above south, and west before east".to_owned());
+    }
+    Ok((place(north, west)?, place(south, east)?))
+}
+
+pub(super) fn run(command: &Command) -> Result<(), Failure> {
+    let (files, is_json) = match command {
+        Command::Init {
+            folder,
+            robots,
+            pseudonyms,
+            output,
+        } => (init(folder, robots, pseudonyms)?, output.json),
+        Command::Root {
+            folder,
+            authority,
+            output,
+        } => (vec![root(folder, authority)?], output.json),
+        Command::Authority {
+            folder,
+            authority,
+            output,
+        } => (vec![new_authority(folder, authority)?], output.json),
+        Command::Tickets {
+            folder,
+            robot,
+            pseudonyms,
+            output,
+        } => (tickets(folder, robot, pseudonyms)?, output.json),
+        Command::Show { paths, output } => {
+            let mut files = Vec::new();
+            for path in paths {
+                find(path, &mut files).map_err(Failure::input)?;
+            }
+            (files, output.json)
+        }
+    };
+    let now = pki::now();
+    let shown: Vec<_> = files
+        .iter()
+        .map(|(path, certificate)| Shown::of(path, certificate, now))
+        .collect();
+    if is_json {
+        return print_json(&shown);
+    }
+    shown.iter().try_for_each(Shown::print)
+}
+
+/// A certificate and its file.
+type File = (PathBuf, Certificate);
+
+fn init(folder: &Path, robots: &[String], pseudonyms: &Pseudonyms) -> Result<Vec<File>, Failure> {
+    let office = |name: &str, years| Office {
+        name: Some(name.to_owned()),
+        years,
+        its_aids: Vec::new(),
+        where_valid: Where {
+            circle: None,
+            rectangle: Vec::new(),
+        },
+    };
+    let mut files = vec![
+        root(folder, &office("test root", 10))?,
+        new_authority(folder, &office("test authority", 3))?,
+    ];
+    for robot in robots {
+        files.extend(tickets(folder, robot, pseudonyms)?);
+    }
+    Ok(files)
+}
+
+impl Office {
+    fn its_aids(&self) -> Vec<u32> {
+        if self.its_aids.is_empty() {
+            pki::its_aids(&Identifiers::default())
+        } else {
+            self.its_aids.clone()
+        }
+    }
+
+    fn term(&self) -> Term {
+        Term {
+            from: pki::now(),
+            duration: Duration::years(self.years),
+        }
+    }
+}
+
+fn root(folder: &Path, office: &Office) -> Result<File, Failure> {
+    let name = office.name.as_deref().unwrap_or("test root");
+    let region = office.where_valid.region();
+    let root = pki::new_root(name, office.term(), region, &office.its_aids());
+    write(&root.map_err(Failure::input)?, folder, "root")
+}
+
+fn new_authority(folder: &Path, office: &Office) -> Result<File, Failure> {
+    let root = Holder::read(folder, "root").map_err(Failure::input)?;
+    let name = office.name.as_deref().unwrap_or("test authority");
+    let region = office.where_valid.region();
+    let term = within(office.term(), &root.certificate);
+    let authority = pki::new_authority(&root, name, term, region, &office.its_aids());
+    write(&authority.map_err(Failure::input)?, folder, "authority")
+}
+
+/// The same from not before an issuer is valid on.
+fn within(term: Term, issuer: &Certificate) -> Term {
+    let earliest = issuer.content().validity.from().0 + pki::EARLY_S * 1_000_000;
+    Term {
+        from: Time64(term.from.0.max(earliest)),
+        ..term
+    }
+}
+
+fn write(holder: &Holder, folder: &Path, name: &str) -> Result<File, Failure> {
+    holder.write(folder, name).map_err(Failure::input)?;
+    let path = folder.join(format!("{name}.cert"));
+    Ok((path, holder.certificate.clone()))
+}
+
+fn tickets(folder: &Path, robot: &str, wanted: &Pseudonyms) -> Result<Vec<File>, Failure> {
+    let is_name = !robot.is_empty()
+        && robot
+            .chars()
+            .all(|c| c.is_alphanumeric() || "-_".contains(c));
+    if !is_name {
+        return Err(Failure::Input(format!(
+            "'{robot}' cannot be the name of a robot's folder: letters, digits, - and _ can"
+        )));
+    }
+    let authority = Holder::read(folder, "authority").map_err(Failure::input)?;
+    let above = pki::read_certificate(&folder.join("root.cert")).map_err(Failure::input)?;
+    let offset_us = i64::from(wanted.start_in) * 3_600_000_000;
+    let from = Time64(pki::now().0.saturating_add_signed(offset_us));
+    let term = Term {
+        from,
+        duration: Duration::hours(wanted.hours),
+    };
+    let robot_folder = pki::robot_folder(folder, robot);
+    let mut files = Vec::new();
+    for _ in 0..wanted.count {
+        let region = wanted.where_valid.region();
+        let ticket = pki::new_ticket(&authority, term, region, wanted.permissions());
+        let ticket = ticket.map_err(|error| {
+            Failure::Input(format!(
+                "{error}; 'crossguard pki show {}' tells what the authority may issue, and until when",
+                folder.display()
+            ))
+        })?;
+        let id = ticket.certificate.id();
+        pki::write_ticket(&ticket, &robot_folder).map_err(Failure::input)?;
+        let path = robot_folder.join("tickets").join(format!("{id}.cert"));
+        files.push((path, ticket.certificate));
+    }
+    for (certificate, name) in [(&above, "root"), (&authority.certificate, "authority")] {
+        pki::write_certificate(certificate, &robot_folder, name).map_err(Failure::input)?;
+    }
+    Ok(files)
+}
+
+impl Pseudonyms {
+    fn permissions(&self) -> Vec<Permission> {
+        if !self.its_aids.is_empty() {
+            return self.its_aids.clone();
+        }
+        let part = |part: &PartName| match part {
+            PartName::Lead => Part::Lead,
+            PartName::Help => Part::Help,
+        };
+        let parts: Vec<_> = self.parts.iter().map(part).collect();
+        pki::robot_permissions(&Identifiers::default(), &parts)
+    }
+}
+
+/// The certificates in a file, or in a folder and all that is in it.
+fn find(path: &Path, files: &mut Vec<File>) -> Result<(), PkiError> {
+    if !path.is_dir() {
+        files.push((path.to_owned(), pki::read_certificate(path)?));
+        return Ok(());
+    }
+    for certificate in pki::certificates_in(path)? {
+        find(&certificate, files)?;
+    }
+    for folder in pki::folders_in(path)? {
+        find(&folder, files)?;
+    }
+    Ok(())
+}
+
+/// A certificate for people and scripts.
+#[derive(Serialize)]
+struct Shown {
+    file: String,
+    kind: &'static str,
+    id: String,
+    name: Option<String>,
+    issuer: Option<String>,
+    valid_from: String,
+    valid_until: String,
+    is_valid_now: bool,
+    region: Option<String>,
+    permissions: Vec<String>,
+    issues: Vec<String>,
+}
+
+impl Shown {
+    fn of(path: &Path, certificate: &Certificate, now: Time64) -> Self {
+        let content = certificate.content();
+        let validity = content.validity;
+        Self {
+            file: path.display().to_string(),
+            kind: kind(content),
+            id: certificate.id().to_string(),
+            name: content.name.clone(),
+            issuer: match content.issuer {
+                Issuer::Certificate(id) => Some(id.to_string()),
+                Issuer::Itself => None,
+            },
+            valid_from: date(validity.from()),
+            valid_until: date(validity.until()),
+            is_valid_now: (validity.from()..validity.until()).contains(&now),
+            region: content.region.as_ref().map(region),
+            permissions: content.permissions.iter().map(permitted).collect(),
+            issues: content
+                .issue_permissions
+                .iter()
+                .flat_map(|issue| match &issue.subjects {
+                    Subjects::All => vec!["all services".to_owned()],
+                    Subjects::These(these) => {
+                        these.iter().map(|(its_aid, _)| service(*its_aid)).collect()
+                    }
+                })
+                .collect(),
+        }
+    }
+
+    fn print(&self) -> Result<(), Failure> {
+        let name = self
+            .name
+            .as_ref()
+            .map_or_else(String::new, |name| format!(" '{name}'"));
+        let validity = if self.is_valid_now {
+            ""
+        } else {
+            ", NOT VALID NOW"
+        };
+        print(format_args!(
+            "{} {}{name}: {}",
+            self.kind, self.id, self.file
+        ))?;
+        let (from, until) = (&self.valid_from, &self.valid_until);
+        print(format_args!("  valid from {from} until {until}{validity}"))?;
+        if let Some(issuer) = &self.issuer {
+            print(format_args!("  issued by {issuer}"))?;
+        }
+        if let Some(region) = &self.region {
+            print(format_args!("  in {region}"))?;
+        }
+        for (what, list) in [("permits", &self.permissions), ("issues", &self.issues)] {
+            if !list.is_empty() {
+                print(format_args!("  {what} {}", list.join(", ")))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn kind(content: &Content) -> &'static str {
+    if content.issuer == Issuer::Itself {
+        "root"
+    } else if content.is_ticket() {
+        "ticket"
+    } else if content.issue_permissions.is_empty() {
+        "certificate"
+    } else {
+        "authority"
+    }
+}
+
+fn service(its_aid: u32) -> String {
+    let identifiers = Identifiers::default();
+    let service = Service::ALL
+        .into_iter()
+        .find(|service| service.its_aid(&identifiers) == its_aid);
+    service.map_or_else(
+        || its_aid.to_string(),
+        |service| format!("{} ({its_aid})", service.name()),
+    )
+}
+
+fn permitted(permission: &Permission) -> String {
+    let service = service(permission.its_aid);
+    match &permission.ssp {
+        Ssp::Default => service,
+        Ssp::Opaque(octets) => format!("{service} with octets {}", hex::encode(octets)),
+        Ssp::Bitmap(bits) => format!("{service} with bits {}", hex::encode(bits)),
+    }
+}
+
+fn region(region: &Region) -> String {
+    let degrees = |place: &Place| {
+        let (latitude, longitude) = (f64::from(place.latitude), f64::from(place.longitude));
+        format!("{:.7}, {:.7}", latitude / 1e7, longitude / 1e7)
+    };
+    match region {
+        Region::Circle { centre, radius } => {
+            format!("a circle of {radius} m around {}", degrees(centre))
+        }
+        Region::Rectangles(rectangles) => rectangles
+            .iter()
+            .map(|(north_west, south_east)| {
+                format!(
+                    "a rectangle from {} to {}",
+                    degrees(north_west),
+                    degrees(south_east)
+                )
+            })
+            .collect::<Vec<_>>()
+            .join(" and "),
+    }
+}
+
+/// A time as a date of the common calendar; leap seconds are taken out.
+fn date(time: Time64) -> String {
+    let its_s = time.0 / 1_000_000;
+    let unix_s = (0..=5)
+        .map(|leap| its_s + EPOCH_S - leap)
+        .find(|unix_s| {
+            let unix_ms = i64::try_from(unix_s * 1_000).unwrap_or(i64::MAX);
+            timestamp_its(unix_ms) == its_s * 1_000
+        })
+        .unwrap_or(its_s + EPOCH_S);
+    humantime::format_rfc3339_seconds(UNIX_EPOCH + StdDuration::from_secs(unix_s)).to_string()
+}

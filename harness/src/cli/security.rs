@@ -1,0 +1,91 @@
+//! What commands that run robots have for security.
+
+use std::path::{Path, PathBuf};
+
+use crossguard_codec::Identifiers;
+use crossguard_codec::security::Time64;
+use crossguard_harness::pki::{self, Pki};
+use crossguard_harness::station::{Credentials, Mode, Security};
+
+use super::Failure;
+
+/// How many pseudonyms a robot of a demonstration has.
+const PSEUDONYMS: usize = 4;
+
+#[derive(clap::Args)]
+pub(super) struct SecurityArguments {
+    /// Whether packets are signed (TS 103 097) and those of others verified.
+    #[arg(long, value_enum, default_value_t = Mode::Off)]
+    security: Mode,
+    /// The folder with certificates and keys, of the robot or of the PKI (see 'crossguard pki').
+    #[arg(long, value_name = "FOLDER")]
+    pki: Option<PathBuf>,
+    /// After how many seconds a pseudonym changes, outside of sessions; 0 for never.
+    #[arg(long, value_name = "SECONDS", default_value_t = 300)]
+    pseudonym_period: u32,
+}
+
+impl SecurityArguments {
+    pub(super) const fn mode(&self) -> Mode {
+        self.security
+    }
+
+    pub(super) const fn is_throw_away(&self) -> bool {
+        self.pki.is_none()
+    }
+
+    /// The security of a robot of this name, whose certificates are in a folder.
+    pub(super) fn of_robot(&self, name: &str) -> Result<Security, Failure> {
+        match (self.security, &self.pki) {
+            (Mode::Off, Some(_)) => Err(Failure::Input(
+                "--pki is of no use without --security sign or --security enforce".to_owned(),
+            )),
+            (Mode::Off, None) => Ok(Security::default()),
+            (_, None) => Err(Failure::Input(
+                "--security wants the certificates and keys of the robot: --pki FOLDER; 'crossguard \
+                 pki init FOLDER' makes some"
+                    .to_owned(),
+            )),
+            (_, Some(folder)) => self.with(read(folder, name)?),
+        }
+    }
+
+    /// The security of several robots; without a folder they get a PKI that nobody else knows.
+    pub(super) fn of_robots<const N: usize>(
+        &self,
+        names: [&str; N],
+    ) -> Result<[Security; N], Failure> {
+        let mut securities = [const { None }; N];
+        if self.security == Mode::Off || self.pki.is_some() {
+            for (security, name) in securities.iter_mut().zip(names) {
+                *security = Some(self.of_robot(name)?);
+            }
+        } else {
+            let (identifiers, now) = (Identifiers::default(), pki::now());
+            let pki = Pki::for_a_day(&identifiers, now).map_err(Failure::input)?;
+            for security in &mut securities {
+                let credentials = pki.credentials(&identifiers, PSEUDONYMS, now);
+                *security = Some(self.with(credentials.map_err(Failure::input)?)?);
+            }
+        }
+        Ok(securities.map(Option::unwrap_or_default))
+    }
+
+    fn with(&self, credentials: Credentials) -> Result<Security, Failure> {
+        let period_ms = u64::from(self.pseudonym_period) * 1_000;
+        let period_ms = (period_ms > 0).then_some(period_ms);
+        let now: Time64 = pki::now();
+        Security::new(self.security, credentials, period_ms, now).map_err(Failure::input)
+    }
+}
+
+/// From the folder of a robot, or that of a PKI.
+fn read(folder: &Path, name: &str) -> Result<Credentials, Failure> {
+    let of_robot = pki::robot_folder(folder, name);
+    let folder = if folder.join("robots").is_dir() {
+        &of_robot
+    } else {
+        folder
+    };
+    pki::read_credentials(folder).map_err(Failure::input)
+}
