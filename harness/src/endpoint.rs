@@ -296,11 +296,12 @@ impl Endpoint {
 
     /// Changes the pseudonym when that is due and no session knows the robot by its old one.
     fn renew_pseudonym(&mut self, turn: &mut Turn) {
-        if self.robot.identity() == Identity::Unlocked
-            && let Some(station) = self
-                .station
-                .renew_pseudonym(&turn.ego(), turn.moment.now_ms)
-        {
+        let lock_ms = u64::from(self.config.settings().t_lock.0);
+        if self.robot.identity() != Identity::Unlocked {
+            return;
+        }
+        let (ego, now_ms) = (turn.ego(), turn.moment.now_ms);
+        if let Some(station) = self.station.renew_pseudonym(&ego, now_ms, lock_ms) {
             let changed = Input::Local(Event::IdentityChanged(station));
             self.step(turn, changed, None);
         }

@@ -35,13 +35,23 @@ impl Secured {
         &self.station
     }
 
-    /// Changes to the next pseudonym, and tells its name. The address and the station id must change
-    /// with it, and all of that only while the identity is not locked.
-    ///
-    /// # Errors
-    /// When there is no other that is valid.
-    pub fn change_pseudonym(&mut self, ego: &EgoPosition) -> Result<HashedId8, Unsigned> {
-        self.station.change_pseudonym(now(ego))
+    /// Changes the pseudonym if that `is_due`, or if its ticket is over within so many milliseconds, to
+    /// one that is valid for longer; its name, if there is one. The address and the station id must
+    /// change with it, and all of that only while the identity is not locked.
+    pub fn renew_pseudonym(
+        &mut self,
+        ego: &EgoPosition,
+        is_due: bool,
+        within_ms: u64,
+    ) -> Option<HashedId8> {
+        let now = now(ego);
+        let until = Time64(now.0.saturating_add(within_ms.saturating_mul(1_000)));
+        // One that is over in the middle of a session is better than none.
+        let until = [until, now]
+            .into_iter()
+            .find(|until| is_due || self.station.should_change(now, *until))?;
+        let changed = self.station.change_pseudonym(now, until);
+        changed.ok()
     }
 
     pub(super) fn seal(

@@ -57,7 +57,7 @@ impl Ticket {
         &self.certificate
     }
 
-    fn is_valid(&self, now: Time64) -> bool {
+    pub(super) fn is_valid(&self, now: Time64) -> bool {
         let validity = &self.certificate.content().validity;
         (validity.from()..validity.until()).contains(&now)
     }
@@ -102,12 +102,12 @@ impl Sealer {
         self.tickets.iter().map(|ticket| ticket.certificate.id())
     }
 
-    /// The next ticket that is valid at `now`, other than the one in use.
-    pub(super) fn next(&self, now: Time64) -> Option<usize> {
+    /// The next ticket, other than the one in use, that is valid at `now` and at `until` as well.
+    pub(super) fn next(&self, now: Time64, until: Time64) -> Option<usize> {
         let count = self.tickets.len();
         (1..count)
             .map(|step| (self.current + step) % count)
-            .find(|at| self.tickets[*at].is_valid(now))
+            .find(|at| self.tickets[*at].is_valid(now) && self.tickets[*at].is_valid(until))
     }
 
     /// Signs with another ticket from now on; its certificate is due at once.

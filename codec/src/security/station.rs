@@ -91,20 +91,21 @@ impl Station {
         verified
     }
 
-    /// Whether there is a pseudonym to change to.
+    /// Whether the ticket in use is not valid any more at a time, and another one is valid from `now`
+    /// until then: for a change that must not wait, so that a session does not outlive its ticket.
     #[must_use]
-    pub fn can_change(&self, now: Time64) -> bool {
-        self.sealer.next(now).is_some()
+    pub fn should_change(&self, now: Time64, until: Time64) -> bool {
+        !self.ticket().is_valid(until) && self.sealer.next(now, until).is_some()
     }
 
-    /// Changes to the next pseudonym that is valid, and tells its name. Station id and link address
-    /// must change with it, and all of that only while the identity is not locked.
+    /// Changes to the next pseudonym that is valid from `now` until a time, and tells its name. Station
+    /// id and link address must change with it, and all of that only while the identity is not locked.
     ///
     /// # Errors
     /// When there is no other.
-    pub fn change_pseudonym(&mut self, now: Time64) -> Result<HashedId8, Unsigned> {
-        let next = self.sealer.next(now).ok_or(Unsigned::NoValidTicket)?;
-        self.sealer.change(next);
+    pub fn change_pseudonym(&mut self, now: Time64, until: Time64) -> Result<HashedId8, Unsigned> {
+        let next = self.sealer.next(now, until);
+        self.sealer.change(next.ok_or(Unsigned::NoValidTicket)?);
         Ok(self.pseudonym())
     }
 

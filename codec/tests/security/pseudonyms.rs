@@ -21,8 +21,7 @@ fn messages_go_on_under_the_next_pseudonym_with_its_certificate() {
         let verified = hear(&mut receiver, now, &envelope).unwrap();
         assert_eq!(verified.signer, sender.pseudonym());
         pseudonyms.push(verified.signer);
-        assert!(sender.can_change(now));
-        sender.change_pseudonym(now).unwrap();
+        sender.change_pseudonym(now, now).unwrap();
     }
     assert_eq!(
         pseudonyms[3], pseudonyms[0],
@@ -50,12 +49,15 @@ fn a_pseudonym_that_is_over_is_passed_over() {
     let second = tickets[1].certificate().id();
     let mut station =
         Station::new(pki.trust(), tickets.clone(), Tolerances::default(), NOW).unwrap();
-    assert_eq!(station.change_pseudonym(NOW), Ok(second));
-    assert!(!station.can_change(later));
-    assert_eq!(
-        station.change_pseudonym(later),
-        Err(Unsigned::NoValidTicket)
+    assert!(!station.should_change(NOW, NOW));
+    assert!(
+        station.should_change(NOW, later),
+        "it would be over by then"
     );
+    assert_eq!(station.change_pseudonym(NOW, later), Ok(second));
+    assert!(!station.should_change(NOW, later));
+    let none = station.change_pseudonym(later, later);
+    assert_eq!(none, Err(Unsigned::NoValidTicket));
     assert_eq!(station.pseudonym(), second);
     let only_later = vec![tickets[2].clone()];
     let none = Station::new(pki.trust(), only_later, Tolerances::default(), NOW);

@@ -79,18 +79,27 @@ impl Station {
         self
     }
 
-    /// Changes the pseudonym if that is due at `now_ms`: ticket, address and station id at once. The
-    /// caller tells the robot its new id, and does this only while the identity is not locked.
-    pub fn renew_pseudonym(&mut self, ego: &EgoPosition, now_ms: u64) -> Option<StationId> {
-        let period_ms = self.pseudonym_period_ms?;
-        if now_ms.saturating_sub(self.pseudonym_since_ms) < period_ms {
-            return None;
-        }
+    /// Changes the pseudonym if that is due at `now_ms`, or its ticket is over within `lock_ms`, as long
+    /// as a session may take: ticket, address and station id at once. The caller tells the robot its
+    /// new id, and does this only while the identity is not locked.
+    pub fn renew_pseudonym(
+        &mut self,
+        ego: &EgoPosition,
+        now_ms: u64,
+        lock_ms: u64,
+    ) -> Option<StationId> {
         let Envelope::Secured(secured) = self.stack.envelope_mut() else {
             return None;
         };
+        let age_ms = now_ms.saturating_sub(self.pseudonym_since_ms);
+        let is_due = self
+            .pseudonym_period_ms
+            .is_some_and(|period_ms| age_ms >= period_ms);
+        if is_due {
+            self.pseudonym_since_ms = now_ms;
+        }
+        let pseudonym = secured.renew_pseudonym(ego, is_due, lock_ms)?;
         self.pseudonym_since_ms = now_ms;
-        let pseudonym = secured.change_pseudonym(ego).ok()?;
         let station = station_id(pseudonym);
         let address = Address::of_station(station.0, self.identifiers.robot_station_type);
         self.stack
