@@ -41,14 +41,40 @@ pub(crate) fn offset(from: &Position, to: &Position) -> Option<(f64, f64)> {
     } else if east < -180.0 {
         east += 360.0;
     }
-    // Radii of curvature half way between the two.
-    let cosine = cosine(f64::midpoint(south, north));
+    // Half way between the two.
+    let (across, along) = metres_per_radian(f64::midpoint(south, north));
+    Some((
+        east.to_radians() * across,
+        (north - south).to_radians() * along,
+    ))
+}
+
+/// The position so many metres east and north of another one; for distances of a street.
+pub(crate) fn moved(from: &Position, east: f64, north: f64) -> Position {
+    let latitude = from.latitude.map(|south| {
+        let (_, along) = metres_per_radian(south);
+        south + (north / along).to_degrees()
+    });
+    let longitude = from.latitude.zip(from.longitude).map(|(south, west)| {
+        let (across, _) = metres_per_radian(south);
+        west + (east / across).to_degrees()
+    });
+    // At a pole there is no east.
+    let on_earth = |degrees: &f64| degrees.abs() <= 180.0;
+    Position {
+        latitude: latitude.filter(on_earth),
+        longitude: longitude.filter(on_earth),
+        ..Position::default()
+    }
+}
+
+/// Metres of a radian along the parallel and along the meridian at a latitude.
+fn metres_per_radian(latitude: f64) -> (f64, f64) {
+    let cosine = cosine(latitude);
     let flattening = 1.0 - ECCENTRICITY_SQUARED * (1.0 - cosine * cosine);
     let across = EQUATOR_RADIUS / flattening.sqrt();
     let along = across * (1.0 - ECCENTRICITY_SQUARED) / flattening;
-    let x = east.to_radians() * across * cosine;
-    let y = (north - south).to_radians() * along;
-    Some((x, y))
+    (across * cosine, along)
 }
 
 /// Cosine of an angle of at most 90 degrees by its series, exact to 10^-9.
@@ -74,6 +100,14 @@ mod tests {
         assert_eq!(distance(&here, &north), Decimetres(1_112));
         assert_eq!(distance(&here, &east), Decimetres(735));
         assert_eq!(distance(&east, &north), distance(&north, &east));
+    }
+
+    #[test]
+    fn who_moves_is_as_far_as_that() {
+        let here = Position::at(48.765_432_1, 9.123_456_7);
+        assert_eq!(distance(&here, &moved(&here, 30.0, -40.0)), Decimetres(500));
+        let pole = moved(&Position::at(90.0, 0.0), 100.0, 0.0);
+        assert_eq!(pole.longitude, None);
     }
 
     #[test]

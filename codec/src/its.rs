@@ -14,6 +14,7 @@
 //! bounded. The extension containers of a CAM are kept as octets.
 
 mod cpm;
+mod road_user;
 
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,7 @@ use crate::size::MESSAGE_LEN_MAX;
 use crate::{asn1, rules, uper};
 
 pub use cpm::{CPM, CpmContainer};
+pub use road_user::{Identity, Kind, RoadUser};
 
 /// `protocolVersion` and `messageId` of CAM.
 const CAM_HEADER: (u8, u8) = (2, 2);

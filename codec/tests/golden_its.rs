@@ -6,8 +6,9 @@ use crossguard_codec::asn1::cam::{HighFrequencyContainer, SpecialVehicleContaine
 use crossguard_codec::asn1::cdd::VruProfileAndSubprofile;
 use crossguard_codec::asn1::cdd211::{VruProfileAndSubprofile211, VruSubProfilePedestrian211};
 use crossguard_codec::asn1::cpm::{ObjectClass, Velocity3dWithConfidence};
-use crossguard_codec::its::{CpmContainer, ItsMessage};
-use crossguard_codec::{DecodeError, Dictionary, Fault, Identifiers};
+use crossguard_codec::its::{CpmContainer, Identity, ItsMessage, Kind};
+use crossguard_codec::{DecodeError, Dictionary, Fault, Identifiers, distance};
+use crossguard_protocol::Decimetres;
 use proptest::prelude::*;
 use support::from_hex;
 
@@ -220,6 +221,47 @@ fn a_dictionary_makes_other_bits_of_the_same_road_user() {
         slow.profile_and_subprofile,
         VruProfileAndSubprofile::pedestrian(kind) if kind.0 == 2
     ));
+}
+
+#[test]
+fn road_users_are_where_their_messages_say() {
+    let now = 694_694_401_000;
+    let user = |name| message(name).road_users(now)[0];
+    let car = user("C1");
+    assert_eq!(
+        (car.identity, car.kind),
+        (Identity::Station(123_456_789), Kind::Vehicle)
+    );
+    assert_eq!((car.speed, car.heading), (Some(13.89), Some(90.0)));
+    assert_eq!(car.position.latitude, Some(48.765_432_1));
+    for (name, cardinality) in [("V1", 1), ("V3", 5), ("W1", 1), ("W6", 5)] {
+        let pedestrian = user(name);
+        assert_eq!(
+            (pedestrian.kind, pedestrian.cardinality),
+            (Kind::Vru, cardinality)
+        );
+        assert_eq!(pedestrian.speed, Some(1.39));
+    }
+    assert!(message("P1").road_users(now).is_empty());
+    let object = user("P2");
+    let identity = Identity::Object {
+        by: 123_456_789,
+        number: 5,
+    };
+    assert_eq!((object.identity, object.kind), (identity, Kind::Vehicle));
+    assert_eq!(object.station_type, Some(5));
+    assert_eq!(object.measured_its, now - 10);
+    // 10 m east and 5 m south of the sender.
+    assert_eq!(
+        distance(&object.position, &car.position),
+        Decimetres(112),
+        "{object:?}"
+    );
+    assert_eq!(object.heading.map(f64::round), Some(153.0));
+    assert_eq!(
+        object.speed.map(|speed| (speed * 100.0).round()),
+        Some(224.0)
+    );
 }
 
 #[test]

@@ -153,7 +153,7 @@ fn essence(mut ram: Ram) -> Ram {
 }
 
 /// A message in a few words.
-fn text_of(input: &Input) -> String {
+pub(crate) fn text_of(input: &Input) -> String {
     match input {
         Input::Ram { ram, .. } => ram_text(ram),
         other => other.to_string(),

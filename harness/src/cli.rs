@@ -11,11 +11,14 @@ mod pki;
 mod run;
 mod security;
 mod simulate;
+mod sniff;
 
 use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use crossguard_harness::capture::Capture;
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -44,6 +47,8 @@ enum Command {
     Fsm(fsm::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
     Simulate(Box<simulate::Arguments>),
+    /// Print what is on the channel, one line per message, live or from a pcap file.
+    Sniff(sniff::Arguments),
     /// Convert messages between octets and JSON.
     #[command(subcommand)]
     Codec(codec::Command),
@@ -90,6 +95,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Sniff(arguments) => sniff::run(&arguments),
         Command::Codec(command) => codec::run(&command),
         Command::Pki(command) => pki::run(&command),
     };
@@ -116,6 +122,21 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     match serde_json::to_writer_pretty(&mut out, value) {
         Ok(()) => Ok(writeln!(out)?),
         Err(error) => Err(std::io::Error::from(error).into()),
+    }
+}
+
+/// Creates a file for packets.
+fn create_capture(path: &Path) -> Result<Capture, Failure> {
+    Capture::create(path).map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+}
+
+/// Looks whether every packet was written.
+fn finish_capture(capture: Option<Capture>) -> Result<(), Failure> {
+    match capture.map(Capture::finish) {
+        Some(Err(error)) => Err(Failure::Input(format!(
+            "not all packets were written: {error}"
+        ))),
+        _ => Ok(()),
     }
 }
 

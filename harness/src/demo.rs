@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use crate::application::{Application, Plan, Wish};
 use crate::body::{Body, Build};
+use crate::capture::Capture;
 use crate::runtime::{Clock, Order, Running, Setup};
 use crate::site::{Place, Site};
 use crate::station::{Mode, Security};
@@ -49,6 +50,8 @@ pub struct Options {
     pub security_mode: Mode,
     /// The security of each robot.
     pub security: [Security; 2],
+    /// Where packets are recorded.
+    pub capture: Option<Capture>,
 }
 
 /// What came of a demonstration.
@@ -165,9 +168,13 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(&Record)) -> Result<Dem
         let seed = options.seed.wrapping_add(seed);
         WithFaults::new(link, options.faults.clone(), seed).open()
     };
+    let record = |link| match &options.capture {
+        Some(capture) => capture.of_sent(link),
+        None => link,
+    };
     // Both sockets are open before either robot says anything.
-    let first = open(addresses[0], addresses[1], 3)?;
-    let second = open(addresses[1], addresses[0], 4)?;
+    let first = record(open(addresses[0], addresses[1], 3)?);
+    let second = record(open(addresses[1], addresses[0], 4)?);
     let robots = [
         (ARI.0, ari.start(first, Some(plan.clone()))),
         (GO2.0, go2.start(second, None)),

@@ -290,6 +290,7 @@ impl Endpoint {
             return;
         }
         self.told_ms = turn.moment.now_ms;
+        self.station.elapse(turn.moment.now_ms);
         let elapsed = u32::try_from(elapsed).unwrap_or(u32::MAX);
         self.step(turn, Input::Elapsed(Millis(elapsed)), None);
     }
@@ -342,8 +343,15 @@ impl Endpoint {
                     Err(unheard) => ((&unheard).into(), unheard.to_string()),
                 }
             }
-            other => (
-                Cause::NoUse(other),
+            Service::Cam | Service::Vam | Service::Cpm => {
+                let (ego, now_ms) = (turn.ego(), turn.moment.now_ms);
+                match self.station.observe(service, octets, &ego, now_ms) {
+                    Ok(_) => return,
+                    Err(unobserved) => ((&unobserved).into(), unobserved.to_string()),
+                }
+            }
+            Service::Denm => (
+                Cause::NoUse(service),
                 "the robot does not take it in".to_owned(),
             ),
         };
@@ -357,6 +365,10 @@ impl Endpoint {
             from: heard.from,
             octets: octets.to_vec(),
         });
+        if let Some(state) = &heard.state {
+            let (ego, now_ms) = (turn.ego(), turn.moment.now_ms);
+            self.station.observe_robot(heard.from, state, &ego, now_ms);
+        }
         for input in heard.inputs {
             self.step(turn, input, heard.parameters);
         }

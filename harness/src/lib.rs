@@ -15,7 +15,9 @@
 //! - [`endpoint::Endpoint`] joins them without doing any input or output of its own: datagrams,
 //!   events and the time go in, datagrams and outputs come out. A robot stack with its own loop
 //!   embeds this.
-//! - [`station`] is what makes it an ITS station: messages in `GeoNetworking` packets.
+//! - [`station`] is what makes it an ITS station: messages in `GeoNetworking` packets, and a map of
+//!   who is around; [`capture`] writes packets to pcap files and reads them, and [`sniffer`] says what
+//!   is in them.
 //! - [`pki`] has the certificates and keys that it signs with, for tests.
 //! - [`ras`] has the rules of the Robot Awareness Service: when a RAM is sent and why, and clusters of
 //!   the people around a robot.
@@ -33,6 +35,7 @@
 pub mod application;
 pub mod body;
 pub mod boot;
+pub mod capture;
 pub mod chart;
 pub mod counters;
 pub mod demo;
@@ -44,6 +47,7 @@ pub mod ras;
 pub mod robot_file;
 pub mod runtime;
 pub mod site;
+pub mod sniffer;
 pub mod station;
 pub mod timing;
 pub mod trace;

@@ -79,6 +79,7 @@ struct LinkTable {
     peers: Vec<SocketAddr>,
     multicast: Option<SocketAddrV4>,
     interface: Option<String>,
+    ethernet: Option<String>,
 }
 
 /// Why a robot cannot be configured.
@@ -120,7 +121,9 @@ pub enum Impossibility {
     #[error("[identifiers] {0}")]
     Identifiers(#[from] IdentifierClash),
     /// There is no link, or there are two.
-    #[error("[link] wants either 'address' and 'peers', or 'multicast' and 'interface'")]
+    #[error(
+        "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', or 'ethernet'"
+    )]
     Link,
     /// A peer is not on the loopback interface.
     #[error(
@@ -197,6 +200,7 @@ impl LinkTable {
                 peers,
                 multicast: None,
                 interface: None,
+                ethernet: None,
             } => {
                 let all = std::iter::once(&address).chain(&peers);
                 match all.copied().find(|address| !address.ip().is_loopback()) {
@@ -209,7 +213,15 @@ impl LinkTable {
                 peers,
                 multicast: Some(group),
                 interface: Some(interface),
+                ethernet: None,
             } if peers.is_empty() => Ok(Link::Multicast { group, interface }),
+            Self {
+                address: None,
+                peers,
+                multicast: None,
+                interface: None,
+                ethernet: Some(interface),
+            } if peers.is_empty() => Ok(Link::Ethernet { interface }),
             _ => Err(Impossibility::Link),
         }
     }

@@ -5,10 +5,11 @@
 //!                   └─► Receiver  (what comes in, one by one)
 //! ```
 //!
-//! [`Link`] is UDP: to the peers on the loopback interface, or to a multicast group. [`Air`] joins
+//! [`Link`] is UDP, to the peers on the loopback interface or to a multicast group, or Ethernet. [`Air`] joins
 //! robots in one process. [`WithFaults`] lays seeded faults over either: what becomes of a datagram is
 //! drawn by a [`Channel`], the one place where faults are made; the simulator draws from it as well.
 
+mod ethernet;
 mod faults;
 mod layer;
 mod memory;
@@ -74,6 +75,8 @@ pub trait Receiver: Send {
 pub enum Source {
     /// The address that it came from.
     Address(SocketAddr),
+    /// The link-layer address that it came from.
+    LinkLayer([u8; 6]),
     /// The port of the [`Air`] that it came from.
     Port(usize),
 }

@@ -38,6 +38,9 @@ pub(super) struct Arguments {
     /// Write the log to this file, one JSON object per line.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
+    /// Write all packets to this file, for Wireshark.
+    #[arg(long, value_name = "FILE")]
+    pcap: Option<PathBuf>,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -83,6 +86,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         port: arguments.port,
         security_mode: arguments.security.mode(),
         security: arguments.security.of_robots([ARI.0, GO2.0])?,
+        capture: arguments
+            .pcap
+            .as_deref()
+            .map(super::create_capture)
+            .transpose()?,
     };
     let mut log_file = match &arguments.log {
         Some(path) => Some(create(path)?),
@@ -106,6 +114,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         std::io::Write::write_all(file, &log)
             .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
     }
+    super::finish_capture(options.capture)?;
     if arguments.json {
         print_json(&outcome)?;
     } else {

@@ -37,6 +37,10 @@ pub(super) struct Arguments {
     /// The interface of the multicast group.
     #[arg(long, value_name = "NAME", requires = "multicast")]
     interface: Option<String>,
+    /// Send and listen in Ethernet frames on this interface instead of the configured link; takes
+    /// the right to open raw sockets.
+    #[arg(long, value_name = "NAME", conflicts_with = "multicast")]
+    ethernet: Option<String>,
     /// Probability with which the robot loses a datagram, from 0 to 1.
     #[arg(long, default_value_t = 0.0)]
     loss: f64,
@@ -51,6 +55,9 @@ pub(super) struct Arguments {
     /// Write the log to this file, one JSON object per line.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
+    /// Write all packets that are sent and received to this file, for Wireshark.
+    #[arg(long, value_name = "FILE")]
+    pcap: Option<PathBuf>,
     /// Print the log to standard output, and nothing else.
     #[arg(long)]
     json: bool,
@@ -67,9 +74,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     let file = RobotFile::read(&arguments.config).map_err(Failure::input)?;
-    let link = match (&arguments.multicast, &arguments.interface) {
-        (Some(group), Some(interface)) => Link::Multicast {
+    let link = match (
+        &arguments.multicast,
+        &arguments.interface,
+        &arguments.ethernet,
+    ) {
+        (Some(group), Some(interface), _) => Link::Multicast {
             group: *group,
+            interface: interface.clone(),
+        },
+        (_, _, Some(interface)) => Link::Ethernet {
             interface: interface.clone(),
         },
         _ => file.link.clone(),
@@ -78,9 +92,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         loss: arguments.faults.loss.max(arguments.loss),
         ..arguments.faults.clone()
     };
-    let address = link.address();
+    let address = link.to_string();
     let link = WithFaults::new(link, faults, arguments.seed).open();
-    let link = link.map_err(Failure::input)?;
+    let mut link = link.map_err(Failure::input)?;
+    let capture = arguments.pcap.as_deref().map(super::create_capture);
+    let capture = capture.transpose()?;
+    if let Some(capture) = &capture {
+        link = capture.of_all(link);
+    }
     let log_file = match &arguments.log {
         Some(path) => Some(create(path)?),
         None => None,
@@ -130,6 +149,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     .attend(&running, &records, &lines());
     running.order(Order::Stop);
     running.wait();
+    super::finish_capture(capture)?;
     outcome
 }
 
@@ -312,7 +332,7 @@ impl Console<'_> {
 }
 
 /// Set when the process is told to stop.
-fn interrupts() -> Arc<AtomicBool> {
+pub(super) fn interrupts() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&interrupted);
     // A second Ctrl-C should still end a process that does not stop by itself.

@@ -1,27 +1,35 @@
-//! What makes a robot an ITS station: messages in `GeoNetworking` packets.
+//! What makes a robot an ITS station: messages in `GeoNetworking` packets, and a map of who is around.
 //!
 //! ```text
 //!   message ──► Station::send ────► packet
 //!   packet ───► Station::receive ──► message with its source, or a named cause
+//!   message ──► Station::observe ──► LocalDynamicMap
 //! ```
 //!
-//! Without input and output; [`crossguard_codec::geonet::Stack`] does the work. Not for what the
-//! messages say: that is [`wire`](crate::wire).
+//! Without input and output; [`crossguard_codec::geonet::Stack`] does the work. Not for what robots
+//! tell each other: that is [`wire`](crate::wire).
+
+mod map;
+
+pub use map::{LocalDynamicMap, Neighbour, USERS_MAX, lifetime_ms};
 
 mod namesakes;
 mod security;
 
 use crossguard_codec::geonet::{
-    Address, BasicHeader, Discarded, EgoPosition, Envelope, Headers, Indication, NextHeader,
-    PACKET_LEN_MAX, Permits, SendError, Signer, Stack,
+    Address, BasicHeader, Discarded, EgoPosition, Envelope, GeonetError, Headers, Indication,
+    NextHeader, PACKET_LEN_MAX, Permits, SendError, Signer, Stack,
 };
+use crossguard_codec::its::{Identity, ItsMessage, Kind, RoadUser};
 use crossguard_codec::security::SignedMessage;
-use crossguard_codec::{Identifiers, Part, Service};
+use crossguard_codec::{DecodeError, Identifiers, Part, RobotState, Service};
 use crossguard_protocol::{Input, StationId};
 
 pub use namesakes::NAMES_MAX;
 use namesakes::Namesakes;
 pub use security::{Credentials, Mode, Security, station_id};
+
+use crate::counters::Cause;
 
 /// One robot's ITS station.
 #[derive(Clone, Debug)]
@@ -32,6 +40,7 @@ pub struct Station {
     /// When the pseudonym was taken.
     pseudonym_since_ms: u64,
     namesakes: Namesakes,
+    map: LocalDynamicMap,
 }
 
 /// Why a message that was verified is not heeded all the same.
@@ -67,6 +76,7 @@ impl Station {
             pseudonym_period_ms: None,
             pseudonym_since_ms: 0,
             namesakes: Namesakes::default(),
+            map: LocalDynamicMap::default(),
         }
     }
 
@@ -136,6 +146,60 @@ impl Station {
         }
     }
 
+    /// Who is around.
+    #[must_use]
+    pub const fn map(&self) -> &LocalDynamicMap {
+        &self.map
+    }
+
+    /// Forgets who was not heard of for too long.
+    pub fn elapse(&mut self, now_ms: u64) {
+        self.map.forget(now_ms);
+    }
+
+    /// Puts the sender of a RAM on the map.
+    pub fn observe_robot(
+        &mut self,
+        station: StationId,
+        state: &RobotState,
+        ego: &EgoPosition,
+        now_ms: u64,
+    ) {
+        let user = RoadUser {
+            identity: Identity::Station(station.0),
+            kind: Kind::Robot,
+            station_type: Some(self.identifiers.robot_station_type),
+            position: state.position,
+            speed: state.speed.map(|speed| speed.value),
+            heading: state.heading.map(|heading| heading.value),
+            cardinality: 1,
+            measured_its: ego.timestamp_its,
+        };
+        self.map.observe(user, now_ms);
+    }
+
+    /// Puts on the map whom a message of another station tells of, and gives the message.
+    ///
+    /// # Errors
+    /// Why the octets are not the message of this service.
+    pub fn observe(
+        &mut self,
+        service: Service,
+        octets: &[u8],
+        ego: &EgoPosition,
+        now_ms: u64,
+    ) -> Result<ItsMessage, Unobserved> {
+        let message = ItsMessage::decode(&self.identifiers, octets)?.message;
+        let found = service_of(&message);
+        if found != Some(service) {
+            return Err(Unobserved::OtherService { service, found });
+        }
+        for user in message.road_users(ego.timestamp_its) {
+            self.map.observe(user, now_ms);
+        }
+        Ok(message)
+    }
+
     /// The packet with a message of this service.
     ///
     /// # Errors
@@ -165,19 +229,72 @@ impl Station {
     }
 }
 
-/// The message in a packet, whoever it is for and whoever signed it; or the octets, where they are no
-/// packet.
+/// The service that a message is of.
+#[must_use]
+pub const fn service_of(message: &ItsMessage) -> Option<Service> {
+    Some(match message {
+        ItsMessage::Ram(_) => Service::Ram,
+        ItsMessage::Rmcm(_) => Service::Rmcm,
+        ItsMessage::Cam(_) => Service::Cam,
+        ItsMessage::Vam(_) | ItsMessage::Vam211(_) => Service::Vam,
+        ItsMessage::Cpm(_) => Service::Cpm,
+        _ => return None,
+    })
+}
+
+/// Why a message tells of nobody.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Unobserved {
+    /// It is not a message.
+    #[error(transparent)]
+    Undecodable(#[from] DecodeError),
+    /// It is that of another service.
+    #[error("a message of {found:?} at the port of {service:?}")]
+    OtherService {
+        /// The service at the port.
+        service: Service,
+        /// The service that it is of.
+        found: Option<Service>,
+    },
+}
+
+impl From<&Unobserved> for Cause {
+    fn from(unobserved: &Unobserved) -> Self {
+        match unobserved {
+            Unobserved::Undecodable(error) => error.into(),
+            Unobserved::OtherService { .. } => Self::Discarded("message of another port"),
+        }
+    }
+}
+
+/// The headers of a packet and the message in it, whoever it is for; also of one with a security
+/// envelope, whose content is not verified then. For those who listen in.
+///
+/// # Errors
+/// Why it has none.
+pub fn peek(packet: &[u8]) -> Result<(Headers, &[u8]), Discarded> {
+    let (basic, rest) = BasicHeader::decode(packet)?;
+    let plain = match basic.next {
+        NextHeader::Common => rest,
+        NextHeader::Secured => {
+            SignedMessage::decode(rest)
+                .map_err(|_| Discarded::Headers(GeonetError::Secured))?
+                .payload
+        }
+    };
+    Ok(Headers::decode_behind(basic, plain)?)
+}
+
+/// The message in a packet, as [`peek`] has it; or the octets, where they are no packet.
 #[must_use]
 pub fn message_of(octets: &[u8]) -> &[u8] {
-    let Ok((basic, rest)) = BasicHeader::decode(octets) else {
-        return octets;
-    };
-    let plain = match basic.next {
-        NextHeader::Common => Some(rest),
-        NextHeader::Secured => SignedMessage::decode(rest)
-            .ok()
-            .map(|signed| signed.payload),
-    };
-    let behind = plain.and_then(|plain| Headers::decode_behind(basic, plain).ok());
-    behind.map_or(octets, |(_, message)| message)
+    peek(octets).map_or(octets, |(_, message)| message)
+}
+
+/// The link-layer address of a packet's source; `02:00:00:00:00:00` where it has none.
+#[must_use]
+pub fn link_layer_of(packet: &[u8]) -> [u8; 6] {
+    peek(packet).map_or([0x02, 0, 0, 0, 0, 0], |(headers, _)| {
+        headers.source.address.link_layer
+    })
 }

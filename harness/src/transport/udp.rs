@@ -1,5 +1,6 @@
 //! UDP: fan-out to peers on the loopback interface, or a multicast group on a named interface.
 
+use std::fmt;
 use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
 use std::time::Duration;
@@ -28,6 +29,22 @@ pub enum Link {
         /// Name of the interface, like `eth0`.
         interface: String,
     },
+    /// Frames on an interface, without UDP and IP.
+    Ethernet {
+        /// Name of the interface, like `eth0`.
+        interface: String,
+    },
+}
+
+impl fmt::Display for Link {
+    /// Where the link listens.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Peers { address, .. } => address.fmt(f),
+            Self::Multicast { group, .. } => group.fmt(f),
+            Self::Ethernet { interface } => write!(f, "{interface}, ethertype 0x8947"),
+        }
+    }
 }
 
 /// Why a link cannot be opened.
@@ -55,8 +72,16 @@ pub enum LinkError {
         /// The address.
         group: SocketAddrV4,
     },
+    /// A raw socket cannot be opened.
+    #[error("raw socket on {interface}: {cause}; it takes the capability CAP_NET_RAW")]
+    Ethernet {
+        /// Name of the interface.
+        interface: String,
+        /// Why.
+        cause: std::io::Error,
+    },
     /// There is no such interface.
-    #[error("no interface '{name}' with an IPv4 address; there are: {known}")]
+    #[error("no interface '{name}' that can be used so; there are: {known}")]
     NoInterface {
         /// The name.
         name: String,
@@ -86,13 +111,14 @@ struct UdpReceiver {
 
 impl Transport for Link {
     fn open(&self) -> Result<Halves, LinkError> {
-        let (socket, to) = match self {
-            Self::Peers { address, peers } => (bind(*address)?, peers.clone()),
+        let (socket, address, to) = match self {
+            Self::Peers { address, peers } => (bind(*address)?, *address, peers.clone()),
             Self::Multicast { group, interface } => {
-                (join(*group, interface)?, vec![SocketAddr::V4(*group)])
+                let address = SocketAddr::V4(*group);
+                (join(*group, interface)?, address, vec![address])
             }
+            Self::Ethernet { interface } => return super::ethernet::open(interface),
         };
-        let address = self.address();
         let unusable = |cause| LinkError::Unusable { address, cause };
         let receiver = UdpReceiver {
             socket: socket.try_clone().map_err(unusable)?,
@@ -103,17 +129,6 @@ impl Transport for Link {
             sender: Box::new(UdpSender { socket, to }),
             receiver: Box::new(receiver),
         })
-    }
-}
-
-impl Link {
-    /// The address that the link listens on.
-    #[must_use]
-    pub const fn address(&self) -> SocketAddr {
-        match self {
-            Self::Peers { address, .. } => *address,
-            Self::Multicast { group, .. } => SocketAddr::V4(*group),
-        }
     }
 }
 

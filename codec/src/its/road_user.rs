@@ -1,0 +1,298 @@
+//! Who is on the road, as messages tell, in SI units.
+
+use serde::Serialize;
+
+use super::{CPM, CpmContainer, ItsMessage};
+use crate::asn1::cam::{CAM, HighFrequencyContainer};
+use crate::asn1::cdd::{BasicContainer, Speed, Wgs84AngleValue};
+use crate::asn1::cdd211::ObjectClass211;
+use crate::asn1::cpm::{CartesianCoordinateWithConfidence, ObjectClass, Velocity3dWithConfidence};
+use crate::distance::moved;
+use crate::si;
+use crate::state::Position;
+
+/// What somebody on the road is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Kind {
+    /// A robot that sends RAM.
+    Robot,
+    /// A vehicle.
+    Vehicle,
+    /// A vulnerable road user, or a group of them.
+    Vru,
+    /// A road-side unit.
+    RoadSideUnit,
+    /// Something else that somebody perceived.
+    Object,
+}
+
+/// Which one it is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Identity {
+    /// A station, which says of itself where it is.
+    Station(u32),
+    /// An object that a station perceives.
+    Object {
+        /// The station.
+        by: u32,
+        /// Its number for the object.
+        number: u16,
+    },
+}
+
+/// Somebody on the road.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct RoadUser {
+    /// Which one it is.
+    pub identity: Identity,
+    /// What it is.
+    pub kind: Kind,
+    /// `TrafficParticipantType` of the common data dictionary, if it is told.
+    pub station_type: Option<u8>,
+    /// Where it is.
+    pub position: Position,
+    /// Speed over ground in m/s.
+    pub speed: Option<f64>,
+    /// Direction of motion in degrees clockwise from north.
+    pub heading: Option<f64>,
+    /// How many it stands for: more than one, or 0 for an unknown number, of a VRU cluster's leader.
+    pub cardinality: u8,
+    /// When that was so, as `TimestampIts`.
+    pub measured_its: u64,
+}
+
+/// The last station type of a vulnerable road user that walks or rides, and those further up.
+const fn kind_of(station_type: u8) -> Kind {
+    match station_type {
+        1..=4 | 12 | 13 => Kind::Vru,
+        5..=11 | 14 => Kind::Vehicle,
+        15 => Kind::RoadSideUnit,
+        _ => Kind::Object,
+    }
+}
+
+fn position_of(container: &BasicContainer) -> Position {
+    let position = &container.reference_position;
+    Position {
+        latitude: si::LATITUDE.decode(position.latitude.0),
+        longitude: si::longitude_degrees(position.longitude.0),
+        ..Position::default()
+    }
+}
+
+fn speed_of(speed: &Speed) -> Option<f64> {
+    si::SPEED.decode(speed.speed_value.0)
+}
+
+fn heading_of(angle: &Wgs84AngleValue) -> Option<f64> {
+    si::angle_degrees(angle.0)
+}
+
+impl ItsMessage {
+    /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
+    /// sender, unless it is a CPM or an RMCM, and what a CPM perceives, at most 255 objects.
+    #[must_use]
+    pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
+        match self {
+            Self::Ram(ram) => {
+                let state = crate::view::state_of(ram);
+                let container = &ram.ram.ram_parameters.basic_container;
+                vec![RoadUser {
+                    identity: Identity::Station(ram.header.station_id.0),
+                    kind: Kind::Robot,
+                    station_type: Some(container.station_type.0),
+                    position: state.position,
+                    speed: state.speed.map(|speed| speed.value),
+                    heading: state.heading.map(|heading| heading.value),
+                    cardinality: 1,
+                    measured_its: si::rebuild_timestamp(now, ram.ram.generation_delta_time.0),
+                }]
+            }
+            Self::Rmcm(_) => Vec::new(),
+            Self::Cam(cam) => vec![of_cam(cam, now)],
+            Self::Vam(vam) => {
+                let parameters = &vam.vam.vam_parameters;
+                let cluster = parameters.vru_cluster_information_container.as_ref();
+                let cluster = cluster.map(|cluster| &cluster.vru_cluster_information);
+                let motion = &parameters.vru_high_frequency_container;
+                vec![RoadUser {
+                    cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
+                    speed: speed_of(&motion.speed),
+                    heading: heading_of(&motion.heading.value),
+                    measured_its: si::rebuild_timestamp(now, vam.vam.generation_delta_time.0),
+                    ..vru(vam.header.station_id.0, &parameters.basic_container)
+                }]
+            }
+            Self::Vam211(vam) => {
+                let parameters = &vam.vam.vam_parameters;
+                let cluster = parameters.vru_cluster_information_container.as_ref();
+                let cluster = cluster.map(|cluster| &cluster.vru_cluster_information);
+                let motion = &parameters.vru_high_frequency_container;
+                vec![RoadUser {
+                    cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
+                    speed: speed_of(&motion.speed),
+                    heading: heading_of(&motion.heading.value),
+                    measured_its: si::rebuild_timestamp(now, vam.vam.generation_delta_time.0),
+                    ..vru(vam.header.station_id.0, &parameters.basic_container)
+                }]
+            }
+            Self::Cpm(cpm) => of_cpm(cpm),
+        }
+    }
+}
+
+fn of_cam(cam: &CAM, now: u64) -> RoadUser {
+    let parameters = &cam.cam.cam_parameters;
+    let station_type = parameters.basic_container.station_type.0;
+    let (kind, speed, heading) = match &parameters.high_frequency_container {
+        HighFrequencyContainer::basicVehicleContainerHighFrequency(motion) => (
+            match kind_of(station_type) {
+                Kind::Vru => Kind::Vru,
+                _ => Kind::Vehicle,
+            },
+            speed_of(&motion.speed),
+            si::angle_degrees(motion.heading.heading_value.0),
+        ),
+        HighFrequencyContainer::rsuContainerHighFrequency(_) => (Kind::RoadSideUnit, None, None),
+    };
+    RoadUser {
+        identity: Identity::Station(cam.header.station_id.0),
+        kind,
+        station_type: Some(station_type),
+        position: position_of(&parameters.basic_container),
+        speed,
+        heading,
+        cardinality: 1,
+        measured_its: si::rebuild_timestamp(now, cam.cam.generation_delta_time.0),
+    }
+}
+
+/// A road user that sends VAM, as far as its basic container tells.
+fn vru(station: u32, container: &BasicContainer) -> RoadUser {
+    RoadUser {
+        identity: Identity::Station(station),
+        kind: Kind::Vru,
+        station_type: Some(container.station_type.0),
+        position: position_of(container),
+        speed: None,
+        heading: None,
+        cardinality: 1,
+        measured_its: 0,
+    }
+}
+
+/// The kind that an object most probably is.
+macro_rules! most_probable {
+    ($classes:expr, $class:ident) => {{
+        // A confidence of 101 is not known.
+        let known = $classes.iter().flat_map(|classes| classes.0.iter());
+        known
+            .max_by_key(|class| class.confidence.0 % 101)
+            .map(|class| match &class.object_class {
+                $class::vehicleSubClass(kind) => (Kind::Vehicle, Some(kind.0), 1),
+                $class::vruSubClass(_) => (Kind::Vru, None, 1),
+                $class::groupSubClass(group) => (Kind::Vru, None, group.cluster_cardinality_size.0),
+                $class::otherSubClass(_) => (Kind::Object, None, 1),
+            })
+            .unwrap_or((Kind::Object, None, 1))
+    }};
+}
+
+/// The objects in a container of a CPM.
+macro_rules! objects {
+    ($container:expr, $class:ident, $frame:expr) => {
+        for object in &$container.perceived_objects.0 {
+            // Without a number it cannot be recognised.
+            let Some(number) = &object.object_id else {
+                continue;
+            };
+            let (kind, station_type, cardinality) = most_probable!(object.classification, $class);
+            let (speed, heading) = velocity(object.velocity.as_ref());
+            let measured = i64::from(object.measurement_delta_time.0);
+            $frame.users.push(RoadUser {
+                identity: Identity::Object {
+                    by: $frame.by,
+                    number: number.0,
+                },
+                kind,
+                station_type,
+                position: moved(
+                    &$frame.origin,
+                    metres(&object.position.x_coordinate),
+                    metres(&object.position.y_coordinate),
+                ),
+                speed,
+                heading,
+                cardinality,
+                measured_its: $frame.time.saturating_add_signed(measured),
+            });
+        }
+    };
+}
+
+/// What objects are relative to.
+struct Frame {
+    by: u32,
+    origin: Position,
+    time: u64,
+    users: Vec<RoadUser>,
+}
+
+fn of_cpm(cpm: &CPM) -> Vec<RoadUser> {
+    let management = &cpm.management_container;
+    let position = &management.reference_position;
+    let mut frame = Frame {
+        by: cpm.header.station_id.0,
+        origin: Position {
+            latitude: si::LATITUDE.decode(position.latitude.0),
+            longitude: si::longitude_degrees(position.longitude.0),
+            ..Position::default()
+        },
+        time: management.reference_time.0,
+        users: Vec::new(),
+    };
+    for container in &cpm.cpm_containers {
+        match container {
+            CpmContainer::PerceivedObjectContainer(container) => {
+                objects!(container, ObjectClass, frame);
+            }
+            CpmContainer::PerceivedObjectContainer211(container) => {
+                objects!(container, ObjectClass211, frame);
+            }
+            _ => {}
+        }
+    }
+    frame.users
+}
+
+fn metres(coordinate: &CartesianCoordinateWithConfidence) -> f64 {
+    f64::from(coordinate.value.0) / 100.0
+}
+
+/// Speed in m/s, and its direction clockwise from north.
+fn velocity(velocity: Option<&Velocity3dWithConfidence>) -> (Option<f64>, Option<f64>) {
+    match velocity {
+        None => (None, None),
+        Some(Velocity3dWithConfidence::polarVelocity(polar)) => {
+            // Counter-clockwise from the east.
+            let direction = si::angle_degrees(polar.velocity_direction.value.0);
+            let heading = direction.map(|angle| (90.0 - angle).rem_euclid(360.0));
+            (speed_of(&polar.velocity_magnitude), heading)
+        }
+        Some(Velocity3dWithConfidence::cartesianVelocity(cartesian)) => {
+            let component = |value: i16| (value != 16_383).then(|| f64::from(value) / 100.0);
+            let east = component(cartesian.x_velocity.value.0);
+            let north = component(cartesian.y_velocity.value.0);
+            match (east, north) {
+                (Some(east), Some(north)) => {
+                    let heading = east.atan2(north).to_degrees().rem_euclid(360.0);
+                    (Some(east.hypot(north)), Some(heading))
+                }
+                _ => (None, None),
+            }
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! `crossguard sniff`.
+
+use std::net::{SocketAddr, SocketAddrV4};
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use crossguard_codec::si::timestamp_its;
+use crossguard_harness::capture;
+use crossguard_harness::sniffer::{self, Seen, Sniffer};
+use crossguard_harness::transport::{Arrival, Link, Transport};
+
+use super::codec::Version;
+use super::run::interrupts;
+use super::{Failure, print};
+
+/// How long the loop waits before it looks whether it is to stop.
+const TICK: Duration = Duration::from_millis(50);
+
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct Arguments {
+    /// Read this pcap file instead of listening.
+    #[arg(value_name = "FILE", group = "from")]
+    file: Option<PathBuf>,
+    /// Listen on this UDP address; robots send there if it is one of their peers.
+    #[arg(long, value_name = "ADDRESS:PORT", group = "from")]
+    address: Option<SocketAddr>,
+    /// Listen to this multicast group.
+    #[arg(
+        long,
+        value_name = "GROUP:PORT",
+        requires = "interface",
+        group = "from"
+    )]
+    multicast: Option<SocketAddrV4>,
+    /// The interface of the multicast group.
+    #[arg(long, value_name = "NAME", requires = "multicast")]
+    interface: Option<String>,
+    /// Listen to Ethernet frames on this interface; takes the right to open raw sockets.
+    #[arg(long, value_name = "NAME", group = "from")]
+    ethernet: Option<String>,
+    /// Stop after so many packets.
+    #[arg(long, value_name = "N")]
+    count: Option<u64>,
+    /// Stop after so many seconds.
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+    /// Write what is heard to this file, for Wireshark.
+    #[arg(long, value_name = "FILE", conflicts_with = "file")]
+    pcap: Option<PathBuf>,
+    /// The common data dictionary that VAM and CPM are built on; no header tells.
+    #[arg(long, value_enum, default_value = "2.4.1")]
+    dictionary: Version,
+    /// Print JSON, one object per packet.
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_HELP: &str = "Examples:\n  crossguard sniff demo.pcap\n  \
+    crossguard sniff --multicast 239.118.50.1:47400 --interface eth0\n\n\
+    A line says: seconds, message, station, size, what the message says. At the end stands who was \
+    around last. Signatures are not verified.";
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mut watch = Watch {
+        sniffer: Sniffer::new(arguments.dictionary.identifiers()),
+        is_json: arguments.json,
+        left: arguments.count.unwrap_or(u64::MAX),
+    };
+    match (&arguments.file, link(arguments)) {
+        (Some(path), _) => {
+            let bad = |error| Failure::Input(format!("{}: {error}", path.display()));
+            for captured in capture::read(path).map_err(bad)? {
+                let captured = captured.map_err(bad)?;
+                if !watch.see(&captured.packet, captured.at)? {
+                    break;
+                }
+            }
+        }
+        (None, Some(link)) => listen(arguments, &link, &mut watch)?,
+        (None, None) => {
+            return Err(Failure::Input(
+                "nothing to listen to: name a pcap file, --address, --multicast or --ethernet \
+                 (see --help)"
+                    .to_owned(),
+            ));
+        }
+    }
+    watch.sum_up()
+}
+
+fn link(arguments: &Arguments) -> Option<Link> {
+    if let Some(address) = arguments.address {
+        let peers = Vec::new();
+        return Some(Link::Peers { address, peers });
+    }
+    if let (Some(group), Some(interface)) = (arguments.multicast, &arguments.interface) {
+        let interface = interface.clone();
+        return Some(Link::Multicast { group, interface });
+    }
+    let interface = arguments.ethernet.clone()?;
+    Some(Link::Ethernet { interface })
+}
+
+fn listen(arguments: &Arguments, link: &Link, watch: &mut Watch) -> Result<(), Failure> {
+    let mut halves = link.open().map_err(Failure::input)?;
+    let capture = arguments.pcap.as_deref().map(super::create_capture);
+    let capture = capture.transpose()?;
+    if let Some(capture) = &capture {
+        halves = capture.of_all(halves);
+    }
+    let interrupted = interrupts();
+    let began = Instant::now();
+    let enough = |began: Instant| {
+        let limit = arguments.seconds;
+        limit.is_some_and(|limit| began.elapsed().as_secs_f64() >= limit)
+    };
+    if super::shows_progress(arguments.json) {
+        eprintln!("Listening on {link}; Ctrl-C stops.");
+    }
+    while !interrupted.load(Ordering::Relaxed) && !enough(began) {
+        let arrival = halves.receiver.receive(TICK);
+        let arrival = arrival.map_err(|error| Failure::Input(format!("{link}: {error}")))?;
+        if let Some(Arrival::Datagram { octets, .. }) = arrival {
+            let now = SystemTime::now().duration_since(UNIX_EPOCH);
+            if !watch.see(&octets, now.unwrap_or_default())? {
+                break;
+            }
+        }
+    }
+    super::finish_capture(capture)
+}
+
+/// What is seen, as it is printed.
+struct Watch {
+    sniffer: Sniffer,
+    is_json: bool,
+    /// How many packets are yet to be seen.
+    left: u64,
+}
+
+impl Watch {
+    /// Prints a packet. Whether to go on.
+    fn see(&mut self, packet: &[u8], at: Duration) -> Result<bool, Failure> {
+        if self.left == 0 {
+            return Ok(false);
+        }
+        let unix_ms = u64::try_from(at.as_millis()).unwrap_or(u64::MAX);
+        let now_its = timestamp_its(i64::try_from(unix_ms).unwrap_or(i64::MAX));
+        let seen = self.sniffer.see(packet, unix_ms, now_its);
+        self.print(&seen)?;
+        self.left -= 1;
+        Ok(self.left > 0)
+    }
+
+    fn print(&self, seen: &Seen) -> Result<(), Failure> {
+        if self.is_json {
+            let line = serde_json::to_string(seen).map_err(Failure::input)?;
+            return print(line);
+        }
+        print(seen)
+    }
+
+    /// Who was around in the end, and what could not be read.
+    fn sum_up(&self) -> Result<(), Failure> {
+        if self.is_json {
+            return Ok(());
+        }
+        for neighbour in self.sniffer.map().iter() {
+            let user = &neighbour.user;
+            print(format_args!(
+                "around: {} {}, {}",
+                sniffer::name(user.kind),
+                sniffer::identity(user.identity),
+                sniffer::place(user)
+            ))?;
+        }
+        for (cause, count) in self.sniffer.counters().by_name() {
+            print(format_args!("not read, {cause}: {count}"))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,188 @@
+//! The local dynamic map: who is around, as heard lately.
+//!
+//! Each kind of road user has room of its own, so that a flood of one does not push out another; when
+//! the room is full, whoever was heard of longest ago makes place. What is not heard of again is
+//! forgotten.
+
+use std::collections::BTreeMap;
+
+use crossguard_codec::Position;
+use crossguard_codec::distance;
+use crossguard_codec::its::{Identity, Kind, RoadUser};
+use crossguard_protocol::Decimetres;
+
+/// How many of one kind are remembered.
+pub const USERS_MAX: usize = 128;
+
+/// For how long somebody is remembered without being heard of again, in ms: about twice the longest
+/// time between two messages of the kind.
+#[must_use]
+pub const fn lifetime_ms(kind: Kind) -> u64 {
+    match kind {
+        Kind::Robot | Kind::Vehicle | Kind::Object => 2_000,
+        // VAM come every 5 s at least (TS 103 300-3, T_GenVamMax).
+        Kind::Vru => 10_000,
+        Kind::RoadSideUnit => 5_000,
+    }
+}
+
+/// Somebody on the map.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Neighbour {
+    /// What was told of it last.
+    pub user: RoadUser,
+    /// When, on the robot's clock.
+    pub heard_ms: u64,
+}
+
+/// The local dynamic map of one robot.
+#[derive(Clone, Debug, Default)]
+pub struct LocalDynamicMap {
+    kinds: BTreeMap<Kind, BTreeMap<Identity, Neighbour>>,
+}
+
+impl LocalDynamicMap {
+    /// Takes in what was told at `now_ms`, unless it is older than what is known.
+    pub fn observe(&mut self, user: RoadUser, now_ms: u64) {
+        let neighbour = Neighbour {
+            user,
+            heard_ms: now_ms,
+        };
+        // Whoever is something else now, like a road user that got into a car, is so only.
+        for (kind, users) in &mut self.kinds {
+            if *kind != user.kind {
+                users.remove(&user.identity);
+            }
+        }
+        let users = self.kinds.entry(user.kind).or_default();
+        if let Some(known) = users.get_mut(&user.identity) {
+            if known.user.measured_its <= user.measured_its {
+                *known = neighbour;
+            }
+            return;
+        }
+        if users.len() >= USERS_MAX {
+            let oldest = users.iter().min_by_key(|(_, known)| known.heard_ms);
+            if let Some(identity) = oldest.map(|(identity, _)| *identity) {
+                users.remove(&identity);
+            }
+        }
+        users.insert(user.identity, neighbour);
+    }
+
+    /// Forgets who was not heard of for too long.
+    pub fn forget(&mut self, now_ms: u64) {
+        for (kind, users) in &mut self.kinds {
+            let lifetime = lifetime_ms(*kind);
+            users.retain(|_, known| now_ms.saturating_sub(known.heard_ms) < lifetime);
+        }
+    }
+
+    /// Everybody on the map, by kind and identity.
+    pub fn iter(&self) -> impl Iterator<Item = &Neighbour> {
+        self.kinds.values().flat_map(BTreeMap::values)
+    }
+
+    /// Everybody of a kind.
+    pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Neighbour> {
+        self.kinds.get(&kind).into_iter().flat_map(BTreeMap::values)
+    }
+
+    /// Whoever goes by this identity.
+    #[must_use]
+    pub fn get(&self, identity: Identity) -> Option<&Neighbour> {
+        self.kinds.values().find_map(|users| users.get(&identity))
+    }
+
+    /// Everybody within a distance of a position, each with how far it is.
+    pub fn within<'a>(
+        &'a self,
+        position: &'a Position,
+        at_most: Decimetres,
+    ) -> impl Iterator<Item = (Decimetres, &'a Neighbour)> {
+        self.iter().filter_map(move |known| {
+            let distance = distance(position, &known.user.position);
+            (distance != Decimetres::UNKNOWN && distance <= at_most).then_some((distance, known))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn user(identity: Identity, kind: Kind, measured_its: u64) -> RoadUser {
+        RoadUser {
+            identity,
+            kind,
+            station_type: None,
+            position: Position::at(49.0, 8.4),
+            speed: Some(1.0),
+            heading: None,
+            cardinality: 1,
+            measured_its,
+        }
+    }
+
+    fn station(id: u32, kind: Kind) -> RoadUser {
+        user(Identity::Station(id), kind, 0)
+    }
+
+    #[test]
+    fn who_is_not_heard_again_is_forgotten() {
+        let mut map = LocalDynamicMap::default();
+        map.observe(station(1, Kind::Vehicle), 0);
+        map.observe(station(2, Kind::Vru), 0);
+        map.forget(1_999);
+        assert_eq!(map.iter().count(), 2);
+        map.forget(2_000);
+        assert!(map.get(Identity::Station(1)).is_none());
+        assert_eq!(map.of_kind(Kind::Vru).count(), 1);
+        map.forget(10_000);
+        assert_eq!(map.iter().count(), 0);
+    }
+
+    #[test]
+    fn a_flood_of_one_kind_leaves_the_others() {
+        let mut map = LocalDynamicMap::default();
+        map.observe(station(1, Kind::Robot), 0);
+        for id in 0..10_000 {
+            map.observe(station(id + 2, Kind::Vehicle), id.into());
+        }
+        assert_eq!(map.of_kind(Kind::Vehicle).count(), USERS_MAX);
+        assert!(map.get(Identity::Station(10_001)).is_some());
+        assert!(map.get(Identity::Station(1)).is_some());
+    }
+
+    #[test]
+    fn what_is_older_than_known_changes_nothing() {
+        let mut map = LocalDynamicMap::default();
+        let identity = Identity::Object { by: 7, number: 1 };
+        map.observe(user(identity, Kind::Object, 1_000), 0);
+        map.observe(user(identity, Kind::Object, 900), 50);
+        let known = map.get(identity).unwrap();
+        assert_eq!((known.user.measured_its, known.heard_ms), (1_000, 0));
+    }
+
+    #[test]
+    fn a_station_is_one_thing_at_a_time() {
+        let mut map = LocalDynamicMap::default();
+        map.observe(station(1, Kind::Vru), 0);
+        map.observe(station(1, Kind::Vehicle), 1);
+        assert_eq!(map.iter().count(), 1);
+    }
+
+    #[test]
+    fn neighbours_are_found_by_distance() {
+        let mut map = LocalDynamicMap::default();
+        map.observe(station(1, Kind::Vru), 0);
+        let nowhere = RoadUser {
+            position: Position::default(),
+            ..station(2, Kind::Vru)
+        };
+        map.observe(nowhere, 0);
+        let here = Position::at(49.0, 8.401);
+        let near = |metres: u16| map.within(&here, Decimetres(metres * 10)).count();
+        assert_eq!((near(70), near(80)), (0, 1));
+    }
+}
