@@ -8,6 +8,7 @@ mod demo;
 mod explore;
 mod fsm;
 mod pki;
+mod replay;
 mod run;
 mod security;
 mod simulate;

@@ -17,7 +17,7 @@ use crossguard_codec::{ControlMode, RobotState, Service, TaskParameters, TaskPro
 use crossguard_protocol::{
     Availability, Config, CorridorClosure, Event, FallbackPolicy, Identity, Ignored, Input,
     Maneuver, Millis, Notice, Output, Outputs, Rmcm, Robot, State, StationId, StopReason, TaskType,
-    Unavailability,
+    Timer, Unavailability,
 };
 
 use crate::counters::{Cause, Counters};
@@ -56,6 +56,8 @@ pub enum Stimulus<'a> {
     /// All road users that the robot's sensors have now. Places are metres to the east and to the
     /// north of the robot's reference position.
     Perceived(&'a [PerceivedVru]),
+    /// One timer runs out, whatever the time: for runs in which any armed timer may.
+    Timer(Timer),
     /// Nothing but that time has passed.
     Time,
 }
@@ -255,6 +257,9 @@ impl Endpoint {
             Stimulus::Perceived(people) => {
                 let now_ms = turn.moment.now_ms;
                 self.clustering.perceive(now_ms, [0.0, 0.0], people);
+            }
+            Stimulus::Timer(timer) => {
+                self.step(&mut turn, Input::Expired(timer), None);
             }
             Stimulus::Time => {}
         }

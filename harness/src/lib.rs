@@ -29,6 +29,7 @@
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
 //! - [`demo`] is the paper's crossing with two robots and their simulated [`body`]s, [`timing`] its
 //!   table, [`chart`] its sequence chart.
+//! - [`drive`] drives endpoints along a run of the model checker, and compares the two.
 //! - [`robot_file`] and [`operator`] are what `crossguard run` reads: a configuration, and what a
 //!   person types.
 
@@ -39,6 +40,7 @@ pub mod capture;
 pub mod chart;
 pub mod counters;
 pub mod demo;
+pub mod drive;
 pub mod endpoint;
 pub mod evaluation;
 pub mod operator;

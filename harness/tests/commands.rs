@@ -22,6 +22,9 @@ fn check_reports_every_property_of_a_scenario_as_json() {
         assert!(scenario["unique_states"].as_u64().unwrap() > 100_000);
         assert!(scenario["depth"].as_u64().unwrap() > 10);
         assert!(scenario["seconds"].as_f64().unwrap() > 0.0);
+        if cfg!(target_os = "linux") {
+            assert!(scenario["processor_seconds"].as_f64().unwrap() > 0.0);
+        }
         for property in scenario["properties"].as_array().unwrap() {
             let verdict = property["verdict"].as_str().unwrap();
             let expected = if property["kind"] == "premise" {
@@ -204,6 +207,11 @@ fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         assert!(stdout(&output).contains(expected), "{}", stdout(&output));
     }
+    follow("\"send RAM\", \"lock identity\"", lost);
+    let output = run(&["check", scenario, "--replay", file, "--endpoints"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let expected = "Endpoints took 2 of its 2 steps and sent 1 datagrams";
+    assert!(stdout(&output).contains(expected), "{}", stdout(&output));
     std::fs::write(file, "{").unwrap();
     assert_refused(&run(&["check", scenario, "--replay", file]), "run.json");
 }

@@ -10,6 +10,9 @@
 //! makes no difference; [`symmetry`](crate::symmetry) does that where a scenario allows it.
 
 use crossguard_protocol::{Heartbeat, Renaming, SessionId, StationId, UniqueNumber};
+use dashmap::DashMap;
+use dashmap::mapref::entry::Entry;
+use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
 /// Something that holds names.
@@ -19,136 +22,213 @@ pub(crate) trait Renamable {
     fn renamed(&self, to: &mut impl Renaming) -> Self;
 }
 
-type Number = (StationId, UniqueNumber);
-type Beat = (SessionId, Heartbeat);
+/// A name: whose it is, and in the lowest 16 bits the number that is ranked among the others of that
+/// owner. In one number, because names are compared by the million.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+struct Name(u128);
 
-/// The names that occur in something, in no particular order.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Names {
-    numbers: SmallVec<[Number; 4]>,
-    heartbeats: SmallVec<[Beat; 2]>,
+impl Name {
+    const HEARTBEAT: u128 = 1 << 127;
+
+    fn number(owner: StationId, number: UniqueNumber) -> Self {
+        let owner = u128::from(owner.0) << 32;
+        Self(owner | u128::from(number.boot) << 16 | u128::from(number.count))
+    }
+
+    fn heartbeat(session: SessionId, heartbeat: Heartbeat) -> Self {
+        let session = Self::number(session.leader, session.number.0).0 << 16;
+        Self(Self::HEARTBEAT | session | u128::from(heartbeat.0))
+    }
+
+    const fn is_heartbeat(self) -> bool {
+        self.0 & Self::HEARTBEAT != 0
+    }
+
+    const fn owner(self) -> u128 {
+        self.0 >> 16
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the lowest 16 bits are meant"
+    )]
+    const fn value(self) -> u16 {
+        self.0 as u16
+    }
 }
+
+/// The names that occur in something, each once, in their order.
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+pub(crate) struct Names(SmallVec<[Name; 5]>);
 
 impl Names {
     pub(crate) fn of(value: &impl Renamable) -> Self {
         let mut names = Self::default();
         let _ = value.renamed(&mut names);
+        names.0.sort_unstable();
+        names.0.dedup();
         names
     }
 }
 
 impl Renaming for Names {
     fn heartbeat(&mut self, session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
-        self.heartbeats.push((session, heartbeat));
+        self.0.push(Name::heartbeat(session, heartbeat));
         heartbeat
     }
 
     fn number(&mut self, owner: StationId, number: UniqueNumber) -> UniqueNumber {
-        self.numbers.push((owner, number));
+        self.0.push(Name::number(owner, number));
         number
+    }
+}
+
+/// Sets of names by number, and the renamings to ranks. Few sets occur together, so each renaming is made
+/// up once; a state finds its own by the numbers of the sets in its parts.
+pub(crate) struct Renamings {
+    rank: fn(&mut Ranks) -> bool,
+    sets: boxcar::Vec<Names>,
+    numbers: DashMap<Names, u32, FxBuildHasher>,
+    of_sets: DashMap<NameSets, Option<u32>, FxBuildHasher>,
+    ranks: boxcar::Vec<Ranks>,
+}
+
+/// The numbers of the sets of names in a state.
+#[derive(PartialEq, Eq, Hash, Default)]
+pub(crate) struct NameSets(SmallVec<[u32; 8]>);
+
+impl NameSets {
+    pub(crate) fn add(&mut self, set: u32) {
+        if set != Renamings::EMPTY && !self.0.contains(&set) {
+            self.0.push(set);
+        }
+    }
+}
+
+impl Renamings {
+    /// The number of the set without names.
+    pub(crate) const EMPTY: u32 = 0;
+
+    /// Renamings that `rank` makes up.
+    pub(crate) fn new(rank: fn(&mut Ranks) -> bool) -> Self {
+        let renamings = Self {
+            rank,
+            sets: boxcar::Vec::new(),
+            numbers: DashMap::default(),
+            of_sets: DashMap::default(),
+            ranks: boxcar::Vec::new(),
+        };
+        let empty = renamings.set(Names::default());
+        debug_assert_eq!(empty, Self::EMPTY);
+        renamings
+    }
+
+    /// The number of a set of names.
+    pub(crate) fn set(&self, names: Names) -> u32 {
+        let number = |index| u32::try_from(index).expect("fewer than 2^32 sets of names");
+        match self.numbers.entry(names) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(vacant) => {
+                let set = number(self.sets.push(vacant.key().clone()));
+                *vacant.insert(set)
+            }
+        }
+    }
+
+    /// The number of the renaming of a state in which these sets of names occur; `None` if no name
+    /// changes.
+    pub(crate) fn of(&self, sets: NameSets) -> Option<u32> {
+        if let Some(known) = self.of_sets.get(&sets) {
+            return *known;
+        }
+        let mut ranks = Ranks::default();
+        for &set in &sets.0 {
+            ranks.add(&self.sets[set as usize]);
+        }
+        let number = |index| u32::try_from(index).expect("fewer than 2^32 renamings");
+        let renaming = (self.rank)(&mut ranks).then(|| number(self.ranks.push(ranks)));
+        self.of_sets.insert(sets, renaming);
+        renaming
+    }
+
+    /// The renaming with this number.
+    pub(crate) fn ranks(&self, renaming: u32) -> &Ranks {
+        &self.ranks[renaming as usize]
     }
 }
 
 /// The renaming to ranks, of everything that occurs in one state.
 #[derive(Default)]
 pub(crate) struct Ranks {
-    numbers: SmallVec<[(Number, u16); 16]>,
-    heartbeats: SmallVec<[(Beat, u16); 16]>,
+    /// In their order.
+    names: SmallVec<[Name; 16]>,
+    /// What each of them becomes.
+    ranks: SmallVec<[u16; 16]>,
 }
 
 impl Ranks {
     pub(crate) fn add(&mut self, names: &Names) {
-        self.numbers
-            .extend(names.numbers.iter().map(|&number| (number, 0)));
-        self.heartbeats
-            .extend(names.heartbeats.iter().map(|&beat| (beat, 0)));
+        for name in &names.0 {
+            let below = self.names.iter().rposition(|known| known <= name);
+            let at = below.map_or(0, |below| below + 1);
+            if below.is_none_or(|below| self.names[below] != *name) {
+                self.names.insert(at, *name);
+            }
+        }
     }
 
     /// Ranks everything that was added. Returns whether any name changes.
     pub(crate) fn rank(&mut self) -> bool {
-        self.sort();
-        let numbers_change = self.rank_numbers();
-        let beats_change = rank_groups(
-            &mut self.heartbeats,
-            |(session, _)| *session,
-            |(_, beat)| beat.0,
-        );
-        numbers_change || beats_change
+        self.rank_with(|_, _, last| last + 1)
     }
 
     /// Ranks the numbers that were added, and counts the heartbeats of each session from the oldest
     /// one. That keeps how far apart they are, which is what their age is counted by. Returns
     /// whether any name changes.
     pub(crate) fn rank_keeping_distances(&mut self) -> bool {
-        self.sort();
-        let mut changes = self.rank_numbers();
-        let mut oldest: Option<Beat> = None;
-        for (beat, name) in &mut self.heartbeats {
-            let first = match oldest {
-                Some(first) if first.0 == beat.0 => first,
-                _ => *beat,
+        self.rank_with(|name, first, last| {
+            if name.is_heartbeat() {
+                name.value() - first.value()
+            } else {
+                last + 1
+            }
+        })
+    }
+
+    /// Ranks the names of each owner: the first is 0, and `next` says what any other becomes, given
+    /// the first and what the one before it became.
+    fn rank_with(&mut self, next: impl Fn(Name, Name, u16) -> u16) -> bool {
+        let mut changes = false;
+        let mut group: Option<(Name, u16)> = None;
+        for &name in &self.names {
+            let (first, rank) = match group {
+                Some((first, last)) if first.owner() == name.owner() => {
+                    (first, next(name, first, last))
+                }
+                _ => (name, 0),
             };
-            oldest = Some(first);
-            *name = beat.1.distance_from(first.1);
-            changes |= beat.1.0 != *name;
+            group = Some((first, rank));
+            self.ranks.push(rank);
+            changes |= rank != name.value();
         }
         changes
     }
 
-    fn sort(&mut self) {
-        self.numbers.sort_unstable();
-        self.numbers.dedup();
-        self.heartbeats
-            .sort_unstable_by_key(|((session, beat), _)| (*session, beat.0));
-        self.heartbeats.dedup();
-    }
-
-    fn rank_numbers(&mut self) -> bool {
-        rank_groups(
-            &mut self.numbers,
-            |(owner, n)| (*owner, n.boot),
-            |(_, n)| n.count,
-        )
+    fn of(&self, name: Name) -> Option<u16> {
+        let at = self.names.iter().position(|known| *known == name)?;
+        Some(self.ranks[at])
     }
 }
 
-/// Gives each item its rank within its group. The items are sorted by group, then value.
-fn rank_groups<T, G: PartialEq>(
-    items: &mut [(T, u16)],
-    group: impl Fn(&T) -> G,
-    value: impl Fn(&T) -> u16,
-) -> bool {
-    let mut changes = false;
-    let mut next = 0;
-    for i in 0..items.len() {
-        if i > 0 && group(&items[i - 1].0) != group(&items[i].0) {
-            next = 0;
-        }
-        items[i].1 = next;
-        changes |= value(&items[i].0) != next;
-        next += 1;
-    }
-    changes
-}
-
-impl Renaming for Ranks {
+impl Renaming for &Ranks {
     fn heartbeat(&mut self, session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
-        let known = self
-            .heartbeats
-            .iter()
-            .find(|(beat, _)| *beat == (session, heartbeat));
-        known.map_or(heartbeat, |(_, rank)| Heartbeat(*rank))
+        let rank = self.of(Name::heartbeat(session, heartbeat));
+        rank.map_or(heartbeat, Heartbeat)
     }
 
     fn number(&mut self, owner: StationId, number: UniqueNumber) -> UniqueNumber {
-        let known = self
-            .numbers
-            .iter()
-            .find(|(other, _)| *other == (owner, number));
-        known.map_or(number, |(_, rank)| UniqueNumber {
-            count: *rank,
-            ..number
-        })
+        let rank = self.of(Name::number(owner, number));
+        rank.map_or(number, |count| UniqueNumber { count, ..number })
     }
 }
 
@@ -162,17 +242,19 @@ mod tests {
     fn names_become_their_ranks_within_station_and_boot() {
         let number = |station, boot, count| (StationId(station), UniqueNumber { boot, count });
         let mut ranks = Ranks::default();
-        let mut names = Names::default();
-        names.numbers.extend([
+        for (station, number) in [
             number(2, 1, 9),
             number(1, 2, 0),
             number(1, 1, 7),
             number(1, 1, 3),
-        ]);
-        ranks.add(&names);
-        ranks.add(&names);
+        ] {
+            let mut names = Names::default();
+            names.number(station, number);
+            ranks.add(&names);
+            ranks.add(&names);
+        }
         assert!(ranks.rank());
-        let mut renamed = |(station, n): Number| ranks.number(station, n).count;
+        let renamed = |(station, n): (StationId, UniqueNumber)| (&ranks).number(station, n).count;
         assert_eq!(renamed(number(1, 1, 3)), 0);
         assert_eq!(renamed(number(1, 1, 7)), 1);
         assert_eq!(renamed(number(1, 2, 0)), 0);
@@ -185,16 +267,16 @@ mod tests {
             leader: StationId(leader),
             number: SessionNumber(UniqueNumber { boot: 1, count: 0 }),
         };
-        let mut names = Names::default();
         let beats = [(1, 9), (1, 4), (2, 7), (1, 6)];
-        names
-            .heartbeats
-            .extend(beats.map(|(leader, beat): (u32, u16)| (session(leader), Heartbeat(beat))));
         let mut ranks = Ranks::default();
-        ranks.add(&names);
+        for (leader, beat) in beats {
+            let mut names = Names::default();
+            names.heartbeat(session(leader), Heartbeat(beat));
+            ranks.add(&names);
+        }
         assert!(ranks.rank_keeping_distances());
         let renamed =
-            beats.map(|(leader, beat)| ranks.heartbeat(session(leader), Heartbeat(beat)).0);
+            beats.map(|(leader, beat)| (&ranks).heartbeat(session(leader), Heartbeat(beat)).0);
         assert_eq!(renamed, [5, 0, 0, 2]);
     }
 
@@ -202,12 +284,8 @@ mod tests {
     fn ranks_are_their_own_ranks() {
         let mut ranks = Ranks::default();
         let mut names = Names::default();
-        names
-            .numbers
-            .push((StationId(1), UniqueNumber { boot: 1, count: 0 }));
-        names
-            .numbers
-            .push((StationId(1), UniqueNumber { boot: 1, count: 1 }));
+        names.number(StationId(1), UniqueNumber { boot: 1, count: 0 });
+        names.number(StationId(1), UniqueNumber { boot: 1, count: 1 });
         ranks.add(&names);
         assert!(!ranks.rank());
     }

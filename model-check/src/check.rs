@@ -1,14 +1,16 @@
 //! Runs the checks of one scenario and says what came of them.
 //!
-//! Two explorations run side by side over the same model. stateright looks for states that break a
-//! property. The kit's own builds the whole graph, for what is a fact about all runs, and counts the
-//! states a second time. Only when both have visited everything and agree is a check exhaustive.
+//! Two explorations run over the same model, one after the other, so that the memory of the first is free
+//! for the second. stateright's looks for states that break a property. The kit's own builds the whole
+//! graph, for what is a fact about all runs, and counts the states a second time. Only when both have
+//! visited everything and agree is a check exhaustive.
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
+use crate::cost::Meter;
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Runs;
 use crate::graph::Graph;
@@ -45,21 +47,39 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Why an exploration that has found so many states has to stop, if it has.
-    pub(crate) fn states_reached(&self, states: usize) -> Option<CutOff> {
-        let reached = self.states_max.is_some_and(|max| states >= max);
-        reached.then_some(CutOff::StateLimit)
+    /// The limits on states and time; time runs from now.
+    pub(crate) fn limits(&self) -> Limits {
+        Limits {
+            states_max: self.states_max,
+            time_max: self.time_max,
+            start: Instant::now(),
+        }
+    }
+}
+
+/// When an exploration has to stop.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    states_max: Option<usize>,
+    time_max: Option<Duration>,
+    start: Instant,
+}
+
+impl Limits {
+    /// Whether there are as many states as there may be.
+    pub(crate) fn states_reached(&self, states: usize) -> bool {
+        self.states_max.is_some_and(|max| states >= max)
     }
 
-    /// Why an exploration that has taken so long has to stop, if it has.
-    pub(crate) fn time_reached(&self, time: Duration) -> Option<CutOff> {
-        let reached = self.time_max.is_some_and(|max| time >= max);
+    /// Why an exploration has to stop that has taken until now, if it has.
+    pub(crate) fn time_reached(&self) -> Option<CutOff> {
+        let reached = self.time_max.is_some_and(|max| self.start.elapsed() >= max);
         reached.then_some(CutOff::TimeLimit)
     }
 }
 
 /// How far a check is.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
     /// Distinct states that stateright has found.
     pub checked: usize,
@@ -76,33 +96,29 @@ pub struct Progress {
 /// Checks the model of a scenario. `watch` is told now and then how far it is.
 #[must_use]
 pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
-    let start = Instant::now();
+    let (meter, limits) = (Meter::start(), options.limits());
     let scenario = model.scenario();
-    let expected = scenario.expected.map(|size| size.unique_states);
-    let stateright = configure(model, options).spawn_bfs();
-    let graph = Graph::build(model, options, &mut |reached| {
+    let progress = Progress {
+        expected: scenario.expected.map(|size| size.unique_states),
+        ..Progress::default()
+    };
+    let checked = Checked::of(model, options, &limits, &mut |checked| {
         watch(Progress {
-            checked: stateright.unique_state_count(),
+            checked,
+            ..progress
+        });
+    });
+    let graph = Graph::build(model, &limits, &mut |reached| {
+        watch(Progress {
+            checked: checked.unique_states,
             explored: reached.states,
             frontier: reached.frontier,
             depth: reached.depth,
-            expected,
+            ..progress
         });
-        // What the graph alone can tell is not asked for, or it would still be looked for.
-        !options.until_broken.is_empty() && stateright.is_done()
+        // What the graph alone can tell is not asked for.
+        !options.until_broken.is_empty()
     });
-    let (explored, depth) = (graph.states(), graph.depth());
-    while !stateright.is_done() {
-        std::thread::sleep(Duration::from_millis(20));
-        watch(Progress {
-            checked: stateright.unique_state_count(),
-            explored,
-            frontier: 0,
-            depth,
-            expected,
-        });
-    }
-    let checked = Checked::of(&stateright.join(), model, options, start.elapsed());
     let size = Size {
         unique_states: graph.states(),
         depth: graph.depth(),
@@ -132,7 +148,8 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
         figures: Vec::new(),
         assumptions: assumptions(scenario, size.unique_states),
         transitions_taken: model.transitions_taken(),
-        seconds: start.elapsed().as_secs_f64(),
+        seconds: limits.start.elapsed().as_secs_f64(),
+        cost: meter.read(size.unique_states),
     }
 }
 
@@ -164,19 +181,30 @@ struct Checked {
 }
 
 impl Checked {
-    fn of(
+    /// Explores the model with stateright. `watch` is told now and then how many states it has found.
+    fn of(model: &Model, options: &Options, limits: &Limits, watch: &mut dyn FnMut(usize)) -> Self {
+        let checker = configure(model, options).spawn_bfs();
+        while !checker.is_done() {
+            std::thread::sleep(Duration::from_millis(20));
+            watch(checker.unique_state_count());
+        }
+        Self::by(&checker.join(), model, options, limits)
+    }
+
+    fn by(
         checker: &impl Checker<Model>,
         model: &Model,
         options: &Options,
-        elapsed: Duration,
+        limits: &Limits,
     ) -> Self {
         let mut discoveries = checker.discoveries();
         // stateright says it is done in all of these cases as well.
         let found_all =
             discoveries.len() == model.properties().len() || !options.until_broken.is_empty();
-        let cut_off = options
+        let cut_off = limits
             .states_reached(checker.state_count())
-            .or(options.time_reached(elapsed))
+            .then_some(CutOff::StateLimit)
+            .or(limits.time_reached())
             .or(found_all.then_some(CutOff::FoundBroken));
         let counterexamples = model
             .scenario()

@@ -32,7 +32,7 @@ pub fn export(
     format: Format,
     to: &mut impl Write,
 ) -> io::Result<Option<CutOff>> {
-    let graph = Graph::build(model, options, &mut |_| false);
+    let graph = Graph::build(model, &options.limits(), &mut |_| false);
     if graph.cut_off().is_some() {
         return Ok(graph.cut_off());
     }

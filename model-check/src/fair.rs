@@ -22,7 +22,7 @@ use std::ops::{BitAnd, BitOr, BitOrAssign, Not};
 use rustc_hash::FxBuildHasher;
 
 /// A set of classes of transitions, which have the numbers 0 to 127.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Classes(pub u128);
 
 impl Classes {
@@ -159,11 +159,21 @@ struct Region {
     states: Vec<u32>,
     /// By which state each was reached; a state that meets the premise names itself.
     parents: Vec<u32>,
-    enabled: Vec<Classes>,
+    /// The numbers of the sets of classes that are enabled in each state.
+    enabled: Vec<u32>,
     /// The transitions within the region, state after state.
-    edges: Vec<Edge>,
+    edges: Vec<Numbered>,
     /// Where those of each state begin, and after the last where they end.
     starts: Vec<usize>,
+    /// Few sets of classes occur; each is stored once.
+    sets: Vec<Classes>,
+}
+
+/// A transition, with the number of its set of classes.
+#[derive(Clone, Copy)]
+struct Numbered {
+    to: u32,
+    taken: u32,
 }
 
 impl Region {
@@ -177,21 +187,29 @@ impl Region {
             enabled: Vec::new(),
             edges: Vec::new(),
             starts: vec![0],
+            sets: Vec::new(),
+        };
+        let mut sets: HashMap<Classes, u32, FxBuildHasher> = HashMap::default();
+        let mut set = |all: &mut Vec<Classes>, classes| {
+            *sets.entry(classes).or_insert_with(|| {
+                all.push(classes);
+                number(all.len() - 1)
+            })
         };
         let mut edges = Vec::new();
         let mut at = 0;
         while at < region.states.len() {
             edges.clear();
-            region
-                .enabled
-                .push(system.expand(region.states[at], &mut edges));
+            let enabled = system.expand(region.states[at], &mut edges);
+            region.enabled.push(set(&mut region.sets, enabled));
             for edge in edges.iter().filter(|edge| !to(edge.to)) {
                 let to = *numbers.entry(edge.to).or_insert_with(|| {
                     region.states.push(edge.to);
                     region.parents.push(number(at));
                     number(region.states.len() - 1)
                 });
-                region.edges.push(Edge { to, ..*edge });
+                let taken = set(&mut region.sets, edge.taken);
+                region.edges.push(Numbered { to, taken });
             }
             region.starts.push(region.edges.len());
             at += 1;
@@ -203,9 +221,20 @@ impl Region {
         number(self.states.len())
     }
 
-    fn edges(&self, state: u32) -> &[Edge] {
+    fn numbered(&self, state: u32) -> &[Numbered] {
         let state = state as usize;
         &self.edges[self.starts[state]..self.starts[state + 1]]
+    }
+
+    fn edges(&self, state: u32) -> impl Iterator<Item = Edge> {
+        self.numbered(state).iter().map(|edge| Edge {
+            to: edge.to,
+            taken: self.sets[edge.taken as usize],
+        })
+    }
+
+    fn enabled(&self, state: u32) -> Classes {
+        self.sets[self.enabled[state as usize] as usize]
     }
 
     /// A set of states that a fair run can stay in for ever, visiting all of them again and again.
@@ -213,28 +242,28 @@ impl Region {
         let mut todo = vec![all];
         // Which candidate each state belongs to; a state that was left out belongs to none.
         let mut belongs = vec![0_u32; self.states.len()];
+        let mut order = vec![Visit::NOT_YET; self.states.len()];
         let mut candidates = 0;
         while let Some(candidate) = todo.pop() {
             candidates += 1;
             for &state in &candidate {
                 belongs[state as usize] = candidates;
             }
-            for component in self.components(&candidate, &belongs) {
+            for component in self.components(&candidate, &belongs, &mut order).each() {
                 candidates += 1;
-                for &state in &component {
+                for &state in component {
                     belongs[state as usize] = candidates;
                 }
-                let inside = Inside::of(self, &component, &belongs);
+                let inside = Inside::of(self, component, &belongs);
                 if !(fairness.weak & inside.always_enabled & !inside.taken).is_empty() {
                     continue;
                 }
                 let unfair = fairness.strong & inside.enabled & !inside.taken;
                 if unfair.is_empty() {
-                    return Some(component);
+                    return Some(component.to_vec());
                 }
-                let rest = component
-                    .into_iter()
-                    .filter(|&state| (self.enabled[state as usize] & unfair).is_empty());
+                let rest = component.iter().copied();
+                let rest = rest.filter(|&state| (self.enabled(state) & unfair).is_empty());
                 let rest: Vec<u32> = rest.collect();
                 if !rest.is_empty() {
                     todo.push(rest);
@@ -246,16 +275,20 @@ impl Region {
 
     /// The strongly connected components of the subgraph that `candidate` spans (Tarjan's algorithm,
     /// with a stack of its own).
-    fn components(&self, candidate: &[u32], belongs: &[u32]) -> Vec<Vec<u32>> {
+    fn components(&self, candidate: &[u32], belongs: &[u32], order: &mut [Visit]) -> Components {
+        for &state in candidate {
+            order[state as usize] = Visit::NOT_YET;
+        }
         let mut search = Tarjan {
             region: self,
             belongs,
-            order: HashMap::default(),
+            order,
+            visited: 0,
             open: Vec::new(),
-            found: Vec::new(),
+            found: Components::default(),
         };
         for &state in candidate {
-            if !search.order.contains_key(&state) {
+            if search.order[state as usize] == Visit::NOT_YET {
                 search.visit(state);
             }
         }
@@ -287,7 +320,7 @@ impl Region {
         // Every class that is enabled somewhere is taken, or is weak and seen disabled.
         for class in ((fairness.weak | fairness.strong) & inside.enabled).each() {
             if (inside.taken & class).is_empty() {
-                cycle.visit(|region, state| (region.enabled[state as usize] & class).is_empty());
+                cycle.visit(|region, state| (region.enabled(state) & class).is_empty());
             } else {
                 cycle.take(class);
             }
@@ -321,8 +354,8 @@ impl Inside {
         };
         let mark = belongs[component[0] as usize];
         for &state in component {
-            inside.enabled |= region.enabled[state as usize];
-            inside.always_enabled = inside.always_enabled & region.enabled[state as usize];
+            inside.enabled |= region.enabled(state);
+            inside.always_enabled = inside.always_enabled & region.enabled(state);
             for edge in region.edges(state) {
                 if belongs[edge.to as usize] == mark {
                     inside.taken |= edge.taken;
@@ -368,8 +401,8 @@ impl Cycle<'_> {
                 if self.members[edge.to as usize] == 0 {
                     continue;
                 }
-                if goal(self.region, edge.to, Some(edge)) {
-                    let mut way = vec![*edge];
+                if goal(self.region, edge.to, Some(&edge)) {
+                    let mut way = vec![edge];
                     let mut back = state;
                     while back != self.at {
                         let (from, edge) = came_by[&back];
@@ -381,7 +414,7 @@ impl Cycle<'_> {
                     return;
                 }
                 if edge.to != self.at && !came_by.contains_key(&edge.to) {
-                    came_by.insert(edge.to, (state, *edge));
+                    came_by.insert(edge.to, (state, edge));
                     todo.push_back(edge.to);
                 }
             }
@@ -390,14 +423,50 @@ impl Cycle<'_> {
     }
 }
 
+/// Components, one after the other.
+#[derive(Default)]
+struct Components {
+    states: Vec<u32>,
+    /// Where each ends.
+    ends: Vec<usize>,
+}
+
+impl Components {
+    fn each(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts
+            .zip(&self.ends)
+            .map(|(start, &end)| &self.states[start..end])
+    }
+}
+
+/// When a state was visited, and the oldest open state that it reaches.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Visit {
+    at: u32,
+    low: u32,
+}
+
+impl Visit {
+    const NOT_YET: Self = Self {
+        at: u32::MAX,
+        low: u32::MAX,
+    };
+
+    /// Not yet part of a component.
+    const fn is_open(self) -> bool {
+        self.low != u32::MAX
+    }
+}
+
 struct Tarjan<'a> {
     region: &'a Region,
     belongs: &'a [u32],
-    /// For each visited state, when it was visited, and the oldest open state that it reaches; the
-    /// latter is `u32::MAX` once its component is found.
-    order: HashMap<u32, (u32, u32), FxBuildHasher>,
+    /// For each state of the region; only those of the candidate count.
+    order: &'a mut [Visit],
+    visited: u32,
     open: Vec<u32>,
-    found: Vec<Vec<u32>>,
+    found: Components,
 }
 
 impl Tarjan<'_> {
@@ -407,11 +476,13 @@ impl Tarjan<'_> {
         self.open(root);
         while let Some((state, next)) = calls.last_mut() {
             let state = *state;
-            let Some(edge) = self.region.edges(state).get(*next) else {
+            let Some(edge) = self.region.numbered(state).get(*next) else {
                 calls.pop();
-                self.close(state);
-                if let Some(&(caller, _)) = calls.last() {
-                    self.reaches(caller, self.order[&state].1);
+                let low = self.order[state as usize].low;
+                if !self.close(state)
+                    && let Some(&(caller, _)) = calls.last()
+                {
+                    self.reaches(caller, low);
                 }
                 continue;
             };
@@ -419,42 +490,43 @@ impl Tarjan<'_> {
             if self.belongs[edge.to as usize] != mark {
                 continue;
             }
-            match self.order.get(&edge.to) {
-                None => {
-                    self.open(edge.to);
-                    calls.push((edge.to, 0));
-                }
-                // Still open: not yet part of a component.
-                Some(&(at, low)) if low != u32::MAX => self.reaches(state, at),
-                Some(_) => {}
+            let visit = self.order[edge.to as usize];
+            if visit == Visit::NOT_YET {
+                self.open(edge.to);
+                calls.push((edge.to, 0));
+            } else if visit.is_open() {
+                self.reaches(state, visit.at);
             }
         }
     }
 
     fn open(&mut self, state: u32) {
-        let now = number(self.order.len());
-        self.order.insert(state, (now, now));
+        let (at, low) = (self.visited, self.visited);
+        self.order[state as usize] = Visit { at, low };
+        self.visited += 1;
         self.open.push(state);
     }
 
     fn reaches(&mut self, state: u32, oldest: u32) {
-        let (_, low) = self.order.get_mut(&state).expect("it was visited");
+        let low = &mut self.order[state as usize].low;
         *low = (*low).min(oldest);
     }
 
     /// All that `state` reaches has been visited: if it reaches nothing older, it and what is open
-    /// above it are a component.
-    fn close(&mut self, state: u32) {
-        let (at, low) = self.order[&state];
+    /// above it are a component. Returns whether they are.
+    fn close(&mut self, state: u32) -> bool {
+        let Visit { at, low } = self.order[state as usize];
         if at != low {
-            return;
+            return false;
         }
         let start = self.open.iter().rposition(|&open| open == state);
-        let component = self.open.split_off(start.expect("it is open"));
-        for member in &component {
-            self.order.get_mut(member).expect("it was visited").1 = u32::MAX;
+        let component = self.open.drain(start.expect("it is open")..);
+        for member in component {
+            self.order[member as usize].low = u32::MAX;
+            self.found.states.push(member);
         }
-        self.found.push(component);
+        self.found.ends.push(self.found.states.len());
+        true
     }
 }
 

@@ -1,13 +1,12 @@
 //! The whole state graph, for facts about runs that stateright's exploration does not establish.
 
 use std::hash::BuildHasher;
-use std::time::Instant;
 
 use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
-use crate::check::Options;
-use crate::model::{Model, State};
+use crate::check::Limits;
+use crate::model::{Action, Model, State};
 use crate::report::CutOff;
 
 /// How far an exploration is.
@@ -27,81 +26,140 @@ pub(crate) struct Graph {
     /// Successors of all states, one after the other.
     targets: Vec<u32>,
     /// Where the successors of each state begin, and after the last where they end.
-    starts: Vec<usize>,
+    starts: Vec<u32>,
     /// Whether each state can reach one in which all robots are idle.
     resettable: Vec<bool>,
     depth: usize,
     cut_off: Option<CutOff>,
 }
 
+/// A graph that is being built.
+struct Building {
+    graph: Graph,
+    /// Numbers of states, by what the states are; each state is stored once.
+    numbers: HashTable<u32>,
+}
+
+impl Building {
+    /// That of the initial state.
+    fn of(model: &Model) -> Self {
+        let mut building = Self {
+            graph: Graph {
+                states: Vec::new(),
+                parents: Vec::new(),
+                targets: Vec::new(),
+                starts: vec![0],
+                resettable: Vec::new(),
+                depth: 0,
+                cut_off: None,
+            },
+            numbers: HashTable::new(),
+        };
+        building.add(model.initial(), 0);
+        building
+    }
+
+    /// Adds the transitions out of a state, and the states that they lead to; says why not all of them
+    /// are added, where they are not.
+    fn expand(
+        &mut self,
+        model: &Model,
+        limits: &Limits,
+        at: usize,
+        actions: &mut Vec<Action>,
+    ) -> Option<CutOff> {
+        let state = self.graph.states[at].clone();
+        actions.clear();
+        model.actions_in(&state, actions);
+        let from = self.graph.targets.len();
+        for &action in &*actions {
+            let Some((next, _)) = model.successor_up_to_symmetry(&state, action) else {
+                continue;
+            };
+            let number = match self.known(&next) {
+                Some(number) => number,
+                None if limits.states_reached(self.graph.states.len()) => {
+                    return Some(CutOff::StateLimit);
+                }
+                None => self.add(next, short(at)),
+            };
+            if !self.graph.targets[from..].contains(&number) {
+                self.graph.targets.push(number);
+            }
+        }
+        self.graph.starts.push(short(self.graph.targets.len()));
+        None
+    }
+
+    /// The graph, without room for more.
+    fn finished(self) -> Graph {
+        let mut graph = self.graph;
+        graph.states.shrink_to_fit();
+        graph.parents.shrink_to_fit();
+        graph.targets.shrink_to_fit();
+        graph.starts.shrink_to_fit();
+        graph
+    }
+
+    fn known(&self, state: &State) -> Option<u32> {
+        let is_it = |number: &u32| self.graph.states[*number as usize] == *state;
+        self.numbers.find(hash(state), is_it).copied()
+    }
+
+    fn add(&mut self, state: State, parent: u32) -> u32 {
+        let states = &mut self.graph.states;
+        let fresh = short(states.len());
+        let hashed = hash(&state);
+        states.push(state);
+        let rehash = |&number: &u32| hash(&states[number as usize]);
+        self.numbers.insert_unique(hashed, fresh, rehash);
+        self.graph.parents.push(parent);
+        fresh
+    }
+}
+
+fn hash(state: &State) -> u64 {
+    FxBuildHasher.hash_one(state)
+}
+
+/// A number of a state or transition.
+///
+/// # Panics
+/// When there are 2^32 or more, far beyond what fits in memory.
+fn short(number: usize) -> u32 {
+    u32::try_from(number).expect("fewer than 2^32 states and transitions")
+}
+
 impl Graph {
     /// Explores `model` from its initial state, breadth first. `watch` is told how far it is, and says
-    /// whether to stop. Of the options, the limits on states and time count.
+    /// whether to stop.
     pub(crate) fn build(
         model: &Model,
-        options: &Options,
+        limits: &Limits,
         watch: &mut dyn FnMut(Reached) -> bool,
     ) -> Self {
-        let start = Instant::now();
-        let initial = model.initial();
-        let hash = |state: &State| FxBuildHasher.hash_one(state);
-        // Numbers of states, by what the states are; each state is stored once.
-        let mut numbers: HashTable<u32> = HashTable::new();
-        numbers.insert_unique(hash(&initial), 0, |_| 0);
-        let mut graph = Self {
-            states: vec![initial],
-            parents: vec![0],
-            targets: Vec::new(),
-            starts: vec![0],
-            resettable: Vec::new(),
-            depth: 0,
-            cut_off: None,
-        };
+        let mut building = Building::of(model);
         let mut level_ends = 1;
         let mut actions = Vec::new();
         let mut at = 0;
-        while at < graph.states.len() {
+        while at < building.graph.states.len() {
+            let graph = &mut building.graph;
             if at == level_ends {
                 (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
             }
-            graph.cut_off = options.states_reached(graph.states.len());
+            let mut cut_off = None;
             if at % 16_384 == 0 {
                 let has_to_stop = watch(graph.reached(at)).then_some(CutOff::FoundBroken);
-                let out_of_time = options.time_reached(start.elapsed());
-                graph.cut_off = graph.cut_off.or(has_to_stop).or(out_of_time);
+                cut_off = has_to_stop.or(limits.time_reached());
             }
-            if graph.cut_off.is_some() {
-                return graph;
+            cut_off = cut_off.or_else(|| building.expand(model, limits, at, &mut actions));
+            if cut_off.is_some() {
+                building.graph.cut_off = cut_off;
+                return building.graph;
             }
-            let state = graph.states[at].clone();
-            actions.clear();
-            model.actions_in(&state, &mut actions);
-            let from = graph.targets.len();
-            for &action in &actions {
-                let Some((next, _)) = model.successor_up_to_symmetry(&state, action) else {
-                    continue;
-                };
-                let hashed = hash(&next);
-                let known = numbers.find(hashed, |&number| graph.states[number as usize] == next);
-                let number = known.copied().unwrap_or_else(|| {
-                    let fresh = u32::try_from(graph.states.len()).expect("fewer than 2^32 states");
-                    numbers.insert_unique(hashed, fresh, |&number| {
-                        hash(&graph.states[number as usize])
-                    });
-                    graph.states.push(next);
-                    graph
-                        .parents
-                        .push(u32::try_from(at).expect("fewer than 2^32 states"));
-                    fresh
-                });
-                if !graph.targets[from..].contains(&number) {
-                    graph.targets.push(number);
-                }
-            }
-            graph.starts.push(graph.targets.len());
             at += 1;
         }
-        drop(numbers);
+        let mut graph = building.finished();
         graph.resettable =
             graph.can_reach(|state| model.nodes(state).all(crate::node::Node::is_idle));
         graph
@@ -136,10 +194,15 @@ impl Graph {
         &self.states[number as usize]
     }
 
+    /// The successors of a state.
+    fn targets(&self, state: usize) -> &[u32] {
+        let (start, end) = (self.starts[state], self.starts[state + 1]);
+        &self.targets[start as usize..end as usize]
+    }
+
     /// The number of `next`, which is a successor of state `number`.
     pub(crate) fn successor_number(&self, number: u32, next: &State) -> u32 {
-        let number = number as usize;
-        let mut targets = self.targets[self.starts[number]..self.starts[number + 1]].iter();
+        let mut targets = self.targets(number as usize).iter();
         *targets
             .find(|&&target| self.state(target) == next)
             .expect("it is a successor")
@@ -158,25 +221,29 @@ impl Graph {
     /// For each state, whether it can reach one that satisfies `goal`.
     fn can_reach(&self, goal: impl Fn(&State) -> bool) -> Vec<bool> {
         let states = self.states.len();
-        let mut starts = vec![0_usize; states + 1];
+        // The predecessors of each state, one after the other. Each place is filled from its end, which
+        // leaves its beginning in `starts`.
+        let mut starts = vec![0_u32; states + 1];
         for &target in &self.targets {
-            starts[target as usize + 1] += 1;
+            starts[target as usize] += 1;
         }
-        for i in 0..states {
-            starts[i + 1] += starts[i];
+        let mut end = 0;
+        for start in &mut starts {
+            end += *start;
+            *start = end;
         }
         let mut sources = vec![0_u32; self.targets.len()];
-        let mut fill = starts.clone();
-        for (from, range) in self.starts.windows(2).enumerate() {
-            for &target in &self.targets[range[0]..range[1]] {
-                sources[fill[target as usize]] = u32::try_from(from).expect("fewer than 2^32");
-                fill[target as usize] += 1;
+        for from in 0..states {
+            for &target in self.targets(from) {
+                let start = &mut starts[target as usize];
+                *start -= 1;
+                sources[*start as usize] = short(from);
             }
         }
         let mut reached: Vec<bool> = self.states.iter().map(&goal).collect();
         let mut todo: Vec<usize> = (0..states).filter(|&i| reached[i]).collect();
         while let Some(state) = todo.pop() {
-            for &source in &sources[starts[state]..starts[state + 1]] {
+            for &source in &sources[starts[state] as usize..starts[state + 1] as usize] {
                 if !reached[source as usize] {
                     reached[source as usize] = true;
                     todo.push(source as usize);
@@ -189,6 +256,6 @@ impl Graph {
     /// A state from which the robots cannot all get idle any more, as near as possible.
     pub(crate) fn stuck(&self) -> Option<u32> {
         let stuck = self.resettable.iter().position(|&resettable| !resettable)?;
-        Some(u32::try_from(stuck).expect("fewer than 2^32 states"))
+        Some(short(stuck))
     }
 }

@@ -6,17 +6,21 @@
 //! threads; the states they make up do not.
 
 use std::hash::Hash;
+use std::sync::Arc;
 
 use dashmap::DashMap;
 use dashmap::mapref::entry::Entry;
 use rustc_hash::FxBuildHasher;
 
-use crate::canonical::{Names, Renamable};
+use crate::canonical::{Names, Renamable, Renamings};
 
-/// A growing set of values, each with a number and the names that occur in it.
+/// A growing set of values, each with a number and the set of names that occur in it.
 pub(crate) struct Interner<T> {
-    values: boxcar::Vec<(T, Names)>,
+    values: boxcar::Vec<(T, u32)>,
     numbers: DashMap<T, u32, FxBuildHasher>,
+    renamings: Arc<Renamings>,
+    /// What renamings have made of values.
+    renamed: DashMap<(u32, u32), u32, FxBuildHasher>,
 }
 
 impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
@@ -25,29 +29,46 @@ impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
     /// # Panics
     /// When 2^32 values are exceeded, far beyond what fits in memory.
     pub(crate) fn number(&self, value: T) -> u32 {
-        self.number_with(value, Names::of)
+        self.number_with(value, |value| self.renamings.set(Names::of(value)))
     }
 
-    /// The names that occur in a value.
-    pub(crate) fn names(&self, number: u32) -> &Names {
-        &self.values[number as usize].1
+    /// The number of a value after the renaming of this number. Few renamings ever meet one value, so
+    /// each is carried out once.
+    pub(crate) fn renamed(&self, number: u32, renaming: u32) -> u32 {
+        if self.names(number) == Renamings::EMPTY {
+            return number;
+        }
+        if let Some(known) = self.renamed.get(&(number, renaming)) {
+            return *known;
+        }
+        let mut ranks = self.renamings.ranks(renaming);
+        let renamed = self.number(self.value(number).renamed(&mut ranks));
+        self.renamed.insert((number, renaming), renamed);
+        renamed
+    }
+
+    /// The set of names that occur in a value.
+    pub(crate) fn names(&self, number: u32) -> u32 {
+        self.values[number as usize].1
     }
 }
 
 impl<T: Clone + Eq + Hash> Interner<T> {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(renamings: &Arc<Renamings>) -> Self {
         Self {
             values: boxcar::Vec::new(),
             numbers: DashMap::default(),
+            renamings: Arc::clone(renamings),
+            renamed: DashMap::default(),
         }
     }
 
     /// The same for a value in which no names occur.
     pub(crate) fn number_nameless(&self, value: T) -> u32 {
-        self.number_with(value, |_| Names::default())
+        self.number_with(value, |_| Renamings::EMPTY)
     }
 
-    fn number_with(&self, value: T, names: impl FnOnce(&T) -> Names) -> u32 {
+    fn number_with(&self, value: T, names: impl FnOnce(&T) -> u32) -> u32 {
         if let Some(number) = self.numbers.get(&value) {
             return *number;
         }

@@ -21,6 +21,7 @@
 
 mod canonical;
 pub mod check;
+pub mod cost;
 pub mod explore;
 pub mod export;
 pub mod fair;
@@ -48,5 +49,6 @@ pub mod universe;
 /// what must hold of them; [`check::check`] does.
 #[must_use]
 pub fn count_states(model: &model::Model) -> usize {
-    graph::Graph::build(model, &check::Options::default(), &mut |_| false).states()
+    let limits = check::Options::default().limits();
+    graph::Graph::build(model, &limits, &mut |_| false).states()
 }

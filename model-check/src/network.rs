@@ -214,7 +214,8 @@ impl Network {
 /// Whether a message can have any effect on the receiver, whatever its state. Every robot within
 /// reach hears every message; those that are ignored in every state are left out of the model. That
 /// they are ignored is checked in [`universe`](crate::universe).
-pub(crate) fn concerns(message: &Message, receiver: StationId) -> bool {
+#[must_use]
+pub fn concerns(message: &Message, receiver: StationId) -> bool {
     match message {
         Message::Rmcm(Rmcm::Command(command)) => command.to == receiver,
         Message::Rmcm(Rmcm::Answer(answer)) => answer.session.leader == receiver,

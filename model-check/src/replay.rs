@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::check::placed;
+use crate::check::{chart, placed};
 use crate::model::{Action, Model, State};
 use crate::properties::{Kind, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
@@ -35,6 +35,25 @@ pub enum Followed {
 }
 
 impl Replay {
+    /// A run of a model along some actions, which breaks nothing in particular.
+    #[must_use]
+    pub fn along(model: &Model, actions: &[Action]) -> Self {
+        let mut state = model.initial();
+        let mut run = Vec::new();
+        for &action in actions {
+            let Some((next, _)) = model.successor(&state, action) else {
+                break;
+            };
+            run.push((std::mem::replace(&mut state, next), Some(action)));
+        }
+        Self {
+            scenario: model.scenario().name.clone(),
+            property: String::new(),
+            steps: chart(model, run),
+            repeats_after: None,
+        }
+    }
+
     /// The counterexample of a property; `None` where it has none, or where that is not one run: L7
     /// speaks about all that may follow. A run of a timed scenario is followed by its chart only.
     #[must_use]
@@ -62,11 +81,18 @@ impl Replay {
     /// Follows the run through a model.
     #[must_use]
     pub fn follow(&self, model: &Model) -> Followed {
+        self.follow_with(model, &mut |_, _| ())
+    }
+
+    /// The same; `witness` is told each action that was possible, and the state that it led to. Where a
+    /// robot put out something else in the last one, it is told that one too.
+    pub fn follow_with(&self, model: &Model, witness: &mut dyn FnMut(Action, &State)) -> Followed {
         let mut state = model.initial();
         for (i, step) in self.steps.iter().enumerate() {
-            let Some((next, outputs)) = take(model, &state, step) else {
+            let Some((action, next, outputs)) = take(model, &state, step) else {
                 return Followed::StoppedAt(i);
             };
+            witness(action, &next);
             if outputs != step.outputs {
                 return Followed::OtherwiseAt(i, outputs);
             }
@@ -80,13 +106,14 @@ impl Replay {
 }
 
 /// What comes of a step, with what is put out in it; `None` where it is not possible.
-fn take(model: &Model, state: &State, step: &ChartStep) -> Option<(State, Vec<String>)> {
+fn take(model: &Model, state: &State, step: &ChartStep) -> Option<(Action, State, Vec<String>)> {
     let mut actions = Vec::new();
     model.actions_in(state, &mut actions);
     let is_meant = |action: &Action| placed(model, *action) == (step.place, step.action.clone());
-    let (next, taken) = model.successor(state, actions.into_iter().find(is_meant)?)?;
+    let action = actions.into_iter().find(is_meant)?;
+    let (next, taken) = model.successor(state, action)?;
     let outputs = taken.map_or_else(Vec::new, |taken| {
         taken.outputs().iter().map(ToString::to_string).collect()
     });
-    Some((next, outputs))
+    Some((action, next, outputs))
 }

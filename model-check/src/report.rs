@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::cost::Cost;
 use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
 use crate::transitions::Transitions;
@@ -21,8 +22,11 @@ pub struct ScenarioReport {
     pub transitions: usize,
     /// Steps from the initial state to the farthest state.
     pub depth: usize,
-    /// Time for both explorations.
+    /// Time that all of it took.
     pub seconds: f64,
+    /// What it cost.
+    #[serde(flatten)]
+    pub cost: Cost,
     /// Whether every reachable state was visited, by stateright and by the kit's own exploration,
     /// and both found the same number. A timed scenario is explored by the latter alone.
     pub exhaustive: bool,

@@ -12,6 +12,7 @@ use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
+use crate::canonical::Renamings;
 use crate::history::History;
 use crate::intern::Interner;
 use crate::network::Message;
@@ -61,11 +62,11 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    pub(crate) fn new(rules: Box<dyn Rules>) -> Self {
+    pub(crate) fn new(rules: Box<dyn Rules>, renamings: &Arc<Renamings>) -> Self {
         Self {
             rules,
-            nodes: Interner::new(),
-            messages: Interner::new(),
+            nodes: Interner::new(renamings),
+            messages: Interner::new(renamings),
             computed: boxcar::Vec::new(),
             outputs: DashMap::default(),
             numbers: DashMap::default(),
@@ -163,9 +164,17 @@ impl Steps {
     /// # Panics
     /// When there are more than 65,536 distinct messages.
     pub(crate) fn message_number(&self, message: Message) -> u16 {
-        let number = self.messages.number(message);
-        u16::try_from(number).expect("fewer than 65,536 distinct messages")
+        short(self.messages.number(message))
     }
+
+    /// The number of a message after a renaming.
+    pub(crate) fn message_renamed(&self, message: u16, renaming: u32) -> u16 {
+        short(self.messages.renamed(message.into(), renaming))
+    }
+}
+
+fn short(message: u32) -> u16 {
+    u16::try_from(message).expect("fewer than 65,536 distinct messages")
 }
 
 /// Which step rules the step meets the premise of, and which of these it breaks. Rules that look at

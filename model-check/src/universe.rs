@@ -141,7 +141,7 @@ fn canonical(node: &Node) -> Node {
     let mut ranks = Ranks::default();
     ranks.add(&Names::of(&node));
     if ranks.rank() {
-        node.renamed(&mut ranks)
+        node.renamed(&mut &ranks)
     } else {
         node
     }

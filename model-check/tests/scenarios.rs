@@ -2,6 +2,7 @@
 //! the state spaces have the sizes that their files name.
 
 use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::export::{Format, export};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::report::{CutOff, Verdict};
 use crossguard_model_check::scenario::Scenario;
@@ -78,6 +79,26 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
             .any(|p| p.verdict == Verdict::Holds)
     );
     assert_eq!(report.size_as_expected, None);
+    assert_eq!(
+        report.unique_states, 5_000,
+        "the limit is kept to the state"
+    );
+}
+
+#[test]
+fn a_limit_that_is_as_large_as_the_state_space_cuts_nothing_off() {
+    let model = Model::new(Scenario::load("stable").unwrap());
+    let states = model.scenario().expected.unwrap().unique_states;
+    let explored = |states_max| {
+        let options = Options {
+            states_max: Some(states_max),
+            ..Options::default()
+        };
+        let mut file = Vec::new();
+        export(&model, &options, Format::Aut, &mut file).unwrap()
+    };
+    assert_eq!(explored(states), None);
+    assert_eq!(explored(states - 1), Some(CutOff::StateLimit));
 }
 
 #[test]

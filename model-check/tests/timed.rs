@@ -155,6 +155,10 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
     let model = Model::new(pair(&[])).unwrap();
     let report = check(&model, &options, &mut |_| ());
     assert_eq!(report.cut_off, Some(CutOff::StateLimit));
+    assert_eq!(
+        report.unique_states, 1_000,
+        "the limit is kept to the state"
+    );
     assert!(!report.exhaustive);
     assert!(
         !report

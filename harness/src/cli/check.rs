@@ -8,19 +8,20 @@ use std::time::Duration;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_model_check::check::{Options, Progress, check, names};
+use crossguard_model_check::check::{Options, Progress, check};
+use crossguard_model_check::cost::Cost;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
-use crossguard_model_check::replay::{Followed, Replay};
+use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
 use crossguard_model_check::scenario::{Scenario, ScenarioError};
 use crossguard_model_check::timed::{self, Figure};
 use crossguard_model_check::transitions::Transitions;
 use crossguard_model_check::{export, universe};
-use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, HumanFloatCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
-use super::{Failure, print, print_json, shows_progress};
+use super::{Failure, print, print_json, replay, shows_progress};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -50,6 +51,10 @@ pub(super) struct Arguments {
     /// Follow the run in this file, a counterexample of before, and say whether it still exists.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["export", "charts"])]
     replay: Option<PathBuf>,
+    /// With --replay: drive real endpoints along the run too, with real octets, and compare their robots
+    /// with the model's after every step.
+    #[arg(long, requires = "replay")]
+    endpoints: bool,
     /// Write the state graph of the scenario instead of checking it.
     #[arg(long, value_name = "FORMAT", requires = "output")]
     export: Option<Format>,
@@ -89,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return list();
     }
     if let Some(file) = &arguments.replay {
-        return replay_one(arguments, file);
+        return replay::run(&arguments.scenarios, file, arguments.endpoints);
     }
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()
@@ -237,55 +242,13 @@ fn export_one(
         Format::Aut => export::Format::Aut,
     };
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
-    let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
     let model = Model::new(untimed(*scenario)?);
+    let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
     let cut_off = export::export(&model, &options(arguments), format, &mut to).map_err(cannot)?;
     to.flush().map_err(cannot)?;
     match cut_off {
         None => Ok(()),
         Some(_) => Err(Failure::Incomplete),
-    }
-}
-
-fn replay_one(arguments: &Arguments, file: &Path) -> Result<(), Failure> {
-    let cannot =
-        |cause: &dyn std::fmt::Display| Failure::input(format!("{}: {cause}", file.display()));
-    let text = std::fs::read_to_string(file).map_err(|cause| cannot(&cause))?;
-    let replay: Replay = serde_json::from_str(&text).map_err(|cause| cannot(&cause))?;
-    let name = match arguments.scenarios.as_slice() {
-        [] => &replay.scenario,
-        [name] => name,
-        _ => return Err(Failure::input("--replay wants one scenario")),
-    };
-    let scenario = Scenario::load(name).map_err(Failure::input)?;
-    let model = Model::new(untimed(scenario)?);
-    let line = |step: usize| {
-        let robots = names(model.scenario());
-        format!("{}. {}", step + 1, replay.steps[step].line(&robots))
-    };
-    match replay.follow(&model) {
-        Followed::StoppedAt(step) => print(format_args!(
-            "The run of {} in {name} does not exist any more: this cannot happen now:\n  {}",
-            replay.property,
-            line(step)
-        )),
-        Followed::OtherwiseAt(step, outputs) => print(format_args!(
-            "The run of {} in {name} does not exist any more: after\n  {}\nthe robot now puts out: {}",
-            replay.property,
-            line(step),
-            outputs.join(", ")
-        )),
-        followed @ Followed::ToTheEnd(_) if replay.is_broken(&followed) => {
-            print(format_args!(
-                "The run of {} in {name} still exists as it was.",
-                replay.property
-            ))?;
-            Err(Failure::Wrong)
-        }
-        Followed::ToTheEnd(_) => print(format_args!(
-            "The run of {} in {name} exists, and does not break it any more.",
-            replay.property
-        )),
     }
 }
 
@@ -335,8 +298,8 @@ fn show(bar: &ProgressBar, progress: Progress) {
     if let Some(expected) = progress.expected {
         bar.set_length(expected as u64);
     }
-    // The slower of the two explorations says how far the check is.
-    bar.set_position(progress.checked.min(progress.explored) as u64);
+    // Each of the two explorations is half of the check.
+    bar.set_position(progress.checked.midpoint(progress.explored) as u64);
     bar.set_prefix(format!(
         "frontier {}, depth {}",
         HumanCount(progress.frontier as u64),
@@ -357,6 +320,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
             Some(why) => format!("NOT exhaustive: {}", words(&format!("{why:?}"))),
         }
     ))?;
+    print_cost(&report.cost)?;
     if report.size_as_expected == Some(false) {
         print("  The scenario's file expects a state space of another size.")?;
     }
@@ -392,6 +356,17 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         print(format_args!("  - {assumption}"))?;
     }
     print("")
+}
+
+/// Where it is known, and the check was long enough to tell.
+fn print_cost(cost: &Cost) -> Result<(), Failure> {
+    match (cost.states_per_second_per_core, cost.bytes_per_state) {
+        (Some(rate), Some(bytes)) => print(format_args!(
+            "  {} states per second of processor time, {bytes:.0} bytes of memory per state",
+            HumanFloatCount(rate.round())
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn print_figures(figures: &[Figure]) -> Result<(), Failure> {

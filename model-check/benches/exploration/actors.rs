@@ -184,10 +184,8 @@ impl Actor for RobotActor {
     type Msg = Sorted<Message>;
     type Timer = Sorted<Happening>;
     type State = RobotState;
-    type Storage = ();
-    type Random = ();
 
-    fn on_start(&self, _: Id, _: &Option<()>, out: &mut Out<Self>) -> RobotState {
+    fn on_start(&self, _: Id, out: &mut Out<Self>) -> RobotState {
         let bounds = self.scenario.bounds;
         let state = RobotState {
             node: Node::first_boot(self.scenario.robots[self.place].station),

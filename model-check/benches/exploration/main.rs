@@ -16,9 +16,9 @@ mod actors;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::Command;
-use std::time::Duration;
 
 use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::cost::{Meter, Of, processor_time};
 use crossguard_model_check::count_states;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
@@ -43,10 +43,10 @@ Not comparable:
 
 /// What one exploration took.
 struct Measured {
-    states: usize,
+    states: f64,
     seconds: f64,
     /// Memory at the peak, less that from before.
-    bytes: usize,
+    bytes_per_state: f64,
 }
 
 fn main() {
@@ -95,25 +95,23 @@ fn met(is_met: bool) -> &'static str {
 }
 
 /// Prints one row; states per second and bytes per state.
-#[expect(clippy::cast_precision_loss, reason = "figures for people")]
 fn row(
     what: &str,
     Measured {
         states,
         seconds,
-        bytes,
+        bytes_per_state: bytes,
     }: Measured,
 ) -> (f64, f64) {
-    let (rate, size) = (states as f64 / seconds, bytes as f64 / states as f64);
-    println!("{what:<44} {states:>10} {seconds:>8.2} {rate:>11.0} {size:>12.0}");
-    (rate, size)
+    let rate = states / seconds;
+    println!("{what:<44} {states:>10} {seconds:>8.2} {rate:>11.0} {bytes:>12.0}");
+    (rate, bytes)
 }
 
 fn explore(name: &str) {
     let scenario = Scenario::load("trio").expect("a shipped scenario");
     let limit = scenario.expected.expect("its size is known").unique_states;
-    let before = memory("VmRSS:");
-    let start = processor_time(Of::Itself);
+    let meter = Meter::start();
     let states = match name {
         "graph" => count_states(&Model::new(scenario)),
         "model" => Model::new(scenario)
@@ -132,12 +130,12 @@ fn explore(name: &str) {
         "actors" => actors::explore(&scenario, limit),
         other => panic!("no exploration {other}"),
     };
-    let elapsed = processor_time(Of::Itself).saturating_sub(start);
-    println!(
-        "{states} {} {}",
-        elapsed.as_nanos(),
-        memory("VmHWM:").saturating_sub(before)
-    );
+    let cost = meter.read(states);
+    let (seconds, bytes) = cost
+        .processor_seconds
+        .zip(cost.bytes_per_state)
+        .expect("Linux");
+    println!("{states} {seconds} {bytes}");
 }
 
 fn in_own_process(name: &str) -> Measured {
@@ -152,57 +150,18 @@ fn in_own_process(name: &str) -> Measured {
         String::from_utf8_lossy(&output.stderr)
     );
     let printed = String::from_utf8(output.stdout).expect("three numbers");
-    let numbers: Vec<usize> = printed
+    let numbers: Vec<f64> = printed
         .split_whitespace()
         .map(|n| n.parse().expect("a number"))
         .collect();
-    let [states, nanoseconds, bytes] = numbers[..] else {
+    let [states, seconds, bytes_per_state] = numbers[..] else {
         panic!("{name} printed {printed}");
     };
-    let seconds = Duration::from_nanos(nanoseconds as u64).as_secs_f64();
     Measured {
         states,
         seconds,
-        bytes,
+        bytes_per_state,
     }
-}
-
-/// A memory figure of this process in bytes, from `/proc/self/status`.
-fn memory(key: &str) -> usize {
-    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
-    let line = status
-        .lines()
-        .find(|line| line.starts_with(key))
-        .expect("a known key");
-    let kilobytes: usize = line
-        .split_whitespace()
-        .nth(1)
-        .and_then(|n| n.parse().ok())
-        .expect("kB");
-    kilobytes * 1024
-}
-
-/// Whose processor time.
-#[derive(Clone, Copy)]
-enum Of {
-    Itself,
-    /// Processes that it started and that have ended.
-    Children,
-}
-
-/// Processor time in user and kernel mode, from `/proc/self/stat`.
-fn processor_time(of: Of) -> Duration {
-    let stat = std::fs::read_to_string("/proc/self/stat").expect("Linux");
-    // Fields are counted from behind the program's name, which may hold spaces.
-    let (_, fields) = stat.rsplit_once(')').expect("a name in parentheses");
-    let first = match of {
-        Of::Itself => 11,
-        Of::Children => 13,
-    };
-    let fields = fields.split_whitespace().skip(first).take(2);
-    let ticks: u64 = fields.map(|n| n.parse::<u64>().expect("ticks")).sum();
-    // A tick is 10 ms on Linux, whatever the kernel's own.
-    Duration::from_millis(10 * ticks)
 }
 
 /// Compiles and runs the Promela model; the program that is missing, if one is.
@@ -227,11 +186,10 @@ fn spin() -> Result<Measured, &'static str> {
     };
     run(Command::new("spin").arg("-a").arg(model));
     run(Command::new("gcc").args(["-O2", "-w", "-DSAFETY", "-DNOREDUCE", "-o", "pan", "pan.c"]));
-    let start = processor_time(Of::Children);
+    let spent = || processor_time(Of::Children).expect("Linux");
+    let start = spent();
     let printed = run(Command::new("./pan").args(["-m20000", "-n", "-c0"]));
-    let seconds = processor_time(Of::Children)
-        .saturating_sub(start)
-        .as_secs_f64();
+    let seconds = spent().saturating_sub(start).as_secs_f64();
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
     let figure = |what: &str| -> f64 {
         let line = printed
@@ -243,21 +201,10 @@ fn spin() -> Result<Measured, &'static str> {
             .and_then(|n| n.parse().ok())
             .expect("it begins with a number")
     };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a count of bytes"
-    )]
-    let bytes = (figure("actual memory usage for states") * 1024.0 * 1024.0) as usize;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a count"
-    )]
-    let states = figure("states, stored") as usize;
+    let states = figure("states, stored");
     Ok(Measured {
         states,
         seconds,
-        bytes,
+        bytes_per_state: figure("actual memory usage for states") * 1024.0 * 1024.0 / states,
     })
 }

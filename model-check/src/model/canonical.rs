@@ -4,7 +4,7 @@
 use smallvec::SmallVec;
 
 use super::{Action, Draft, Model, Shared, State};
-use crate::canonical::{Ranks, Renamable};
+use crate::canonical::{NameSets, Renamable};
 use crate::network::Network;
 use crate::scenario::MAX_ROBOTS;
 use crate::symmetry::{Exchange, Images, MAX_EXCHANGES};
@@ -17,16 +17,16 @@ impl Model {
             mut network,
         } = draft;
         let robots = self.0.scenario.robots.len();
-        let mut ranks = Ranks::default();
+        let mut sets = NameSets::default();
         for &node in &state.nodes[..robots] {
-            ranks.add(self.0.steps.nodes.names(node));
+            sets.add(self.0.steps.nodes.names(node));
         }
         for message in network.messages() {
-            ranks.add(self.0.steps.messages.names(message.into()));
+            sets.add(self.0.steps.messages.names(message.into()));
         }
-        ranks.add(self.0.histories.names(state.history));
-        if ranks.rank() {
-            self.rename(&mut state, &mut network, &mut ranks);
+        sets.add(self.0.histories.names(state.history));
+        if let Some(renaming) = self.0.renamings.of(sets) {
+            self.rename(&mut state, &mut network, renaming);
         }
         if !self.0.symmetry.is_trivial() {
             network.sort_broadcasts();
@@ -34,7 +34,7 @@ impl Model {
         Draft { state, network }
     }
 
-    fn rename(&self, state: &mut State, network: &mut Network, ranks: &mut Ranks) {
+    fn rename(&self, state: &mut State, network: &mut Network, renaming: u32) {
         let Shared {
             scenario,
             steps,
@@ -42,15 +42,13 @@ impl Model {
             ..
         } = &*self.0;
         for node in &mut state.nodes[..scenario.robots.len()] {
-            *node = steps.nodes.number(steps.nodes.value(*node).renamed(ranks));
+            *node = steps.nodes.renamed(*node, renaming);
         }
         *network = network.map(|mut transmission| {
-            let message = self.message(transmission.message).renamed(ranks);
-            transmission.message = steps.message_number(message);
+            transmission.message = steps.message_renamed(transmission.message, renaming);
             transmission
         });
-        let history = histories.value(state.history).renamed(ranks);
-        state.history = histories.number(history);
+        state.history = histories.renamed(state.history, renaming);
     }
 
     pub(super) fn interned(&self, Draft { mut state, network }: Draft) -> State {

@@ -14,6 +14,7 @@ use crossguard_protocol::{
 };
 use smallvec::SmallVec;
 
+use crate::canonical::{Ranks, Renamings};
 use crate::history::History;
 use crate::intern::Interner;
 use crate::network::{Message, Network, Transmission, concerns};
@@ -101,6 +102,7 @@ struct Shared {
     steps: Steps,
     histories: Interner<History>,
     networks: Interner<Network>,
+    renamings: Arc<Renamings>,
     /// One bit per property whose premise has been met.
     premises_met: AtomicU32,
 }
@@ -142,12 +144,14 @@ impl Model {
     /// The model of `scenario` with another transition function in place of the kit's.
     #[must_use]
     pub fn with_rules(scenario: Scenario, rules: impl Rules + 'static) -> Self {
+        let renamings = Arc::new(Renamings::new(Ranks::rank));
         Self(Arc::new(Shared {
             symmetry: Symmetry::of(&scenario),
             scenario,
-            steps: Steps::new(Box::new(rules)),
-            histories: Interner::new(),
-            networks: Interner::new(),
+            steps: Steps::new(Box::new(rules), &renamings),
+            histories: Interner::new(&renamings),
+            networks: Interner::new(&renamings),
+            renamings,
             premises_met: AtomicU32::new(0),
         }))
     }

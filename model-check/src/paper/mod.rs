@@ -39,6 +39,7 @@ pub use hazards::{Hazard, Text};
 pub use page::page;
 pub use story::{Happening, Link, Message, Party, Step, Story, stories};
 
+use crate::cost::Meter;
 use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
 use crate::transitions::Transitions;
 use model::{Action, Cast, Question, World};
@@ -98,7 +99,7 @@ struct Exploration {
 /// It always explores everything: the model is small.
 #[must_use]
 pub fn check() -> ScenarioReport {
-    let start = Instant::now();
+    let (start, meter) = (Instant::now(), Meter::start());
     let explored = [PAIR, TRIO].map(explore);
     let found = counterexamples();
     let is_p0_broken = explored.iter().any(|e| e.is_p0_broken);
@@ -114,6 +115,7 @@ pub fn check() -> ScenarioReport {
         transitions: sum(|e| e.transitions),
         depth: explored.iter().map(|e| e.depth).max().unwrap_or(0),
         seconds: start.elapsed().as_secs_f64(),
+        cost: meter.read(sum(|e| e.unique_states)),
         exhaustive: !is_p0_broken,
         // stateright stops when it has found all there is to be found.
         cut_off: is_p0_broken.then_some(CutOff::FoundBroken),

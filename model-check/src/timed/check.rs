@@ -9,6 +9,7 @@ use super::model::{Action, Model, State};
 use super::rules::TimedProperty;
 use super::watch::Longest;
 use crate::check::{Options, Progress, names};
+use crate::cost::Meter;
 use crate::network::Transmission;
 use crate::report::{PropertyReport, ScenarioReport, Verdict};
 use crate::scenario::Size;
@@ -19,9 +20,9 @@ use crate::transitions::Transitions;
 /// states and time count; one thread explores.
 #[must_use]
 pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
-    let start = Instant::now();
+    let (start, meter) = (Instant::now(), Meter::start());
     let (scenario, timed) = (model.scenario(), model.timed());
-    let explored = Explored::of(model, options, watch);
+    let explored = Explored::of(model, &options.limits(), watch);
     let size = Size {
         unique_states: explored.states(),
         depth: explored.depth,
@@ -51,6 +52,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
         assumptions: assumptions(model),
         transitions_taken: Transitions::default(),
         seconds: start.elapsed().as_secs_f64(),
+        cost: meter.read(size.unique_states),
     }
 }
 

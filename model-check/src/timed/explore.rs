@@ -1,14 +1,13 @@
 //! The exploration of the timed model: every reachable state, breadth first.
 
 use std::collections::{HashMap, VecDeque};
-use std::time::Instant;
 
 use rustc_hash::FxBuildHasher;
 
 use super::model::{Action, Model, State};
 use super::rules::{Premises, TimedProperty};
 use super::watch::Longest;
-use crate::check::{Options, Progress};
+use crate::check::{Limits, Progress};
 use crate::report::CutOff;
 
 /// What an exploration found.
@@ -28,8 +27,7 @@ pub(super) struct Explored {
 
 impl Explored {
     /// Explores `model`. `watch` is told now and then how far it is.
-    pub(super) fn of(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> Self {
-        let start = Instant::now();
+    pub(super) fn of(model: &Model, limits: &Limits, watch: &mut dyn FnMut(Progress)) -> Self {
         let mut explored = Self::new();
         let mut numbers: HashMap<State, u32, FxBuildHasher> = HashMap::default();
         let mut waiting = VecDeque::new();
@@ -41,7 +39,8 @@ impl Explored {
                 (explored.depth, level_ends) = (explored.depth + 1, numbers.len());
             }
             if at % 16_384 == 0 {
-                explored.cut_off = explored.progress(model, options, start, waiting.len(), watch);
+                explored.tell(model, waiting.len(), watch);
+                explored.cut_off = limits.time_reached();
                 if explored.cut_off.is_some() {
                     return explored;
                 }
@@ -57,6 +56,10 @@ impl Explored {
                 explored.premises.note_step(model, &state, &next);
                 let to = match numbers.get(&next) {
                     Some(&known) => known,
+                    None if limits.states_reached(numbers.len()) => {
+                        explored.cut_off = Some(CutOff::StateLimit);
+                        return explored;
+                    }
                     None => explored.add(model, next, (from, i), &mut numbers, &mut waiting),
                 };
                 stuck = false;
@@ -109,14 +112,7 @@ impl Explored {
         fresh
     }
 
-    fn progress(
-        &self,
-        model: &Model,
-        options: &Options,
-        start: Instant,
-        frontier: usize,
-        watch: &mut dyn FnMut(Progress),
-    ) -> Option<CutOff> {
+    fn tell(&self, model: &Model, frontier: usize, watch: &mut dyn FnMut(Progress)) {
         let states = self.states();
         watch(Progress {
             checked: states,
@@ -125,9 +121,6 @@ impl Explored {
             depth: self.depth,
             expected: model.scenario().expected.map(|size| size.unique_states),
         });
-        options
-            .states_reached(states)
-            .or(options.time_reached(start.elapsed()))
     }
 
     /// I12: a cycle of transitions in which no time passes would hold time up for ever. Takes away

@@ -12,6 +12,8 @@
 //! the untimed model. Timers are urgent because the transition function makes them so: what is due
 //! fires when the robot is told of the time.
 
+use std::sync::Arc;
+
 use crossguard_protocol::{
     Config, Event, Input, Member, Millis, Output, Outputs, Phase, Renaming, Robot, Timer,
 };
@@ -23,7 +25,7 @@ use super::Timed;
 use super::channel::{Channel, Flight};
 use super::rules::{self, Broken};
 use super::watch::{Longest, Measure, Watch};
-use crate::canonical::{Ranks, Renamable};
+use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
 use crate::intern::Interner;
 use crate::network::{Message, Transmission, concerns};
 use crate::node::{Node, Protocol, Rules};
@@ -83,6 +85,7 @@ pub struct Model {
     rules: Box<dyn Rules>,
     nodes: Interner<Node>,
     messages: Interner<Message>,
+    renamings: Arc<Renamings>,
     /// Each step of a robot is computed once.
     steps: DashMap<(u32, Cause), Step, FxBuildHasher>,
 }
@@ -97,12 +100,14 @@ impl Model {
     /// The model with another transition function in place of the kit's.
     #[must_use]
     pub fn with_rules(scenario: Scenario, rules: impl Rules + 'static) -> Option<Self> {
+        let renamings = Arc::new(Renamings::new(Ranks::rank_keeping_distances));
         Some(Self {
             timed: scenario.timed.clone()?,
             scenario,
             rules: Box::new(rules),
-            nodes: Interner::new(),
-            messages: Interner::new(),
+            nodes: Interner::new(&renamings),
+            messages: Interner::new(&renamings),
+            renamings,
             steps: DashMap::default(),
         })
     }
@@ -398,24 +403,23 @@ impl Model {
 
     fn canonicalize(&self, state: &mut State) {
         let robots = self.scenario.robots.len();
-        let mut ranks = Ranks::default();
+        let mut sets = NameSets::default();
         for &node in &state.nodes[..robots] {
-            ranks.add(self.nodes.names(node));
+            sets.add(self.nodes.names(node));
         }
         for flight in state.channel.flights() {
-            ranks.add(self.messages.names(flight.transmission.message.into()));
+            sets.add(self.messages.names(flight.transmission.message.into()));
         }
-        if !ranks.rank_keeping_distances() {
+        let Some(renaming) = self.renamings.of(sets) else {
             return;
-        }
+        };
         for node in &mut state.nodes[..robots] {
-            *node = self
-                .nodes
-                .number(self.nodes.value(*node).renamed(&mut ranks));
+            *node = self.nodes.renamed(*node, renaming);
         }
-        state.channel = state
-            .channel
-            .map(|message| self.message_number(self.message(message).renamed(&mut ranks)));
+        state.channel = state.channel.map(|message| {
+            let renamed = self.messages.renamed(message.into(), renaming);
+            u16::try_from(renamed).expect("fewer than 65,536 distinct messages")
+        });
     }
 }
 
