@@ -295,6 +295,28 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_is_noticed_wherever_it_is() {
+        for gapped in [[None, Some(1), Some(2)], [Some(1), None, Some(2)]] {
+            assert!(!List(gapped).is_dense(), "{gapped:?}");
+        }
+        for dense in [
+            [None; 3],
+            [Some(1), None, None],
+            [Some(1), Some(2), Some(3)],
+        ] {
+            assert!(List(dense).is_dense(), "{dense:?}");
+        }
+    }
+
+    #[test]
+    fn what_holds_of_all_items_and_of_any() {
+        let list = List::<u8, 4>::from_iter([1, 2, 3]);
+        assert!(list.iter().all(|&item| item < 4) && !list.iter().all(|&item| item < 3));
+        assert!(list.iter().any(|&item| item == 3) && !list.iter().any(|&item| item == 4));
+        assert_eq!(list.iter().find(|&&item| item > 1), Some(&2));
+    }
+
+    #[test]
     fn ranked_insertion_keeps_the_best() {
         let mut list = List::<u8, 3>::EMPTY;
         for item in [5, 3, 4, 1, 9] {

@@ -174,3 +174,6 @@ impl Following {
             }
     }
 }
+
+#[cfg(test)]
+mod tests;
