@@ -1,6 +1,6 @@
 //! State graphs in files, for other tools.
 
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 
 use crate::check::{Options, label};
 use crate::fairness::Runs;
@@ -30,7 +30,7 @@ pub fn export(
     model: &Model,
     options: &Options,
     format: Format,
-    to: &mut impl Write,
+    to: &mut (impl Write + Seek),
 ) -> io::Result<Option<CutOff>> {
     let graph = Graph::build(model, &options.limits(), &mut |_| false);
     if graph.cut_off().is_some() {
@@ -41,15 +41,16 @@ pub fn export(
         graph: &graph,
     };
     let states = u32::try_from(graph.states()).expect("fewer than 2^32 states");
+    let header = to.stream_position()?;
+    // How many transitions there are is known in the end.
     match format {
         Format::Dot => writeln!(to, "digraph \"{}\" {{", model.scenario().name)?,
-        Format::Aut => {
-            let transitions: usize = (0..states).map(|state| runs.transitions(state).len()).sum();
-            writeln!(to, "des (0, {transitions}, {states})")?;
-        }
+        Format::Aut => aut_header(to, 0, states)?,
     }
+    let mut transitions = 0;
     for from in 0..states {
         for (action, edge) in runs.transitions(from) {
+            transitions += 1;
             let (what, to_state) = (label(model, action).replace('"', "'"), edge.to);
             match format {
                 Format::Dot => writeln!(to, "  {from} -> {to_state} [label=\"{what}\"];")?,
@@ -57,8 +58,18 @@ pub fn export(
             }
         }
     }
-    if format == Format::Dot {
-        writeln!(to, "}}")?;
+    match format {
+        Format::Dot => writeln!(to, "}}")?,
+        Format::Aut => {
+            to.seek(SeekFrom::Start(header))?;
+            aut_header(to, transitions, states)?;
+            to.seek(SeekFrom::End(0))?;
+        }
     }
     Ok(None)
+}
+
+/// As long for any number of transitions, so that it can be written over.
+fn aut_header(to: &mut impl Write, transitions: u64, states: u32) -> io::Result<()> {
+    writeln!(to, "des (0, {transitions:>20}, {states})")
 }

@@ -94,7 +94,7 @@ fn a_limit_that_is_as_large_as_the_state_space_cuts_nothing_off() {
             states_max: Some(states_max),
             ..Options::default()
         };
-        let mut file = Vec::new();
+        let mut file = std::io::Cursor::new(Vec::new());
         export(&model, &options, Format::Aut, &mut file).unwrap()
     };
     assert_eq!(explored(states), None);

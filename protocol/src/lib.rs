@@ -62,6 +62,8 @@ mod robot;
 mod roles;
 mod state;
 mod task;
+#[cfg(test)]
+mod team;
 mod termination;
 mod time;
 mod timers;

@@ -330,3 +330,21 @@ impl Outputs {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outputs_are_counted_and_one_ram_says_it_all() {
+        let mut outputs = Outputs::default();
+        assert!(outputs.is_empty() && outputs.len() == 0);
+        for output in [Output::SendRam, Output::LockIdentity, Output::SendRam] {
+            outputs.push(output);
+        }
+        assert_eq!((outputs.len(), outputs.is_empty()), (2, false));
+        assert!(outputs.iter().eq(&[Output::SendRam, Output::LockIdentity]));
+        let listed: Outputs = outputs.iter().copied().collect();
+        assert_eq!(listed, outputs);
+    }
+}

@@ -266,3 +266,6 @@ impl Leading {
         self.members = confirmed(&self.members, rename, |member| member.station);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,99 +5,17 @@ use std::vec::Vec;
 
 use super::*;
 use crate::id::{Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
-use crate::input::{Decimetres, Event, Input};
+use crate::input::Decimetres;
 use crate::message::Rejection;
 use crate::state::{
     Contact, Job, Lease, Offer, Offering, Order, Outstanding, Refusal, StandingFarewell,
 };
-use crate::task::{HelpRequest, TaskSet, TaskType, Unavailability, Urgency};
+use crate::task::{TaskSet, TaskType, Unavailability};
+use crate::team::{ARI, GO2, SPOT, Team, config};
 use crate::time::{Countdown, Millis};
 
-const ARI: StationId = StationId(1);
-const GO2: StationId = StationId(2);
-const SPOT: StationId = StationId(3);
-const FAR: Decimetres = Decimetres(40);
 /// Any time that an armed timer of a valid state may have left.
 const SOON: Countdown = Countdown::armed(Millis(1));
-
-fn config() -> Config {
-    Config::default()
-}
-
-fn request() -> HelpRequest {
-    HelpRequest {
-        urgency: Urgency::Medium,
-        followers: 2,
-        tasks: TaskSet::of(&[TaskType::MOVE]),
-    }
-}
-
-/// Robots that hear each other, in the order of their station ids.
-struct Team([Robot; 3]);
-
-impl Team {
-    /// Of three that have just booted, the first has detected a pedestrian.
-    fn that_asks() -> Self {
-        let mut team = Self([ARI, GO2, SPOT].map(|station| Robot::new(station, 1)));
-        team.tell(0, Event::PedestrianDetected(request()));
-        team
-    }
-
-    /// The others offer, and are heard.
-    fn that_offers() -> Self {
-        let mut team = Self::that_asks();
-        team.says(0);
-        team.says(1);
-        team.says(2);
-        team
-    }
-
-    /// The first leads, the others follow, and the leader knows.
-    fn with_roles() -> Self {
-        let mut team = Self::that_offers();
-        let time = config().settings().t_select;
-        team.0[0].step(&config(), Input::Elapsed(time));
-        for speaker in [0, 1, 2] {
-            team.says(speaker);
-        }
-        team
-    }
-
-    /// The first follower executes a command and has reported that; a second one waits for its
-    /// acknowledgement.
-    fn at_work() -> Self {
-        let mut team = Self::with_roles();
-        let order = Event::CommandManeuver {
-            follower: GO2,
-            task: TaskType::MOVE,
-        };
-        let outputs = team.tell(0, order);
-        team.pass_on(&outputs, 1);
-        team.says(1);
-        team.tell(0, order);
-        team
-    }
-
-    fn tell(&mut self, robot: usize, event: Event) -> crate::Outputs {
-        self.0[robot].step(&config(), Input::Local(event))
-    }
-
-    fn says(&mut self, speaker: usize) {
-        let ram = self.0[speaker].ram();
-        for hearer in (0..3).filter(|hearer| *hearer != speaker) {
-            let distance = FAR;
-            self.0[hearer].step(&config(), Input::Ram { ram, distance });
-        }
-    }
-
-    fn pass_on(&mut self, outputs: &crate::Outputs, to: usize) {
-        for output in outputs.iter() {
-            if let crate::Output::SendRmcm(rmcm) = output {
-                self.0[to].step(&config(), Input::Rmcm(*rmcm));
-            }
-        }
-    }
-}
 
 type Change = Box<dyn Fn(&mut Robot)>;
 
