@@ -7,6 +7,7 @@ use rustc_hash::FxBuildHasher;
 
 use crate::check::Limits;
 use crate::model::{Action, Model, State};
+use crate::node::Node;
 use crate::report::CutOff;
 
 /// How far an exploration is.
@@ -160,8 +161,9 @@ impl Graph {
             at += 1;
         }
         let mut graph = building.finished();
-        graph.resettable =
-            graph.can_reach(|state| model.nodes(state).all(crate::node::Node::is_idle));
+        // What comes after a broken step property was not explored.
+        let is_reset = |state: &State| model.nodes(state).all(Node::is_idle) || state.is_broken();
+        graph.resettable = graph.can_reach(is_reset);
         graph
     }
 

@@ -338,7 +338,7 @@ mod tests {
     #[test]
     fn outputs_are_counted_and_one_ram_says_it_all() {
         let mut outputs = Outputs::default();
-        assert!(outputs.is_empty() && outputs.len() == 0);
+        assert_eq!((outputs.len(), outputs.is_empty()), (0, true));
         for output in [Output::SendRam, Output::LockIdentity, Output::SendRam] {
             outputs.push(output);
         }

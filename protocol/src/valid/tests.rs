@@ -22,14 +22,10 @@ type Change = Box<dyn Fn(&mut Robot)>;
 fn assert_validity(robot: &Robot, is_valid: bool, changes: Vec<(&str, Change)>) {
     assert!(robot.is_valid(&config()), "{robot:#?}");
     for (what, change) in changes {
-        let mut changed = robot.clone();
-        change(&mut changed);
-        assert_ne!(changed, *robot, "{what} changes nothing");
-        assert_eq!(
-            changed.is_valid(&config()),
-            is_valid,
-            "{what}: {changed:#?}"
-        );
+        let mut other = robot.clone();
+        change(&mut other);
+        assert_ne!(other, *robot, "{what} changes nothing");
+        assert_eq!(other.is_valid(&config()), is_valid, "{what}: {other:#?}");
     }
 }
 
@@ -82,13 +78,13 @@ fn member(robot: &mut Robot, change: impl FnOnce(&mut Member)) {
 
 fn outstanding(robot: &mut Robot, change: impl FnOnce(&mut Outstanding)) {
     member(robot, |member| {
-        change(member.outstanding.as_mut().expect("a command"))
+        change(member.outstanding.as_mut().expect("a command"));
     });
 }
 
 fn order(robot: &mut Robot, change: impl FnOnce(&mut Order)) {
     member(robot, |member| {
-        change(member.order.as_mut().expect("an order"))
+        change(member.order.as_mut().expect("an order"));
     });
 }
 
@@ -106,8 +102,8 @@ fn not_given_out(robot: &Robot) -> UniqueNumber {
     }
 }
 
-fn farewell(farewell: Farewell, left: Countdown) -> Option<StandingFarewell> {
-    Some(StandingFarewell { farewell, left })
+fn farewell(farewell: Farewell, left: Countdown) -> StandingFarewell {
+    StandingFarewell { farewell, left }
 }
 
 fn session(leader: StationId, count: u16) -> SessionId {
@@ -125,17 +121,17 @@ fn an_idle_robot() {
         "the lock expires for nothing": |r| r.identity = Identity::Expiring;
         "a farewell without a lock": |r| {
             r.ram = SOON;
-            r.farewell = farewell(Farewell::Left(session(GO2, 0)), SOON);
+            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
         };
     );
     assert_each_keeps!(robot,
         "it says farewell to its own session": |r| {
             (r.ram, r.identity) = (SOON, Identity::Locked(SOON));
-            r.farewell = farewell(Farewell::Ended(session(ARI, 0).number), SOON);
+            r.farewell = Some(farewell(Farewell::Ended(session(ARI, 0).number), SOON));
         };
         "it says farewell while its lock expires": |r| {
             (r.ram, r.identity) = (SOON, Identity::Expiring);
-            r.farewell = farewell(Farewell::Left(session(GO2, 0)), SOON);
+            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
         };
         "it is unavailable": |r| {
             r.availability = Availability::Unavailable(Unavailability::LowBattery);
@@ -147,16 +143,16 @@ fn an_idle_robot() {
 fn a_farewell() {
     let mut robot = Robot::new(ARI, 1);
     (robot.ram, robot.identity) = (SOON, Identity::Locked(SOON));
-    robot.farewell = farewell(Farewell::Left(session(GO2, 0)), SOON);
+    robot.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
     assert_each_breaks!(robot,
         "it has left its own session": |r| {
-            r.farewell = farewell(Farewell::Left(session(ARI, 0)), SOON);
+            r.farewell = Some(farewell(Farewell::Left(session(ARI, 0)), SOON));
         };
         "it stands without end": |r| {
-            r.farewell = farewell(Farewell::Left(session(GO2, 0)), Countdown::OFF);
+            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), Countdown::OFF));
         };
         "it was due": |r| {
-            r.farewell = farewell(Farewell::Left(session(GO2, 0)), Countdown::armed(Millis(0)));
+            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), Countdown::armed(Millis(0))));
         };
         "no RAM says it": |r| r.ram = Countdown::OFF;
         "the lock has no end": |r| r.identity = Identity::Locked(Countdown::OFF);
@@ -207,7 +203,7 @@ fn a_requester() {
         "no RAM": |r| r.ram = Countdown::OFF;
         "the RAM was due": |r| r.ram = Countdown::armed(Millis(0));
         "it says that its session is over": |r| {
-            r.farewell = farewell(Farewell::Ended(requesting(r).number), SOON);
+            r.farewell = Some(farewell(Farewell::Ended(requesting(r).number), SOON));
         };
         "it asks for longer than T_help": |r| {
             requesting(r).help = Countdown::armed(Millis(config().settings().t_help.0 + 1));
@@ -216,7 +212,7 @@ fn a_requester() {
     let [alone, ..] = Team::that_asks().0;
     assert_each_keeps!(alone,
         "it still says farewell to a former session": |r| {
-            r.farewell = farewell(Farewell::Left(session(GO2, 0)), SOON);
+            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
         };
         "it asks for as many as can follow": |r| requesting(r).request.followers = 4;
     );
@@ -249,7 +245,7 @@ fn a_helper() {
         "it is reserved without end": |r| offering(r).reservation = Countdown::OFF;
         "it can do nothing": |r| offering(r).capabilities = TaskSet::EMPTY;
         "it says that it has left": |r| {
-            r.farewell = farewell(Farewell::Left(offering(r).session), SOON);
+            r.farewell = Some(farewell(Farewell::Left(offering(r).session), SOON));
         };
     );
 }
@@ -412,7 +408,7 @@ fn a_follower() {
             following(r).refused = Some(Refusal { request, reason: Rejection::UnsupportedTask });
         };
         "it says that it has left": |r| {
-            r.farewell = farewell(Farewell::Left(following(r).session), SOON);
+            r.farewell = Some(farewell(Farewell::Left(following(r).session), SOON));
         };
     );
     assert_each_keeps!(robot,
