@@ -51,3 +51,57 @@ fn every_property_stands_there() {
         assert!(PAGE.contains(&format!("| {id} |")), "{id}");
     }
 }
+
+/// What stands in the row of a property: what breaks it, the tests that show it, and what else fails
+/// there.
+fn breaking(id: &str) -> (Vec<&'static str>, &'static str) {
+    let row = PAGE
+        .lines()
+        .find(|line| line.starts_with(&format!("| {id} |")));
+    let row = row.unwrap_or_else(|| panic!("no row of {id}"));
+    let cells: Vec<_> = row.split('|').map(str::trim).collect();
+    let tests = cells[4].split(", ").map(|name| name.trim_matches('`'));
+    (tests.collect(), cells[5])
+}
+
+/// The text of a test.
+fn body(name: &str) -> &'static str {
+    let files = [include_str!("weakenings.rs"), include_str!("timed.rs")];
+    let start = format!("fn {name}() {{\n");
+    let body = files.iter().find_map(|file| file.split_once(&start));
+    let (_, body) = body.unwrap_or_else(|| panic!("no test {name}"));
+    body.split_once("\n}\n").expect("it ends").0
+}
+
+#[test]
+fn every_property_has_a_weakening_that_breaks_it_and_says_what_else_fails() {
+    let timed = ["I10"].into_iter().map(str::to_owned);
+    for id in PropertyId::ALL.iter().map(ToString::to_string).chain(timed) {
+        let (tests, with) = breaking(&id);
+        let is_told = with != "see below";
+        let others = with
+            .split(", ")
+            .filter(|other| is_told && *other != "alone");
+        let others: Vec<_> = others.collect();
+        for test in tests {
+            let body = body(test);
+            let words: Vec<_> = body.split(|c: char| !c.is_alphanumeric()).collect();
+            assert!(words.contains(&id.as_str()), "{test} does not break {id}");
+            let says_all = body.contains("assert_breaks_alone") || body.contains("violated(");
+            assert_eq!(says_all, is_told, "{test} looks at all properties, or not");
+            let named = |id: &&str| PropertyId::list().split(", ").any(|known| known == *id);
+            let broken: Vec<_> = words.iter().filter(|word| named(word)).collect();
+            let expected = others.len() + usize::from(id != "I10");
+            assert!(
+                !is_told || broken.len() == expected,
+                "{test} breaks {broken:?}"
+            );
+            for other in &others {
+                assert!(
+                    words.contains(other),
+                    "{test} does not break {other} with {id}"
+                );
+            }
+        }
+    }
+}

@@ -65,12 +65,12 @@ fn main() {
         "{:<44} {:>10} {:>8} {:>11} {:>12}",
         "", "states", "seconds", "states/s", "bytes/state"
     );
-    let kit = row("trio, the kit's exploration", in_own_process("graph"));
+    row("trio, the kit's exploration", in_own_process("graph"));
     row(
         "trio, the kit's model in stateright",
         in_own_process("model"),
     );
-    row("trio, `check`: both at once", in_own_process("check"));
+    let check = row("trio, `check`: both, and liveness", in_own_process("check"));
     row("trio in stateright's ActorModel", in_own_process("actors"));
     match spin() {
         Ok(measured) => {
@@ -82,9 +82,9 @@ fn main() {
         ),
     }
     println!("\n{NOTES}");
-    let (rate, bytes) = kit;
+    let (rate, bytes) = check;
     println!(
-        "\nrequired of the first row: {STATES_PER_SECOND_MIN} states/s, {}; {BYTES_PER_STATE_MAX} bytes/state, {}",
+        "\nrequired of `check`: {STATES_PER_SECOND_MIN} states/s, {}; {BYTES_PER_STATE_MAX} bytes/state, {}",
         met(rate >= STATES_PER_SECOND_MIN),
         met(bytes <= BYTES_PER_STATE_MAX),
     );
