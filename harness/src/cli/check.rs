@@ -24,6 +24,10 @@ use serde::Serialize;
 use super::{Failure, print, print_json, replay, shows_progress};
 
 #[derive(clap::Args)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of the command"
+)]
 pub(super) struct Arguments {
     /// Shipped scenarios by name, or files; the quick ones of the shipped if none is named.
     /// 'paper-literal' is the paper's text word for word, which must fail.
