@@ -109,7 +109,7 @@ fn contention_delays_but_hardly_loses_anything_at_a_low_load() {
     let measured = measure(&crowd(), &[], &behaviour);
     assert!((measured.vam_rate - 200.0).abs() < 2.0, "{measured:?}");
     assert!(
-        measured.collided < 0.02 && measured.replaced_rate < 0.1,
+        measured.overlapped < 0.02 && measured.replaced_rate < 0.1,
         "{measured:?}"
     );
     // The channel is busy for as long as frames are in the air, less what overlaps.

@@ -62,8 +62,9 @@ pub struct CbrCell {
     pub vam_share_percent: Estimate,
     /// VAM, CAM and RAM per second.
     pub messages_per_s: [Estimate; 3],
-    /// Share of frames that overlapped with another, in percent.
-    pub collided_percent: Estimate,
+    /// Share of frames that overlapped with another anywhere on the grid, also out of its range, in
+    /// percent.
+    pub overlapped_percent: Estimate,
 }
 
 /// Coverage in every cell.
@@ -269,7 +270,7 @@ fn cell(
             rate(|it| it.cam_rate),
             rate(|it| it.ram_rate),
         ],
-        collided_percent: percent(|it| it.measured.collided),
+        overlapped_percent: percent(|it| it.measured.overlapped),
     }
 }
 

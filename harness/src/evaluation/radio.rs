@@ -315,7 +315,7 @@ impl Channel {
 
     /// Whether anything overlapped with a transmission.
     #[must_use]
-    pub const fn collided(transmission: &Transmission) -> bool {
+    pub const fn overlapped(transmission: &Transmission) -> bool {
         !transmission.overlapping.is_empty()
     }
 
@@ -401,7 +401,7 @@ mod tests {
         });
         channel.send(1, 110, 400, &mut random, |_, _| ());
         let first = channel.end(0).unwrap();
-        assert!(Channel::collided(&first));
+        assert!(Channel::overlapped(&first));
         assert!(!channel.receives(1, &first), "it sends itself");
         // From 10 m and 20 m: the difference is less than what is needed.
         assert!(!channel.receives(2, &first));

@@ -103,8 +103,8 @@ pub struct Measured {
     pub vam_rate: f64,
     /// RAM and robots' cluster VAM per second.
     pub ram_rate: f64,
-    /// Share of frames that overlapped with another, 0..1.
-    pub collided: f64,
+    /// Share of frames that overlapped with another anywhere on the grid, also out of its range, 0..1.
+    pub overlapped: f64,
     /// Share of receptions of RAM and cluster VAM within range that failed, 0..1.
     pub lost: f64,
     /// Messages that a newer one replaced before they could be sent, per second.
@@ -211,7 +211,7 @@ struct Sums {
     device_checks: u64,
     air_us: [u64; 3],
     frames: [u64; 3],
-    collided: u64,
+    overlapped: u64,
     heard: u64,
     lost: u64,
     replaced: u64,
@@ -471,7 +471,7 @@ impl<'a> Simulation<'a> {
         };
         let frame = self.stations[number].sending.take();
         if now_us > SETTLING_US {
-            self.sums.collided += u64::from(Channel::collided(&transmission));
+            self.sums.overlapped += u64::from(Channel::overlapped(&transmission));
         }
         if let Some(Frame {
             payload: Payload::Robot(announced),
@@ -523,7 +523,7 @@ impl<'a> Simulation<'a> {
             cam_rate,
             vam_rate,
             ram_rate,
-            collided: share(sums.collided, sums.frames.iter().sum()),
+            overlapped: share(sums.overlapped, sums.frames.iter().sum()),
             lost: share(sums.lost, sums.heard),
             replaced_rate: sums.replaced as f64 * 1e6 / self.end_us as f64,
             seconds: measured_us / 1e6,

@@ -54,7 +54,7 @@ impl Row for CbrCell {
             "VAM/s",
             "CAM/s",
             "RAM/s",
-            "collided",
+            "overlapped",
         ]
     }
 
@@ -76,7 +76,7 @@ impl Row for CbrCell {
             vam,
             cam,
             ram,
-            format!("{:.2} %", self.collided_percent.mean),
+            format!("{:.2} %", self.overlapped_percent.mean),
         ]
     }
 }
@@ -173,7 +173,7 @@ impl Csv for CbrCell {
         "vam_per_s_mean",
         "cam_per_s_mean",
         "ram_per_s_mean",
-        "collided_percent_mean",
+        "overlapped_percent_mean",
     ];
 
     fn row(&self) -> Vec<String> {
@@ -190,7 +190,7 @@ impl Csv for CbrCell {
             vam.mean,
             cam.mean,
             ram.mean,
-            self.collided_percent.mean,
+            self.overlapped_percent.mean,
         ];
         let counts = [self.robots, self.pedestrians].map(|it| it.to_string());
         counts
