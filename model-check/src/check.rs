@@ -16,7 +16,7 @@ use crate::fairness::Runs;
 use crate::graph::Graph;
 use crate::model::{Action, Delivery, Model, State};
 use crate::network::Transmission;
-use crate::properties::{Kind, PropertyId, View};
+use crate::properties::{Kind, PropertyId, Subject, View};
 use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
 use crate::scenario::{RobotSetup, Scenario, Size};
 use crate::sequence::{ChartStep, Fate, Place};
@@ -279,14 +279,14 @@ impl Findings<'_> {
             return None;
         }
         let runs = self.runs();
-        let view = |state| View {
-            model: self.model,
-            state: self.graph.state(state),
+        let look = |state, rule: fn(&View, Subject) -> bool, subject| {
+            let look = |view: &View| rule(view, subject);
+            self.model.look(self.graph.state(state), look)
         };
         for subject in rule.subjects.among(self.model.scenario().robots.len()) {
-            let from = |state| (rule.from)(&view(state), subject);
+            let from = |state| look(state, rule.from, subject);
             // What comes after a broken step property was not explored.
-            let to = |state| (rule.to)(&view(state), subject) || view(state).state.is_broken();
+            let to = |state| look(state, rule.to, subject) || self.graph.state(state).is_broken();
             match leads_to(&runs, runs.fairness(), from, to) {
                 LeadsTo::Vacuous => {}
                 LeadsTo::Holds => self.model.note_premise(id),

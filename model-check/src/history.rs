@@ -39,19 +39,24 @@ impl History {
     /// The record of a command, if it was ever sent.
     #[must_use]
     pub fn command(&self, to: StationId, id: ManeuverId) -> Option<&CommandRecord> {
-        self.commands
-            .iter()
-            .find(|record| record.to == to && record.id == id)
+        Some(&self.commands[self.place_of(to, id)?])
+    }
+
+    /// Where the record of a command stands; runs may be long.
+    fn place_of(&self, to: StationId, id: ManeuverId) -> Option<usize> {
+        let key = (to, id.session, id.request.0);
+        self.commands.binary_search_by_key(&key, command_order).ok()
     }
 
     /// The newest command of `session` that `to` has started.
     #[must_use]
     pub fn newest_started(&self, to: StationId, session: SessionId) -> Option<RequestId> {
-        let started = |r: &&CommandRecord| r.to == to && r.id.session == session && r.started;
-        let requests = self
-            .commands
-            .iter()
-            .filter(started)
+        let key = |record: &CommandRecord| (record.to, record.id.session);
+        let begin = self.commands.partition_point(|r| key(r) < (to, session));
+        let of_session = self.commands[begin..].iter();
+        let requests = of_session
+            .take_while(|record| key(record) == (to, session))
+            .filter(|record| record.started)
             .map(|record| record.id.request);
         requests.reduce(|a, b| if b.is_newer_than(a) { b } else { a })
     }
@@ -59,13 +64,16 @@ impl History {
     /// Whether the leader of `session` has confirmed this follower with this offer.
     #[must_use]
     pub fn is_confirmed(&self, session: SessionId, follower: Confirmation) -> bool {
-        self.confirmed.contains(&(session, follower))
+        let key = confirmation_order(&(session, follower));
+        self.confirmed
+            .binary_search_by_key(&key, confirmation_order)
+            .is_ok()
     }
 
     /// Whether `station` had a role in `session` when it crashed.
     #[must_use]
     pub fn had_role_before_crash(&self, station: StationId, session: SessionId) -> bool {
-        self.before_crash.contains(&(station, session))
+        self.before_crash.binary_search(&(station, session)).is_ok()
     }
 
     /// Whether `station` ever had a role when it crashed.
@@ -170,8 +178,8 @@ impl History {
     }
 
     fn update(&mut self, to: StationId, id: ManeuverId, change: impl FnOnce(&mut CommandRecord)) {
-        if let Some(record) = self.commands.iter_mut().find(|r| r.to == to && r.id == id) {
-            change(record);
+        if let Some(place) = self.place_of(to, id) {
+            change(&mut self.commands[place]);
         }
     }
 }
@@ -208,10 +216,8 @@ const fn confirmation_order(
     (*session, follower.station, follower.offer)
 }
 
-fn insert_sorted<T: PartialEq, K: Ord>(list: &mut Vec<T>, item: T, key: impl Fn(&T) -> K) {
-    if list.contains(&item) {
-        return;
+fn insert_sorted<T, K: Ord>(list: &mut Vec<T>, item: T, key: impl Fn(&T) -> K) {
+    if let Err(at) = list.binary_search_by_key(&key(&item), &key) {
+        list.insert(at, item);
     }
-    let at = list.partition_point(|present| key(present) < key(&item));
-    list.insert(at, item);
 }

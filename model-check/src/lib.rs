@@ -31,6 +31,7 @@ mod graph;
 pub mod history;
 mod intern;
 pub mod model;
+pub mod monitor;
 pub mod network;
 pub mod node;
 pub mod paper;

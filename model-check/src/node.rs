@@ -18,6 +18,12 @@ pub trait Rules: Send + Sync {
     fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs;
 }
 
+impl fmt::Debug for dyn Rules {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Rules")
+    }
+}
+
 /// The transition function of the kit, [`Robot::step`].
 #[derive(Clone, Copy, Debug)]
 pub struct Protocol;
@@ -65,9 +71,26 @@ impl Node {
     /// A robot at its first boot.
     #[must_use]
     pub fn first_boot(station: StationId) -> Self {
+        Self::booted(Robot::new(station, 1))
+    }
+
+    /// A robot that has just booted.
+    #[must_use]
+    pub fn booted(robot: Robot) -> Self {
+        let (station, boot) = (robot.station(), robot.boot());
         Self {
-            robot: Some(Robot::new(station, 1)),
-            persisted: Persisted { station, boot: 1 },
+            robot: Some(robot),
+            persisted: Persisted { station, boot },
+            actuation: Actuation::default(),
+        }
+    }
+
+    /// A robot that has never booted.
+    #[must_use]
+    pub fn down(station: StationId) -> Self {
+        Self {
+            robot: None,
+            persisted: Persisted { station, boot: 0 },
             actuation: Actuation::default(),
         }
     }
@@ -86,12 +109,7 @@ impl Node {
     #[must_use]
     pub fn restarted(&self) -> Self {
         let Persisted { station, boot } = self.persisted;
-        let boot = boot + 1;
-        Self {
-            robot: Some(Robot::new(station, boot)),
-            persisted: Persisted { station, boot },
-            actuation: Actuation::default(),
-        }
+        Self::booted(Robot::new(station, boot + 1))
     }
 
     /// One step of the transition function, and what it tells the body. `None` when the robot is
@@ -102,15 +120,27 @@ impl Node {
         config: &Config,
         input: Input,
     ) -> Option<(Self, Outputs)> {
-        let mut next = self.clone();
-        let robot = next.robot.as_mut()?;
-        let outputs = rules.step(robot, config, input);
-        next.persisted.station = robot.station();
-        next.actuation.finish(input, &outputs);
+        let mut robot = self.robot.clone()?;
+        let outputs = rules.step(&mut robot, config, input);
+        Some((self.observed(input, &outputs, robot), outputs))
+    }
+
+    /// The node after a step that has taken its robot to `after`.
+    #[must_use]
+    pub fn observed(&self, input: Input, outputs: &Outputs, after: Robot) -> Self {
+        let mut next = Self {
+            persisted: Persisted {
+                station: after.station(),
+                ..self.persisted
+            },
+            robot: Some(after),
+            ..*self
+        };
+        next.actuation.finish(input, outputs);
         for output in outputs.iter() {
             next.actuation.follow(output);
         }
-        Some((next, outputs))
+        next
     }
 
     /// Whether the robot is up and has a part in no session.

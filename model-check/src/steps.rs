@@ -179,7 +179,7 @@ fn short(message: u32) -> u16 {
 
 /// Which step rules the step meets the premise of, and which of these it breaks. Rules that look at
 /// the history are left to [`judge_historic`] where the step is historic; otherwise they say nothing.
-fn judge(properties: &[PropertyId], view: &StepView, is_historic: bool) -> (u32, u32) {
+pub(crate) fn judge(properties: &[PropertyId], view: &StepView, is_historic: bool) -> (u32, u32) {
     let (mut premises, mut broken) = (0, 0);
     for &property in properties {
         let Some(rule) = property.step_rule() else {

@@ -5,6 +5,7 @@
 //! call of [`Robot::step`](crossguard_protocol::Robot::step).
 
 mod canonical;
+mod world;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -19,7 +20,7 @@ use crate::history::History;
 use crate::intern::Interner;
 use crate::network::{Message, Network, Transmission, concerns};
 use crate::node::{Node, Protocol, Rules};
-use crate::properties::{PropertyId, StepView, View};
+use crate::properties::{PropertyId, StepView};
 use crate::scenario::{Bounds, MAX_ROBOTS, PSEUDONYM_STEP, Scenario};
 use crate::steps::{Cause, Step, Steps, judge_historic};
 use crate::symmetry::Symmetry;
@@ -190,11 +191,6 @@ impl Model {
             .map(|&number| self.0.steps.nodes.value(number))
     }
 
-    /// The robot at this place of the scenario in a state.
-    pub(crate) fn node(&self, state: &State, place: usize) -> &Node {
-        self.0.steps.nodes.value(state.nodes[place])
-    }
-
     /// The history of a state.
     #[must_use]
     pub fn history(&self, state: &State) -> &History {
@@ -219,11 +215,12 @@ impl Model {
         let Some(rule) = property.state_rule() else {
             return true;
         };
-        let view = View { model: self, state };
-        if !self.premise_met(property) && (rule.premise)(&view) {
-            self.note_premises(property.bit());
-        }
-        (rule.holds)(&view)
+        self.look(state, |view| {
+            if !self.premise_met(property) && (rule.premise)(view) {
+                self.note_premises(property.bit());
+            }
+            (rule.holds)(view)
+        })
     }
 
     /// Whether some message or timer changes the state, without any application's help.

@@ -7,9 +7,8 @@ use super::{StateRule, View, leading_of};
 pub(super) const RULE: StateRule = StateRule { holds, premise };
 
 fn holds(view: &View) -> bool {
-    view.nodes().all(|node| {
-        let engaged =
-            leading_of(node).is_some_and(|l| l.corridor_obstacle(view.config()).is_none());
+    view.configured().all(|(node, config)| {
+        let engaged = leading_of(node).is_some_and(|l| l.corridor_obstacle(config).is_none());
         let believed = leading_of(node).is_some_and(|leading| leading.corridor_open);
         node.actuation.corridor_open == believed && (!believed || engaged)
     })

@@ -8,7 +8,7 @@ use super::{StateRule, View};
 pub(super) const RULE: StateRule = StateRule { holds, premise };
 
 fn holds(view: &View) -> bool {
-    !premise(view) || view.model.can_progress(view.state)
+    !premise(view) || view.world.can_progress()
 }
 
 fn premise(view: &View) -> bool {

@@ -2,23 +2,22 @@
 //!
 //! The timers' limits are among the clauses of `is_valid`, which I13 checks on every step.
 
-use super::{StateRule, View};
+use super::{StateRule, View, leading_of};
 
 pub(super) const RULE: StateRule = StateRule { holds, premise };
 
-fn repeats<'a>(view: &View<'a>) -> impl Iterator<Item = u8> + use<'a> {
-    view.leaders().flat_map(|(_, leading)| {
-        leading
-            .members
-            .iter()
-            .filter_map(|member| Some(member.outstanding?.repeats))
+/// How often each outstanding command was repeated, and how often it may be.
+fn repeats<'a>(view: &View<'a>) -> impl Iterator<Item = (u8, u8)> + use<'a> {
+    view.configured().flat_map(|(node, config)| {
+        let members = leading_of(node).into_iter().flat_map(|l| l.members.iter());
+        members.filter_map(|member| Some((member.outstanding?.repeats, config.settings().n_ack)))
     })
 }
 
 fn holds(view: &View) -> bool {
-    repeats(view).all(|repeats| repeats <= view.config().settings().n_ack)
+    repeats(view).all(|(repeats, n_ack)| repeats <= n_ack)
 }
 
 fn premise(view: &View) -> bool {
-    repeats(view).any(|repeats| repeats == view.config().settings().n_ack)
+    repeats(view).any(|(repeats, n_ack)| repeats == n_ack)
 }

@@ -9,11 +9,10 @@ pub(super) const RULE: LivenessRule = LivenessRule {
 };
 
 fn is_outstanding(view: &View, Subject { robot, other }: Subject) -> bool {
-    let scenario = view.model.scenario();
     leading_of(view.node(robot)).is_some_and(|leading| {
         let mut members = leading.members.iter();
         members.any(|member| {
-            scenario.place_of(member.station) == Some(other) && member.outstanding.is_some()
+            view.world.place_of(member.station) == Some(other) && member.outstanding.is_some()
         })
     })
 }

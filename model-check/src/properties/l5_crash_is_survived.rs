@@ -14,8 +14,8 @@ pub(super) const RULE: LivenessRule = LivenessRule {
 
 fn has_lost_its_leader(view: &View, Subject { robot, .. }: Subject) -> bool {
     following_of(view.node(robot)).is_some_and(|following| {
-        let leader = view.model.scenario().place_of(following.session.leader);
+        let leader = view.world.place_of(following.session.leader);
         leader.is_some_and(|leader| view.node(leader).robot.is_none())
-            && view.state.left().restarts == 0
+            && view.world.restarts_are_over()
     })
 }

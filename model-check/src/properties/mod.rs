@@ -31,13 +31,12 @@ use std::fmt;
 use std::str::FromStr;
 
 use crossguard_protocol::{
-    Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Robot,
-    SessionId,
+    Config, Event, Following, Input, Leading, Maneuver, ManeuverId, Notice, Output, Outputs, Phase,
+    Robot, SessionId, StationId,
 };
 use serde::Serialize;
 
 use crate::history::History;
-use crate::model::{Model, State};
 use crate::node::Node;
 
 /// A property's id.
@@ -328,19 +327,43 @@ impl FromStr for PropertyId {
 
 /// A state as the state rules see it.
 #[derive(Clone, Copy)]
-pub struct View<'a> {
-    pub(crate) model: &'a Model,
-    pub(crate) state: &'a State,
+pub(crate) struct View<'a> {
+    /// The robots, in the order of their places.
+    pub(crate) nodes: &'a [&'a Node],
+    pub(crate) history: &'a History,
+    pub(crate) world: &'a dyn World,
+}
+
+/// What the robots of a state are part of.
+pub(crate) trait World {
+    /// The configuration of the robot at this place.
+    fn config(&self, place: usize) -> &Config;
+
+    /// Whether some message or timer changes the state, without any application's help.
+    fn can_progress(&self) -> bool;
+
+    /// Place of the robot that has this station id, or had it before it changed its pseudonym.
+    fn place_of(&self, station: StationId) -> Option<usize>;
+
+    /// Whether no robot that is down boots again.
+    fn restarts_are_over(&self) -> bool;
 }
 
 impl<'a> View<'a> {
     fn nodes(&self) -> impl Iterator<Item = &'a Node> + Clone + use<'a> {
-        self.model.nodes(self.state)
+        self.nodes.iter().copied()
+    }
+
+    /// The robots with their configurations.
+    fn configured(&self) -> impl Iterator<Item = (&'a Node, &'a Config)> + Clone + use<'a> {
+        let world = self.world;
+        let places = self.nodes.iter().enumerate();
+        places.map(move |(place, node)| (*node, world.config(place)))
     }
 
     /// The robot at this place of the scenario.
     fn node(&self, place: usize) -> &'a Node {
-        self.model.node(self.state, place)
+        self.nodes[place]
     }
 
     /// The robots that are up.
@@ -365,15 +388,12 @@ impl<'a> View<'a> {
     }
 
     fn history(&self) -> &'a History {
-        self.model.history(self.state)
-    }
-
-    fn config(&self) -> &'a Config {
-        &self.model.scenario().config
+        self.history
     }
 }
 
 /// A robot's step as the step rules see it.
+#[derive(Clone, Copy)]
 pub(crate) struct StepView<'a> {
     pub(crate) config: &'a Config,
     /// The history before the step.
@@ -408,13 +428,18 @@ impl<'a> StepView<'a> {
             })
     }
 
+    /// The maneuver that the follower's application has finished.
+    pub(crate) const fn finished(&self) -> Option<ManeuverId> {
+        match self.input {
+            Input::Local(Event::ManeuverCompleted(id)) => Some(id),
+            _ => None,
+        }
+    }
+
     /// The history after the step.
     pub(crate) fn history_after(&self) -> History {
         let mut history = self.history.clone();
-        let finished = match self.input {
-            Input::Local(Event::ManeuverCompleted(id)) => Some(id),
-            _ => None,
-        };
+        let finished = self.finished();
         if let (Some(before), Some(after)) = (&self.before.robot, &self.after.robot) {
             history.record_step(before, after, finished, self.outputs);
         }

@@ -47,6 +47,7 @@ pub use check::check;
 pub use clock::{Clock, longest};
 pub use model::{Action, Model, State};
 pub use rules::TimedProperty;
+pub(crate) use rules::has_lease_on_lost;
 pub(crate) use section::Section;
 pub use section::{Timed, TimedImpossibility};
-pub use watch::{Figure, Watch};
+pub use watch::{Figure, Limits, Watch};

@@ -217,6 +217,21 @@ fn lease_theorem(model: &Model, leaders: &State, followers: &State) -> bool {
         })
 }
 
+/// I10 the other way round, of robots that leave sessions for all kinds of reasons: whether a leader's
+/// lease stands on a follower that has lost contact in that very session.
+pub(crate) fn has_lease_on_lost<'a>(nodes: &(impl Iterator<Item = &'a Node> + Clone)) -> bool {
+    nodes.clone().flat_map(leases).any(|(session, station)| {
+        nodes.clone().any(|node| {
+            node.persisted.station == station && has_lost_contact(node) && is_in(node, session)
+        })
+    })
+}
+
+fn is_in(node: &Node, session: SessionId) -> bool {
+    let robot = node.robot.as_ref();
+    robot.is_some_and(|robot| robot.session() == Some(session))
+}
+
 /// Whoever has a part in a session waits for a time, and not in vain for a message.
 fn can_progress(node: &Node) -> bool {
     node.is_idle()

@@ -78,6 +78,34 @@ impl Measure {
     }
 }
 
+/// The longest times that the timers' values allow by calculation, in milliseconds of true time:
+/// those that the figures of a timed scenario are held against.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+pub struct Limits {
+    /// From a request to roles or to giving up (L1).
+    pub roles: Millis,
+    /// From the leader's crash to the follower stopped (L5).
+    pub stopped: Millis,
+    /// From the leader's crash to the follower idle (L5).
+    pub left: Millis,
+    /// From a follower's own failure to the corridor closed (I11).
+    pub corridor_closed: Millis,
+}
+
+impl Limits {
+    /// The limits of robots with these settings, where a message takes at most `delay`.
+    #[must_use]
+    pub fn new(config: &Config, delay: Millis) -> Self {
+        let bound = |measure: Measure| measure.bound(config, delay);
+        Self {
+            roles: bound(Measure::Roles),
+            stopped: bound(Measure::Stopped),
+            left: bound(Measure::Left),
+            corridor_closed: bound(Measure::CorridorClosed),
+        }
+    }
+}
+
 /// The longest times found so far, in ticks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Longest([Option<u8>; Measure::ALL.len()]);

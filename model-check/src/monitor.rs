@@ -1,0 +1,268 @@
+//! The properties of robots that run: the rules of [`properties`](crate::properties), judged step by
+//! step on what a simulation does or a log tells.
+//!
+//! A rule that the model checker tries on every state of a scenario is tried here on the states that
+//! one run passes through. What holds of every run in the model, whatever the order of what happens
+//! apart from each other, must hold of this one.
+//!
+//! Liveness is left out: that something comes to pass is only seen when a run is over. See
+//! [`Limits`](crate::timed::Limits) for the times by which it must.
+
+use crossguard_protocol::{Config, Input, Outputs, Robot, StationId};
+
+use crate::history::History;
+use crate::node::Node;
+use crate::properties::{PropertyId, StepView, View, World};
+use crate::steps::judge;
+use crate::timed::{TimedProperty, has_lease_on_lost};
+
+/// A property that a run breaks.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Broken {
+    /// One of all runs.
+    Untimed(PropertyId),
+    /// One of runs whose clocks are those of the robots.
+    Timed(TimedProperty),
+}
+
+impl Broken {
+    /// The property's id.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::Untimed(id) => id.to_string(),
+            Self::Timed(id) => id.name().to_owned(),
+        }
+    }
+
+    /// What the property says.
+    #[must_use]
+    pub const fn statement(self) -> &'static str {
+        match self {
+            Self::Untimed(id) => id.statement(),
+            Self::Timed(id) => id.statement(),
+        }
+    }
+}
+
+/// Judges one run. Robots are named by their places, from 0.
+#[derive(Debug)]
+pub struct Monitor {
+    seats: Seats,
+    history: History,
+    /// Whether what is told comes in the order of true time.
+    is_timed: bool,
+    premises: u32,
+}
+
+#[derive(Debug)]
+struct Seats(Vec<Seat>);
+
+#[derive(Debug)]
+struct Seat {
+    node: Node,
+    config: Config,
+}
+
+impl World for Seats {
+    fn config(&self, place: usize) -> &Config {
+        &self.0[place].config
+    }
+
+    fn can_progress(&self) -> bool {
+        let mut robots = self.0.iter().filter_map(|seat| seat.node.robot.as_ref());
+        robots.any(|robot| robot.next_due().is_some())
+    }
+
+    fn place_of(&self, station: StationId) -> Option<usize> {
+        let named = |seat: &Seat| seat.node.persisted.station == station;
+        self.0.iter().position(named)
+    }
+
+    /// Nobody knows of a run that goes on.
+    fn restarts_are_over(&self) -> bool {
+        false
+    }
+}
+
+impl Monitor {
+    /// Over a run that has not begun. Whether it is `timed`: whether steps are told in the order of
+    /// true time, so that states of two robots can be held against each other at one moment.
+    #[must_use]
+    pub fn new(timed: bool) -> Self {
+        Self {
+            seats: Seats(Vec::new()),
+            history: History::default(),
+            is_timed: timed,
+            premises: 0,
+        }
+    }
+
+    /// One more robot, which has not booted. Its place.
+    pub fn add(&mut self, station: StationId, config: Config) -> usize {
+        let node = Node::down(station);
+        self.seats.0.push(Seat { node, config });
+        self.seats.0.len() - 1
+    }
+
+    /// A robot boots.
+    pub fn boot(&mut self, place: usize, robot: &Robot) {
+        self.crash(place);
+        self.seats.0[place].node = Node::booted(robot.clone());
+    }
+
+    /// A robot loses its volatile state; nothing if it was down.
+    pub fn crash(&mut self, place: usize) {
+        let node = &mut self.seats.0[place].node;
+        if let Some(robot) = &node.robot {
+            self.history.record_crash(robot);
+        }
+        *node = node.crashed();
+    }
+
+    /// A robot takes a step, and is in the state `after` then. The first property that this breaks.
+    ///
+    /// # Panics
+    /// When there is no such robot.
+    pub fn step(
+        &mut self,
+        place: usize,
+        input: Input,
+        outputs: &Outputs,
+        after: &Robot,
+    ) -> Option<Broken> {
+        let seat = &mut self.seats.0[place];
+        let next = seat.node.observed(input, outputs, after.clone());
+        let before = std::mem::replace(&mut seat.node, next);
+        let view = StepView {
+            config: &seat.config,
+            history: &self.history,
+            before: &before,
+            after: &seat.node,
+            input,
+            outputs,
+        };
+        let (premises, broken) = judge(&PropertyId::ALL, &view, false);
+        self.premises |= premises;
+        let mut first = PropertyId::ALL
+            .into_iter()
+            .find(|id| broken & id.bit() != 0);
+        if view.is_historic() {
+            let finished = view.finished();
+            if let (Some(from), Some(to)) = (&before.robot, &seat.node.robot) {
+                self.history.record_step(from, to, finished, outputs);
+            }
+        }
+        if first.is_none() {
+            first = self.judge_state();
+        }
+        let late = || self.is_timed && has_lease_on_lost(&self.seats.0.iter().map(|s| &s.node));
+        match first {
+            Some(id) => Some(Broken::Untimed(id)),
+            None => late().then_some(Broken::Timed(TimedProperty::I10)),
+        }
+    }
+
+    fn judge_state(&mut self) -> Option<PropertyId> {
+        let nodes: Vec<&Node> = self.seats.0.iter().map(|seat| &seat.node).collect();
+        let view = View {
+            nodes: &nodes,
+            history: &self.history,
+            world: &self.seats,
+        };
+        let mut premises = self.premises;
+        let broken = PropertyId::ALL.into_iter().find(|id| {
+            id.state_rule().is_some_and(|rule| {
+                if premises & id.bit() == 0 && (rule.premise)(&view) {
+                    premises |= id.bit();
+                }
+                !(rule.holds)(&view)
+            })
+        });
+        self.premises = premises;
+        broken
+    }
+
+    /// Where a robot is, and what its body has been told.
+    ///
+    /// # Panics
+    /// When there is no such robot.
+    #[must_use]
+    pub fn node(&self, place: usize) -> &Node {
+        &self.seats.0[place].node
+    }
+
+    /// The properties whose premise the run has met so far.
+    pub fn premises_met(&self) -> impl Iterator<Item = PropertyId> {
+        let met = self.premises;
+        let ids = PropertyId::ALL.into_iter();
+        ids.filter(move |id| met & id.bit() != 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_protocol::{Event, HelpRequest, Output, SessionId, TaskSet, TaskType, Urgency};
+
+    use super::*;
+
+    fn request() -> Input {
+        Input::Local(Event::PedestrianDetected(HelpRequest {
+            urgency: Urgency::Low,
+            followers: 1,
+            tasks: TaskSet::of(&[TaskType::MOVE]),
+        }))
+    }
+
+    #[test]
+    fn a_step_of_the_protocol_breaks_nothing_and_one_that_forgets_an_output_does() {
+        let config = Config::default();
+        let mut robot = Robot::new(StationId(1), 1);
+        let mut monitor = Monitor::new(true);
+        let place = monitor.add(StationId(1), config.clone());
+        monitor.boot(place, &robot);
+        let outputs = robot.step(&config, request());
+        assert_eq!(monitor.step(place, request(), &outputs, &robot), None);
+        monitor.boot(place, &Robot::new(StationId(1), 1));
+        let is_lock = |output: &&Output| matches!(output, Output::LockIdentity);
+        let forgetful: Outputs = outputs.iter().filter(|o| !is_lock(o)).copied().collect();
+        let broken = monitor.step(place, request(), &forgetful, &robot);
+        assert_eq!(broken, Some(Broken::Untimed(PropertyId::I18)));
+    }
+
+    #[test]
+    fn a_role_from_before_a_crash_is_noticed() {
+        let config = Config::default();
+        let mut robot = Robot::new(StationId(2), 1);
+        let mut requester = Robot::new(StationId(1), 1);
+        requester.step(&config, request());
+        let mut monitor = Monitor::new(false);
+        let place = monitor.add(StationId(2), config.clone());
+        monitor.boot(place, &robot);
+        let session = requester.session().unwrap();
+        follow(&mut robot, &mut requester, &config);
+        assert!(
+            matches!(robot.session(), Some(SessionId { .. }) if robot.session() == Some(session))
+        );
+        // It follows out of nothing: nobody has confirmed it.
+        let idle = Input::Elapsed(crossguard_protocol::Millis(1));
+        let broken = monitor.step(place, idle, &Outputs::default(), &robot);
+        assert_eq!(broken, Some(Broken::Untimed(PropertyId::I2)));
+    }
+
+    /// Takes `robot` to a role in the session of `requester`.
+    fn follow(robot: &mut Robot, requester: &mut Robot, config: &Config) {
+        let distance = crossguard_protocol::Decimetres(1);
+        let hear = |robot: &mut Robot, from: &Robot| {
+            let ram = from.ram();
+            robot.step(config, Input::Ram { ram, distance });
+        };
+        hear(robot, requester);
+        hear(requester, robot);
+        requester.step(
+            config,
+            Input::Expired(crossguard_protocol::Timer::Selection),
+        );
+        hear(robot, requester);
+    }
+}
