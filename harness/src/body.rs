@@ -122,6 +122,21 @@ impl Body {
         self.place = self.safe_place;
     }
 
+    /// How many seconds of the body's time pass in one second.
+    #[must_use]
+    pub const fn time_scale(&self) -> f64 {
+        self.time_scale
+    }
+
+    /// Goes somewhere of its own accord.
+    pub fn walk_to(&mut self, place: Place) {
+        self.motion = Some(Motion {
+            to: place,
+            speed_mps: self.build.speed_max(),
+            maneuver: None,
+        });
+    }
+
     /// Begins a maneuver. Without a target it is done where the body stands. A `block` goes on until
     /// it is ended from outside.
     pub fn start(&mut self, maneuver: Maneuver, parameters: TaskParameters) {
@@ -154,12 +169,7 @@ impl Body {
     pub fn fall_back(&mut self, policy: FallbackPolicy) {
         self.stand_still();
         if policy == FallbackPolicy::GoToSafePosition {
-            let speed_mps = self.build.speed_max();
-            self.motion = Some(Motion {
-                to: self.safe_place,
-                speed_mps,
-                maneuver: None,
-            });
+            self.walk_to(self.safe_place);
         }
     }
 

@@ -27,6 +27,29 @@ pub struct Chart {
     drawn: HashMap<(usize, usize), Ram>,
 }
 
+/// Something to be drawn. Robots are named by their columns.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Mark {
+    /// Something at one robot.
+    Note {
+        /// Where.
+        lane: usize,
+        /// What.
+        text: String,
+    },
+    /// A message.
+    Arrow {
+        /// Its sender.
+        from: usize,
+        /// Its receiver.
+        to: usize,
+        /// What it says.
+        text: String,
+        /// Whether it was lost.
+        is_lost: bool,
+    },
+}
+
 #[derive(Debug)]
 struct Lane {
     name: String,
@@ -63,11 +86,27 @@ impl Chart {
 
     /// The lines that a record adds.
     pub fn lines(&mut self, record: &Record) -> Vec<String> {
+        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+        let time = record.at_us as f64 / 1e6;
+        let marks = self.marks(record).into_iter();
+        let line = |mark| match mark {
+            Mark::Note { lane, text } => note_at(time, lane, &text),
+            Mark::Arrow {
+                from,
+                to,
+                text,
+                is_lost,
+            } => arrow(time, from, to, &text, is_lost),
+        };
+        marks.map(line).collect()
+    }
+
+    /// What a record adds.
+    pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
         let Some(lane) = self.lanes.iter().position(|lane| lane.name == record.robot) else {
             return Vec::new();
         };
-        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-        let time = record.at_us as f64 / 1e6;
+        let note = |text| Mark::Note { lane, text };
         match &record.entry {
             Entry::Step {
                 input,
@@ -84,27 +123,24 @@ impl Chart {
                     self.lanes[lane].state = after;
                     notes.push(format!("[{after:?}] {}", state.role()));
                 }
-                notes
-                    .into_iter()
-                    .map(|note| note_at(time, lane, &note))
-                    .collect()
+                notes.into_iter().map(note).collect()
             }
-            Entry::Heard { octets, .. } => self.arrow(time, lane, octets, false),
+            Entry::Heard { octets, .. } => self.arrow(lane, octets, false),
             Entry::Dropped { cause, octets, .. } if cause.starts_with("simulated ") => {
-                self.arrow(time, lane, octets, true)
+                self.arrow(lane, octets, true)
             }
             Entry::Dropped { cause, detail, .. } => {
-                vec![note_at(
-                    time,
-                    lane,
-                    &format!("! dropped, {cause}: {detail}"),
-                )]
+                vec![note(format!("! dropped, {cause}: {detail}"))]
             }
-            Entry::Started { .. } | Entry::Sent { .. } | Entry::Stopped { .. } => Vec::new(),
+            Entry::Started { .. } => {
+                self.lanes[lane].state = State::Idle;
+                Vec::new()
+            }
+            Entry::Sent { .. } | Entry::Stopped { .. } => Vec::new(),
         }
     }
 
-    fn arrow(&mut self, time: f64, to: usize, octets: &[u8], is_lost: bool) -> Vec<String> {
+    fn arrow(&mut self, to: usize, octets: &[u8], is_lost: bool) -> Vec<Mark> {
         let Ok(heard) = overhear(&self.identifiers, octets) else {
             return Vec::new();
         };
@@ -119,7 +155,12 @@ impl Chart {
             return Vec::new();
         }
         let text: Vec<_> = heard.inputs.iter().map(text_of).collect();
-        vec![arrow(time, from, to, &text.join("; "), is_lost)]
+        vec![Mark::Arrow {
+            from,
+            to,
+            text: text.join("; "),
+            is_lost,
+        }]
     }
 
     /// Whether a RAM says something that was not drawn before.

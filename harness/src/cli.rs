@@ -7,6 +7,7 @@ mod codec;
 mod demo;
 mod explore;
 mod fsm;
+mod fuzz;
 mod pki;
 mod replay;
 mod run;
@@ -44,6 +45,8 @@ enum Command {
     Check(check::Arguments),
     /// Walk through the states of a scenario in a browser.
     Explore(explore::Arguments),
+    /// Run many simulated robots in virtual time under drawn faults, and judge every step.
+    Fuzz(fuzz::Arguments),
     /// Print the state diagram of the protocol, drawn from what the transition function does.
     Fsm(fsm::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
@@ -94,6 +97,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
+        Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Sniff(arguments) => sniff::run(&arguments),

@@ -11,9 +11,10 @@ use std::time::{Duration, Instant};
 use crossguard_protocol::{Config, Event, Notice, Output, Phase, StationId};
 use serde::Serialize;
 
-use crate::application::{Application, Plan, Wish};
+use crate::application::{Application, Wish};
 use crate::body::{Body, Build};
 use crate::capture::Capture;
+use crate::plan::Plan;
 use crate::runtime::{Clock, Order, Running, Setup};
 use crate::site::{Place, Site};
 use crate::station::{Mode, Security};
@@ -227,7 +228,7 @@ impl Demo<'_> {
             robot.order(Order::Reset);
         }
         self.ended_well = None;
-        let detected = Event::PedestrianDetected(self.plan.request(1));
+        let detected = Event::PedestrianDetected(self.plan.request());
         self.robots[0].1.order(Order::Wish(Wish::Tell(detected)));
         // The paper's crossing takes about 26 s; commands may have to be given again.
         let patience = Duration::from_secs_f64(60.0 + 120.0 / options.time_scale);

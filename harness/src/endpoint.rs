@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 use crossguard_codec::geonet::{EgoPosition, Indication};
 use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{ControlMode, RobotState, Service, TaskParameters, TaskProgression};
+use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::{
     Availability, Config, CorridorClosure, Event, FallbackPolicy, Identity, Ignored, Input,
     Maneuver, Millis, Notice, Output, Outputs, Rmcm, Robot, State, StationId, StopReason, TaskType,
@@ -133,6 +134,7 @@ pub enum Act {
 pub struct Endpoint {
     robot: Robot,
     config: Config,
+    rules: &'static dyn Rules,
     wire: Wire,
     station: Station,
     /// Until when the robot has been told that time passed.
@@ -153,12 +155,26 @@ impl Endpoint {
     /// The endpoint of a robot that has just booted, at `now_ms`.
     #[must_use]
     pub fn new(robot: Robot, config: Config, wire: Wire, now_ms: u64) -> Self {
+        Self::with_rules(robot, config, wire, now_ms, &Protocol)
+    }
+
+    /// The endpoint with another transition function in place of the kit's: to show what a rule is good
+    /// for.
+    #[must_use]
+    pub fn with_rules(
+        robot: Robot,
+        config: Config,
+        wire: Wire,
+        now_ms: u64,
+        rules: &'static dyn Rules,
+    ) -> Self {
         let seed = cluster_seed(&robot);
         let clustering = Clustering::new(clustering::Settings::default(), seed);
         Self {
             station: Station::new(&wire.identifiers, robot.station()),
             robot,
             config,
+            rules,
             wire,
             told_ms: now_ms,
             generation: Generation::default(),
@@ -411,7 +427,7 @@ impl Endpoint {
         input: Input,
         parameters: Option<TaskParameters>,
     ) -> Outputs {
-        let outputs = self.robot.step(&self.config, input);
+        let outputs = self.rules.step(&mut self.robot, &self.config, input);
         let state = Box::new(self.robot.clone());
         turn.effects.push(Effect::Stepped {
             input,

@@ -22,8 +22,11 @@
 //! - [`ras`] has the rules of the Robot Awareness Service: when a RAM is sent and why, and clusters of
 //!   the people around a robot.
 //! - [`evaluation`] simulates the paper's street grid: how many people robots see, and the channel load.
+//! - [`machine::Machine`] adds an [`application`] with a simulated [`body`] and a [`plan`], still without
+//!   input and output.
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
 //!   multicast, queues within a process, and a layer of seeded faults over any of them.
+//! - [`sim`] runs many machines in virtual time under seeded faults, and judges every step.
 //! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
 //!   be a step of the transition function.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
@@ -43,11 +46,15 @@ pub mod demo;
 pub mod drive;
 pub mod endpoint;
 pub mod evaluation;
+pub mod machine;
 pub mod operator;
 pub mod pki;
+pub mod plan;
 pub mod ras;
 pub mod robot_file;
 pub mod runtime;
+pub mod sequence;
+pub mod sim;
 pub mod site;
 pub mod sniffer;
 pub mod station;

@@ -76,7 +76,9 @@ impl Stage {
     /// A stage with a part for each of these robots.
     #[must_use]
     pub fn of(parts: &[(StationId, Leg)]) -> Self {
-        let parts = parts.iter().map(|&(station, leg)| (Who::Station(station), leg));
+        let parts = parts
+            .iter()
+            .map(|&(station, leg)| (Who::Station(station), leg));
         Self {
             parts: parts.collect(),
         }
@@ -156,7 +158,9 @@ impl Plan {
     #[must_use]
     pub fn team(site: Site, blockers: &[(StationId, Place)], escort: StationId) -> Self {
         let parts = |task| {
-            let parts = blockers.iter().map(|&(station, place)| (station, Leg::new(task, place)));
+            let parts = blockers
+                .iter()
+                .map(|&(station, place)| (station, Leg::new(task, place)));
             parts.collect::<Vec<_>>()
         };
         let mut places = parts(TaskType::INITIAL_POS);

@@ -23,8 +23,9 @@ use crossguard_protocol::{Config, Event, Phase, Robot, StationId};
 use crate::application::{Application, Wish};
 use crate::counters::Cause;
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crate::machine::{Machine, stimulus_of};
 use crate::station::Security;
-use crate::trace::{Entry, Record};
+use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Receiver, Sender};
 use crate::wire::Wire;
 
@@ -143,10 +144,11 @@ impl Setup {
         let now_ms = self.clock.now_us() / 1_000;
         let robot = Robot::new(self.station, self.boot);
         let mut turn = Loop {
-            endpoint: Endpoint::new(robot, self.config, self.wire, now_ms)
-                .with_security(self.security),
+            machine: Machine::new(
+                Endpoint::new(robot, self.config, self.wire, now_ms).with_security(self.security),
+                self.application,
+            ),
             name: self.name,
-            application: self.application,
             sender: self.link.sender,
             log: self.log,
             clock: self.clock,
@@ -229,9 +231,8 @@ impl Reader {
 }
 
 struct Loop {
-    endpoint: Endpoint,
+    machine: Machine,
     name: String,
-    application: Application,
     sender: Box<dyn Sender>,
     log: SyncSender<Record>,
     clock: Clock,
@@ -242,9 +243,9 @@ struct Loop {
 impl Loop {
     fn run(&mut self, inbox: &Inbox<Delivery>) {
         self.log(Entry::Started {
-            station: self.endpoint.robot().station(),
-            boot: self.endpoint.robot().boot(),
-            settings: Box::new(self.endpoint.config().settings().clone()),
+            station: self.machine.endpoint().robot().station(),
+            boot: self.machine.endpoint().robot().boot(),
+            settings: Box::new(self.machine.endpoint().config().settings().clone()),
             unix_ms: unix_ms(),
         });
         while !self.is_done() {
@@ -259,19 +260,22 @@ impl Loop {
                 Err(RecvTimeoutError::Disconnected) => self.begin_to_stop(),
             }
             self.handle(Stimulus::Time);
-            self.fulfil_wishes();
         }
         for _ in 0..self.overflow.swap(0, Ordering::Relaxed) {
-            self.endpoint.count(Cause::InboxFull);
+            self.machine.endpoint_mut().count(Cause::InboxFull);
         }
-        let counters = self.endpoint.counters().by_name().clone();
+        let counters = self.machine.endpoint().counters().by_name().clone();
         self.log(Entry::Stopped { counters });
     }
 
     /// How long the loop may wait for something to arrive.
     fn patience(&self) -> Duration {
         let now_us = self.clock.now_us();
-        let due_us = self.endpoint.next_wakeup_ms().saturating_mul(1_000);
+        let due_us = self
+            .machine
+            .endpoint()
+            .next_wakeup_ms()
+            .saturating_mul(1_000);
         Duration::from_micros(due_us.saturating_sub(now_us)).min(BODY_PERIOD)
     }
 
@@ -287,24 +291,14 @@ impl Loop {
 
     fn obey(&mut self, order: Order) {
         match order {
-            Order::Wish(wish) => self.fulfil(wish),
-            Order::Finish { well } => self.finish(well),
-            Order::Reset => self.application.reset(),
+            Order::Wish(wish) => self.handle(stimulus_of(wish)),
+            Order::Finish { well } => {
+                if let Some(event) = self.machine.finish(well) {
+                    self.handle(Stimulus::Event(event));
+                }
+            }
+            Order::Reset => self.machine.application_mut().reset(),
             Order::Stop => self.begin_to_stop(),
-        }
-    }
-
-    fn finish(&mut self, well: bool) {
-        if let Phase::Following(following) = self.endpoint.robot().phase()
-            && let Some(maneuver) = following.executing()
-        {
-            let event = if well {
-                Event::ManeuverCompleted
-            } else {
-                Event::ManeuverFailed
-            };
-            self.application.stop();
-            self.handle(Stimulus::Event(event(maneuver.id)));
         }
     }
 
@@ -312,103 +306,44 @@ impl Loop {
     fn begin_to_stop(&mut self) {
         if !self.stopping {
             self.stopping = true;
-            if !matches!(self.endpoint.robot().phase(), Phase::Idle) {
+            if !matches!(self.machine.endpoint().robot().phase(), Phase::Idle) {
                 self.handle(Stimulus::Event(Event::LeaveRequested));
             }
         }
     }
 
     fn is_done(&self) -> bool {
-        let robot = self.endpoint.robot();
-        self.stopping && matches!(robot.phase(), Phase::Idle) && robot.farewell().is_none()
-    }
-
-    fn fulfil_wishes(&mut self) {
-        while let Some(wish) = self.application.next_wish() {
-            self.fulfil(wish);
-        }
-    }
-
-    fn fulfil(&mut self, wish: Wish) {
-        match wish {
-            Wish::Tell(event) => self.handle(Stimulus::Event(event)),
-            Wish::Order {
-                follower,
-                task,
-                parameters,
-            } => {
-                self.handle(Stimulus::Order {
-                    follower,
-                    task,
-                    parameters,
-                });
-            }
-        }
+        self.stopping && self.machine.is_at_rest()
     }
 
     /// Hands something to the endpoint and carries out what it wants.
     fn handle(&mut self, stimulus: Stimulus<'_>) {
         let moment = self.clock.moment();
         #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
-        self.application.advance(self.clock.now_us() as f64 / 1e6);
-        let state = self.application.state();
-        for effect in self.endpoint.handle(moment, &state, stimulus) {
+        let now_s = self.clock.now_us() as f64 / 1e6;
+        for effect in self.machine.handle(moment, now_s, stimulus) {
             self.carry_out(effect);
         }
     }
 
     fn carry_out(&mut self, effect: Effect) {
-        match effect {
-            Effect::Stepped {
-                input,
-                outputs,
-                state,
-            } => {
-                self.log(Entry::Step {
-                    input,
-                    outputs,
-                    state,
-                });
-            }
-            Effect::Heard { kind, from, octets } => {
-                self.log(Entry::Heard {
-                    message: kind,
-                    from,
-                    octets,
-                });
-            }
-            Effect::Transmit {
-                kind,
-                trigger,
-                octets,
-                packet,
-            } => {
-                if let Err(error) = self.sender.send(&packet) {
-                    self.drop(Cause::NotSent, error.to_string(), Vec::new());
-                }
-                self.log(Entry::Sent {
-                    message: kind,
-                    trigger,
-                    octets,
-                });
-            }
-            Effect::Act(act) => self.application.act(&act),
-            Effect::Dropped {
-                cause,
-                detail,
-                octets,
-            } => {
-                self.log(Entry::Dropped {
-                    cause: cause.name(),
-                    detail,
-                    octets,
-                });
-            }
+        let packet = match &effect {
+            Effect::Transmit { packet, .. } => Some(packet.clone()),
+            _ => None,
+        };
+        // What is sent is logged first: no receiver logs it before its sender.
+        if let Some(entry) = recorded(effect) {
+            self.log(entry);
+        }
+        if let Some(packet) = packet
+            && let Err(error) = self.sender.send(&packet)
+        {
+            self.drop(Cause::NotSent, error.to_string(), Vec::new());
         }
     }
 
     fn drop(&mut self, cause: Cause, detail: String, octets: Vec<u8>) {
-        self.endpoint.count(cause);
+        self.machine.endpoint_mut().count(cause);
         self.log(Entry::Dropped {
             cause: cause.name(),
             detail,
@@ -423,7 +358,7 @@ impl Loop {
             entry,
         };
         if self.log.try_send(record).is_err() {
-            self.endpoint.count(Cause::LogFull);
+            self.machine.endpoint_mut().count(Cause::LogFull);
         }
     }
 }

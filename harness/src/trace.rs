@@ -10,6 +10,7 @@ use std::io::{BufRead, Write};
 use crossguard_protocol::{Config, Input, Outputs, Robot, Settings, StationId};
 use serde::{Deserialize, Serialize};
 
+use crate::endpoint::Effect;
 use crate::ras::generation::Trigger;
 use crate::wire::MessageKind;
 
@@ -89,6 +90,47 @@ pub enum Entry {
         /// How often what came to nothing.
         counters: BTreeMap<String, u64>,
     },
+}
+
+/// What the log says of an effect. What the application is to do is in the outputs of its step.
+#[must_use]
+pub fn recorded(effect: Effect) -> Option<Entry> {
+    Some(match effect {
+        Effect::Stepped {
+            input,
+            outputs,
+            state,
+        } => Entry::Step {
+            input,
+            outputs,
+            state,
+        },
+        Effect::Heard { kind, from, octets } => Entry::Heard {
+            message: kind,
+            from,
+            octets,
+        },
+        Effect::Transmit {
+            kind,
+            trigger,
+            octets,
+            ..
+        } => Entry::Sent {
+            message: kind,
+            trigger,
+            octets,
+        },
+        Effect::Dropped {
+            cause,
+            detail,
+            octets,
+        } => Entry::Dropped {
+            cause: cause.name(),
+            detail,
+            octets,
+        },
+        Effect::Act(_) => return None,
+    })
 }
 
 /// Writes a record as a line.

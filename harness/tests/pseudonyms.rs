@@ -6,9 +6,10 @@ use std::collections::BTreeSet;
 use crossguard_codec::geonet::{Address, BasicHeader, Headers};
 use crossguard_codec::security::{SignedMessage, Time64};
 use crossguard_codec::{Identifiers, Position, RobotState, TaskParameters};
-use crossguard_harness::application::Plan;
+
 use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_harness::pki::Pki;
+use crossguard_harness::plan::Plan;
 use crossguard_harness::site::Site;
 use crossguard_harness::station::{Mode, Security};
 use crossguard_harness::wire::{Wire, overhear};
@@ -117,7 +118,7 @@ impl Street {
 
     /// One session, longer than pseudonyms last.
     fn cross(&mut self) {
-        let request = Plan::crossing(Site::default()).request(1);
+        let request = Plan::crossing(Site::default()).request();
         self.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
         self.pass(1_000);
         let (leader, follower) = (self.id(0), self.id(1));

@@ -14,8 +14,9 @@ use crossguard_codec::security::{
     Duration, Permission, PrivateKey, Ssp, Ticket, Time64, Unit, Validity, issue,
 };
 use crossguard_codec::{Identifiers, Part, RobotState, Service};
-use crossguard_harness::application::Plan;
+
 use crossguard_harness::pki::{self, Holder, Pki, Term};
+use crossguard_harness::plan::Plan;
 use crossguard_harness::site::Site;
 use crossguard_harness::station::{Credentials, Mode, Security, Station};
 use crossguard_harness::wire::Wire;
@@ -71,7 +72,7 @@ fn guest(pki: &Pki) -> Station {
 fn ram(id: StationId, asks: bool) -> Vec<u8> {
     let mut robot = Robot::new(id, 1);
     if asks {
-        let detected = Event::PedestrianDetected(Plan::crossing(Site::default()).request(1));
+        let detected = Event::PedestrianDetected(Plan::crossing(Site::default()).request());
         robot.step(
             &crossguard_protocol::Config::default(),
             Input::Local(detected),

@@ -11,7 +11,7 @@ use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::Verdict;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
-use rules::{Drops, FollowersWaitForEver, LosesTwoForOne};
+use rules::*;
 
 /// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
 fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
@@ -60,65 +60,10 @@ fn assert_breaks_alone(scenario: &str, rules: impl Rules + 'static, properties: 
     }
 }
 
-/// Whatever leader lists the robot, for whatever offer, has confirmed it.
-struct ConfirmsByStationAlone;
-
-impl Rules for ConfirmsByStationAlone {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
-        let mine = match robot.phase() {
-            Phase::Offering(offering) => Some(offering.number),
-            Phase::Following(following) => Some(following.offer),
-            _ => None,
-        };
-        if let (Some(mine), Input::Ram { ram, .. }) = (mine, &mut input)
-            && let Coordination::Leader { followers, .. } = &mut ram.coordination
-        {
-            let offer = |c: &Confirmation| {
-                if c.station == robot.station() {
-                    mine
-                } else {
-                    c.offer
-                }
-            };
-            *followers = followers
-                .iter()
-                .map(|c| Confirmation {
-                    offer: offer(c),
-                    ..*c
-                })
-                .collect();
-        }
-        robot.step(config, input)
-    }
-}
-
 #[test]
 fn without_offer_numbers_a_rebooted_follower_is_drawn_back() {
     // And then it executes a command a second time.
     assert_breaks("pair-reboot", ConfirmsByStationAlone, &[I2, I4, I15]);
-}
-
-/// A request for help counts as a confirmation.
-struct NeedsNoConfirmation;
-
-impl Rules for NeedsNoConfirmation {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
-        if let (Phase::Offering(offering), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
-            && let Coordination::NeedHelp { number, .. } = ram.coordination
-        {
-            let me = Confirmation {
-                station: robot.station(),
-                offer: offering.number,
-            };
-            let (heartbeat, followers) = (Heartbeat(0), [me].into_iter().collect());
-            ram.coordination = Coordination::Leader {
-                number,
-                heartbeat,
-                followers,
-            };
-        }
-        robot.step(config, input)
-    }
 }
 
 #[test]
@@ -126,52 +71,9 @@ fn without_confirmation_a_robot_follows_whom_it_should_not() {
     assert_breaks_alone("pair", NeedsNoConfirmation, &[I2]);
 }
 
-/// The session that a command names is not looked at.
-struct ObeysCommandsOfAnySession;
-
-impl Rules for ObeysCommandsOfAnySession {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
-        if let (Phase::Following(following), Input::Rmcm(Rmcm::Command(command))) =
-            (robot.phase(), &mut input)
-        {
-            command.session = following.session;
-        }
-        robot.step(config, input)
-    }
-}
-
 #[test]
 fn without_sessions_a_stale_command_is_executed() {
     assert_breaks("pair-reboot", ObeysCommandsOfAnySession, &[I3]);
-}
-
-/// A repeated command is started like a new one.
-struct StartsRepeatedCommands;
-
-impl Rules for StartsRepeatedCommands {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let job = match robot.phase() {
-            Phase::Following(following) => following.job,
-            _ => None,
-        };
-        let outputs = robot.step(config, input);
-        match (input, job) {
-            (Input::Rmcm(Rmcm::Command(command)), Some(job))
-                if job.request == command.request && outputs.ignored().is_none() =>
-            {
-                let id = ManeuverId {
-                    session: command.session,
-                    request: command.request,
-                };
-                let start = Output::StartManeuver(Maneuver {
-                    id,
-                    task: command.task,
-                });
-                outputs.iter().copied().chain([start]).collect()
-            }
-            _ => outputs,
-        }
-    }
 }
 
 #[test]
@@ -179,72 +81,14 @@ fn without_memory_of_requests_a_command_is_executed_twice_and_after_fallback() {
     assert_breaks("pair", StartsRepeatedCommands, &[I4, I9]);
 }
 
-/// An older command is started like a new one.
-struct StartsOlderCommands;
-
-impl Rules for StartsOlderCommands {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        match (robot.phase(), input) {
-            (Phase::Following(following), Input::Rmcm(Rmcm::Command(command)))
-                if command.session == following.session
-                    && following
-                        .job
-                        .is_some_and(|job| job.request.is_newer_than(command.request)) =>
-            {
-                let id = ManeuverId {
-                    session: command.session,
-                    request: command.request,
-                };
-                let task = command.task;
-                [Output::StartManeuver(Maneuver { id, task })]
-                    .into_iter()
-                    .collect()
-            }
-            _ => robot.step(config, input),
-        }
-    }
-}
-
 #[test]
 fn without_the_order_of_requests_an_older_command_is_executed() {
     assert_breaks("pair", StartsOlderCommands, &[I5]);
 }
 
-/// Any acknowledgement is taken for that of the outstanding command.
-struct TakesAnyAcknowledgement;
-
-impl Rules for TakesAnyAcknowledgement {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
-        if let (Phase::Leading(leading), Input::Rmcm(Rmcm::Answer(answer))) =
-            (robot.phase(), &mut input)
-            && let Some(outstanding) = leading.member(answer.from).and_then(|m| m.outstanding)
-        {
-            answer.request = outstanding.request;
-        }
-        robot.step(config, input)
-    }
-}
-
 #[test]
 fn without_request_numbers_a_late_acknowledgement_counts_for_a_newer_command() {
     assert_breaks("pair", TakesAnyAcknowledgement, &[I6, I7]);
-}
-
-/// Progress in a RAM is taken for that of the newest command, as in the paper.
-struct TakesAnyProgress;
-
-impl Rules for TakesAnyProgress {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
-        if let (Phase::Leading(leading), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
-            && let Coordination::Follower {
-                last: Some(report), ..
-            } = &mut ram.coordination
-            && let Some(order) = leading.member(ram.station).and_then(|member| member.order)
-        {
-            report.request = order.request;
-        }
-        robot.step(config, input)
-    }
 }
 
 #[test]
@@ -278,23 +122,6 @@ fn an_identity_that_is_not_locked_may_change_in_a_session() {
         Drops(|output| matches!(output, Output::LockIdentity)),
         &[I18],
     );
-}
-
-/// A follower that changes its pseudonym takes that of its leader.
-struct TakesItsLeadersPseudonym;
-
-impl Rules for TakesItsLeadersPseudonym {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Following(following), Input::Local(Event::IdentityChanged(_))) =
-            (robot.phase(), input)
-        {
-            let mut state = serde_json::to_value(&*robot).unwrap();
-            state["station"] = serde_json::to_value(following.session.leader).unwrap();
-            *robot = serde_json::from_value(state).unwrap();
-            return Outputs::default();
-        }
-        robot.step(config, input)
-    }
 }
 
 #[test]
@@ -375,36 +202,9 @@ fn two_requesters_of_whom_neither_yields_wait_for_ever() {
     assert_breaks_alone("contention", InsistsOnItsRequest, &[L1, L6]);
 }
 
-/// A leader does not read the progress in its followers' RAM.
-struct ReadsNoProgress;
-
-impl Rules for ReadsNoProgress {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
-        if let Input::Ram { ram, .. } = &mut input
-            && let Coordination::Follower { last, .. } = &mut ram.coordination
-        {
-            *last = None;
-        }
-        robot.step(config, input)
-    }
-}
-
 #[test]
 fn without_progress_in_ram_no_task_is_ever_completed() {
     assert_breaks_alone("stable", ReadsNoProgress, &[L3, L7]);
-}
-
-/// A command is repeated once more than it may be.
-struct RepeatsOnceTooOften;
-
-impl Rules for RepeatsOnceTooOften {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let patient = Settings {
-            n_ack: config.settings().n_ack + 1,
-            ..config.settings().clone()
-        };
-        robot.step(&Config::new(patient).unwrap(), input)
-    }
 }
 
 #[test]

@@ -9,10 +9,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_harness::application::{Application, Plan};
+use crossguard_harness::application::Application;
 use crossguard_harness::body::Body;
 use crossguard_harness::boot;
 use crossguard_harness::operator::{self, HELP, Line};
+use crossguard_harness::plan::Plan;
 use crossguard_harness::robot_file::RobotFile;
 use crossguard_harness::runtime::{Clock, Order, Running, Setup};
 use crossguard_harness::trace::{self, Entry, Record};

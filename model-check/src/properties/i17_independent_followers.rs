@@ -1,6 +1,6 @@
 //! I17: dropping one follower leaves the others' records unchanged.
 
-use crossguard_protocol::{Notice, StationId};
+use crossguard_protocol::{Countdown, Input, Lease, Member, Millis, Notice, StationId};
 
 use super::{StepRule, StepView, leading_of};
 
@@ -21,13 +21,39 @@ fn holds(step: &StepView) -> bool {
     let (Some(dropped), Some(before)) = (dropped(step), leading_of(step.before)) else {
         return true;
     };
-    before
-        .members
-        .iter()
-        .filter(|member| member.station != dropped)
-        .all(|member| {
-            leading_of(step.after).and_then(|after| after.member(member.station)) == Some(member)
-        })
+    let elapsed = match step.input {
+        Input::Elapsed(elapsed) => elapsed,
+        _ => Millis::ZERO,
+    };
+    let members = before.members.iter();
+    let mut others = members.filter(|member| member.station != dropped);
+    others.all(|member| {
+        let after = leading_of(step.after).and_then(|after| after.member(member.station));
+        aged(member, elapsed).is_none_or(|expected| after == Some(&expected))
+    })
+}
+
+/// The record after so much time in which nothing happens; `None` where one of its own timers is due.
+fn aged(member: &Member, elapsed: Millis) -> Option<Member> {
+    let age = |countdown: Countdown| match countdown.left() {
+        None => Some(countdown),
+        Some(left) if elapsed == Millis::ZERO || left > elapsed => {
+            Some(Countdown::armed(left.saturating_sub(elapsed)))
+        }
+        Some(_) => None,
+    };
+    let mut aged = *member;
+    aged.lease = match member.lease {
+        Lease::Stands(left) => Lease::Stands(age(left)?),
+        Lease::Expired(left) => Lease::Expired(age(left)?),
+    };
+    if let Some(order) = &mut aged.order {
+        order.execution = age(order.execution)?;
+    }
+    if let Some(outstanding) = &mut aged.outstanding {
+        outstanding.acknowledgement = age(outstanding.acknowledgement)?;
+    }
+    Some(aged)
 }
 
 /// A follower is dropped and another one stays.

@@ -1,5 +1,5 @@
 //! Weakened rules that more than one test puts in the protocol's place.
-#![allow(unreachable_pub, reason = "shared by tests")]
+#![allow(dead_code, unreachable_pub, reason = "shared by tests")]
 
 use crossguard_model_check::node::Rules;
 use crossguard_protocol::*;
@@ -42,11 +42,212 @@ pub struct FollowersWaitForEver;
 
 impl Rules for FollowersWaitForEver {
     fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Following(_), Input::Expired(_)) = (robot.phase(), input) {
+        let is_time = matches!(input, Input::Expired(_) | Input::Elapsed(_));
+        if is_time && matches!(robot.phase(), Phase::Following(_)) {
             return [Output::Ignored(Ignored::TimerNotArmed)]
                 .into_iter()
                 .collect();
         }
         robot.step(config, input)
+    }
+}
+
+/// Whatever leader lists the robot, for whatever offer, has confirmed it.
+pub struct ConfirmsByStationAlone;
+
+impl Rules for ConfirmsByStationAlone {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        let mine = match robot.phase() {
+            Phase::Offering(offering) => Some(offering.number),
+            Phase::Following(following) => Some(following.offer),
+            _ => None,
+        };
+        if let (Some(mine), Input::Ram { ram, .. }) = (mine, &mut input)
+            && let Coordination::Leader { followers, .. } = &mut ram.coordination
+        {
+            let offer = |c: &Confirmation| {
+                if c.station == robot.station() {
+                    mine
+                } else {
+                    c.offer
+                }
+            };
+            *followers = followers
+                .iter()
+                .map(|c| Confirmation {
+                    offer: offer(c),
+                    ..*c
+                })
+                .collect();
+        }
+        robot.step(config, input)
+    }
+}
+
+/// A request for help counts as a confirmation.
+pub struct NeedsNoConfirmation;
+
+impl Rules for NeedsNoConfirmation {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Offering(offering), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
+            && let Coordination::NeedHelp { number, .. } = ram.coordination
+        {
+            let me = Confirmation {
+                station: robot.station(),
+                offer: offering.number,
+            };
+            let (heartbeat, followers) = (Heartbeat(0), [me].into_iter().collect());
+            ram.coordination = Coordination::Leader {
+                number,
+                heartbeat,
+                followers,
+            };
+        }
+        robot.step(config, input)
+    }
+}
+
+/// The session that a command names is not looked at.
+pub struct ObeysCommandsOfAnySession;
+
+impl Rules for ObeysCommandsOfAnySession {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Following(following), Input::Rmcm(Rmcm::Command(command))) =
+            (robot.phase(), &mut input)
+        {
+            command.session = following.session;
+        }
+        robot.step(config, input)
+    }
+}
+
+/// A repeated command is started like a new one.
+pub struct StartsRepeatedCommands;
+
+impl Rules for StartsRepeatedCommands {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let job = match robot.phase() {
+            Phase::Following(following) => following.job,
+            _ => None,
+        };
+        let outputs = robot.step(config, input);
+        match (input, job) {
+            (Input::Rmcm(Rmcm::Command(command)), Some(job))
+                if job.request == command.request && outputs.ignored().is_none() =>
+            {
+                let id = ManeuverId {
+                    session: command.session,
+                    request: command.request,
+                };
+                let start = Output::StartManeuver(Maneuver {
+                    id,
+                    task: command.task,
+                });
+                outputs.iter().copied().chain([start]).collect()
+            }
+            _ => outputs,
+        }
+    }
+}
+
+/// An older command is started like a new one.
+pub struct StartsOlderCommands;
+
+impl Rules for StartsOlderCommands {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        match (robot.phase(), input) {
+            (Phase::Following(following), Input::Rmcm(Rmcm::Command(command)))
+                if command.session == following.session
+                    && following
+                        .job
+                        .is_some_and(|job| job.request.is_newer_than(command.request)) =>
+            {
+                let id = ManeuverId {
+                    session: command.session,
+                    request: command.request,
+                };
+                let task = command.task;
+                [Output::StartManeuver(Maneuver { id, task })]
+                    .into_iter()
+                    .collect()
+            }
+            _ => robot.step(config, input),
+        }
+    }
+}
+
+/// Any acknowledgement is taken for that of the outstanding command.
+pub struct TakesAnyAcknowledgement;
+
+impl Rules for TakesAnyAcknowledgement {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Leading(leading), Input::Rmcm(Rmcm::Answer(answer))) =
+            (robot.phase(), &mut input)
+            && let Some(outstanding) = leading.member(answer.from).and_then(|m| m.outstanding)
+        {
+            answer.request = outstanding.request;
+        }
+        robot.step(config, input)
+    }
+}
+
+/// Progress in a RAM is taken for that of the newest command, as in the paper.
+pub struct TakesAnyProgress;
+
+impl Rules for TakesAnyProgress {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let (Phase::Leading(leading), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
+            && let Coordination::Follower {
+                last: Some(report), ..
+            } = &mut ram.coordination
+            && let Some(order) = leading.member(ram.station).and_then(|member| member.order)
+        {
+            report.request = order.request;
+        }
+        robot.step(config, input)
+    }
+}
+
+/// A follower that changes its pseudonym takes that of its leader.
+pub struct TakesItsLeadersPseudonym;
+
+impl Rules for TakesItsLeadersPseudonym {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let (Phase::Following(following), Input::Local(Event::IdentityChanged(_))) =
+            (robot.phase(), input)
+        {
+            let mut state = serde_json::to_value(&*robot).unwrap();
+            state["station"] = serde_json::to_value(following.session.leader).unwrap();
+            *robot = serde_json::from_value(state).unwrap();
+            return Outputs::default();
+        }
+        robot.step(config, input)
+    }
+}
+
+/// A leader does not read the progress in its followers' RAM.
+pub struct ReadsNoProgress;
+
+impl Rules for ReadsNoProgress {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let Input::Ram { ram, .. } = &mut input
+            && let Coordination::Follower { last, .. } = &mut ram.coordination
+        {
+            *last = None;
+        }
+        robot.step(config, input)
+    }
+}
+
+/// A command is repeated once more than it may be.
+pub struct RepeatsOnceTooOften;
+
+impl Rules for RepeatsOnceTooOften {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let patient = Settings {
+            n_ack: config.settings().n_ack + 1,
+            ..config.settings().clone()
+        };
+        robot.step(&Config::new(patient).unwrap(), input)
     }
 }

@@ -1,0 +1,175 @@
+//! `crossguard fuzz`.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use crossguard_harness::sim::{Files, Fuzz, Totals, Worst, write_failure};
+use crossguard_harness::transport::Faults;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use super::{Failure, print, print_json, shows_progress};
+
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct Arguments {
+    /// How many seeds to run.
+    #[arg(long, default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
+    seeds: u64,
+    /// How many robots there are at most.
+    #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u8).range(2..=32))]
+    robots: u8,
+    /// The first seed.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Faults of every way in place of those drawn, like burst=0.4x8,delay=0..50. Crashes, partitions
+    /// and the rest are drawn all the same.
+    #[arg(long, value_name = "LIST")]
+    faults: Option<Faults>,
+    /// How many threads work; by default one for each core.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..))]
+    threads: Option<u8>,
+    /// After how many failed seeds it is enough.
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..))]
+    failures: u16,
+    /// Write log and sequence chart of failed seeds into this folder.
+    #[arg(long, value_name = "DIR", default_value = "crossguard-fuzz")]
+    out: PathBuf,
+    /// Print the results as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_HELP: &str = "\
+Whole endpoints with real packets run in virtual time. From each seed is drawn who there is, which \
+faults the radio has, who detects, crashes and boots again. At first there are faults, then the \
+network is healed: no property may break, and all robots must come to rest. The same seed gives the \
+same run.";
+
+/// The results as JSON.
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    totals: &'a Totals,
+    robots_max: u8,
+    first_seed: u64,
+    seconds: f64,
+    /// For each failure, the command that runs it again.
+    reproduce: Vec<String>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let fuzz = Fuzz {
+        first: arguments.seed,
+        seeds: arguments.seeds,
+        robots: usize::from(arguments.robots),
+        faults: arguments.faults.as_ref(),
+        threads: arguments.threads.map_or(cores, usize::from),
+        failures_max: usize::from(arguments.failures),
+    };
+    let began = Instant::now();
+    let totals = watched(&fuzz, arguments.json);
+    let seconds = began.elapsed();
+    for failure in &totals.failures {
+        let written = write_failure(&arguments.out, &fuzz, failure);
+        let files = written
+            .map_err(|error| Failure::Input(format!("{}: {error}", arguments.out.display())))?;
+        if !arguments.json {
+            tell_failure(&fuzz, failure, &files)?;
+        }
+    }
+    if arguments.json {
+        let failures = totals.failures.iter();
+        print_json(&Report {
+            totals: &totals,
+            robots_max: arguments.robots,
+            first_seed: arguments.seed,
+            seconds: seconds.as_secs_f64(),
+            reproduce: failures.map(|f| fuzz.reproduce(f.seed)).collect(),
+        })?;
+    } else {
+        tell(&totals, seconds)?;
+    }
+    match totals.violations {
+        0 if totals.seeds < arguments.seeds => Err(Failure::Incomplete),
+        0 => Ok(()),
+        _ => Err(Failure::Wrong),
+    }
+}
+
+/// Runs the seeds, with a progress bar for people. Ctrl-C ends it with what is known.
+fn watched(fuzz: &Fuzz, is_json: bool) -> Totals {
+    static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+    // It can only fail when there is a handler already, and there is none.
+    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+    let bar = if shows_progress(is_json) {
+        ProgressBar::new(fuzz.seeds)
+    } else {
+        ProgressBar::hidden()
+    };
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} seeds, {msg}, {eta} to go");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let totals = fuzz.run(&|totals: &Totals| {
+        bar.set_position(totals.seeds);
+        bar.set_message(format!("{} violations", totals.violations));
+        !INTERRUPTED.load(Ordering::Relaxed)
+    });
+    bar.finish_and_clear();
+    totals
+}
+
+fn tell_failure(
+    fuzz: &Fuzz,
+    failure: &crossguard_harness::sim::Failure,
+    files: &Files,
+) -> Result<(), Failure> {
+    let finding = &failure.finding;
+    let at = Duration::from_millis(finding.at_ms).as_secs_f64();
+    print(format_args!(
+        "seed {}: {} broken by {} at {at:.3} s: {}",
+        failure.seed, finding.property, finding.robot, finding.statement
+    ))?;
+    print(format_args!("  again: {}", fuzz.reproduce(failure.seed)))?;
+    print(format_args!(
+        "  log {}, chart {} and {}",
+        files.log.display(),
+        files.text.display(),
+        files.svg.display()
+    ))
+}
+
+fn tell(totals: &Totals, seconds: Duration) -> Result<(), Failure> {
+    print(format_args!(
+        "{} seeds with {} robots in {:.1} s: {:.1} h of virtual time, {} steps, {} packets.",
+        totals.seeds,
+        totals.robots,
+        seconds.as_secs_f64(),
+        Duration::from_secs(totals.virtual_s).as_secs_f64() / 3_600.0,
+        totals.steps,
+        totals.packets
+    ))?;
+    let premises = totals.premises.iter();
+    let premises: Vec<_> = premises.map(|(id, runs)| format!("{id} {runs}")).collect();
+    print(format_args!(
+        "Runs in which a property had something to say: {}.",
+        premises.join(", ")
+    ))?;
+    let Worst {
+        roles_ms,
+        stopped_ms,
+        left_ms,
+        corridor_closed_ms,
+    } = totals.worst;
+    let time = |ms: Option<u32>| ms.map_or("never measured".to_owned(), |ms| format!("{ms} ms"));
+    print(format_args!(
+        "Longest times, each within its bound: request to roles {}; leader's crash to follower stopped \
+         {}, to follower idle {}; follower's failure to corridor closed {}.",
+        time(roles_ms),
+        time(stopped_ms),
+        time(left_ms),
+        time(corridor_closed_ms)
+    ))?;
+    print(format_args!("Violations: {}.", totals.violations))
+}

@@ -1,0 +1,33 @@
+//! Whole endpoints in virtual time: real packets, seeded faults, and the properties judged at every
+//! step.
+//!
+//! ```text
+//!   seed ──► swarm (who, which faults, when what happens)
+//!              │
+//!              ▼        ┌─ wakes ──► Machine (endpoint, body) ─► steps ──► Monitor, times
+//!            world ─────┤                 │ packets
+//!                       └─ arrivals ◄── Channel of each way (loss, bursts, delay, outage …)
+//! ```
+//!
+//! A run has two phases. At first robots detect pedestrians, crash, boot again, change their minds and
+//! hear each other badly: the safety properties must hold all the same. Then the network is healed
+//! and nobody does anything new: all robots must come to rest. Everything is drawn from the seed, so
+//! one number tells the whole run; the same machine code does the same steps in every run.
+//!
+//! The robots run the code that real ones run: [`Machine`](crate::machine::Machine), codec and ITS
+//! station included. What the simulator has of its own is a clock, an order of events and a radio.
+
+mod clock;
+mod fuzz;
+mod report;
+mod script;
+mod swarm;
+mod times;
+mod world;
+
+pub use fuzz::{Failure, Fuzz, Totals};
+pub use report::{Files, write_failure};
+pub use script::{Deed, Happening};
+pub use swarm::{RobotDraw, Swarm};
+pub use times::{Measure, Worst};
+pub use world::{Finding, Outcome, run, run_with};

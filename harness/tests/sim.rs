@@ -1,0 +1,199 @@
+//! Simulated robots: runs that repeat exactly, and times that stay within those that the timed model
+//! computes.
+
+mod support;
+
+use crossguard_harness::plan::Plan;
+use crossguard_harness::sim::{
+    Deed, Failure, Finding, Fuzz, Happening, Swarm, Worst, run, write_failure,
+};
+use crossguard_harness::trace::{self, Record};
+use crossguard_harness::transport::{Delay, Faults};
+use crossguard_model_check::check::Options;
+use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::timed::{Model, check};
+use crossguard_protocol::Config;
+use support::*;
+
+fn log_of(seed: u64) -> Vec<u8> {
+    let mut log = Vec::new();
+    let mut watch = |record: Record| trace::write(&mut log, &record).unwrap();
+    let outcome = run(&Swarm::draw(seed, 4, None), Some(&mut watch));
+    assert_eq!(outcome.finding, None);
+    log
+}
+
+#[test]
+fn a_seed_gives_the_same_run_to_the_last_byte_and_its_log_is_valid() {
+    let log = log_of(3);
+    assert!(log == log_of(3), "two runs of one seed differ");
+    assert!(log != log_of(4));
+    let validated = trace::validate(&*log).unwrap();
+    assert!(validated.steps > 100, "{validated:?}");
+}
+
+/// Two robots with the timers of a timed scenario. One detects again and again, and either crashes
+/// some time later; messages take no longer than in the scenario.
+fn crashing_pair(scenario: &Scenario, seed: u64) -> Swarm {
+    let timed = scenario.timed.as_ref().unwrap();
+    let settings = scenario.config.settings();
+    let faults = Faults {
+        loss: 0.05,
+        delay: Delay {
+            max_ms: timed.delay.0,
+            mean_ms: Some(4.0),
+            ..Delay::default()
+        },
+        ..Faults::default()
+    };
+    let mut swarm = Swarm::draw(seed, 2, Some(&faults));
+    swarm.late_max_us = 5_000;
+    for robot in &mut swarm.robots {
+        robot.config = Config::new(settings.clone()).unwrap();
+        robot.drift_ppm *= i64::from(settings.drift_ppm / 1_000);
+        robot.plan = Plan::crossing(robot.plan.site);
+        robot.time_scale = 3.0;
+    }
+    swarm
+        .script
+        .retain(|happening| happening.deed == Deed::Boot);
+    for round in 1..=40 {
+        let begin = round * 2_000_000;
+        let crash_us = begin + 300_000 + (seed * 7_919 + round * 104_729) % 1_500_000;
+        let crashes = usize::try_from(round % 2).unwrap();
+        for (at_us, place, deed) in [
+            (begin, 0, Deed::Detect),
+            (crash_us, crashes, Deed::Crash),
+            (begin + 1_900_000, crashes, Deed::Boot),
+        ] {
+            swarm.script.push(Happening { at_us, place, deed });
+        }
+    }
+    swarm.heals_us = 90_000_000;
+    for way in &mut swarm.ways {
+        way.outages.clear();
+    }
+    swarm
+}
+
+fn worst_with_timers_of(scenario: &Scenario) -> Worst {
+    let mut worst = Worst::default();
+    for seed in 1..=20 {
+        let outcome = run(&crashing_pair(scenario, seed), None);
+        assert_eq!(outcome.finding, None, "seed {seed}");
+        worst.add(outcome.worst);
+    }
+    worst
+}
+
+#[test]
+fn the_longest_times_stay_within_those_that_the_timed_model_computes() {
+    let scenario = Scenario::load("timed-pair").unwrap();
+    let worst = worst_with_timers_of(&scenario);
+    let model = Model::new(scenario).unwrap();
+    let report = check(&model, &Options::default(), &mut |_| ());
+    let observed = [
+        ("from a request to roles or to giving up", worst.roles_ms),
+        (
+            "from the leader's crash to the follower stopped",
+            worst.stopped_ms,
+        ),
+        (
+            "from the leader's crash to the follower idle",
+            worst.left_ms,
+        ),
+        (
+            "from a follower's own failure to the corridor closed",
+            worst.corridor_closed_ms,
+        ),
+    ];
+    for (name, observed) in observed {
+        let figure = report.figures.iter().find(|figure| figure.name == name);
+        let (figure, observed) = (figure.unwrap(), observed.unwrap());
+        assert!(
+            observed <= figure.bound_ms,
+            "{name}: {observed} ms, {figure:?}"
+        );
+        // And it was a real try: at least a third of what is possible was seen.
+        assert!(
+            observed * 3 > figure.bound_ms,
+            "{name}: {observed} ms, {figure:?}"
+        );
+    }
+}
+
+#[test]
+fn the_command_tells_what_it_ran_and_finds_nothing_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("failures");
+    let arguments = ["fuzz", "--seeds", "30", "--robots", "5", "--json", "--out"];
+    let output = run_command(&arguments, out.to_str().unwrap());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let report = json(&output);
+    assert_eq!(report["seeds"], 30);
+    assert_eq!(report["violations"], 0);
+    assert_eq!(report["failures"].as_array().unwrap().len(), 0);
+    assert!(report["packets"].as_u64().unwrap() > 1_000);
+    assert!(!out.exists(), "nothing is written of runs that went well");
+}
+
+fn run_command(arguments: &[&str], out: &str) -> std::process::Output {
+    support::run(&[arguments, &[out]].concat())
+}
+
+#[test]
+fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() {
+    let fuzz = Fuzz {
+        first: 1,
+        seeds: 10,
+        robots: 4,
+        faults: None,
+        threads: 1,
+        failures_max: 1,
+    };
+    let failure = Failure {
+        seed: 5,
+        finding: Finding {
+            property: "I4".to_owned(),
+            statement: "a command is started at most once".to_owned(),
+            at_ms: 1_234,
+            robot: "R2".to_owned(),
+        },
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let files = write_failure(folder.path(), &fuzz, &failure).unwrap();
+    let text = std::fs::read_to_string(&files.text).unwrap();
+    let again = "crossguard fuzz --seeds 1 --robots 4 --seed 5";
+    assert!(text.starts_with("I4: a command is started at most once (R2 at 1.234 s)\n"));
+    assert!(text.contains(again) && text.contains("R1"), "{text}");
+    assert!(
+        std::fs::read_to_string(&files.svg)
+            .unwrap()
+            .starts_with("<svg")
+    );
+    let log = std::fs::read(&files.log).unwrap();
+    assert!(trace::validate(&*log).unwrap().steps > 100);
+    let words: Vec<_> = again.split(' ').skip(1).collect();
+    let output = support::run(&words);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn a_person_reads_what_was_measured_and_mistakes_are_named() {
+    let text = stdout(&support::run(&[
+        "fuzz",
+        "--seeds",
+        "5",
+        "--faults",
+        "burst=0.4x8",
+    ]));
+    assert!(text.contains("5 seeds with"), "{text}");
+    assert!(text.contains("Violations: 0."), "{text}");
+    for (arguments, cause) in [
+        (["fuzz", "--robots", "1"], "1 is not in 2..=32"),
+        (["fuzz", "--faults", "rain=1"], "no fault 'rain'"),
+        (["fuzz", "--seeds", "0"], "0 is not in"),
+    ] {
+        assert_refused(&support::run(&arguments), cause);
+    }
+}
