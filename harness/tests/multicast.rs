@@ -1,4 +1,5 @@
-//! `crossguard run --multicast`: two robots, each in a network namespace of its own, on one link.
+//! `crossguard run --multicast` and `--ethernet`: two robots, each in a network namespace of its own, on
+//! one link.
 //!
 //! Nothing of it touches the machine's own network. Where the kernel does not permit it, the test is
 //! skipped, and says so by name.
@@ -26,10 +27,10 @@ ip link set ari up
 $inside ip addr add 10.0.0.2/24 dev go2
 $inside ip link set go2 up
 [ "$1" = try ] && exit 0
-link="--multicast 239.118.50.1:47400 --interface"
+link=$5
 sleep 60 | $inside "$1" run --config "$3" $link go2 --json > "$4" &
 printf 'wait 0.5\ndetect\nuntil maneuver-executing 20\nuntil idle 20\nquit\n' |
-    "$1" run --config "$2" $link ari --json
+    "$1" run --config "$2" $link ari --json --pcap "$6"
 "#;
 
 /// A command that runs the script in namespaces of its own.
@@ -43,8 +44,9 @@ fn street(arguments: &[&str]) -> Command {
     command
 }
 
-#[test]
-fn two_robots_in_two_network_namespaces_do_the_crossing_by_multicast() {
+/// Two robots on a link of two namespaces do the crossing over a link with these options; the packets
+/// of one of them go to a file, which `sniff` reads.
+fn the_crossing_by(link: &str, test: &str) {
     match street(&["try"]).output() {
         Ok(output) if output.status.success() => {}
         other => {
@@ -53,23 +55,23 @@ fn two_robots_in_two_network_namespaces_do_the_crossing_by_multicast() {
                 Err(error) => error.to_string(),
             };
             // Not by eprintln!, which the test runner would capture.
-            writeln!(
+            let _ = writeln!(
                 std::io::stderr(),
-                "SKIPPED two_robots_in_two_network_namespaces_do_the_crossing_by_multicast: \
-                 this machine permits no network namespaces: {}",
+                "SKIPPED {test}: this machine permits no network namespaces: {}",
                 cause.trim()
-            )
-            .unwrap();
+            );
             return;
         }
     }
     let folder = tempfile::tempdir().unwrap();
-    // The addresses of these files are not used: the command line's group takes their place.
+    // The addresses of these files are not used: the command line's link takes their place.
     let ari = robot_file(folder.path(), "ARI", 1, 47_400, 47_401);
     let go2 = robot_file(folder.path(), "Go2", 2, 47_401, 47_400);
     let go2_log = folder.path().join("go2.log");
+    let pcap = folder.path().join("ari.pcap");
     let program = env!("CARGO_BIN_EXE_crossguard");
-    let output = street(&[program, &ari, &go2, go2_log.to_str().unwrap()])
+    let (go2_log_name, pcap) = (go2_log.to_str().unwrap(), pcap.to_str().unwrap());
+    let output = street(&[program, &ari, &go2, go2_log_name, link, pcap])
         .output()
         .unwrap();
     let log = stdout(&output);
@@ -83,5 +85,25 @@ fn two_robots_in_two_network_namespaces_do_the_crossing_by_multicast() {
             .unwrap()
             .contains("\"startManeuver\""),
         "the other robot was never commanded"
+    );
+    let seen = stdout(&run(&["sniff", pcap]));
+    for expected in ["needHelp 1#", "offerHelp 1#", "ack"] {
+        assert!(seen.contains(expected), "{expected} is not in:\n{seen}");
+    }
+}
+
+#[test]
+fn two_robots_in_two_network_namespaces_do_the_crossing_by_multicast() {
+    the_crossing_by(
+        "--multicast 239.118.50.1:47400 --interface",
+        "two_robots_in_two_network_namespaces_do_the_crossing_by_multicast",
+    );
+}
+
+#[test]
+fn two_robots_in_two_network_namespaces_do_the_crossing_in_ethernet_frames() {
+    the_crossing_by(
+        "--ethernet",
+        "two_robots_in_two_network_namespaces_do_the_crossing_in_ethernet_frames",
     );
 }

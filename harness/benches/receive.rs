@@ -1,0 +1,78 @@
+//! The whole receive path: from a datagram to what the robot makes of it, in packets a second of one
+//! core, for messages of robots, of other stations, and garbage.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::{Identifiers, RobotState, Service};
+use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_harness::station::Station;
+use crossguard_harness::wire::Wire;
+use crossguard_protocol::{Config, Robot, StationId};
+
+const ITS: &str = include_str!("../../codec/tests/golden/its.txt");
+const VAM: &str = include_str!("../../codec/tests/golden/vam.txt");
+
+fn moment(now_ms: u64) -> Moment {
+    Moment {
+        now_ms,
+        timestamp_its: 694_694_401_000 + now_ms,
+    }
+}
+
+fn endpoint(station: u32) -> Endpoint {
+    let robot = Robot::new(StationId(station), 1);
+    Endpoint::new(robot, Config::default(), Wire::default(), 0)
+}
+
+/// A RAM of a robot that has no part in anything.
+fn ram() -> Vec<u8> {
+    let state = RobotState::default();
+    let effects = endpoint(2).handle(moment(2_000), &state, Stimulus::Time);
+    let packet = effects.into_iter().find_map(|effect| match effect {
+        Effect::Transmit { packet, .. } => Some(packet),
+        _ => None,
+    });
+    packet.expect("a RAM is due")
+}
+
+fn golden(service: Service, vectors: &str, name: &str) -> Vec<u8> {
+    let digits = vectors
+        .lines()
+        .find_map(|line| line.strip_prefix(name)?.strip_prefix(": "))
+        .expect("a vector of this name");
+    let octets = hex::decode(digits).expect("hexadecimal digits");
+    Station::new(&Identifiers::default(), StationId(9))
+        .send(&EgoPosition::default(), service, &octets)
+        .expect("it fits")
+}
+
+fn receive(c: &mut Criterion) {
+    let mut group = c.benchmark_group("receive");
+    group.throughput(Throughput::Elements(1));
+    for (name, packet) in [
+        ("RAM", ram()),
+        ("CAM", golden(Service::Cam, ITS, "C2")),
+        ("VAM", golden(Service::Vam, VAM, "V11")),
+        ("CPM", golden(Service::Cpm, ITS, "P2")),
+        ("garbage", vec![0xA5; 200]),
+        ("unknown port", {
+            let mut packet = golden(Service::Cam, ITS, "C2");
+            packet[41] = 0xD3;
+            packet
+        }),
+    ] {
+        let mut endpoint = endpoint(1);
+        let state = RobotState::default();
+        group.bench_function(name, |bencher| {
+            // The clock stands still, so that no RAM is made in between.
+            let now = moment(10);
+            bencher.iter(|| endpoint.handle(now, &state, Stimulus::Datagram(black_box(&packet))));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, receive);
+criterion_main!(benches);

@@ -1,0 +1,124 @@
+//! The whole receive path of an endpoint against octets of all kinds: the same entry point as the
+//! fuzz target `receive` in `harness/fuzz`.
+
+use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::{Identifiers, RobotState, Service};
+use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_harness::station::Station;
+use crossguard_harness::wire::Wire;
+use crossguard_protocol::{Config, Robot, StationId};
+use rand::{Rng, RngCore, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// How many packets are tried.
+const PACKETS: u64 = 20_000;
+
+fn golden() -> Vec<Vec<u8>> {
+    let files = [
+        (include_str!("../../codec/tests/golden/its.txt"), 2..3),
+        (include_str!("../../codec/tests/golden/vam.txt"), 2..3),
+        (include_str!("../../codec/tests/golden/packets.txt"), 0..0),
+    ];
+    let mut sender = Station::new(&Identifiers::default(), StationId(77));
+    let mut packets = Vec::new();
+    for (text, _) in files {
+        for line in text.lines().filter(|line| !line.starts_with('#')) {
+            let Some((_, digits)) = line.split_once(": ") else {
+                continue;
+            };
+            let octets = hex::decode(digits).unwrap();
+            if octets[0] == 0x11 {
+                packets.push(octets);
+                continue;
+            }
+            for service in Service::ALL {
+                let packet = sender.send(&EgoPosition::default(), service, &octets);
+                packets.extend(packet);
+            }
+        }
+    }
+    packets
+}
+
+/// Messages of a robot that asks for help.
+fn of_a_robot() -> Vec<Vec<u8>> {
+    let mut robot = endpoint(StationId(9));
+    let event = crossguard_protocol::Event::PedestrianDetected(crossguard_protocol::HelpRequest {
+        urgency: crossguard_protocol::Urgency::High,
+        followers: 1,
+        tasks: crossguard_protocol::TaskSet(1),
+    });
+    let state = RobotState::default();
+    let effects = robot.handle(moment(200), &state, Stimulus::Event(event));
+    effects
+        .into_iter()
+        .filter_map(|effect| match effect {
+            Effect::Transmit { packet, .. } => Some(packet),
+            _ => None,
+        })
+        .collect()
+}
+
+fn endpoint(station: StationId) -> Endpoint {
+    Endpoint::new(
+        Robot::new(station, 1),
+        Config::default(),
+        Wire::default(),
+        0,
+    )
+}
+
+fn moment(now_ms: u64) -> Moment {
+    Moment {
+        now_ms,
+        timestamp_its: 694_694_401_000 + now_ms,
+    }
+}
+
+#[test]
+fn any_packet_is_taken_or_dropped_under_a_cause() {
+    let mut noise = ChaCha8Rng::seed_from_u64(4);
+    let mut seeds = golden();
+    seeds.extend(of_a_robot());
+    assert!(seeds.len() > 100);
+    let mut endpoint = endpoint(StationId(1));
+    let state = RobotState::default();
+    let (mut taken, mut dropped) = (0, 0);
+    for n in 0..PACKETS {
+        let seed = noise.random_range(0..seeds.len());
+        let mut packet = seeds[seed].clone();
+        match n % 4 {
+            // As it is, with flipped bits, cut off, or noise from somewhere on.
+            0 => {}
+            1 => {
+                for _ in 0..noise.random_range(1..4) {
+                    let bit = noise.random_range(0..packet.len() * 8);
+                    packet[bit / 8] ^= 0x80 >> (bit % 8);
+                }
+            }
+            2 => packet.truncate(noise.random_range(0..packet.len())),
+            _ => {
+                let from = noise.random_range(0..packet.len());
+                noise.fill_bytes(&mut packet[from..]);
+            }
+        }
+        let effects = endpoint.handle(moment(n), &state, Stimulus::Datagram(&packet));
+        let drops = effects
+            .iter()
+            .filter(|effect| matches!(effect, Effect::Dropped { .. }))
+            .count();
+        assert!(drops <= 1);
+        if drops == 1 {
+            dropped += 1;
+        } else {
+            taken += 1;
+        }
+        assert!(endpoint.station().map().iter().count() <= 5 * 128);
+    }
+    assert!(
+        taken > PACKETS / 20 && dropped > PACKETS / 2,
+        "{taken} {dropped}"
+    );
+    let counted: u64 = endpoint.counters().by_name().values().sum();
+    assert!(counted >= dropped);
+}
