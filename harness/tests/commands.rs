@@ -225,9 +225,10 @@ fn the_explorer_serves_states_in_words_and_says_why_it_cannot() {
         .spawn()
         .unwrap();
     let deadline = Instant::now() + Duration::from_secs(20);
-    let page = loop {
+    let get = |path: &str| loop {
         if let Ok(mut socket) = TcpStream::connect(&address) {
-            let request = "GET /.states/0 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+            let request =
+                format!("GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
             socket.write_all(request.as_bytes()).unwrap();
             let mut page = String::new();
             socket.read_to_string(&mut page).unwrap();
@@ -236,6 +237,11 @@ fn the_explorer_serves_states_in_words_and_says_why_it_cannot() {
         assert!(Instant::now() < deadline, "nobody listens");
         std::thread::sleep(Duration::from_millis(20));
     };
+    // Initial states first; what follows one is found under its fingerprint.
+    let initial = get("/.states/");
+    let (_, fingerprint) = initial.split_once("\"fingerprint\":\"").expect("a state");
+    let (fingerprint, _) = fingerprint.split_once('"').expect("a number");
+    let page = get(&format!("/.states/{fingerprint}"));
     assert!(
         page.contains("HelpRequested, requester, available, session 1#1.0"),
         "{page}"

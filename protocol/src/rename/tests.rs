@@ -206,6 +206,15 @@ fn whom_a_leader_confirmed_stand_in_the_order_of_their_new_names() {
     let renamed = leader.renamed(&mut Other::default());
     assert_eq!(stations(&renamed), [SPOT, GO2].map(other_station));
     assert_eq!(renamed.station(), other_station(ARI));
+    let (Phase::Leading(old), Phase::Leading(new)) = (leader.phase(), renamed.phase()) else {
+        panic!("{renamed:?}");
+    };
+    for member in old.members.iter() {
+        let other = new.member(other_station(member.station)).unwrap();
+        assert_eq!(other.offer.0, other_number(member.offer.0));
+        let echoed = member.echoed.expect("it has joined");
+        assert_eq!(other.echoed, Some(Heartbeat(echoed.0 + 20)));
+    }
     let Coordination::Leader { followers, .. } = renamed.ram().coordination else {
         panic!("{renamed:?}");
     };
