@@ -14,14 +14,17 @@ use crossguard_protocol::{
 use crate::trace::{Entry, Record};
 use crate::wire::{Heard, MessageKind, overhear};
 
-/// Where the first column begins, and how far apart columns are.
+/// Where the first column begins, and how far apart columns are, of two robots and of more.
 const LEFT: usize = 10;
 const SPACING: usize = 50;
+const SPACING_OF_MANY: usize = 36;
 
 /// A chart in the making.
 #[derive(Debug)]
 pub struct Chart {
     identifiers: Identifiers,
+    /// How far apart columns are.
+    spacing: usize,
     lanes: Vec<Lane>,
     /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
     drawn: HashMap<(usize, usize), Ram>,
@@ -68,6 +71,11 @@ impl Chart {
         };
         Self {
             identifiers,
+            spacing: if robots.len() > 2 {
+                SPACING_OF_MANY
+            } else {
+                SPACING
+            },
             lanes: robots.iter().map(lane).collect(),
             drawn: HashMap::new(),
         }
@@ -78,7 +86,7 @@ impl Chart {
     pub fn header(&self) -> String {
         let mut line = format!("{:>8}", "t/s");
         for (i, lane) in self.lanes.iter().enumerate() {
-            pad(&mut line, LEFT + i * SPACING);
+            pad(&mut line, LEFT + i * self.spacing);
             let _ = write!(line, "{} (station {})", lane.name, lane.station);
         }
         line
@@ -88,15 +96,15 @@ impl Chart {
     pub fn lines(&mut self, record: &Record) -> Vec<String> {
         #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
         let time = record.at_us as f64 / 1e6;
-        let marks = self.marks(record).into_iter();
+        let (marks, spacing) = (self.marks(record).into_iter(), self.spacing);
         let line = |mark| match mark {
-            Mark::Note { lane, text } => note_at(time, lane, &text),
+            Mark::Note { lane, text } => note_at(time, LEFT + lane * spacing, &text),
             Mark::Arrow {
                 from,
                 to,
                 text,
                 is_lost,
-            } => arrow(time, from, to, &text, is_lost),
+            } => arrow(time, [from, to], spacing, &text, is_lost),
         };
         marks.map(line).collect()
     }
@@ -271,15 +279,15 @@ fn pad(line: &mut String, column: usize) {
 
 fn note_at(seconds: f64, column: usize, text: &str) -> String {
     let mut line = format!("{seconds:>8.3}");
-    pad(&mut line, LEFT + column * SPACING);
+    pad(&mut line, column);
     line.push_str(text);
     line
 }
 
 /// An arrow between two columns, with its text in the middle.
-fn arrow(time: f64, from: usize, to: usize, text: &str, is_lost: bool) -> String {
+fn arrow(time: f64, [from, to]: [usize; 2], spacing: usize, text: &str, is_lost: bool) -> String {
     let (left, right) = (from.min(to), from.max(to));
-    let width = (right - left) * SPACING - 3;
+    let width = (right - left) * spacing - 3;
     let room = width.saturating_sub(6);
     let text: String = if text.chars().count() > room {
         text.chars()
@@ -305,7 +313,7 @@ fn arrow(time: f64, from: usize, to: usize, text: &str, is_lost: bool) -> String
         format!("{end}{body}")
     };
     let mut line = format!("{time:>8.3}");
-    pad(&mut line, LEFT + left * SPACING + 1);
+    pad(&mut line, LEFT + left * spacing + 1);
     line.push_str(&drawn);
     line
 }
@@ -316,20 +324,20 @@ mod tests {
 
     #[test]
     fn an_arrow_spans_from_column_to_column() {
-        let there = arrow(1.5, 0, 1, "RMCM ack", false);
+        let there = arrow(1.5, [0, 1], SPACING, "RMCM ack", false);
         assert!(
             there.starts_with("   1.500   ─") && there.ends_with("─►"),
             "{there}"
         );
         assert_eq!(there.chars().count(), LEFT + SPACING - 2);
-        let back = arrow(1.5, 1, 0, "RMCM ack", false);
+        let back = arrow(1.5, [1, 0], SPACING, "RMCM ack", false);
         assert!(back.contains("◄─") && back.ends_with('─'), "{back}");
-        assert!(arrow(0.0, 0, 1, "RAM", true).ends_with("─x"));
+        assert!(arrow(0.0, [0, 1], SPACING, "RAM", true).ends_with("─x"));
     }
 
     #[test]
     fn a_long_text_is_cut_to_fit() {
-        let line = arrow(0.0, 0, 1, &"long ".repeat(40), false);
+        let line = arrow(0.0, [0, 1], SPACING, &"long ".repeat(40), false);
         assert_eq!(line.chars().count(), LEFT + SPACING - 2);
         assert!(line.contains('…'));
     }

@@ -14,6 +14,7 @@ mod run;
 mod security;
 mod simulate;
 mod sniff;
+mod validate;
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -37,7 +38,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Watch a humanoid and a robot dog help a pedestrian across, over real sockets.
+    /// Watch robots help a pedestrian across, over real sockets.
     Demo(demo::Arguments),
     /// Run one robot as one process; events are typed or piped in.
     Run(run::Arguments),
@@ -47,6 +48,8 @@ enum Command {
     Explore(explore::Arguments),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.
     Fuzz(fuzz::Arguments),
+    /// Tell whether logs of one or several robots are of something that could have happened.
+    Validate(validate::Arguments),
     /// Print the state diagram of the protocol, drawn from what the transition function does.
     Fsm(fsm::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
@@ -97,6 +100,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
+        Command::Validate(arguments) => validate::run(&arguments),
         Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

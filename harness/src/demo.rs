@@ -19,8 +19,9 @@ use crate::runtime::{Clock, Order, Running, Setup};
 use crate::site::{Place, Site};
 use crate::station::{Mode, Security};
 use crate::timing::{Summary, Timing};
-use crate::trace::{self, Entry, Record, Validated};
+use crate::trace::{self, Entry, Record};
 use crate::transport::{Faults, Halves, Link, LinkError, Transport, WithFaults};
+use crate::validate::{self, Validated};
 use crate::wire::Wire;
 
 /// The humanoid, which leads.
@@ -303,7 +304,7 @@ impl Demo<'_> {
             .values()
             .filter_map(|c| c.get("log full"))
             .sum::<u64>();
-        let validated = trace::validate(&*self.log).map_err(|error| error.to_string());
+        let validated = validate::one(&*self.log).map_err(|error| error.to_string());
         let validated = match validated {
             Ok(_) if lost_records > 0 => Err(format!("{lost_records} records were lost")),
             other => other,
@@ -311,7 +312,7 @@ impl Demo<'_> {
         let outcome = Outcome {
             maneuvers: self.timing.summaries(options.time_scale),
             trace_valid: validated.is_ok(),
-            trace: validated.as_ref().ok().copied(),
+            trace: validated.as_ref().ok().cloned(),
             trace_error: validated.err(),
             crossings,
             trials: options.trials,

@@ -215,6 +215,12 @@ impl Endpoint {
         &self.config
     }
 
+    /// What encodes and decodes its messages.
+    #[must_use]
+    pub const fn wire(&self) -> &Wire {
+        &self.wire
+    }
+
     /// The ITS station under it.
     #[must_use]
     pub const fn station(&self) -> &Station {

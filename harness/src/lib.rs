@@ -27,8 +27,8 @@
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
 //!   multicast, queues within a process, and a layer of seeded faults over any of them.
 //! - [`sim`] runs many machines in virtual time under seeded faults, and judges every step.
-//! - [`trace`] is the log, one JSON object per line, and its check: every step that is in a log must
-//!   be a step of the transition function.
+//! - [`trace`] is the log, one JSON object per line; [`validate`] tells whether logs of one or several
+//!   robots are of something that could have happened.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
 //! - [`demo`] is the paper's crossing with two robots and their simulated [`body`]s, [`timing`] its
 //!   table, [`chart`] its sequence chart.
@@ -61,6 +61,7 @@ pub mod station;
 pub mod timing;
 pub mod trace;
 pub mod transport;
+pub mod validate;
 pub mod wire;
 
 /// The Rust in the README compiles.

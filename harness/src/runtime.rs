@@ -89,6 +89,8 @@ pub enum Order {
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
     Stop,
+    /// Lose power: end at once and say nothing.
+    Die,
 }
 
 enum Delivery {
@@ -154,6 +156,7 @@ impl Setup {
             clock: self.clock,
             overflow,
             stopping: false,
+            is_dead: false,
         };
         let stopped = Arc::clone(&stop);
         let threads = vec![
@@ -238,6 +241,7 @@ struct Loop {
     clock: Clock,
     overflow: Arc<AtomicU64>,
     stopping: bool,
+    is_dead: bool,
 }
 
 impl Loop {
@@ -246,6 +250,7 @@ impl Loop {
             station: self.machine.endpoint().robot().station(),
             boot: self.machine.endpoint().robot().boot(),
             settings: Box::new(self.machine.endpoint().config().settings().clone()),
+            identifiers: self.machine.endpoint().wire().identifiers,
             unix_ms: unix_ms(),
         });
         while !self.is_done() {
@@ -258,6 +263,9 @@ impl Loop {
                 Err(RecvTimeoutError::Timeout) => {}
                 // Nobody is left who could tell it to stop.
                 Err(RecvTimeoutError::Disconnected) => self.begin_to_stop(),
+            }
+            if self.is_dead {
+                return;
             }
             self.handle(Stimulus::Time);
         }
@@ -299,6 +307,7 @@ impl Loop {
             }
             Order::Reset => self.machine.application_mut().reset(),
             Order::Stop => self.begin_to_stop(),
+            Order::Die => self.is_dead = true,
         }
     }
 

@@ -9,6 +9,7 @@ use crossguard_harness::sim::{
 };
 use crossguard_harness::trace::{self, Record};
 use crossguard_harness::transport::{Delay, Faults};
+use crossguard_harness::validate;
 use crossguard_model_check::check::Options;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::timed::{Model, check};
@@ -28,7 +29,7 @@ fn a_seed_gives_the_same_run_to_the_last_byte_and_its_log_is_valid() {
     let log = log_of(3);
     assert!(log == log_of(3), "two runs of one seed differ");
     assert!(log != log_of(4));
-    let validated = trace::validate(&*log).unwrap();
+    let validated = validate::one(&*log).unwrap();
     assert!(validated.steps > 100, "{validated:?}");
 }
 
@@ -172,7 +173,7 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
             .starts_with("<svg")
     );
     let log = std::fs::read(&files.log).unwrap();
-    assert!(trace::validate(&*log).unwrap().steps > 100);
+    assert!(validate::one(&*log).unwrap().steps > 100);
     let words: Vec<_> = again.split(' ').skip(1).collect();
     let output = support::run(&words);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -52,6 +52,7 @@ pub struct Monitor {
     history: History,
     /// Whether what is told comes in the order of true time.
     is_timed: bool,
+    has_strangers: bool,
     premises: u32,
 }
 
@@ -94,24 +95,40 @@ impl Monitor {
             seats: Seats(Vec::new()),
             history: History::default(),
             is_timed: timed,
+            has_strangers: false,
             premises: 0,
         }
     }
 
     /// One more robot, which has not booted. Its place.
-    pub fn add(&mut self, station: StationId, config: Config) -> usize {
-        let node = Node::down(station);
+    pub fn add(&mut self, station: StationId) -> usize {
+        let (node, config) = (Node::down(station), Config::default());
         self.seats.0.push(Seat { node, config });
         self.seats.0.len() - 1
     }
 
     /// A robot boots.
-    pub fn boot(&mut self, place: usize, robot: &Robot) {
+    ///
+    /// # Panics
+    /// When there is no such robot.
+    pub fn boot(&mut self, place: usize, robot: &Robot, config: &Config) {
         self.crash(place);
-        self.seats.0[place].node = Node::booted(robot.clone());
+        self.seats.0[place] = Seat {
+            node: Node::booted(robot.clone()),
+            config: config.clone(),
+        };
+    }
+
+    /// From now on robots hear others of which nothing is told here: what holds of two robots and one
+    /// of them is not known is not judged any more.
+    pub const fn has_strangers(&mut self) {
+        self.has_strangers = true;
     }
 
     /// A robot loses its volatile state; nothing if it was down.
+    ///
+    /// # Panics
+    /// When there is no such robot.
     pub fn crash(&mut self, place: usize) {
         let node = &mut self.seats.0[place].node;
         if let Some(robot) = &node.robot {
@@ -144,9 +161,9 @@ impl Monitor {
         };
         let (premises, broken) = judge(&PropertyId::ALL, &view, false);
         self.premises |= premises;
-        let mut first = PropertyId::ALL
-            .into_iter()
-            .find(|id| broken & id.bit() != 0);
+        let has_strangers = self.has_strangers;
+        let judged = |id: &PropertyId| broken & id.bit() != 0 && !(has_strangers && is_of_two(*id));
+        let mut first = PropertyId::ALL.into_iter().find(judged);
         if view.is_historic() {
             let finished = view.finished();
             if let (Some(from), Some(to)) = (&before.robot, &seat.node.robot) {
@@ -172,7 +189,9 @@ impl Monitor {
         };
         let mut premises = self.premises;
         let broken = PropertyId::ALL.into_iter().find(|id| {
-            id.state_rule().is_some_and(|rule| {
+            let is_open = self.has_strangers && is_of_two(*id);
+            let rule = id.state_rule().filter(|_| !is_open);
+            rule.is_some_and(|rule| {
                 if premises & id.bit() == 0 && (rule.premise)(&view) {
                     premises |= id.bit();
                 }
@@ -200,6 +219,14 @@ impl Monitor {
     }
 }
 
+/// Whether a property speaks of what two robots know of each other's past.
+const fn is_of_two(id: PropertyId) -> bool {
+    matches!(
+        id,
+        PropertyId::I2 | PropertyId::I3 | PropertyId::I6 | PropertyId::I8
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use crossguard_protocol::{Event, HelpRequest, Output, SessionId, TaskSet, TaskType, Urgency};
@@ -219,11 +246,11 @@ mod tests {
         let config = Config::default();
         let mut robot = Robot::new(StationId(1), 1);
         let mut monitor = Monitor::new(true);
-        let place = monitor.add(StationId(1), config.clone());
-        monitor.boot(place, &robot);
+        let place = monitor.add(StationId(1));
+        monitor.boot(place, &robot, &config);
         let outputs = robot.step(&config, request());
         assert_eq!(monitor.step(place, request(), &outputs, &robot), None);
-        monitor.boot(place, &Robot::new(StationId(1), 1));
+        monitor.boot(place, &Robot::new(StationId(1), 1), &config);
         let is_lock = |output: &&Output| matches!(output, Output::LockIdentity);
         let forgetful: Outputs = outputs.iter().filter(|o| !is_lock(o)).copied().collect();
         let broken = monitor.step(place, request(), &forgetful, &robot);
@@ -237,8 +264,8 @@ mod tests {
         let mut requester = Robot::new(StationId(1), 1);
         requester.step(&config, request());
         let mut monitor = Monitor::new(false);
-        let place = monitor.add(StationId(2), config.clone());
-        monitor.boot(place, &robot);
+        let place = monitor.add(StationId(2));
+        monitor.boot(place, &robot, &config);
         let session = requester.session().unwrap();
         follow(&mut robot, &mut requester, &config);
         assert!(

@@ -148,7 +148,7 @@ impl<'a> World<'a> {
         let mut draws = ChaCha8Rng::seed_from_u64(swarm.seed ^ 0x5741_4553);
         let mut monitor = Monitor::new(true);
         let seats = swarm.robots.iter().map(|draw| {
-            monitor.add(draw.station, draw.config.clone());
+            monitor.add(draw.station);
             Seat {
                 draw,
                 clock: Drifting::new(draw.drift_ppm),
@@ -318,7 +318,7 @@ impl<'a> World<'a> {
         let draw = seat.draw;
         seat.boot += 1;
         let robot = Robot::new(draw.station, seat.boot);
-        self.monitor.boot(place, &robot);
+        self.monitor.boot(place, &robot, &draw.config);
         let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
         let endpoint = Endpoint::with_rules(
             robot,
@@ -341,6 +341,7 @@ impl<'a> World<'a> {
             station: draw.station,
             boot: self.seats[place].boot,
             settings: Box::new(draw.config.settings().clone()),
+            identifiers: Wire::default().identifiers,
             unix_ms: u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_us / 1_000,
         };
         self.record(place, entry);

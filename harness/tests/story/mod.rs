@@ -8,7 +8,8 @@ use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 use crossguard_codec::{RobotState, TaskParameters};
 use crossguard_harness::counters::Cause;
 use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::trace::{self, Entry, Record, Validated};
+use crossguard_harness::trace::{self, Entry, Record};
+use crossguard_harness::validate::{self, Validated};
 use crossguard_harness::wire::{MessageKind, Wire, overhear};
 use crossguard_model_check::paper::{Happening, Link, Message, Step, Story};
 use crossguard_protocol::{
@@ -90,6 +91,7 @@ impl Street {
                 station: StationId(station),
                 boot: 1,
                 settings,
+                identifiers: Wire::default().identifiers,
                 unix_ms: 0,
             },
         );
@@ -294,7 +296,7 @@ impl Street {
         for record in &self.records {
             trace::write(&mut log, record).unwrap();
         }
-        trace::validate(&*log).unwrap()
+        validate::one(&*log).unwrap()
     }
 }
 

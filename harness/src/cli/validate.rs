@@ -1,0 +1,128 @@
+//! `crossguard validate`.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use crossguard_harness::validate::{self, Fault, Invalid, Log, Validated};
+use serde::Serialize;
+
+use super::{Failure, print, print_json};
+
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct Arguments {
+    /// The logs: of one robot or of several, from one machine or from several.
+    #[arg(required = true, value_name = "LOG")]
+    logs: Vec<PathBuf>,
+    /// Print the results as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_HELP: &str = "\
+Replays every step through the transition function, matches every reception with its transmission, \
+and judges every step by the properties that the model checker verifies. The first record that does \
+not fit is named with its line and the reason. Of a station whose log is not among those given, \
+nothing is known; what was heard from it is counted.";
+
+/// The results as JSON.
+#[derive(Serialize)]
+struct Report {
+    valid: bool,
+    #[serde(flatten)]
+    validated: Option<Validated>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    log: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let logs = arguments.logs.iter().map(|path| open(path));
+    let logs = logs.collect::<Result<Vec<_>, _>>()?;
+    let result = validate::all(logs);
+    if let Err(invalid) = &result
+        && matches!(
+            *invalid.fault,
+            Fault::Unreadable(_) | Fault::Empty | Fault::NotARecord(_)
+        )
+    {
+        // What cannot be read at all is bad input, and not a robot that went wrong.
+        return result.map(|_| ()).map_err(Failure::input);
+    }
+    if arguments.json {
+        print_json(&report(&result))?;
+    } else {
+        tell(&result)?;
+    }
+    match result {
+        Err(_) => Err(Failure::Wrong),
+        Ok(validated) if validated.missing > 0 => Err(Failure::Incomplete),
+        Ok(_) => Ok(()),
+    }
+}
+
+fn open(path: &Path) -> Result<Log<'static>, Failure> {
+    let name = path.display().to_string();
+    match File::open(path) {
+        Ok(file) => Ok(Log {
+            name,
+            lines: Box::new(BufReader::new(file)),
+        }),
+        Err(error) => Err(Failure::Input(format!("{name}: {error}"))),
+    }
+}
+
+fn report(result: &Result<Validated, Invalid>) -> Report {
+    let invalid = result.as_ref().err();
+    Report {
+        valid: result.is_ok(),
+        validated: result.as_ref().ok().cloned(),
+        log: invalid.map(|invalid| invalid.log.clone()),
+        line: invalid.map(|invalid| invalid.line),
+        error: invalid.map(ToString::to_string),
+    }
+}
+
+fn tell(result: &Result<Validated, Invalid>) -> Result<(), Failure> {
+    let validated = match result {
+        Ok(validated) => validated,
+        Err(invalid) => return print(format_args!("Not valid. {invalid}.")),
+    };
+    print(format_args!(
+        "Valid: {} records of {} robots. {} steps, each one of the transition function; {} messages sent; \
+         {} receptions, each with its transmission.",
+        validated.records, validated.robots, validated.steps, validated.sent, validated.heard
+    ))?;
+    print(format_args!(
+        "Properties put to the test and kept: {}.",
+        validated.properties.join(", ")
+    ))?;
+    let remarks = [
+        (
+            validated.from_strangers,
+            "messages came from stations whose logs are not here",
+        ),
+        (
+            validated.beyond_logs,
+            "messages came from robots after the end of their logs",
+        ),
+    ];
+    for (count, remark) in remarks.into_iter().filter(|(count, _)| *count > 0) {
+        print(format_args!("{count} {remark}."))?;
+    }
+    for log in &validated.cut_off {
+        print(format_args!("{log} ends in the middle of a run."))?;
+    }
+    if validated.missing > 0 {
+        print(format_args!(
+            "{} records are missing by the robots' own account: their reader was too slow. What is here \
+             is valid, and is not all.",
+            validated.missing
+        ))?;
+    }
+    Ok(())
+}

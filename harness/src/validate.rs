@@ -1,0 +1,393 @@
+//! Whether logs tell what could have happened.
+//!
+//! ```text
+//!   log of one robot ──┐                      ┌─► every step is one of the transition function
+//!   log of another ────┼─► in causal order ───┼─► what is put out is sent, what is heard is stepped
+//!   log of several ────┘  (sent before heard) ├─► every reception matches a transmission
+//!                                             └─► no property is broken: Monitor
+//! ```
+//!
+//! Logs may come from different machines. Their clocks are not compared: a log waits at a reception
+//! until the log of the sender has come to the transmission. Each record is looked at once, so the
+//! time grows with the length of the logs alone.
+//!
+//! A log that ends in the middle is what a killed process leaves. What others heard from it after its
+//! end cannot be matched, and is counted.
+
+mod fault;
+mod robot;
+
+pub use fault::Fault;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::fmt;
+use std::io::BufRead;
+
+use crossguard_model_check::monitor::Monitor;
+use crossguard_protocol::{Event, Input, StationId};
+use serde::Serialize;
+
+use crate::trace::{Entry, Record};
+use robot::Follow;
+
+/// A log to be validated.
+pub struct Log<'a> {
+    /// What it is called in messages.
+    pub name: String,
+    /// Its lines.
+    pub lines: Box<dyn BufRead + 'a>,
+}
+
+/// What valid logs hold.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Validated {
+    /// How many robots.
+    pub robots: usize,
+    /// How many records.
+    pub records: usize,
+    /// How many steps of the transition function.
+    pub steps: usize,
+    /// How many messages were sent.
+    pub sent: usize,
+    /// How many receptions were matched with their transmissions.
+    pub heard: usize,
+    /// How many were heard from stations that none of the logs is of.
+    pub from_strangers: usize,
+    /// How many were heard from robots after the end of their logs.
+    pub beyond_logs: usize,
+    /// How many records the robots themselves say are missing, because the log was full.
+    pub missing: u64,
+    /// The logs that end in the middle of a run.
+    pub cut_off: Vec<String>,
+    /// The properties that had something to say, and were kept.
+    pub properties: Vec<String>,
+}
+
+/// Why logs are not valid: the first record that does not fit.
+#[derive(Debug)]
+pub struct Invalid {
+    /// The log.
+    pub log: String,
+    /// The line in it, counted from 1.
+    pub line: usize,
+    /// The robot, where the line says one.
+    pub robot: Option<String>,
+    /// What does not fit.
+    pub fault: Box<Fault>,
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.log.is_empty() {
+            write!(f, "{}, ", self.log)?;
+        }
+        write!(f, "line {}: ", self.line)?;
+        if let Some(robot) = &self.robot {
+            write!(f, "{robot} ")?;
+        }
+        write!(f, "{}", self.fault)
+    }
+}
+
+impl std::error::Error for Invalid {}
+
+/// Validates one log.
+///
+/// # Errors
+/// The first record that does not fit.
+pub fn one(lines: impl BufRead) -> Result<Validated, Invalid> {
+    all(vec![Log {
+        name: String::new(),
+        lines: Box::new(lines),
+    }])
+}
+
+/// Validates logs of robots that were together.
+///
+/// # Errors
+/// The first record that does not fit.
+pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
+    let mut street = Street::default();
+    let mut cursors = Vec::new();
+    for log in logs {
+        let cursor = Cursor::new(log)?;
+        if cursor.head.is_none() {
+            return Err(cursor.invalid(None, Fault::Empty));
+        }
+        cursors.push(cursor);
+    }
+    while let Some(next) = street.choose(&cursors) {
+        let cursor = &mut cursors[next];
+        if let Some(record) = cursor.head.take() {
+            street
+                .take(record)
+                .map_err(|(robot, fault)| cursor.invalid(Some(robot), fault))?;
+            cursor.advance()?;
+        }
+        if cursors[next].head.is_none() {
+            street.end(&cursors[next]);
+        }
+    }
+    Ok(street.finish())
+}
+
+/// A log, and how far it has been read.
+struct Cursor<'a> {
+    name: String,
+    lines: Box<dyn BufRead + 'a>,
+    line: usize,
+    head: Option<Record>,
+    /// Milliseconds since 1970 at which the log's clock started, as far as is known.
+    began_ms: i128,
+    /// The robots that it is of.
+    robots: BTreeSet<String>,
+}
+
+impl<'a> Cursor<'a> {
+    fn new(log: Log<'a>) -> Result<Self, Invalid> {
+        let mut cursor = Self {
+            name: log.name,
+            lines: log.lines,
+            line: 0,
+            head: None,
+            began_ms: 0,
+            robots: BTreeSet::new(),
+        };
+        cursor.advance()?;
+        Ok(cursor)
+    }
+
+    /// Reads the next record. A last line without an end that is no record was cut off.
+    fn advance(&mut self) -> Result<(), Invalid> {
+        let mut text = String::new();
+        self.line += 1;
+        let read = self.lines.read_line(&mut text);
+        let length = read.map_err(|cause| self.invalid(None, Fault::Unreadable(cause)))?;
+        self.head = match serde_json::from_str::<Record>(&text) {
+            _ if length == 0 => None,
+            Ok(record) => Some(record),
+            Err(_) if !text.ends_with('\n') && self.line > 1 => None,
+            Err(cause) => return Err(self.invalid(None, Fault::NotARecord(cause))),
+        };
+        if let Some(record) = &self.head {
+            if let Entry::Started { unix_ms, .. } = record.entry {
+                self.began_ms = i128::from(unix_ms) - i128::from(record.at_us / 1_000);
+            }
+            if !self.robots.contains(&record.robot) {
+                self.robots.insert(record.robot.clone());
+            }
+        }
+        Ok(())
+    }
+
+    /// About when the next record was written, in ms since 1970.
+    fn at_ms(&self) -> i128 {
+        let at_us = self.head.as_ref().map_or(0, |record| record.at_us);
+        self.began_ms + i128::from(at_us / 1_000)
+    }
+
+    fn invalid(&self, robot: Option<String>, fault: Fault) -> Invalid {
+        Invalid {
+            log: self.name.clone(),
+            line: self.line,
+            robot,
+            fault: Box::new(fault),
+        }
+    }
+}
+
+/// All robots of the logs, and what has been on the air between them.
+struct Street {
+    monitor: Monitor,
+    robots: BTreeMap<String, Follow>,
+    /// The messages that were sent, each with its kind and octets.
+    sent: HashSet<Vec<u8>>,
+    /// By which robot a station id is or was used.
+    stations: HashMap<StationId, String>,
+    /// Robots whose newest run is not over.
+    running: BTreeSet<String>,
+    validated: Validated,
+}
+
+impl Default for Street {
+    fn default() -> Self {
+        Self {
+            // Logs are merged by cause and effect, not by true time.
+            monitor: Monitor::new(false),
+            robots: BTreeMap::new(),
+            sent: HashSet::new(),
+            stations: HashMap::new(),
+            running: BTreeSet::new(),
+            validated: Validated::default(),
+        }
+    }
+}
+
+impl Street {
+    /// The log whose next record is taken: the earliest of those that need not wait for another, and
+    /// if all do, the earliest of all. `None` when all are at their ends.
+    fn choose(&self, cursors: &[Cursor]) -> Option<usize> {
+        let with_head = || (0..cursors.len()).filter(|&i| cursors[i].head.is_some());
+        let earliest = |i: &usize| cursors[*i].at_ms();
+        let alone = with_head().nth(1).is_none();
+        let ready = with_head().filter(|&i| alone || !self.must_wait(cursors, i));
+        ready
+            .min_by_key(earliest)
+            .or_else(|| with_head().min_by_key(earliest))
+    }
+
+    /// Whether another log may still bring what the next record of this one needs.
+    fn must_wait(&self, cursors: &[Cursor], i: usize) -> bool {
+        let Some(record) = &cursors[i].head else {
+            return false;
+        };
+        match &record.entry {
+            Entry::Heard { octets, .. } => !self.sent.contains(octets),
+            // The run before of the same robot, in another log, comes first.
+            Entry::Started { .. } => {
+                let others = cursors.iter().enumerate().filter(|(other, _)| *other != i);
+                let before = |cursor: &Cursor| cursor.robots.contains(&record.robot);
+                self.running.contains(&record.robot)
+                    && others
+                        .into_iter()
+                        .any(|(_, cursor)| cursor.head.is_some() && before(cursor))
+            }
+            _ => false,
+        }
+    }
+
+    fn take(&mut self, record: Record) -> Result<(), (String, Fault)> {
+        self.validated.records += 1;
+        let Record {
+            at_us,
+            robot,
+            entry,
+        } = record;
+        let result = self.take_entry(&robot, at_us, entry);
+        result.map_err(|fault| (robot, fault))
+    }
+
+    fn take_entry(&mut self, robot: &str, at_us: u64, entry: Entry) -> Result<(), Fault> {
+        if let Entry::Started { .. } = entry {
+            return self.start(robot, at_us, entry);
+        }
+        let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
+        follow.tick(at_us)?;
+        match entry {
+            Entry::Started { .. } => Ok(()),
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => {
+                self.validated.steps += 1;
+                follow.step(input, &outputs, &state)?;
+                if let Input::Local(Event::IdentityChanged(station)) = input {
+                    self.stations.insert(station, robot.to_owned());
+                }
+                let broken = self.monitor.step(follow.place(), input, &outputs, &state);
+                broken.map_or(Ok(()), |broken| Err(Fault::Broken(broken)))
+            }
+            Entry::Sent {
+                message, octets, ..
+            } => {
+                self.validated.sent += 1;
+                follow.sent(message, &octets)?;
+                self.sent.insert(octets);
+                Ok(())
+            }
+            Entry::Heard {
+                message,
+                from,
+                octets,
+            } => {
+                follow.heard(message, from, &octets)?;
+                self.match_reception(from, &octets)
+            }
+            Entry::Dropped { cause, .. } => {
+                follow.dropped(cause);
+                Ok(())
+            }
+            Entry::Stopped { counters } => {
+                self.validated.missing += follow.stopped(&counters)?;
+                self.running.remove(robot);
+                self.monitor.crash(follow.place());
+                Ok(())
+            }
+        }
+    }
+
+    fn start(&mut self, robot: &str, at_us: u64, entry: Entry) -> Result<(), Fault> {
+        let Entry::Started {
+            station,
+            boot,
+            settings,
+            identifiers,
+            ..
+        } = entry
+        else {
+            return Ok(());
+        };
+        let before = self.robots.get(robot);
+        if before.is_some_and(|before| !before.may_reboot_with(boot)) {
+            return Err(Fault::BootReused(boot));
+        }
+        let place = match before {
+            Some(before) => before.place(),
+            None => self.monitor.add(station),
+        };
+        let follow = Follow::started(place, at_us, station, boot, *settings, identifiers)?;
+        self.monitor.boot(place, follow.robot(), follow.config());
+        self.stations.insert(station, robot.to_owned());
+        self.running.insert(robot.to_owned());
+        self.robots.insert(robot.to_owned(), follow);
+        Ok(())
+    }
+
+    /// A reception must match a transmission, if a log of the sender should have it.
+    fn match_reception(&mut self, from: StationId, octets: &[u8]) -> Result<(), Fault> {
+        if self.sent.contains(octets) {
+            self.validated.heard += 1;
+            return Ok(());
+        }
+        match self.stations.get(&from) {
+            None => {
+                self.validated.from_strangers += 1;
+                self.monitor.has_strangers();
+                Ok(())
+            }
+            Some(sender) if self.running.contains(sender) && self.robots[sender].is_cut_off() => {
+                self.validated.beyond_logs += 1;
+                self.monitor.has_strangers();
+                Ok(())
+            }
+            Some(_) => Err(Fault::NoTransmission(from)),
+        }
+    }
+
+    /// A log is at its end: robots of it that run on are cut off.
+    fn end(&mut self, cursor: &Cursor) {
+        let mut is_cut_off = false;
+        for robot in cursor.robots.intersection(&self.running) {
+            if let Some(follow) = self.robots.get_mut(robot) {
+                follow.cut_off();
+                is_cut_off = true;
+            }
+        }
+        if is_cut_off {
+            self.validated.cut_off.push(cursor.name.clone());
+        }
+    }
+
+    fn finish(self) -> Validated {
+        let met = self.monitor.premises_met();
+        Validated {
+            robots: self.robots.len(),
+            properties: met.map(|id| id.to_string()).collect(),
+            ..self.validated
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
