@@ -235,19 +235,10 @@ impl Street {
             return;
         };
         for effect in endpoint.handle(moment, &RobotState::default(), stimulus) {
+            if let Some(entry) = trace::recorded(effect.clone()) {
+                self.record(station, entry);
+            }
             match effect {
-                Effect::Stepped {
-                    input,
-                    outputs,
-                    state,
-                } => self.record(
-                    station,
-                    Entry::Step {
-                        input,
-                        outputs,
-                        state,
-                    },
-                ),
                 Effect::Transmit { kind, packet, .. } => {
                     if kind == MessageKind::Ram {
                         self.actor(station).newest_ram.clone_from(&packet);
@@ -255,7 +246,7 @@ impl Street {
                     on_air.push_back((station, kind, packet));
                 }
                 Effect::Act(act) => self.actor(station).carry_out(act),
-                Effect::Heard { .. } => {}
+                Effect::Stepped { .. } | Effect::Heard { .. } => {}
                 Effect::Dropped { detail, .. } => panic!("{station}: {detail}"),
             }
         }
