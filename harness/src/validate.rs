@@ -302,7 +302,7 @@ impl Street {
                 octets,
             } => {
                 follow.heard(message, from, &octets)?;
-                self.match_reception(from, &octets)
+                self.match_reception(robot, from, &octets)
             }
             Entry::Dropped { cause, .. } => {
                 follow.dropped(cause);
@@ -345,7 +345,12 @@ impl Street {
     }
 
     /// A reception must match a transmission, if a log of the sender should have it.
-    fn match_reception(&mut self, from: StationId, octets: &[u8]) -> Result<(), Fault> {
+    fn match_reception(
+        &mut self,
+        robot: &str,
+        from: StationId,
+        octets: &[u8],
+    ) -> Result<(), Fault> {
         if self.sent.contains(octets) {
             self.validated.heard += 1;
             return Ok(());
@@ -354,6 +359,11 @@ impl Street {
             None => {
                 self.validated.from_strangers += 1;
                 self.monitor.has_strangers();
+                Ok(())
+            }
+            // Nobody hears itself: a stranger speaks in its name, and the protocol ignores it.
+            Some(sender) if sender == robot => {
+                self.validated.from_strangers += 1;
                 Ok(())
             }
             Some(sender) if self.running.contains(sender) && self.robots[sender].is_cut_off() => {
