@@ -49,7 +49,7 @@ mod writer;
 pub(crate) use error::Path;
 pub use error::{Error, Fault, Field};
 pub use list::SequenceOf;
-pub use reader::{Outer, Read, Reader};
+pub use reader::{Faults, First, Outer, Read, Reader, Whether};
 pub use source::Source;
 pub use writer::Writer;
 
@@ -71,14 +71,14 @@ pub trait Uper: Copy + Eq {
     /// keeps what is not there: nothing that is absent is copied. The reader keeps which field they do
     /// not encode, and why; `self` holds some value then.
     #[must_use]
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a>;
+    fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F>;
 
     /// The value that the next bits encode, and the reader behind it.
     ///
     /// # Errors
     /// Which field they do not encode, and why.
     #[inline]
-    fn decode(reader: Reader<'_>) -> Result<Read<'_, Self>, Error> {
+    fn decode(reader: Reader<'_, First>) -> Result<Read<'_, Self, First>, Error> {
         let mut value = Self::LOWEST;
         let reader = value.read(reader).result()?;
         Ok((value, reader))
@@ -111,11 +111,32 @@ pub fn encode<T: Uper>(value: &T, buffer: &mut [u8]) -> Result<usize, Error> {
 /// # Errors
 /// Which field is wrong, and why.
 pub fn decode<T: Uper>(octets: &[u8]) -> Result<(T, usize), Error> {
+    // In place from the start: a message is large, and would be copied for each name that it gets.
+    let mut decoded = Ok((T::LOWEST, 0));
+    if let Ok((value, extended)) = &mut decoded {
+        let reader = read_message(value, Reader::<Whether>::new(octets));
+        *extended = reader.extended();
+        if reader.has_failed() {
+            decoded = Err(diagnose::<T>(octets));
+        }
+    }
+    decoded
+}
+
+/// Why [`decode`] refuses `octets`.
+#[cold]
+fn diagnose<T: Uper>(octets: &[u8]) -> Error {
     let mut value = T::LOWEST;
-    let reader = value.read(Reader::new(octets)).padding(0).result()?;
+    read_message(&mut value, Reader::<First>::new(octets)).error()
+}
+
+/// Reads the value that `reader` has all octets of, with its padding.
+#[inline]
+fn read_message<'a, T: Uper, F: Faults>(value: &mut T, reader: Reader<'a, F>) -> Reader<'a, F> {
+    let reader = value.read(reader).padding(0);
     match reader.left() / 8 {
-        0 => Ok((value, reader.extended())),
-        octets => Err(Error::at(reader.position(), Fault::Trailing { octets })),
+        0 => reader,
+        octets => reader.fail(reader.position(), Fault::Trailing { octets }),
     }
 }
 
@@ -136,7 +157,7 @@ impl Uper for Null {
         writer
     }
 
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+    fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
         reader
     }
 
@@ -154,7 +175,7 @@ impl Uper for bool {
     }
 
     #[inline]
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+    fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
         let behind;
         (*self, behind) = reader.bit();
         behind

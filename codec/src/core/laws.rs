@@ -49,7 +49,7 @@
 )]
 #![allow(clippy::missing_panics_doc, reason = "a law panics where it is broken")]
 
-use super::{Fault, Reader, Uper, Writer, decode, encode, max_octets, width};
+use super::{Fault, First, Reader, Uper, Writer, decode, encode, max_octets, width};
 
 /// Whatever the octets are, decoding them ends with a value or an error, and a value has been read
 /// from bits that are there, no more of them than its type has or extension additions explain.
@@ -151,14 +151,14 @@ pub fn bits_are_read_as_written(before: (u32, u32), number: (u32, u32), after: (
     }
     let length = writer.finish();
     assert!(length == Ok(position.div_ceil(8).max(1)));
-    let mut reader = Reader::new(&buffer);
+    let mut reader = Reader::<First>::new(&buffer);
     for (number, count) in parts {
         let (read, behind) = reader.bits(count);
         assert!(read == number && !behind.has_failed());
         reader = behind;
     }
     assert!(reader.position() == position);
-    assert!(length.is_ok_and(|length| Reader::new(&buffer[..length]).left() >= position));
+    assert!(length.is_ok_and(|length| Reader::<First>::new(&buffer[..length]).left() >= position));
 }
 
 /// Reading `count` bits, modulo 33, from octets that have fewer is an error at their end; from others
@@ -166,7 +166,7 @@ pub fn bits_are_read_as_written(before: (u32, u32), number: (u32, u32), after: (
 pub fn reading_stops_at_the_end(octets: &[u8], position: usize, count: u32) {
     let count = count % 33;
     let bits = octets.len() * 8;
-    let reader = Reader::new(octets).skip(position);
+    let reader = Reader::<First>::new(octets).skip(position);
     assert!(reader.has_failed() == (position > bits));
     if position > bits {
         return;
@@ -201,7 +201,7 @@ pub fn integers_keep_their_bounds(min: i64, max: i64, bits: u32) {
     let length = Writer::new(&mut buffer).bits(offset, count).finish();
     assert!(length.is_ok());
     let number = min + i64::from(offset);
-    let (read, reader) = Reader::new(&buffer).integer(min, max);
+    let (read, reader) = Reader::<First>::new(&buffer).integer(min, max);
     match reader.result() {
         Ok(reader) => {
             assert!(read == number && number <= max && reader.position() == count as usize);
@@ -219,7 +219,7 @@ pub fn integers_keep_their_bounds(min: i64, max: i64, bits: u32) {
 /// What is behind an extension bit is skipped, or refused, without a panic: at most one SEQUENCE more
 /// has additions, and only bits that are there are gone.
 pub fn skipping_additions_is_total(octets: &[u8]) {
-    let reader = Reader::new(octets);
+    let reader = Reader::<First>::new(octets);
     match reader.skip_additions().result() {
         Ok(behind) => {
             // A bitmap of one bit, a length, an octet.

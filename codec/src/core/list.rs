@@ -4,7 +4,7 @@ use core::fmt;
 use core::ops::Deref;
 
 use super::error::{Fault, Field};
-use super::reader::Reader;
+use super::reader::{Faults, Reader};
 use super::source::Source;
 use super::writer::Writer;
 use super::{Uper, width};
@@ -96,7 +96,7 @@ impl<T: Uper, const MIN: usize, const MAX: usize, const CAPACITY: usize, const E
         writer
     }
 
-    fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+    fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
         let start = reader.position();
         let reader = if EXTENSIBLE { reader.root() } else { reader };
         let (offset, mut reader) = reader.bits(Self::SIZE_BITS);

@@ -96,7 +96,7 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+            fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
                 let (number, reader) = if $extensible {
                     reader.extensible_integer($min.into(), $max.into())
                 } else {
@@ -148,7 +148,7 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+            fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
                 let (first_highest, reader) = reader.bits($size);
                 let bits = (first_highest as $rust) << ($rust::BITS - $size);
                 self.0 = bits.reverse_bits();
@@ -192,7 +192,7 @@ macro_rules! asn1 {
             }
 
             #[inline]
-            fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+            fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
                 let (index, reader) = reader.enumerated(Self::ALL.len(), $extensible);
                 *self = Self::ALL[index];
                 reader
@@ -264,7 +264,7 @@ macro_rules! asn1 {
                 }
 
                 #[inline]
-                fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+                fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
                     let (is_extended, reader) = if $extensible {
                         reader.bit()
                     } else {
@@ -354,7 +354,7 @@ macro_rules! asn1 {
                 }
 
                 #[inline]
-                fn read<'a>(&mut self, reader: Reader<'a>) -> Reader<'a> {
+                fn read<'a, F: Faults>(&mut self, reader: Reader<'a, F>) -> Reader<'a, F> {
                     let start = reader.position();
                     let (is_addition, reader) = if $extensible {
                         reader.bit()
@@ -365,7 +365,7 @@ macro_rules! asn1 {
                         let (index, reader) = reader.small_number();
                         $(if index == Some(Index::$addition as usize - ROOT) {
                             let had_failed = reader.has_failed();
-                            let (value, reader) = open_type::decode::<$addition_type>(reader);
+                            let (value, reader) = open_type::decode::<$addition_type, _>(reader);
                             *self = Self::$addition(value);
                             return reader.behind_field(Index::$addition as usize, had_failed);
                         })*
@@ -463,7 +463,7 @@ pub(super) mod prelude {
     pub(in crate::core) use super::super::error::{FIELDS_MAX, Fault, Field};
     pub(in crate::core) use super::super::list::SequenceOf;
     pub(in crate::core) use super::super::open_type;
-    pub(in crate::core) use super::super::reader::Reader;
+    pub(in crate::core) use super::super::reader::{Faults, Reader};
     pub(in crate::core) use super::super::source::Source;
     pub(in crate::core) use super::super::writer::Writer;
     pub(in crate::core) use super::super::{Null, Uper, width};
@@ -474,15 +474,15 @@ pub(super) use {asn1, component};
 
 use super::Uper;
 use super::error::Fault;
-use super::reader::Reader;
+use super::reader::{Faults, Reader};
 
 /// Reads the component, if it is present.
 #[inline]
-pub(super) fn read_optional<'a, T: Uper>(
+pub(super) fn read_optional<'a, T: Uper, F: Faults>(
     slot: &mut Option<T>,
-    reader: Reader<'a>,
+    reader: Reader<'a, F>,
     is_present: bool,
-) -> Reader<'a> {
+) -> Reader<'a, F> {
     if !is_present {
         return reader;
     }
@@ -492,11 +492,11 @@ pub(super) fn read_optional<'a, T: Uper>(
 /// Reads the component if it is present, which it is only if it is not its default (X.691 clause
 /// 19.5). The slot holds the default.
 #[inline]
-pub(super) fn read_defaulted<'a, T: Uper>(
+pub(super) fn read_defaulted<'a, T: Uper, F: Faults>(
     slot: &mut T,
-    reader: Reader<'a>,
+    reader: Reader<'a, F>,
     is_present: bool,
-) -> Reader<'a> {
+) -> Reader<'a, F> {
     if !is_present {
         return reader;
     }

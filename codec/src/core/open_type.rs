@@ -1,7 +1,7 @@
 //! Open types: an extension addition of a CHOICE that is known (X.691 clauses 11.2 and 23.8).
 
 use super::Uper;
-use super::reader::{Read, Reader};
+use super::reader::{Faults, Read, Reader};
 use super::writer::Writer;
 
 /// Octets of a value in an open type. All values of `T` have the same size, an integer's.
@@ -30,7 +30,7 @@ pub(super) fn encode_addition<'a, T: Uper>(
 }
 
 /// Reads the value in an open type.
-pub(super) fn decode<T: Uper>(reader: Reader<'_>) -> Read<'_, T> {
+pub(super) fn decode<T: Uper, F: Faults>(reader: Reader<'_, F>) -> Read<'_, T, F> {
     let (outer, reader) = reader.open();
     let mut value = T::LOWEST;
     let reader = value.read(reader);

@@ -13,18 +13,19 @@ use super::error::{Error, Fault};
 use super::width;
 
 /// What reading gives: a value and the reader behind it.
-pub type Read<'a, T> = (T, Reader<'a>);
+pub type Read<'a, T, F> = (T, Reader<'a, F>);
 
 /// The bits of an encoding from one bit on.
 ///
 /// A reader is passed by value and comes back with what was read, so nothing is read twice. It copies
 /// nothing and never panics.
 ///
-/// It keeps the first fault, and goes on as if there were none: what is read then is some value, which
+/// It takes note of a fault, and goes on as if there were none: what is read then is some value, which
 /// nobody gets to see. So where the next field begins does not depend on whether this one is valid,
-/// which is what makes it easy to prove.
+/// which is what makes it easy to prove. What it notes is up to `F`: a message is read with
+/// [`Whether`], and once more with [`First`] when there was a fault.
 #[derive(Clone, Copy, Debug)]
-pub struct Reader<'a> {
+pub struct Reader<'a, F> {
     octets: &'a [u8],
     /// The next bit; behind the end if there was a fault.
     position: usize,
@@ -32,9 +33,105 @@ pub struct Reader<'a> {
     end: usize,
     /// How many SEQUENCEs had unknown extension additions.
     extended: usize,
-    has_failed: bool,
-    /// The first fault, if it has failed.
+    faults: F,
+}
+
+/// What a reader notes of the faults that it meets. Nothing else depends on it.
+pub trait Faults: Copy {
+    /// Nothing noted.
+    const NONE: Self;
+
+    /// Whether there was a fault.
+    #[must_use]
+    fn is_any(self) -> bool;
+
+    /// Notes a fault at a bit.
+    #[must_use]
+    fn noting(self, bit: usize, fault: Fault) -> Self;
+
+    /// Notes that what was met since [`is_any`](Self::is_any) was `before` is in field `index`.
+    #[must_use]
+    fn within(self, index: usize, before: bool) -> Self;
+}
+
+/// Whether there was a fault. A reader that carries no more than that is several times faster than one
+/// that carries an error.
+///
+/// A number, not a `bool`: the padding behind a `bool` would be copied with the reader, in pieces that
+/// make a processor wait.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Whether(usize);
+
+impl Faults for Whether {
+    const NONE: Self = Self(0);
+
+    #[inline(always)]
+    fn is_any(self) -> bool {
+        self.0 != 0
+    }
+
+    #[inline(always)]
+    fn noting(self, _: usize, _: Fault) -> Self {
+        Self(1)
+    }
+
+    #[inline(always)]
+    fn within(self, _: usize, _: bool) -> Self {
+        self
+    }
+}
+
+/// The first fault, and in which field it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct First {
+    is_any: bool,
+    /// The first one, if there is any.
     error: Error,
+}
+
+impl Faults for First {
+    const NONE: Self = Self {
+        is_any: false,
+        error: Error::at(0, Fault::Truncated),
+    };
+
+    fn is_any(self) -> bool {
+        self.is_any
+    }
+
+    fn noting(mut self, bit: usize, fault: Fault) -> Self {
+        if !self.is_any {
+            self.is_any = true;
+            self.error = Error::at(bit, fault);
+        }
+        self
+    }
+
+    fn within(mut self, index: usize, before: bool) -> Self {
+        if self.is_any && !before {
+            self.error = self.error.within(index);
+        }
+        self
+    }
+}
+
+impl Reader<'_, First> {
+    /// The reader, if there was no fault.
+    ///
+    /// # Errors
+    /// The first fault.
+    pub fn result(self) -> Result<Self, Error> {
+        if self.has_failed() {
+            Err(self.error())
+        } else {
+            Ok(self)
+        }
+    }
+
+    /// The first fault, if there was one.
+    pub(crate) const fn error(self) -> Error {
+        self.faults.error
+    }
 }
 
 /// What is behind an open type that is being read.
@@ -46,7 +143,7 @@ pub struct Outer {
     end: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a, F: Faults> Reader<'a, F> {
     /// All bits of `octets`.
     #[must_use]
     pub const fn new(octets: &'a [u8]) -> Self {
@@ -55,8 +152,7 @@ impl<'a> Reader<'a> {
             position: 0,
             end: octets.len() * 8,
             extended: 0,
-            has_failed: false,
-            error: Error::at(0, Fault::Truncated),
+            faults: F::NONE,
         }
     }
 
@@ -80,41 +176,24 @@ impl<'a> Reader<'a> {
 
     /// Whether there was a fault.
     #[must_use]
-    pub const fn has_failed(self) -> bool {
-        self.has_failed
-    }
-
-    /// The reader, if there was no fault.
-    ///
-    /// # Errors
-    /// The first fault.
     #[inline(always)]
-    pub const fn result(self) -> Result<Self, Error> {
-        if self.has_failed {
-            Err(self.error)
-        } else {
-            Ok(self)
-        }
+    pub fn has_failed(self) -> bool {
+        self.faults.is_any()
     }
 
-    /// Keeps the fault, if it is the first one.
+    /// Notes the fault.
     #[must_use]
     #[inline(always)]
-    pub(crate) const fn fail(mut self, bit: usize, fault: Fault) -> Self {
-        if !self.has_failed {
-            self.has_failed = true;
-            self.error = Error::at(bit, fault);
-        }
+    pub(crate) fn fail(mut self, bit: usize, fault: Fault) -> Self {
+        self.faults = self.faults.noting(bit, fault);
         self
     }
 
     /// Says that field `index` has been read. `had_failed` tells whether there was a fault before it.
     #[must_use]
     #[inline(always)]
-    pub(crate) const fn behind_field(mut self, index: usize, had_failed: bool) -> Self {
-        if self.has_failed && !had_failed {
-            self.error = self.error.within(index);
-        }
+    pub(crate) fn behind_field(mut self, index: usize, had_failed: bool) -> Self {
+        self.faults = self.faults.within(index, had_failed);
         self
     }
 
@@ -122,7 +201,7 @@ impl<'a> Reader<'a> {
     /// left.
     #[must_use]
     #[inline(always)]
-    pub const fn skip(mut self, count: usize) -> Self {
+    pub fn skip(mut self, count: usize) -> Self {
         self.position += count;
         if self.position > self.end {
             return self.fail(self.end, Fault::Truncated);
@@ -134,7 +213,7 @@ impl<'a> Reader<'a> {
     /// [`Fault::Truncated`] when fewer are left.
     #[must_use]
     #[inline(always)]
-    pub fn bits(self, count: u32) -> Read<'a, u32> {
+    pub fn bits(self, count: u32) -> Read<'a, u32, F> {
         debug_assert!(count <= 32);
         if count == 0 {
             return (0, self);
@@ -158,7 +237,7 @@ impl<'a> Reader<'a> {
     /// The next bit.
     #[must_use]
     #[inline(always)]
-    pub fn bit(self) -> Read<'a, bool> {
+    pub fn bit(self) -> Read<'a, bool, F> {
         let (bit, reader) = self.bits(1);
         (bit == 1, reader)
     }
@@ -167,13 +246,13 @@ impl<'a> Reader<'a> {
     /// one.
     #[must_use]
     #[inline(always)]
-    pub fn integer(self, min: i64, max: i64) -> Read<'a, i64> {
+    pub fn integer(self, min: i64, max: i64) -> Read<'a, i64, F> {
         self.integer_of(self.position, min, max)
     }
 
     /// As [`integer`](Self::integer), of a field that begins at bit `start`.
     #[inline(always)]
-    fn integer_of(self, start: usize, min: i64, max: i64) -> Read<'a, i64> {
+    fn integer_of(self, start: usize, min: i64, max: i64) -> Read<'a, i64, F> {
         let (offset, reader) = self.bits(width(min, max));
         let number = min + i64::from(offset);
         if number > max {
@@ -186,7 +265,7 @@ impl<'a> Reader<'a> {
     /// a [`Fault::BeyondRoot`] for one behind the marker.
     #[must_use]
     #[inline(always)]
-    pub fn extensible_integer(self, min: i64, max: i64) -> Read<'a, i64> {
+    pub fn extensible_integer(self, min: i64, max: i64) -> Read<'a, i64, F> {
         self.root().integer_of(self.position, min, max)
     }
 
@@ -206,7 +285,7 @@ impl<'a> Reader<'a> {
     /// [`Fault::UnknownAlternative`] for a larger one.
     #[must_use]
     #[inline(always)]
-    pub fn index(self, count: usize) -> Read<'a, usize> {
+    pub fn index(self, count: usize) -> Read<'a, usize, F> {
         let (index, reader) = self.bits(width(0, count as i64 - 1));
         let index = index as usize;
         if index >= count {
@@ -219,7 +298,7 @@ impl<'a> Reader<'a> {
     /// (X.691 clause 14). There is a [`Fault::UnknownAlternative`] for a value that is not known.
     #[must_use]
     #[inline(always)]
-    pub fn enumerated(self, count: usize, is_extensible: bool) -> Read<'a, usize> {
+    pub fn enumerated(self, count: usize, is_extensible: bool) -> Read<'a, usize, F> {
         if !is_extensible {
             return self.index(count);
         }
@@ -235,7 +314,7 @@ impl<'a> Reader<'a> {
 
     /// A normally small number below 64 (X.691 clause 11.6); `None` for a larger one.
     #[must_use]
-    pub fn small_number(self) -> Read<'a, Option<usize>> {
+    pub fn small_number(self) -> Read<'a, Option<usize>, F> {
         let (is_large, reader) = self.bit();
         if is_large {
             return (None, reader);
@@ -246,7 +325,7 @@ impl<'a> Reader<'a> {
 
     /// A length determinant in octets (X.691 clause 11.9), which no message can exceed in its two
     /// shorter forms. The encoding of a type has at least one octet (X.691 clause 11.1).
-    fn length(self) -> Read<'a, usize> {
+    fn length(self) -> Read<'a, usize, F> {
         let (first, reader) = self.bits(8);
         let (length, least, reader) = match first {
             0..0x80 => (first, 1, reader),
@@ -265,7 +344,7 @@ impl<'a> Reader<'a> {
     /// The inside of an open type (X.691 clause 11.2). [`close`](Self::close) ends it. There is a
     /// [`Fault::Length`], or a [`Fault::Truncated`] when there is less than the length says.
     #[must_use]
-    pub fn open(self) -> Read<'a, Outer> {
+    pub fn open(self) -> Read<'a, Outer, F> {
         let (length, reader) = self.length();
         let (start, end) = (reader.position, reader.end);
         let mut inner = reader.skip(length * 8);
@@ -302,9 +381,25 @@ impl<'a> Reader<'a> {
     }
 
     /// Skips the extension additions of a SEQUENCE (X.691 clauses 19.7 to 19.9), none of which is
-    /// known. Every turn of the loop takes two octets, so the input bounds it.
+    /// known.
     #[must_use]
+    #[inline(always)]
     pub fn skip_additions(self) -> Self {
+        let behind = self.behind_additions();
+        // Part by part, or else a reader would go through memory also where there are no additions.
+        Self {
+            octets: self.octets,
+            position: behind.position,
+            end: self.end,
+            extended: self.extended + 1,
+            faults: behind.faults,
+        }
+    }
+
+    /// The reader behind extension additions. Every turn of the loop takes two octets, so the input
+    /// bounds it.
+    #[cold]
+    fn behind_additions(self) -> Self {
         let (last, reader) = self.small_number();
         let Some(last) = last else {
             return reader.fail(self.position, Fault::TooManyAdditions);
@@ -318,12 +413,11 @@ impl<'a> Reader<'a> {
             return reader.fail(bitmap_start, Fault::NoAddition);
         }
         let mut skipped = 0;
-        while skipped < present && !reader.has_failed {
+        while skipped < present && !reader.has_failed() {
             let (length, behind) = reader.length();
             reader = behind.skip(length * 8);
             skipped += 1;
         }
-        reader.extended += 1;
         reader
     }
 }

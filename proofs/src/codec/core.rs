@@ -10,7 +10,7 @@ pub mod ram;
 pub mod rmcm;
 
 #[cfg(all(kani, not(feature = "stand-in")))]
-use crossguard_codec::core::Reader;
+use crossguard_codec::core::{Faults, Reader};
 use crossguard_codec::core::{Uper, laws};
 
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
@@ -76,7 +76,7 @@ fn cuts<T: Uper, const N: usize>() {
 /// In the place of [`Reader::skip_additions`]: restricts a harness to octets without extension
 /// additions.
 #[cfg(all(kani, not(feature = "stand-in")))]
-fn no_additions<'a>(reader: Reader<'a>) -> Reader<'a>
+fn no_additions<'a, F: Faults>(reader: Reader<'a, F>) -> Reader<'a, F>
 where
     'a: 'a,
 {
@@ -86,7 +86,7 @@ where
 
 /// In the place of [`Reader::skip_additions`]: proves that no encoding of a value leads there.
 #[cfg(all(kani, not(feature = "stand-in")))]
-fn never<'a>(_: Reader<'a>) -> Reader<'a>
+fn never<'a, F: Faults>(_: Reader<'a, F>) -> Reader<'a, F>
 where
     'a: 'a,
 {

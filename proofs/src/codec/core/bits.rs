@@ -1,6 +1,6 @@
 //! What reads and writes bits.
 
-use crossguard_codec::core::{Reader, laws};
+use crossguard_codec::core::{Reader, Whether, laws};
 
 use crate::harness::harnesses;
 use crate::kani;
@@ -53,7 +53,7 @@ harnesses! {
             octets[..3].copy_from_slice(&[1, 1, 0]);
         }
         laws::skipping_additions_is_total(&octets[..length]);
-        let is_skipped = !Reader::new(&octets[..length]).skip_additions().has_failed();
+        let is_skipped = !Reader::<Whether>::new(&octets[..length]).skip_additions().has_failed();
         kani::cover!(is_skipped, "skipped");
         kani::cover!(!is_skipped, "refused");
     }
