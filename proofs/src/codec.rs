@@ -4,3 +4,4 @@ pub mod core;
 pub mod geonet;
 pub mod si;
 pub mod time;
+pub mod view;

@@ -37,7 +37,7 @@ impl Harness {
 /// and the module has a table of them.
 macro_rules! harnesses {
     ($(
-        $(#[doc = $doc:literal])*
+        $(#[doc = $doc:expr])*
         $(
             #[unwind($unwind:literal)]
             #[solver($solver:ident)]
@@ -71,9 +71,11 @@ macro_rules! harnesses {
                         unwind: $unwind,
                         solver: stringify!($solver),
                     })?];
-                    match proofs {
-                        [proof, ..] => Some(*proof),
-                        [] => None,
+                    // Why it is not proved, whatever its bound is.
+                    let reasons: &[&str] = &[$($reason)?];
+                    match (reasons, proofs) {
+                        ([], [proof, ..]) => Some(*proof),
+                        _ => None,
                     }
                 },
                 run: $name,

@@ -14,5 +14,5 @@ pub mod lists;
 pub mod numbers;
 pub mod offering;
 pub mod requesting;
-mod stage;
+pub(crate) mod stage;
 pub mod timers;

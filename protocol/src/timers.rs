@@ -74,7 +74,13 @@ impl Robot {
     /// The time until the next timer fires, `None` when no timer is armed.
     #[must_use]
     pub fn next_due(&self) -> Option<Millis> {
-        self.timers().iter().map(|&(_, left)| left).min()
+        let mut next: Option<Millis> = None;
+        visit_countdowns!(self, iter, (), |_, countdown: &Countdown| {
+            if let Some(left) = countdown.left() {
+                next = Some(next.map_or(left, |next| next.min(left)));
+            }
+        });
+        next
     }
 
     fn first_due(&self) -> Option<Timer> {

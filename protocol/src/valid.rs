@@ -117,6 +117,8 @@ impl Leading {
     fn is_valid(&self, config: &Config) -> bool {
         let at_most = usize::from(self.request.followers);
         Config::can_ask_for(self.request.followers)
+            // It is asked for again when the session is renewed.
+            && !self.request.tasks.is_empty()
             && self.members.is_dense()
             && (1..=at_most).contains(&self.members.len())
             // I18: no two followers with the same station id.

@@ -71,7 +71,9 @@ fn any_headers(transport: Transport) -> Headers {
 
 harnesses! {
     /// Any octets, up to the length of the longest headers and two more.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(64)]
+    #[solver(cadical)]
+    #[random_only("Kani was stopped after 200 s on a busy machine.")]
     fn what_is_accepted_is_canonical() {
         let length = usize::from(kani::any::<u8>()) % (PACKET + 1);
         let octets = any_octets(0x50, length.saturating_sub(40));
@@ -83,7 +85,9 @@ harnesses! {
     }
 
     /// Any headers of single-hop broadcast.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(64)]
+    #[solver(cadical)]
+    #[random_only("Kani was stopped after 200 s on a busy machine.")]
     fn single_hop_headers_come_back() {
         let headers = any_headers(Transport::SingleHop { media: kani::any() });
         laws::what_is_encoded_is_accepted(&headers, &kani::any());
@@ -92,7 +96,9 @@ harnesses! {
     }
 
     /// Any headers of geo-broadcast to a rectangle.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(64)]
+    #[solver(cadical)]
+    #[random_only("Kani was stopped after 200 s on a busy machine.")]
     fn geo_broadcast_headers_come_back() {
         let area = Area {
             shape: Shape::Rectangle,

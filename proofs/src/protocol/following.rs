@@ -4,88 +4,101 @@ use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
 use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{From, any_of, becomes};
-use crate::harness::harnesses;
-use crate::kani;
+use super::stage::{From, becomes, steps};
 
 const FROM: From = From::stage(Stage::Following);
 
-harnesses! {
+steps! { FROM;
     /// A RAM of a leader.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_a_leader() {
-        let step = FROM.any_step(Kind::RamLeader);
-        kani::cover!(becomes(&step, Role::None), "is not listed any more");
-        kani::cover!(!step.is_ignored() && step.said.is_empty(), "hears a newer heartbeat");
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_a_leader(Kind::RamLeader) |step| {
+        "is not listed any more": becomes(step, Role::None),
+        "hears a newer heartbeat": !step.is_ignored() && step.said.is_empty(),
+        "ignored": step.is_ignored(),
     }
 
-    /// Any other RAM.
-    #[random_only("Kani was stopped unfinished.")]
-    fn hears_another_ram() {
-        let kinds = [Kind::RamNone, Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamFollower];
-        any_of(&kinds, |kind| {
-            let step = FROM.any_step(kind);
-            kani::cover!(step.said.has(Sort::StopManeuver), "stops as the session ends");
-            kani::cover!(step.is_ignored(), "ignored");
-        });
+    /// A RAM of a robot without a part in a session.
+    hears_a_farewell(Kind::RamNone) |step| {
+        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM that asks for help.
+    hears_a_request(Kind::RamNeedHelp) |step| {
+        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM that offers help.
+    hears_an_offer(Kind::RamOfferHelp) |step| {
+        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "names a session as over": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM of a follower.
+    hears_a_follower(Kind::RamFollower) |step| {
+        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "names a session as over": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
     }
 
     /// A command.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_a_command() {
-        let step = FROM.any_step(Kind::Command);
-        // No branch in a mark: each branch of it would be a mark of its own to Kani.
-        let starts = step.said.has(Sort::StartManeuver);
-        let answers = step.said.has(Sort::Answer);
-        let changes = step.before != step.after;
-        let supersedes = starts && step.said.has(Sort::StopManeuver);
-        let answers_again = answers && !changes;
-        let rejects = answers && !starts && changes;
-        kani::cover!(supersedes, "supersedes");
-        kani::cover!(starts, "accepts");
-        kani::cover!(answers_again, "answers again");
-        kani::cover!(rejects, "rejects");
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_a_command(Kind::Command) |step| {
+        "supersedes": step.said.has(Sort::StartManeuver) && step.said.has(Sort::StopManeuver),
+        "accepts": step.said.has(Sort::StartManeuver),
+        "answers again": step.said.has(Sort::Answer) && step.before == step.after,
+        "rejects": step.said.has(Sort::Answer) && !step.said.has(Sort::StartManeuver) && step.before != step.after,
+        "ignored": step.is_ignored(),
     }
 
     /// An answer.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_an_answer() {
-        let step = FROM.any_step(Kind::Answer);
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_an_answer(Kind::Answer) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// A pedestrian.
+    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The application commands a maneuver.
+    commands(Kind::Local(Happening::CommandManeuver)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The application opens or closes the corridor.
+    moves_the_corridor(Kind::Local(Happening::Corridor)) |step| {
+        "ignored": step.is_ignored(),
     }
 
     /// A maneuver that ended.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn ends_a_maneuver() {
-        let step = FROM.any_step(Kind::Local(Happening::ManeuverEnded));
-        kani::cover!(!step.is_ignored(), "reports");
-        kani::cover!(step.is_ignored(), "ignored");
+    ends_a_maneuver(Kind::Local(Happening::ManeuverEnded)) |step| {
+        "reports": !step.is_ignored(),
+        "ignored": step.is_ignored(),
     }
 
-    /// Any event.
-    #[random_only("not run under Kani to its end.")]
-    fn takes_an_event() {
-        any_of(&Kind::EVENTS, |kind| {
-            let step = FROM.any_step(kind);
-            kani::cover!(becomes(&step, Role::None), "leaves");
-            kani::cover!(step.said.has(Sort::StopManeuver) && becomes(&step, Role::Follower), "stops and stays");
-            kani::cover!(step.is_ignored(), "ignored");
-        });
+    /// The task is completed, or the robot is to leave.
+    ends_a_session(Kind::Local(Happening::SessionEnded)) |step| {
+        "leaves": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The robot becomes available or unavailable.
+    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+        "leaves": becomes(step, Role::None),
+        "stops and stays": step.said.has(Sort::StopManeuver) && becomes(step, Role::Follower),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The robot has another pseudonym.
+    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+        "ignored": step.is_ignored(),
     }
 
     /// The expiry of any timer.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn fires_a_timer() {
-        let step = FROM.any_step(Kind::Expired);
-        kani::cover!(step.said.has(Sort::FallBack), "falls back");
-        kani::cover!(becomes(&step, Role::None), "leaves");
-        kani::cover!(step.is_ignored(), "ignored");
+    fires_a_timer(Kind::Expired) |step| {
+        "falls back": step.said.has(Sort::FallBack),
+        "leaves": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
     }
 }

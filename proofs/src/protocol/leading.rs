@@ -1,113 +1,159 @@
 //! Stages 3 and 4: a leader, with one or two followers.
 
 use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::{Countdown, Happening, Kind, Stage};
 use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{From, any_of, becomes};
-use crate::harness::harnesses;
-use crate::kani;
+use super::stage::{From, becomes, steps};
 
 /// How many followers the leader has, at most: one that a message is about, and another.
 const FOLLOWERS: usize = 2;
 
-/// A RAM says nothing but the leader's or follower's part in a session, unless it says nothing but a
-/// farewell.
+/// A RAM says nothing but its sender's part in a session, unless it says nothing but a farewell.
 const FROM: From = From {
     peers: (1, FOLLOWERS),
     farewells: false,
     ..From::stage(Stage::Leading)
 };
 
-harnesses! {
+steps! { FROM;
     /// A RAM of a follower.
-    #[random_only("not run under Kani to its end.")]
-    fn hears_a_follower() {
-        let step = FROM.any_step(Kind::RamFollower);
-        kani::cover!(step.said.has(Sort::FollowerJoined), "joins");
-        kani::cover!(step.said.has(Sort::LeaseGranted), "grants a lease");
-        kani::cover!(step.said.has(Sort::CommandAcknowledged), "counts as acknowledged");
-        kani::cover!(step.said.has(Sort::ManeuverCompleted), "counts as completed");
-        kani::cover!(step.said.has(Sort::CorridorClosed), "closes the corridor");
-        kani::cover!(step.is_ignored(), "ignored");
+    #[random_only("Kani was stopped unfinished, after two to seven minutes on a busy machine.")]
+    hears_a_follower(Kind::RamFollower) |step| {
+        "joins": step.said.has(Sort::FollowerJoined),
+        "grants a lease": step.said.has(Sort::LeaseGranted),
+        "counts as acknowledged": step.said.has(Sort::CommandAcknowledged),
+        "counts as completed": step.said.has(Sort::ManeuverCompleted),
+        "closes the corridor": step.said.has(Sort::CorridorClosed),
+        "ignored": step.is_ignored(),
     }
 
-    /// A RAM without a part, which may name a session as over.
-    #[random_only("Kani was stopped unfinished.")]
-    fn hears_a_farewell() {
-        let step = From { farewells: true, ..FROM }.any_step(Kind::RamNone);
-        kani::cover!(becomes(&step, Role::None), "the last follower left");
-        kani::cover!(step.said.has(Sort::FollowerGone) && becomes(&step, Role::Leader), "a follower left");
-        kani::cover!(step.is_ignored(), "ignored");
+    /// A RAM of a robot without a part in a session.
+    hears_a_farewell(Kind::RamNone) |step| {
+        "the last follower left": becomes(step, Role::None),
+        "a follower left": step.said.has(Sort::FollowerGone) && becomes(step, Role::Leader),
+        "ignored": step.is_ignored(),
     }
 
-    /// Any other RAM.
-    #[random_only("not run under Kani to its end.")]
-    fn hears_another_ram() {
-        let kinds = [Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamLeader];
-        any_of(&kinds, |kind| {
-            let step = FROM.any_step(kind);
-            kani::cover!(step.said.has(Sort::SendRam), "names a session as over");
-            kani::cover!(step.is_ignored(), "ignored");
-        });
+    /// A RAM that asks for help.
+    hears_a_request(Kind::RamNeedHelp) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM that offers help.
+    hears_an_offer(Kind::RamOfferHelp) |step| {
+        "names a session as over": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM of a leader.
+    hears_a_leader(Kind::RamLeader) |step| {
+        "names a session as over": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
     }
 
     /// A command.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_a_command() {
-        let step = FROM.any_step(Kind::Command);
-        kani::cover!(step.said.has(Sort::SendRam), "says farewell");
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_a_command(Kind::Command) |step| {
+        "says farewell": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
     }
 
     /// An answer.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_an_answer() {
-        let step = FROM.any_step(Kind::Answer);
-        kani::cover!(step.said.has(Sort::CommandAcknowledged), "acknowledged");
-        kani::cover!(step.said.has(Sort::CommandRejected), "rejected");
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_an_answer(Kind::Answer) |step| {
+        "acknowledged": step.said.has(Sort::CommandAcknowledged),
+        "rejected": step.said.has(Sort::CommandRejected),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A pedestrian.
+    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+        "ignored": step.is_ignored(),
     }
 
     /// The application commands a maneuver.
-    #[random_only("not run under Kani to its end.")]
-    fn commands() {
-        let step = FROM.any_step(Kind::Local(Happening::CommandManeuver));
-        kani::cover!(step.said.has(Sort::Command), "commands");
-        kani::cover!(step.said.has(Sort::Renewed), "renews the session");
-        kani::cover!(step.is_ignored(), "ignored");
+    commands(Kind::Local(Happening::CommandManeuver)) |step| {
+        "commands": step.said.has(Sort::Command),
+        "renews the session": step.said.has(Sort::Renewed),
+        "ignored": step.is_ignored(),
     }
 
     /// The application opens or closes the corridor.
-    #[random_only("not run under Kani to its end.")]
-    fn moves_the_corridor() {
-        let step = FROM.any_step(Kind::Local(Happening::Corridor));
-        kani::cover!(step.said.has(Sort::CorridorOpened), "opens");
-        kani::cover!(step.said.has(Sort::CorridorClosed), "closes");
-        kani::cover!(step.is_ignored(), "ignored");
+    #[random_only("Kani was stopped unfinished, after two to seven minutes on a busy machine.")]
+    moves_the_corridor(Kind::Local(Happening::Corridor)) |step| {
+        "opens": step.said.has(Sort::CorridorOpened),
+        "closes": step.said.has(Sort::CorridorClosed),
+        "ignored": step.is_ignored(),
     }
 
-    /// Any other event.
-    #[random_only("Kani was stopped unfinished.")]
-    fn takes_an_event() {
-        let kinds = [Happening::PedestrianDetected, Happening::ManeuverEnded, Happening::SessionEnded, Happening::AvailabilityChanged, Happening::IdentityChanged];
-        any_of(&kinds.map(Kind::Local), |kind| {
-            let step = FROM.any_step(kind);
-            kani::cover!(becomes(&step, Role::None), "ends its session");
-            kani::cover!(step.is_ignored(), "ignored");
-        });
+    /// A maneuver that ended.
+    ends_a_maneuver(Kind::Local(Happening::ManeuverEnded)) |step| {
+        "ignored": step.is_ignored(),
     }
 
-    /// The expiry of any timer.
-    #[random_only("not run under Kani to its end.")]
-    fn fires_a_timer() {
-        let step = FROM.any_step(Kind::Expired);
-        kani::cover!(step.said.has(Sort::LeaseExpired), "a lease ran out");
-        kani::cover!(step.said.has(Sort::Command), "repeats a command");
-        kani::cover!(step.said.has(Sort::FollowerGone), "drops a follower");
-        kani::cover!(step.said.has(Sort::ManeuverFailed), "the execution limit ran out");
-        kani::cover!(step.is_ignored(), "ignored");
+    /// The task is completed, or the robot is to leave.
+    ends_a_session(Kind::Local(Happening::SessionEnded)) |step| {
+        "ends its session": becomes(step, Role::None),
+    }
+
+    /// The robot becomes available or unavailable.
+    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+        "ends its session": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The robot has another pseudonym.
+    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The end of a lease.
+    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
+    loses_a_lease(Kind::Fires(Countdown::Lease)) |step| {
+        "a lease ran out": step.said.has(Sort::LeaseExpired),
+        "closes the corridor": step.said.has(Sort::CorridorClosed),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A follower without a lease for too long.
+    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
+    gives_up_a_follower(Kind::Fires(Countdown::Lost)) |step| {
+        "drops a follower": step.said.has(Sort::FollowerGone),
+        "ends its session": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// `T_exec`.
+    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
+    limits_an_execution(Kind::Fires(Countdown::Execution)) |step| {
+        "the execution limit ran out": step.said.has(Sort::ManeuverFailed),
+        "ignored": step.is_ignored(),
+    }
+
+    /// `T_ack`.
+    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
+    misses_an_acknowledgement(Kind::Fires(Countdown::Acknowledgement)) |step| {
+        "repeats a command": step.said.has(Sort::Command),
+        "drops a follower": step.said.has(Sort::FollowerGone),
+        "ends its session": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// `T_lock`.
+    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
+    must_unlock(Kind::Fires(Countdown::IdentityLock)) |step| {
+        "ends its session": becomes(step, Role::None),
+    }
+
+    /// The next RAM.
+    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
+    repeats_itself(Kind::Fires(Countdown::Ram)) |step| {
+        "sends": step.said.has(Sort::SendRam),
+    }
+
+    /// The end of a farewell.
+    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
+    ends_a_farewell(Kind::Fires(Countdown::Farewell)) |step| {
+        "ends it": !step.is_ignored(),
+        "ignored": step.is_ignored(),
     }
 }

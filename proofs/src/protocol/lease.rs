@@ -17,7 +17,9 @@ fn any_time() -> u32 {
 
 harnesses! {
     /// All timers and clocks up to 65 s, with the default drift.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(24)]
+    #[solver(cadical)]
+    #[random_only("Kani was stopped after 200 s on a busy machine.")]
     fn the_lease_ends_before_safety() {
         let settings = Settings {
             t_lease: Millis(any_time()),
@@ -33,7 +35,9 @@ harnesses! {
     }
 
     /// All leaders with the default configuration, all heartbeats, up to 65 s at once.
-    #[random_only("not run under Kani to its end.")]
+    #[unwind(6)]
+    #[solver(cadical)]
+    #[random_only("Kani was stopped after 200 s on a busy machine.")]
     fn heartbeats_age_as_time_passes() {
         let config = Config::default();
         let robot = any_valid(&config, Stage::Leading, (1, 1));

@@ -1,71 +1,98 @@
 //! Stage 2: a robot that offers help.
 
 use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Kind, Stage};
+use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
 use crossguard_protocol::laws::watch::Sort;
 
-use super::stage::{From, any_of, becomes};
-use crate::harness::harnesses;
-use crate::kani;
+use super::stage::{From, becomes, steps};
 
 const FROM: From = From::stage(Stage::Offering);
 
-harnesses! {
+steps! { FROM;
     /// A RAM of a leader.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_a_leader() {
-        let step = FROM.any_step(Kind::RamLeader);
-        kani::cover!(becomes(&step, Role::Follower), "joins");
-        kani::cover!(becomes(&step, Role::None), "is not listed");
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_a_leader(Kind::RamLeader) |step| {
+        "joins": becomes(step, Role::Follower),
+        "is not listed": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
     }
 
-    /// Any other RAM.
-    #[random_only("not run under Kani to its end.")]
-    fn hears_another_ram() {
-        let kinds = [Kind::RamNone, Kind::RamNeedHelp, Kind::RamOfferHelp, Kind::RamFollower];
-        any_of(&kinds, |kind| {
-            let step = FROM.any_step(kind);
-            kani::cover!(becomes(&step, Role::None), "the session ended");
-            kani::cover!(step.said.has(Sort::SendRam) && becomes(&step, Role::Helper), "names a session as over");
-            kani::cover!(step.is_ignored(), "ignored");
-        });
+    /// A RAM of a robot without a part in a session.
+    hears_a_farewell(Kind::RamNone) |step| {
+        "the session ended": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM that asks for help.
+    hears_a_request(Kind::RamNeedHelp) |step| {
+        "the session ended": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM that offers help.
+    hears_an_offer(Kind::RamOfferHelp) |step| {
+        "the session ended": becomes(step, Role::None),
+        "names a session as over": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A RAM of a follower.
+    hears_a_follower(Kind::RamFollower) |step| {
+        "the session ended": becomes(step, Role::None),
+        "names a session as over": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
     }
 
     /// A command.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_a_command() {
-        let step = FROM.any_step(Kind::Command);
-        kani::cover!(step.said.has(Sort::SendRam), "says farewell");
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_a_command(Kind::Command) |step| {
+        "says farewell": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
     }
 
     /// An answer.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn hears_an_answer() {
-        let step = FROM.any_step(Kind::Answer);
-        kani::cover!(step.is_ignored(), "ignored");
+    hears_an_answer(Kind::Answer) |step| {
+        "ignored": step.is_ignored(),
     }
 
-    /// Any event.
-    #[random_only("not run under Kani to its end.")]
-    fn takes_an_event() {
-        any_of(&Kind::EVENTS, |kind| {
-            let step = FROM.any_step(kind);
-            kani::cover!(becomes(&step, Role::None), "leaves");
-            kani::cover!(step.is_ignored(), "ignored");
-        });
+    /// A pedestrian.
+    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The application commands a maneuver.
+    commands(Kind::Local(Happening::CommandManeuver)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The application opens or closes the corridor.
+    moves_the_corridor(Kind::Local(Happening::Corridor)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// A maneuver that ended.
+    ends_a_maneuver(Kind::Local(Happening::ManeuverEnded)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The task is completed, or the robot is to leave.
+    ends_a_session(Kind::Local(Happening::SessionEnded)) |step| {
+        "leaves": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The robot becomes available or unavailable.
+    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+        "withdraws": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The robot has another pseudonym.
+    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+        "ignored": step.is_ignored(),
     }
 
     /// The expiry of any timer.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn fires_a_timer() {
-        let step = FROM.any_step(Kind::Expired);
-        kani::cover!(becomes(&step, Role::None), "withdraws");
-        kani::cover!(step.is_ignored(), "ignored");
+    fires_a_timer(Kind::Expired) |step| {
+        "withdraws": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
     }
 }

@@ -1,8 +1,7 @@
 //! What the harnesses of all stages have in common: one step from any valid state.
 
-use crossguard_protocol::laws::Source;
 use crossguard_protocol::laws::arbitrary::{self, Kind, Stage};
-use crossguard_protocol::laws::steps::{self, Taken};
+use crossguard_protocol::laws::steps::{Taken, all};
 use crossguard_protocol::{Config, Robot, Role};
 
 use crate::{Symbolic, kani};
@@ -28,7 +27,8 @@ pub(super) struct From {
     pub(super) stage: Stage,
     /// How many offers or followers there are, at least and at most.
     pub(super) peers: (usize, usize),
-    /// Whether a RAM may name a session as over.
+    /// Whether a RAM that tells a part in a session may name another one as over. One that tells none
+    /// always may.
     pub(super) farewells: bool,
 }
 
@@ -47,23 +47,11 @@ impl From {
     pub(super) fn any_step(self, kind: Kind) -> Taken {
         let config = Config::default();
         let robot = any_valid(&config, self.stage, self.peers);
-        let input = arbitrary::input(&mut Symbolic, kind, self.farewells);
+        let farewells = self.farewells || kind == Kind::RamNone;
+        let input = arbitrary::input(&mut Symbolic, kind, farewells);
         let step = Taken::new(&config, robot, input);
-        steps::all(&config, &step);
+        all(&config, &step);
         step
-    }
-}
-
-/// Any of these kinds. To a proof each is a case of its own.
-pub(super) fn any_of(kinds: &[Kind], mut check: impl FnMut(Kind)) {
-    let last = u32::try_from(kinds.len() - 1).unwrap_or(0);
-    let which = Symbolic.number(last, u32::MAX) as usize;
-    let mut i = 0;
-    while i < kinds.len() {
-        if i == which {
-            check(kinds[i]);
-        }
-        i += 1;
     }
 }
 
@@ -71,3 +59,30 @@ pub(super) fn any_of(kinds: &[Kind], mut check: impl FnMut(Kind)) {
 pub(super) fn becomes(step: &Taken, role: Role) -> bool {
     step.after.role() == role
 }
+
+/// Declares the harnesses of a stage: one step from any valid state of it, with any input of one kind
+/// (to a proof each is a case of its own), and what must be able to come of it.
+macro_rules! steps {
+    ($from:expr; $(
+        $(#[doc = $doc:literal])*
+        $(#[random_only($reason:literal)])?
+        $name:ident($kind:expr) |$step:ident| { $($mark:literal: $came:expr),+ $(,)? }
+    )+) => {
+        $crate::harness::harnesses! { $(
+            $(#[doc = $doc])*
+            #[unwind(6)]
+            #[solver(cadical)]
+            $(#[random_only($reason)])?
+            fn $name() {
+                let $step = &$from.any_step($kind);
+                // No branch in a mark: each branch of it would be a mark of its own to Kani.
+                $(
+                    let came: bool = $came;
+                    $crate::kani::cover!(came, $mark);
+                )+
+            }
+        )+ }
+    };
+}
+
+pub(super) use steps;

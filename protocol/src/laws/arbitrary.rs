@@ -19,7 +19,7 @@ use crate::task::{
 };
 use crate::time::Millis;
 
-pub use input::{Happening, Kind, event, input, timer};
+pub use input::{Countdown, Happening, Kind, event, input, timer};
 pub use message::{answer, command, ram};
 pub use state::{Peers, Stage, robot, valid_robot};
 
@@ -190,7 +190,8 @@ fn unavailability(source: &mut impl Source) -> Unavailability {
     }
 }
 
-fn availability(source: &mut impl Source) -> Availability {
+/// Any availability.
+pub fn availability(source: &mut impl Source) -> Availability {
     match source.number(1, 0) {
         0 => Availability::Available,
         _ => Availability::Unavailable(unavailability(source)),

@@ -16,7 +16,7 @@ use crate::input::{Input, Timer};
 use crate::robot::Step;
 use crate::state::{Contact, Phase, Robot};
 use crate::time::Millis;
-use crate::{MAX_OUTPUTS, MAX_TIMERS};
+use crate::{MAX_FOLLOWERS, MAX_OUTPUTS, MAX_TIMERS};
 
 use super::steps::Taken;
 use super::watch::{Sort, Watch};
@@ -63,13 +63,17 @@ pub fn firing_keeps_within_the_outputs(fired: &Taken) {
     assert!(said + outputs_to_come(&fired.after) <= outputs_to_come(&fired.before));
 }
 
-/// How many outputs besides `SendRam` the rounds of a step can still have: one for each
-/// timer that is due, and what the robot has to tell when it loses its part in the session.
+/// How many outputs besides `SendRam` the rounds of a step can still have: one for each timer that is
+/// due, one for each follower that is dropped because its echo is too old, and what the robot has to
+/// tell when it loses its part in the session.
 #[must_use]
 pub fn outputs_to_come(robot: &Robot) -> usize {
     let parting = match robot.phase() {
         Phase::Idle => 0,
         Phase::Following(following) if matches!(following.contact, Contact::Fresh(_)) => 3,
+        Phase::Leading(leading) => 2 + leading.members.len(),
+        // It may become a leader in one of the rounds.
+        Phase::Requesting(_) => 2 + MAX_FOLLOWERS,
         _ => 2,
     };
     robot.due_timers() + parting
@@ -77,7 +81,7 @@ pub fn outputs_to_come(robot: &Robot) -> usize {
 
 /// All rounds, the RAM, and the two outputs with which a step settles. A follower has one timer of
 /// its own, so what it has to tell besides does not add to that of a leader.
-const _: () = assert!(MAX_TIMERS + 2 + 1 + 2 <= MAX_OUTPUTS);
+const _: () = assert!(MAX_TIMERS + MAX_FOLLOWERS + 2 + 1 + 2 <= MAX_OUTPUTS);
 
 /// 3: the state becomes valid, with at most two outputs.
 pub fn settling_makes_the_state_valid(config: &Config, robot: &Robot) {

@@ -27,8 +27,10 @@ pub enum Kind {
     Answer,
     /// Elapsed time.
     Elapsed,
-    /// The expiry of a timer.
+    /// The expiry of any timer.
     Expired,
+    /// The expiry of such a timer.
+    Fires(Countdown),
     /// An event of the application.
     Local(Happening),
 }
@@ -50,6 +52,60 @@ pub enum Happening {
     Corridor,
     /// [`Event::IdentityChanged`].
     IdentityChanged,
+}
+
+/// The kinds of timers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs, reason = "each is the timer of that name")]
+pub enum Countdown {
+    Safety,
+    Leave,
+    Lease,
+    Lost,
+    Execution,
+    Acknowledgement,
+    Help,
+    Selection,
+    Reservation,
+    IdentityLock,
+    Farewell,
+    Ram,
+}
+
+impl Countdown {
+    /// All of them.
+    pub const ALL: [Self; 12] = [
+        Self::Safety,
+        Self::Leave,
+        Self::Lease,
+        Self::Lost,
+        Self::Execution,
+        Self::Acknowledgement,
+        Self::Help,
+        Self::Selection,
+        Self::Reservation,
+        Self::IdentityLock,
+        Self::Farewell,
+        Self::Ram,
+    ];
+
+    /// Any timer of this kind.
+    pub fn timer(self, source: &mut impl Source) -> Timer {
+        match self {
+            Self::Safety => Timer::Safety,
+            Self::Leave => Timer::Leave,
+            Self::Lease => Timer::Lease(station(source, PEER)),
+            Self::Lost => Timer::Lost(station(source, PEER)),
+            Self::Execution => Timer::Execution(station(source, PEER)),
+            Self::Acknowledgement => Timer::Acknowledgement(station(source, PEER)),
+            Self::Help => Timer::Help,
+            Self::Selection => Timer::Selection,
+            Self::Reservation => Timer::Reservation,
+            Self::IdentityLock => Timer::IdentityLock,
+            Self::Farewell => Timer::Farewell,
+            Self::Ram => Timer::Ram,
+        }
+    }
 }
 
 impl Kind {
@@ -77,6 +133,7 @@ pub fn input(source: &mut impl Source, kind: Kind, farewells: bool) -> Input {
         Kind::Answer => return Input::Rmcm(Rmcm::Answer(answer(source))),
         Kind::Elapsed => return Input::Elapsed(Millis(source.number(u32::MAX, 100))),
         Kind::Expired => return Input::Expired(timer(source)),
+        Kind::Fires(countdown) => return Input::Expired(countdown.timer(source)),
         Kind::Local(happening) => return Input::Local(event(source, happening)),
     };
     Input::Ram {
@@ -121,18 +178,5 @@ pub fn event(source: &mut impl Source, happening: Happening) -> Event {
 
 /// Any timer.
 pub fn timer(source: &mut impl Source) -> Timer {
-    match choice(source, 12) {
-        0 => Timer::Safety,
-        1 => Timer::Leave,
-        2 => Timer::Lease(station(source, PEER)),
-        3 => Timer::Lost(station(source, PEER)),
-        4 => Timer::Execution(station(source, PEER)),
-        5 => Timer::Acknowledgement(station(source, PEER)),
-        6 => Timer::Help,
-        7 => Timer::Selection,
-        8 => Timer::Reservation,
-        9 => Timer::IdentityLock,
-        10 => Timer::Farewell,
-        _ => Timer::Ram,
-    }
+    Countdown::ALL[choice(source, 12) as usize].timer(source)
 }

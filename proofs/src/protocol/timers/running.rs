@@ -1,0 +1,57 @@
+//! 1: all countdowns run.
+
+use crossguard_protocol::laws::arbitrary::Stage;
+use crossguard_protocol::laws::{Source, timers as laws};
+use crossguard_protocol::{Config, Millis};
+
+use super::peers;
+use crate::harness::harnesses;
+use crate::protocol::stage::any_valid;
+use crate::{Symbolic, kani};
+
+fn any_running(stage: Stage) {
+    let config = Config::default();
+    let robot = any_valid(&config, stage, peers(stage));
+    let elapsed = Millis(Symbolic.number(u32::MAX, 100));
+    laws::running_keeps_the_state_consistent(&config, &robot, elapsed);
+    let is_any_due = robot.next_due().is_some_and(|due| due <= elapsed);
+    kani::cover!(is_any_due, "some are due");
+    kani::cover!(!is_any_due, "none is due");
+}
+
+harnesses! {
+    /// A robot without a part in a session.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn idle() {
+        any_running(Stage::Idle);
+    }
+
+    /// A requester.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn requesting() {
+        any_running(Stage::Requesting);
+    }
+
+    /// A helper.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn offering() {
+        any_running(Stage::Offering);
+    }
+
+    /// A follower.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn following() {
+        any_running(Stage::Following);
+    }
+
+    /// A leader.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn leading() {
+        any_running(Stage::Leading);
+    }
+}

@@ -1,0 +1,56 @@
+//! 3: the step settles.
+
+use crossguard_protocol::laws::arbitrary::Stage;
+use crossguard_protocol::laws::timers as laws;
+use crossguard_protocol::{Config, Millis};
+
+use super::any_within_a_step;
+use crate::harness::harnesses;
+use crate::kani;
+
+fn any_settling(stage: Stage) {
+    let config = Config::default();
+    let robot = any_within_a_step(&config, stage);
+    kani::assume(laws::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
+    laws::settling_makes_the_state_valid(&config, &robot);
+    let is_valid = robot.is_valid(&config);
+    kani::cover!(is_valid, "valid already");
+    kani::cover!(!is_valid, "not valid yet");
+}
+
+harnesses! {
+    /// A robot without a part in a session.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn idle() {
+        any_settling(Stage::Idle);
+    }
+
+    /// A requester.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn requesting() {
+        any_settling(Stage::Requesting);
+    }
+
+    /// A helper.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn offering() {
+        any_settling(Stage::Offering);
+    }
+
+    /// A follower.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn following() {
+        any_settling(Stage::Following);
+    }
+
+    /// A leader.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn leading() {
+        any_settling(Stage::Leading);
+    }
+}
