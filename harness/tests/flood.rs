@@ -3,8 +3,6 @@
 mod support;
 
 use std::net::UdpSocket;
-use std::process::Stdio;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -66,26 +64,7 @@ fn flood(port: u16, stop: &AtomicBool) -> u32 {
 
 #[test]
 fn the_crossing_goes_on_in_a_flood_of_other_stations() {
-    let port = two_free_ports();
-    let child = crossguard(&[
-        "demo",
-        "--speed",
-        "10",
-        "--port",
-        &port.to_string(),
-        "--json",
-    ])
-    .stdout(Stdio::piped())
-    .spawn()
-    .unwrap();
-    let done = Arc::new(AtomicBool::new(false));
-    let stop = Arc::clone(&done);
-    let attacker = std::thread::spawn(move || flood(port, &stop));
-    let output = child.wait_with_output().unwrap();
-    done.store(true, Ordering::Relaxed);
-    let sent = attacker.join().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let result = json(&output);
+    let (result, sent) = demo_under_attack(flood);
     assert_eq!(result["crossings"], 1);
     assert_eq!(result["trace_valid"], true);
     for robot in ["ARI", "Go2"] {

@@ -3,9 +3,7 @@
 mod support;
 
 use std::net::UdpSocket;
-use std::process::Stdio;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use crossguard_codec::geonet::EgoPosition;
@@ -78,21 +76,7 @@ fn hostile_datagrams() -> Vec<Vec<u8>> {
 
 #[test]
 fn the_crossing_goes_on_among_garbage_and_each_kind_is_counted_by_its_cause() {
-    let port = two_free_ports();
-    let child = crossguard(&[
-        "demo",
-        "--speed",
-        "10",
-        "--port",
-        &port.to_string(),
-        "--json",
-    ])
-    .stdout(Stdio::piped())
-    .spawn()
-    .unwrap();
-    let done = Arc::new(AtomicBool::new(false));
-    let stop = Arc::clone(&done);
-    let attacker = std::thread::spawn(move || {
+    let (result, ()) = demo_under_attack(|port, stop| {
         let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
         let datagrams = hostile_datagrams();
         while !stop.load(Ordering::Relaxed) {
@@ -104,11 +88,6 @@ fn the_crossing_goes_on_among_garbage_and_each_kind_is_counted_by_its_cause() {
             std::thread::sleep(Duration::from_millis(5));
         }
     });
-    let output = child.wait_with_output().unwrap();
-    done.store(true, Ordering::Relaxed);
-    attacker.join().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let result = json(&output);
     assert_eq!(result["trace_valid"], true);
     for robot in ["ARI", "Go2"] {
         let counters = &result["counters"][robot];

@@ -27,7 +27,7 @@ pub type Read<'a, T, F> = (T, Reader<'a, F>);
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'a, F> {
     octets: &'a [u8],
-    /// The next bit; behind the end if there was a fault.
+    /// The next bit.
     position: usize,
     /// The bit behind the last one.
     end: usize,

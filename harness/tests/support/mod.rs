@@ -6,6 +6,7 @@ use std::io::Write;
 use std::net::UdpSocket;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
@@ -64,6 +65,27 @@ pub fn two_free_ports() -> u16 {
             return port;
         }
     }
+}
+
+/// What a demo says as JSON, and what `attack` gives, which gets the first of its two ports and goes on
+/// until it is told to stop. The demo has to end well.
+pub fn demo_under_attack<T: Send>(attack: impl FnOnce(u16, &AtomicBool) -> T + Send) -> (Value, T) {
+    let port = two_free_ports();
+    let demo = ["demo", "--speed", "10", "--json", "--port"];
+    let child = crossguard(&demo)
+        .arg(port.to_string())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let done = AtomicBool::new(false);
+    let (output, came) = std::thread::scope(|scope| {
+        let attacker = scope.spawn(|| attack(port, &done));
+        let output = child.wait_with_output().unwrap();
+        done.store(true, Ordering::Relaxed);
+        (output, attacker.join().unwrap())
+    });
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    (json(&output), came)
 }
 
 /// A robot's configuration in a file, with what differs from robot to robot.
