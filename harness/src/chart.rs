@@ -109,6 +109,15 @@ impl Chart {
         marks.map(line).collect()
     }
 
+    /// The line of something that happens to a robot and that it does not record itself.
+    #[must_use]
+    pub fn note(&self, at_us: u64, robot: &str, text: &str) -> Option<String> {
+        let lane = self.lanes.iter().position(|lane| lane.name == robot)?;
+        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+        let time = at_us as f64 / 1e6;
+        Some(note_at(time, LEFT + lane * self.spacing, text))
+    }
+
     /// What a record adds.
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
         let Some(lane) = self.lanes.iter().position(|lane| lane.name == record.robot) else {
@@ -265,6 +274,7 @@ fn note_of_output(output: &Output) -> Option<String> {
             | Notice::ManeuverCompleted(..)
             | Notice::FollowerSafeIdle(..)
             | Notice::SessionEnded(..)
+            | Notice::Released(..)
             | Notice::ContactLost(_)
             | Notice::ContactRegained(_)),
         ) => format!("- {notice}"),

@@ -1,33 +1,33 @@
-//! The paper's proof of concept: a humanoid and a robot dog help a pedestrian across.
+//! Demonstrations: robots with sockets of their own on the loopback interface help a pedestrian across.
 //!
-//! Two endpoints with sockets of their own on the loopback interface; fan-out to the peer stands for
-//! the radio's broadcast. Nothing leaves the machine.
+//! The paper's proof of concept is one of them; the others are its extensions to teams, and what
+//! happens when a robot dies. Fan-out to the peers stands for the radio's broadcast. Nothing leaves the
+//! machine.
+
+mod scenario;
+
+pub use scenario::{Participant, Scenario};
 
 use std::collections::BTreeMap;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_protocol::{Config, Event, Notice, Output, Phase, StationId};
+use crossguard_protocol::{Config, EndReason, Event, Notice, Output, Phase};
 use serde::Serialize;
 
 use crate::application::{Application, Wish};
-use crate::body::{Body, Build};
+use crate::body::Body;
 use crate::capture::Capture;
-use crate::plan::Plan;
 use crate::runtime::{Clock, Order, Running, Setup};
-use crate::site::{Place, Site};
+use crate::site::Site;
 use crate::station::{Mode, Security};
 use crate::timing::{Summary, Timing};
 use crate::trace::{self, Entry, Record};
 use crate::transport::{Faults, Halves, Link, LinkError, Transport, WithFaults};
 use crate::validate::{self, Validated};
 use crate::wire::Wire;
-
-/// The humanoid, which leads.
-pub const ARI: (&str, StationId) = ("ARI", StationId(1));
-/// The robot dog, which follows.
-pub const GO2: (&str, StationId) = ("Go2", StationId(2));
+use scenario::End;
 
 /// How many records the log may lag behind.
 const LOG: usize = 65_536;
@@ -38,6 +38,8 @@ const ATTEMPTS: usize = 5;
 /// What a demonstration is like.
 #[derive(Clone, Debug)]
 pub struct Options {
+    /// What happens.
+    pub scenario: Scenario,
     /// How many crossings.
     pub trials: usize,
     /// How many times as fast as real the robots move.
@@ -46,12 +48,12 @@ pub struct Options {
     pub faults: Faults,
     /// Seed of faults and gait.
     pub seed: u64,
-    /// Port of the first robot; the second has the next one.
+    /// Port of the first robot; the others have the next ones.
     pub port: u16,
     /// How much security there is.
     pub security_mode: Mode,
-    /// The security of each robot.
-    pub security: [Security; 2],
+    /// The security of each participant, in their order; off for those beyond the list.
+    pub security: Vec<Security>,
     /// Where packets are recorded.
     pub capture: Option<Capture>,
 }
@@ -59,6 +61,8 @@ pub struct Options {
 /// What came of a demonstration.
 #[derive(Clone, Debug, Serialize)]
 pub struct Outcome {
+    /// What happened.
+    pub scenario: Scenario,
     /// Times by kind of maneuver.
     pub maneuvers: Vec<Summary>,
     /// Whether the log, replayed through the transition function, is what the robots did.
@@ -69,7 +73,7 @@ pub struct Outcome {
     /// Why the log is not valid, where it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trace_error: Option<String>,
-    /// How many crossings were completed.
+    /// How many crossings ended as the scenario has it.
     pub crossings: usize,
     /// How many were asked for.
     pub trials: usize,
@@ -90,46 +94,68 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Whether every crossing was completed, all robots are idle, and the log is valid.
+    /// Whether every crossing ended as it should, all robots that have power are idle, and the log is
+    /// valid.
     #[must_use]
     pub fn succeeded(&self) -> bool {
-        self.trace_valid
-            && self.crossings == self.trials
-            && self.final_states.values().all(|state| state == "Idle")
+        let is_good = |state: &String| state == "Idle" || state == WITHOUT_POWER;
+        self.trace_valid && self.crossings == self.trials && self.final_states.values().all(is_good)
     }
 }
 
+/// The state of a robot that has lost power.
+const WITHOUT_POWER: &str = "without power";
+
 /// A demonstration that runs.
 struct Demo<'a> {
-    robots: [(&'static str, Running); 2],
+    scenario: Scenario,
+    robots: Vec<(Participant, Running)>,
     records: Receiver<Record>,
-    plan: Plan,
+    clock: Clock,
     timing: Timing,
     /// The log as it would stand in a file.
     log: Vec<u8>,
     /// For each robot, whether it is idle and says farewell to nothing, and its state's name.
     rest: BTreeMap<String, (bool, String)>,
     counters: BTreeMap<String, BTreeMap<String, u64>>,
-    /// How the newest session of the leader ended.
-    ended_well: Option<bool>,
-    watch: &'a mut dyn FnMut(&Record),
+    /// How the newest session ended.
+    end: Option<End>,
+    is_corridor_open: bool,
+    /// Whether the victim of the scenario has lost power.
+    has_struck: bool,
+    watch: &'a mut dyn FnMut(Seen<'_>),
 }
 
-/// Runs a demonstration. `watch` sees every record as it is made.
+/// What can be watched of a demonstration.
+#[derive(Clone, Copy, Debug)]
+pub enum Seen<'a> {
+    /// A robot has made a record.
+    Record(&'a Record),
+    /// A robot loses power, of which it leaves no record.
+    PowerLoss {
+        /// Microseconds since the log's clock started.
+        at_us: u64,
+        /// The robot's name.
+        robot: &'a str,
+    },
+}
+
+/// Runs a demonstration. `watch` sees everything as it happens.
 ///
 /// # Errors
 /// When a socket cannot be opened.
 pub fn run(
     options: &Options,
-    watch: &mut dyn FnMut(&Record),
+    watch: &mut dyn FnMut(Seen<'_>),
 ) -> Result<(Outcome, Vec<u8>), LinkError> {
     let mut demo = start(options, watch)?;
     let (mut crossings, mut retries) = (0, 0);
     for _ in 0..options.trials {
         for attempt in 0..ATTEMPTS {
             retries += usize::from(attempt > 0);
-            if demo.cross(options) {
-                crossings += 1;
+            let is_done = demo.cross(options);
+            crossings += usize::from(is_done);
+            if is_done || demo.has_struck {
                 break;
             }
         }
@@ -137,118 +163,118 @@ pub fn run(
     Ok(demo.finish(options, crossings, retries))
 }
 
-fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(&Record)) -> Result<Demo<'a>, LinkError> {
+fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<Demo<'a>, LinkError> {
     let (log, records) = sync_channel(LOG);
-    let site = Site::default();
-    let plan = Plan::crossing(site);
     let clock = Clock::start();
-    let addresses = [options.port, options.port.wrapping_add(1)]
-        .map(|port| SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
-    let robot = |(name, station), build, place, seed, security: &Security| {
-        let body = Body::new(
-            build,
-            site,
-            place,
-            options.time_scale,
-            options.seed.wrapping_add(seed),
-        );
-        Robot {
-            name,
-            station,
-            body,
-            clock,
-            log: SyncSender::clone(&log),
-            security: security.clone(),
-        }
-    };
-    let [of_ari, of_go2] = &options.security;
-    let ari = robot(ARI, Build::Humanoid, Place::new(0.0, -1.5), 1, of_ari);
-    let go2 = robot(GO2, Build::Quadruped, Place::new(-2.0, -2.5), 2, of_go2);
-    let open = |address, peer, seed| {
-        let peers = vec![peer];
-        let link = Link::Peers { address, peers };
-        let seed = options.seed.wrapping_add(seed);
-        WithFaults::new(link, options.faults.clone(), seed).open()
-    };
-    let record = |link| match &options.capture {
-        Some(capture) => capture.of_sent(link),
-        None => link,
-    };
-    // Both sockets are open before either robot says anything.
-    let first = record(open(addresses[0], addresses[1], 3)?);
-    let second = record(open(addresses[1], addresses[0], 4)?);
-    let robots = [
-        (ARI.0, ari.start(first, Some(plan.clone()))),
-        (GO2.0, go2.start(second, None)),
-    ];
-    Ok(Demo {
-        robots,
-        records,
-        plan,
-        timing: Timing::default(),
-        log: Vec::new(),
-        rest: BTreeMap::new(),
-        counters: BTreeMap::new(),
-        ended_well: None,
-        watch,
-    })
-}
-
-struct Robot {
-    name: &'static str,
-    station: StationId,
-    body: Body,
-    clock: Clock,
-    log: SyncSender<Record>,
-    security: Security,
-}
-
-impl Robot {
-    fn start(self, link: Halves, plan: Option<Plan>) -> Running {
-        Setup {
-            name: self.name.to_owned(),
-            station: self.station,
+    let participants = options.scenario.participants();
+    // All sockets are open before any robot says anything.
+    let links = open(options, participants.len())?;
+    let mut securities = options.security.iter().cloned();
+    let mut robots = Vec::new();
+    for ((participant, link), nth) in participants.into_iter().zip(links).zip(1..) {
+        let (site, seed) = (Site::default(), options.seed.wrapping_add(nth));
+        let (build, place) = (participant.build, participant.place);
+        let body = Body::new(build, site, place, options.time_scale, seed);
+        let running = Setup {
+            name: participant.name.to_owned(),
+            station: participant.station,
             // Nothing of a demonstration outlives it, so each of its boots is the first.
             boot: 1,
             config: Config::default(),
             wire: Wire::default(),
-            security: self.security,
-            application: Application::new(self.body, plan),
+            security: securities.next().unwrap_or_default(),
+            application: Application::new(body, participant.plan.clone()),
             link,
-            log: self.log,
-            clock: self.clock,
+            log: SyncSender::clone(&log),
+            clock,
         }
-        .start()
+        .start();
+        robots.push((participant, running));
     }
+    Ok(Demo {
+        scenario: options.scenario,
+        robots,
+        records,
+        clock,
+        timing: Timing::default(),
+        log: Vec::new(),
+        rest: BTreeMap::new(),
+        counters: BTreeMap::new(),
+        end: None,
+        is_corridor_open: false,
+        has_struck: false,
+        watch,
+    })
+}
+
+/// A socket for each robot, with the others as peers.
+fn open(options: &Options, robots: usize) -> Result<Vec<Halves>, LinkError> {
+    let address = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+    let addresses: Vec<_> = (options.port..).take(robots).map(address).collect();
+    let open = |(&address, nth): (&SocketAddr, u64)| {
+        let peers = addresses.iter().filter(|&&peer| peer != address);
+        let peers = peers.copied().collect();
+        let seed = options.seed.wrapping_add(nth);
+        let link = Link::Peers { address, peers };
+        let halves = WithFaults::new(link, options.faults.clone(), seed).open()?;
+        Ok(match &options.capture {
+            Some(capture) => capture.of_sent(halves),
+            None => halves,
+        })
+    };
+    addresses.iter().zip(100..).map(open).collect()
 }
 
 impl Demo<'_> {
-    /// One crossing; whether it was completed.
+    /// One crossing; whether it ended as it should.
     fn cross(&mut self, options: &Options) -> bool {
+        self.end = None;
         for (_, robot) in &self.robots {
             robot.order(Order::Reset);
         }
-        self.ended_well = None;
-        let detected = Event::PedestrianDetected(self.plan.request());
-        self.robots[0].1.order(Order::Wish(Wish::Tell(detected)));
+        for (participant, robot) in &self.robots {
+            if let Some(plan) = &participant.plan {
+                let detected = Event::PedestrianDetected(plan.request());
+                robot.order(Order::Wish(Wish::Tell(detected)));
+            }
+        }
         // The paper's crossing takes about 26 s; commands may have to be given again.
         let patience = Duration::from_secs_f64(60.0 + 120.0 / options.time_scale);
         let deadline = Instant::now() + patience;
         while Instant::now() < deadline {
             self.take_records(Duration::from_millis(50));
-            if let Some(ended_well) = self.ended_well
+            self.strike();
+            if let Some(end) = self.end
                 && self.all_at_rest()
             {
-                return ended_well;
+                return end == self.scenario.end();
             }
         }
         false
     }
 
+    /// Takes the victim's power once the corridor is open.
+    fn strike(&mut self) {
+        let victim = self.scenario.victim();
+        let victim = victim.filter(|_| self.is_corridor_open && !self.has_struck);
+        for (participant, robot) in &self.robots {
+            if Some(participant.name) == victim {
+                robot.order(Order::Die);
+                (self.watch)(Seen::PowerLoss {
+                    at_us: self.clock.now_us(),
+                    robot: participant.name,
+                });
+                self.has_struck = true;
+                let state = (true, WITHOUT_POWER.to_owned());
+                self.rest.insert(participant.name.to_owned(), state);
+            }
+        }
+    }
+
     fn all_at_rest(&self) -> bool {
         self.robots
             .iter()
-            .all(|(name, _)| self.rest.get(*name).is_some_and(|(rest, _)| *rest))
+            .all(|(one, _)| self.rest.get(one.name).is_some_and(|(rest, _)| *rest))
     }
 
     /// Takes in what the robots report within a moment.
@@ -267,25 +293,37 @@ impl Demo<'_> {
         self.timing.record(record);
         trace::write(&mut self.log, record).expect("writing to memory does not fail");
         match &record.entry {
-            Entry::Step { outputs, state, .. } => {
+            Entry::Step { outputs, state, .. } if !self.is_dead(&record.robot) => {
                 let at_rest = matches!(state.phase(), Phase::Idle) && state.farewell().is_none();
                 let name = format!("{:?}", state.state());
                 self.rest.insert(record.robot.clone(), (at_rest, name));
-                for output in outputs.iter() {
-                    if let Output::Notify(Notice::SessionEnded(_, why)) = output
-                        && record.robot == ARI.0
-                    {
-                        let completed = crossguard_protocol::EndReason::TaskCompleted;
-                        self.ended_well = Some(*why == completed);
-                    }
-                }
+                outputs.iter().for_each(|output| self.note(*output));
             }
             Entry::Stopped { counters } => {
                 self.counters.insert(record.robot.clone(), counters.clone());
             }
             _ => {}
         }
-        (self.watch)(record);
+        (self.watch)(Seen::Record(record));
+    }
+
+    /// What a robot logged before it lost power may be read after.
+    fn is_dead(&self, robot: &str) -> bool {
+        self.has_struck && self.scenario.victim() == Some(robot)
+    }
+
+    fn note(&mut self, output: Output) {
+        match output {
+            Output::CorridorOpened => self.is_corridor_open = true,
+            Output::CorridorClosed(_) => self.is_corridor_open = false,
+            // Of two requesters one withdraws, and the other goes on.
+            Output::Notify(Notice::SessionEnded(_, EndReason::Withdrawn(_))) => {}
+            Output::Notify(Notice::SessionEnded(_, why)) => self.end = Some(End::Session(why)),
+            Output::Notify(Notice::Released(_, why)) if self.has_struck && self.end.is_none() => {
+                self.end = Some(End::Released(why));
+            }
+            _ => {}
+        }
     }
 
     /// Stops the robots in order, and replays their log.
@@ -310,6 +348,7 @@ impl Demo<'_> {
             other => other,
         };
         let outcome = Outcome {
+            scenario: self.scenario,
             maneuvers: self.timing.summaries(options.time_scale),
             trace_valid: validated.is_ok(),
             trace: validated.as_ref().ok().cloned(),

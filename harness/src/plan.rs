@@ -97,8 +97,8 @@ impl Stage {
 /// 8 m north of it.
 const KERB: Place = Place::new(1.0, -1.0);
 const OTHER_SIDE: Place = Place::new(1.0, 8.0);
-const NEAR_LANE: Place = Place::new(-4.0, 2.0);
-const FAR_LANE: Place = Place::new(6.0, 5.0);
+pub(crate) const NEAR_LANE: Place = Place::new(-4.0, 2.0);
+pub(crate) const FAR_LANE: Place = Place::new(6.0, 5.0);
 
 /// How fast a robot walks beside a pedestrian, in m/s.
 const ESCORT_MPS: f64 = 0.424;

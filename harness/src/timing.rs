@@ -1,11 +1,14 @@
 //! The paper's timing: negotiation, execution, and both together.
 //!
 //! `T_TMCT = (t_rx - t_tx) + T_exec` (paper, section on the proof of concept): from the leader's
-//! command going out to its acknowledgement coming in, plus the time that the follower takes.
+//! command going out to its acknowledgement coming in, plus the time that the follower takes. A `block`
+//! takes as long as it is held.
 
 use std::collections::BTreeMap;
 
-use crossguard_protocol::{Event, Input, ManeuverId, Notice, Output, Rmcm, TaskType};
+use crossguard_protocol::{
+    Event, Input, ManeuverId, Notice, Output, ReleaseReason, Rmcm, StationId, StopReason, TaskType,
+};
 use serde::Serialize;
 
 use crate::trace::{Entry, Record};
@@ -17,15 +20,14 @@ pub struct Timing {
     maneuvers: BTreeMap<Key, Times>,
 }
 
-/// A maneuver in an order that has no meaning but is one.
-type Key = (u32, u32, u8);
+/// A maneuver in an order that has no meaning but is one. A leader counts its requests for each follower
+/// by itself, so it takes the follower as well.
+type Key = (u32, u32, u32, u8);
 
-fn key(id: ManeuverId) -> Key {
-    (
-        id.session.leader.0,
-        id.session.number.0.to_u32(),
-        id.request.0,
-    )
+fn key(follower: StationId, id: ManeuverId) -> Key {
+    let session = id.session;
+    let number = session.number.0.to_u32();
+    (session.leader.0, number, follower.0, id.request.0)
 }
 
 /// When what happened in one maneuver, in microseconds.
@@ -116,14 +118,19 @@ impl Statistic {
 impl Timing {
     /// Takes note of a record.
     pub fn record(&mut self, record: &Record) {
-        let Entry::Step { input, outputs, .. } = &record.entry else {
+        let Entry::Step {
+            input,
+            outputs,
+            state,
+        } = &record.entry
+        else {
             return;
         };
-        let at = Some(record.at_us);
+        let (at, own) = (Some(record.at_us), state.station());
         if let Input::Local(Event::ManeuverCompleted(id)) = input
             && outputs.ignored().is_none()
         {
-            self.times(*id).completed = at;
+            self.times(own, *id).completed = at;
         }
         for output in outputs.iter() {
             match *output {
@@ -132,22 +139,28 @@ impl Timing {
                         session: command.session,
                         request: command.request,
                     };
-                    let times = self.times(id);
+                    let times = self.times(command.to, id);
                     times.task = Some(command.task);
                     // A repeated command began with its first transmission.
                     times.commanded = times.commanded.or(at);
                 }
-                Output::Notify(Notice::CommandAcknowledged(_, id)) => {
-                    self.times(id).acknowledged = at;
+                Output::Notify(Notice::CommandAcknowledged(follower, id)) => {
+                    self.times(follower, id).acknowledged = at;
                 }
-                Output::StartManeuver(maneuver) => self.times(maneuver.id).started = at,
+                Output::StartManeuver(maneuver) => self.times(own, maneuver.id).started = at,
+                Output::StopManeuver(
+                    maneuver,
+                    StopReason::Released(ReleaseReason::SessionEnded),
+                ) if maneuver.task == TaskType::BLOCK => {
+                    self.times(own, maneuver.id).completed = at;
+                }
                 _ => {}
             }
         }
     }
 
-    fn times(&mut self, id: ManeuverId) -> &mut Times {
-        self.maneuvers.entry(key(id)).or_default()
+    fn times(&mut self, follower: StationId, id: ManeuverId) -> &mut Times {
+        self.maneuvers.entry(key(follower, id)).or_default()
     }
 
     /// The times by kind of maneuver, of those that were completed. The robots' own time passes

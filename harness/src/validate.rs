@@ -57,7 +57,7 @@ pub struct Validated {
     pub beyond_logs: usize,
     /// How many records the robots themselves say are missing, because the log was full.
     pub missing: u64,
-    /// The logs that end in the middle of a run.
+    /// The robots whose logs end in the middle of a run, because they lost power or were killed.
     pub cut_off: Vec<String>,
     /// The properties that had something to say, and were kept.
     pub properties: Vec<String>,
@@ -377,15 +377,11 @@ impl Street {
 
     /// A log is at its end: robots of it that run on are cut off.
     fn end(&mut self, cursor: &Cursor) {
-        let mut is_cut_off = false;
         for robot in cursor.robots.intersection(&self.running) {
             if let Some(follow) = self.robots.get_mut(robot) {
                 follow.cut_off();
-                is_cut_off = true;
+                self.validated.cut_off.push(robot.clone());
             }
-        }
-        if is_cut_off {
-            self.validated.cut_off.push(cursor.name.clone());
         }
     }
 

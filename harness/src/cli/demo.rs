@@ -6,7 +6,7 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use crossguard_codec::Identifiers;
 use crossguard_harness::chart::Chart;
-use crossguard_harness::demo::{self, ARI, GO2, Options, Outcome};
+use crossguard_harness::demo::{self, Options, Outcome, Scenario, Seen};
 use crossguard_harness::station::Mode;
 use crossguard_harness::timing::{Statistic, Summary};
 use crossguard_harness::transport::Faults;
@@ -15,6 +15,9 @@ use super::{Failure, print, print_json};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
+    /// What happens.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t)]
+    scenario: Scenario,
     /// How many crossings.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1_000))]
     trials: u16,
@@ -30,8 +33,8 @@ pub(super) struct Arguments {
     /// Seed of the faults and of the robots' gait.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Port of the first robot on 127.0.0.1; the second has the next one.
-    #[arg(long, default_value_t = 47_401, value_parser = clap::value_parser!(u16).range(1_024..=65_534))]
+    /// Port of the first robot on 127.0.0.1; the others have the next ones.
+    #[arg(long, default_value_t = 47_401, value_parser = clap::value_parser!(u16).range(1_024..=65_500))]
     port: u16,
     #[command(flatten)]
     security: super::security::SecurityArguments,
@@ -75,7 +78,17 @@ fn in_range(text: &str, min: f64, max: f64, why: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let scenario = arguments.scenario;
+    if let Some(victim) = scenario.victim().filter(|_| arguments.trials > 1) {
+        return Err(Failure::Input(format!(
+            "--trials {}: {victim} loses power in this scenario, so there is one crossing",
+            arguments.trials
+        )));
+    }
+    let participants = scenario.participants();
+    let names: Vec<_> = participants.iter().map(|one| one.name).collect();
     let options = Options {
+        scenario,
         trials: usize::from(arguments.trials),
         time_scale: arguments.speed,
         faults: Faults {
@@ -85,7 +98,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
         port: arguments.port,
         security_mode: arguments.security.mode(),
-        security: arguments.security.of_robots([ARI.0, GO2.0])?,
+        security: arguments.security.of_robots(&names)?,
         capture: arguments
             .pcap
             .as_deref()
@@ -97,16 +110,26 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => None,
     };
     let shows_chart = !arguments.json && !arguments.quiet;
-    let mut chart = Chart::new(&[ARI, GO2], Identifiers::default());
+    let columns: Vec<_> = participants
+        .iter()
+        .map(|one| (one.name, one.station))
+        .collect();
+    let mut chart = Chart::new(&columns, Identifiers::default());
     if shows_chart {
-        introduce(&options, arguments.security.is_throw_away())?;
+        introduce(&options, names.len(), arguments.security.is_throw_away())?;
         print(chart.header())?;
     }
     // If nobody reads the chart any more, the crossing goes on, and the log is complete.
     let mut reads = true;
-    let (outcome, log) = demo::run(&options, &mut |record| {
+    let (outcome, log) = demo::run(&options, &mut |seen| {
         if shows_chart && reads {
-            reads = chart.lines(record).iter().all(|line| print(line).is_ok());
+            let lines = match seen {
+                Seen::Record(record) => chart.lines(record),
+                Seen::PowerLoss { at_us, robot } => {
+                    Vec::from_iter(chart.note(at_us, robot, "! loses power"))
+                }
+            };
+            reads = lines.iter().all(|line| print(line).is_ok());
         }
     })
     .map_err(Failure::input)?;
@@ -132,7 +155,7 @@ fn create(path: &std::path::Path) -> Result<std::fs::File, Failure> {
         .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
 }
 
-fn introduce(options: &Options, is_throw_away: bool) -> Result<(), Failure> {
+fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<(), Failure> {
     let security = match options.security_mode {
         Mode::Off => "are not signed",
         Mode::Sign => "are signed, and need not be",
@@ -143,15 +166,19 @@ fn introduce(options: &Options, is_throw_away: bool) -> Result<(), Failure> {
         (_, true) => ", by certificates that are made for this run",
         (_, false) => ", by the certificates given",
     };
-    // Both maneuvers of the crossing as they are planned, and half a second around them.
-    let seconds = 26.0 / options.time_scale + 1.5;
+    // Both maneuvers of the crossing as they are planned, and half a second around them; or some of it,
+    // and the time after which robots stop waiting for one that is silent.
+    let seconds = match options.scenario.victim() {
+        None => 26.0 / options.time_scale + 1.5,
+        Some(_) => 4.0 / options.time_scale + 9.0,
+    };
+    let last_port = usize::from(options.port) + robots - 1;
     print(format_args!(
-        "A pedestrian wants to cross. {} and {} coordinate over UDP on 127.0.0.1:{} and :{}.\n\
-         They move {} times as fast as real: about {seconds:.0} s per crossing. Packets {security}{pki}.\n",
-        ARI.0,
-        GO2.0,
+        "A pedestrian wants to cross. {}\nThe robots coordinate over UDP on 127.0.0.1, ports {} to \
+         {last_port}, and move {} times as fast as real: about\n{seconds:.0} s per crossing. Packets \
+         {security}{pki}.\n",
+        options.scenario.summary(),
         options.port,
-        options.port + 1,
         options.time_scale,
     ))
 }
@@ -161,13 +188,17 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
     print(table(&outcome.maneuvers))?;
     print(
         "T_neg: from the leader's command to its acknowledgement, on loopback; the paper's went over \
-         IEEE 802.11p.\nT_exec: simulated motion, in the robots' own time. T_TMCT = T_neg + T_exec. \
-         Mean ± standard deviation.\nWhere the paper's column is empty its figure is not known here.\n",
+         IEEE 802.11p.\nT_exec: simulated motion, in the robots' own time; of a block, how long it was held. \
+         T_TMCT = T_neg + T_exec.\nMean ± standard deviation.\nWhere the paper's column is empty its figure is not known here.\n",
     )?;
     print(format_args!(
-        "{} of {} crossings completed{}; in the end {}.",
+        "{} of {} crossings {}{}; in the end {}.",
         outcome.crossings,
         outcome.trials,
+        match outcome.scenario.victim() {
+            None => "completed",
+            Some(_) => "ended in order after a robot lost power",
+        },
         if outcome.retries > 0 {
             format!(", {} begun again", outcome.retries)
         } else {

@@ -51,24 +51,17 @@ impl SecurityArguments {
     }
 
     /// The security of several robots; without a folder they get a PKI that nobody else knows.
-    pub(super) fn of_robots<const N: usize>(
-        &self,
-        names: [&str; N],
-    ) -> Result<[Security; N], Failure> {
-        let mut securities = [const { None }; N];
+    pub(super) fn of_robots(&self, names: &[&str]) -> Result<Vec<Security>, Failure> {
         if self.security == Mode::Off || self.pki.is_some() {
-            for (security, name) in securities.iter_mut().zip(names) {
-                *security = Some(self.of_robot(name)?);
-            }
-        } else {
-            let (identifiers, now) = (Identifiers::default(), pki::now());
-            let pki = Pki::for_a_day(&identifiers, now).map_err(Failure::input)?;
-            for security in &mut securities {
-                let credentials = pki.credentials(&identifiers, PSEUDONYMS, now);
-                *security = Some(self.with(credentials.map_err(Failure::input)?)?);
-            }
+            return names.iter().map(|name| self.of_robot(name)).collect();
         }
-        Ok(securities.map(Option::unwrap_or_default))
+        let (identifiers, now) = (Identifiers::default(), pki::now());
+        let pki = Pki::for_a_day(&identifiers, now).map_err(Failure::input)?;
+        let of_one = |_: &&str| {
+            let credentials = pki.credentials(&identifiers, PSEUDONYMS, now);
+            self.with(credentials.map_err(Failure::input)?)
+        };
+        names.iter().map(of_one).collect()
     }
 
     fn with(&self, credentials: Credentials) -> Result<Security, Failure> {

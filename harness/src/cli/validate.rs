@@ -114,8 +114,10 @@ fn tell(result: &Result<Validated, Invalid>) -> Result<(), Failure> {
     for (count, remark) in remarks.into_iter().filter(|(count, _)| *count > 0) {
         print(format_args!("{count} {remark}."))?;
     }
-    for log in &validated.cut_off {
-        print(format_args!("{log} ends in the middle of a run."))?;
+    for robot in &validated.cut_off {
+        print(format_args!(
+            "The log of {robot} ends in the middle of a run."
+        ))?;
     }
     if validated.missing > 0 {
         print(format_args!(

@@ -205,5 +205,5 @@ fn a_log_that_was_cut_off_in_the_middle_of_a_line_is_valid_up_to_there() {
     let cut = together(&logs).unwrap();
     assert!(cut.steps < whole.steps);
     assert!(cut.beyond_logs > 0);
-    assert!(cut.cut_off.contains(&"log 0".to_owned()));
+    assert!(cut.cut_off.contains(&"R1".to_owned()));
 }

@@ -58,10 +58,16 @@ pub fn json(output: &Output) -> Value {
 
 /// A UDP port on 127.0.0.1 that is free, and so is the next one.
 pub fn two_free_ports() -> u16 {
+    free_ports(2)
+}
+
+/// The first of so many UDP ports on 127.0.0.1 that are free.
+pub fn free_ports(ports: u16) -> u16 {
     loop {
         let first = UdpSocket::bind("127.0.0.1:0").unwrap();
         let port = first.local_addr().unwrap().port();
-        if (1_024..65_000).contains(&port) && UdpSocket::bind(("127.0.0.1", port + 1)).is_ok() {
+        let is_free = |next: u16| UdpSocket::bind(("127.0.0.1", port + next)).is_ok();
+        if (1_024..65_000).contains(&port) && (1..ports).all(is_free) {
             return port;
         }
     }

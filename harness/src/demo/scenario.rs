@@ -1,0 +1,142 @@
+//! What a demonstration can show: who takes part, and how it is to end.
+
+use crossguard_protocol::{EndReason, ReleaseReason, StationId};
+use serde::Serialize;
+
+use crate::body::Build;
+use crate::plan::{self, Plan};
+use crate::site::{Place, Site};
+
+/// What happens.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scenario {
+    /// The paper's proof of concept: a humanoid leads, and a dog escorts the pedestrian across.
+    #[default]
+    Crossing,
+    /// Two humanoids block a lane each, and the pedestrian crosses between them.
+    Bilateral,
+    /// A humanoid leads and blocks a lane, a second one blocks the other, and a dog escorts.
+    Trio,
+    /// A humanoid leads three others: two humanoids that block a lane each, and a dog that escorts.
+    Team,
+    /// The dog loses power while it escorts the pedestrian.
+    FollowerDies,
+    /// The humanoid that leads loses power while the dog escorts.
+    LeaderDies,
+    /// Two humanoids detect the same pedestrian at once; a dog is there to help.
+    TwoDetect,
+}
+
+/// One robot of a scenario.
+#[derive(Clone, Debug)]
+pub struct Participant {
+    /// Its name.
+    pub name: &'static str,
+    /// Its station id.
+    pub station: StationId,
+    pub(super) build: Build,
+    pub(super) place: Place,
+    /// What it does when it leads; it detects the pedestrian if it has one.
+    pub(super) plan: Option<Plan>,
+}
+
+/// How a crossing ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum End {
+    /// The leader ended the session.
+    Session(EndReason),
+    /// Nobody ended it; the followers left.
+    Released(ReleaseReason),
+}
+
+const ARI: StationId = StationId(1);
+const GO2: StationId = StationId(2);
+const SECOND: StationId = StationId(3);
+const THIRD: StationId = StationId(4);
+
+impl Scenario {
+    /// What happens, in a sentence.
+    #[must_use]
+    pub const fn summary(self) -> &'static str {
+        match self {
+            Self::Crossing => "ARI leads, and Go2 escorts the pedestrian across.",
+            Self::Bilateral => {
+                "ARI and ARI-2 block a lane each, and the pedestrian crosses between them."
+            }
+            Self::Trio => "ARI leads and blocks a lane, ARI-2 blocks the other, and Go2 escorts.",
+            Self::Team => "ARI leads three: ARI-2 and ARI-3 block a lane each, and Go2 escorts.",
+            Self::FollowerDies => "Go2 loses power in the middle of the road.",
+            Self::LeaderDies => "ARI, which leads, loses power while Go2 is on the road.",
+            Self::TwoDetect => "ARI and ARI-2 see the same pedestrian at once; Go2 can help.",
+        }
+    }
+
+    /// The robots, from left to right.
+    #[must_use]
+    pub fn participants(self) -> Vec<Participant> {
+        let site = Site::default();
+        let robot = |(name, station), build, place| Participant {
+            name,
+            station,
+            build,
+            place,
+            plan: None,
+        };
+        let humanoid = |id, place| robot(id, Build::Humanoid, place);
+        let leads = |id, place, plan| Participant {
+            plan: Some(plan),
+            ..humanoid(id, place)
+        };
+        let (ari, go2) = (("ARI", ARI), ("Go2", GO2));
+        let (second, third) = (("ARI-2", SECOND), ("ARI-3", THIRD));
+        let corner = Place::new(0.0, -1.5);
+        let dog = robot(go2, Build::Quadruped, Place::new(-2.0, -2.5));
+        let crossing = || Plan::crossing(site);
+        // Each waits on the pavement beside the lane that it is going to block.
+        let at_near_lane = Place::new(plan::NEAR_LANE.east, -0.8);
+        let at_far_lane = humanoid(second, Place::new(plan::FAR_LANE.east, 8.2));
+        match self {
+            Self::Crossing | Self::FollowerDies | Self::LeaderDies => {
+                vec![leads(ari, corner, crossing()), dog]
+            }
+            Self::Bilateral => {
+                let plan = Plan::bilateral(site, SECOND);
+                vec![leads(ari, at_near_lane, plan), at_far_lane]
+            }
+            Self::Trio => {
+                let plan = Plan::trio(site, SECOND, GO2);
+                vec![leads(ari, at_near_lane, plan), at_far_lane, dog]
+            }
+            Self::Team => {
+                let blockers = [(SECOND, plan::FAR_LANE), (THIRD, plan::NEAR_LANE)];
+                let plan = Plan::team(site, &blockers, GO2);
+                let near = humanoid(third, at_near_lane);
+                vec![leads(ari, corner, plan), at_far_lane, near, dog]
+            }
+            Self::TwoDetect => {
+                let rival = leads(second, Place::new(3.0, -1.5), crossing());
+                vec![leads(ari, corner, crossing()), rival, dog]
+            }
+        }
+    }
+
+    /// Name of the robot that loses power once the corridor is open.
+    #[must_use]
+    pub const fn victim(self) -> Option<&'static str> {
+        match self {
+            Self::FollowerDies => Some("Go2"),
+            Self::LeaderDies => Some("ARI"),
+            _ => None,
+        }
+    }
+
+    /// How it is to end.
+    pub(super) const fn end(self) -> End {
+        match self {
+            Self::FollowerDies => End::Session(EndReason::NoFollowers),
+            Self::LeaderDies => End::Released(ReleaseReason::ContactLost),
+            _ => End::Session(EndReason::TaskCompleted),
+        }
+    }
+}
