@@ -242,6 +242,15 @@ fn road_users_are_where_their_messages_say() {
         );
         assert_eq!(pedestrian.speed, Some(1.39));
     }
+    let cluster = Identity::Object {
+        by: 123_456_789,
+        number: 7,
+    };
+    assert_eq!(user("V3").identity, cluster);
+    assert_eq!(user("V3").position, car.position);
+    // Its shape is 10 cm east and 20 cm south of the sender.
+    let off = distance(&user("V8").position, &car.position);
+    assert_eq!(off, Decimetres(2));
     assert!(message("P1").road_users(now).is_empty());
     let object = user("P2");
     let identity = Identity::Object {

@@ -145,17 +145,18 @@ impl Sniffer {
                     Err(unheard) => unheard.to_string(),
                 });
                 parts.extend(users.first().map(place));
+                // The people around a robot.
+                parts.extend(users.iter().skip(1).map(cluster));
             }
             ItsMessage::Cpm(_) => {
                 parts.push(format!("{} objects", users.len()));
                 parts.push(place_of_packet(&headers.source));
             }
-            _ => parts.extend(users.first().map(|user| {
-                let kind = name(user.kind);
-                match user.cardinality {
-                    1 => format!("{kind}, {}", place(user)),
-                    n => format!("cluster of {n}, {}", place(user)),
+            _ => parts.extend(users.first().map(|user| match user.identity {
+                Identity::Station(_) if user.cardinality == 1 => {
+                    format!("{}, {}", name(user.kind), place(user))
                 }
+                _ => cluster(user),
             })),
         }
         if let Transport::GeoBroadcast { .. } = headers.transport {
@@ -163,6 +164,14 @@ impl Sniffer {
         }
         parts.join(", ")
     }
+}
+
+fn cluster(user: &RoadUser) -> String {
+    let id = match user.identity {
+        Identity::Object { number, .. } => format!("cluster {number}"),
+        Identity::Station(_) => "cluster".to_owned(),
+    };
+    format!("{id} of {} at {}", user.cardinality, place(user))
 }
 
 /// The name of a kind of road user.

@@ -4,9 +4,11 @@ use serde::Serialize;
 
 use super::{CPM, CpmContainer, ItsMessage};
 use crate::asn1::cam::{CAM, HighFrequencyContainer};
-use crate::asn1::cdd::{BasicContainer, Speed, Wgs84AngleValue};
+use crate::asn1::cdd::{BasicContainer, Shape as BoundingShape, Speed, Wgs84AngleValue};
 use crate::asn1::cdd211::ObjectClass211;
 use crate::asn1::cpm::{CartesianCoordinateWithConfidence, ObjectClass, Velocity3dWithConfidence};
+use crate::core::cdd::{CartesianCoordinate, Shape};
+use crate::core::ram::RAM;
 use crate::distance::moved;
 use crate::si;
 use crate::state::Position;
@@ -33,11 +35,11 @@ pub enum Kind {
 pub enum Identity {
     /// A station, which says of itself where it is.
     Station(u32),
-    /// An object that a station perceives.
+    /// An object that a station perceives, or a cluster of which it is the head.
     Object {
         /// The station.
         by: u32,
-        /// Its number for the object.
+        /// Its number for the object, or the cluster's id.
         number: u16,
     },
 }
@@ -93,23 +95,15 @@ fn heading_of(angle: &Wgs84AngleValue) -> Option<f64> {
 
 impl ItsMessage {
     /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
-    /// sender, unless it is a CPM or an RMCM, and what a CPM perceives, at most 255 objects.
+    /// sender, unless it is a CPM or an RMCM, the people whom a RAM announces, and what a CPM perceives, at
+    /// most 255 objects.
     #[must_use]
     pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
         match self {
             Self::Ram(ram) => {
-                let state = crate::view::state_of(ram);
-                let container = &ram.ram.ram_parameters.basic_container;
-                vec![RoadUser {
-                    identity: Identity::Station(ram.header.station_id.0),
-                    kind: Kind::Robot,
-                    station_type: Some(container.station_type.0),
-                    position: state.position,
-                    speed: state.speed.map(|speed| speed.value),
-                    heading: state.heading.map(|heading| heading.value),
-                    cardinality: 1,
-                    measured_its: si::rebuild_timestamp(now, ram.ram.generation_delta_time.0),
-                }]
+                let robot = of_robot(ram, now);
+                let cluster = cluster_around(ram, &robot);
+                std::iter::once(robot).chain(cluster).collect()
             }
             Self::Rmcm(_) => Vec::new(),
             Self::Cam(cam) => vec![of_cam(cam, now)],
@@ -120,9 +114,17 @@ impl ItsMessage {
                 let motion = &parameters.vru_high_frequency_container;
                 vec![RoadUser {
                     cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
+                    identity: identity_of(
+                        vam.header.station_id.0,
+                        cluster.and_then(|cluster| Some(cluster.cluster_id.as_ref()?.0)),
+                    ),
                     speed: speed_of(&motion.speed),
                     heading: heading_of(&motion.heading.value),
                     measured_its: si::rebuild_timestamp(now, vam.vam.generation_delta_time.0),
+                    position: cluster_position(
+                        &parameters.basic_container,
+                        cluster.and_then(|cluster| cluster.cluster_bounding_box_shape.as_ref()),
+                    ),
                     ..vru(vam.header.station_id.0, &parameters.basic_container)
                 }]
             }
@@ -133,14 +135,89 @@ impl ItsMessage {
                 let motion = &parameters.vru_high_frequency_container;
                 vec![RoadUser {
                     cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
+                    identity: identity_of(
+                        vam.header.station_id.0,
+                        cluster.and_then(|cluster| Some(cluster.cluster_id.as_ref()?.0)),
+                    ),
                     speed: speed_of(&motion.speed),
                     heading: heading_of(&motion.heading.value),
                     measured_its: si::rebuild_timestamp(now, vam.vam.generation_delta_time.0),
+                    position: cluster_position(
+                        &parameters.basic_container,
+                        cluster.and_then(|cluster| cluster.cluster_bounding_box_shape.as_ref()),
+                    ),
                     ..vru(vam.header.station_id.0, &parameters.basic_container)
                 }]
             }
             Self::Cpm(cpm) => of_cpm(cpm),
         }
+    }
+}
+
+fn of_robot(ram: &RAM, now: u64) -> RoadUser {
+    let state = crate::view::state_of(ram);
+    let container = &ram.ram.ram_parameters.basic_container;
+    RoadUser {
+        identity: Identity::Station(ram.header.station_id.0),
+        kind: Kind::Robot,
+        station_type: Some(container.station_type.0),
+        position: state.position,
+        speed: state.speed.map(|speed| speed.value),
+        heading: state.heading.map(|heading| heading.value),
+        cardinality: 1,
+        measured_its: si::rebuild_timestamp(now, ram.ram.generation_delta_time.0),
+    }
+}
+
+/// The people around a robot whom its RAM announces: at the middle of their bounding shape.
+fn cluster_around(ram: &RAM, robot: &RoadUser) -> Option<RoadUser> {
+    let container = ram.ram.ram_parameters.vru_cluster_information_container;
+    let cluster = container?.vru_cluster_information;
+    let middle = match cluster.cluster_bounding_box_shape? {
+        Shape::Circular(circle) => circle.shape_reference_point,
+        Shape::Rectangular(rectangle) => rectangle.shape_reference_point,
+        Shape::Polygonal(polygon) => polygon.shape_reference_point,
+    };
+    let metres = |coordinate: CartesianCoordinate| f64::from(coordinate.0) / 100.0;
+    let [east, north] = middle.map_or([0.0, 0.0], |middle| {
+        [metres(middle.x_coordinate), metres(middle.y_coordinate)]
+    });
+    Some(RoadUser {
+        identity: identity_of(ram.header.station_id.0, cluster.cluster_id.map(|id| id.0)),
+        kind: Kind::Vru,
+        station_type: None,
+        position: moved(&robot.position, east, north),
+        speed: None,
+        heading: None,
+        cardinality: cluster.cluster_cardinality_size.0,
+        ..*robot
+    })
+}
+
+/// The middle of a cluster's bounding shape; the reference position where it has none of its own.
+fn cluster_position(container: &BasicContainer, shape: Option<&BoundingShape>) -> Position {
+    let middle = match shape {
+        Some(BoundingShape::circular(circle)) => circle.shape_reference_point.as_ref(),
+        Some(BoundingShape::rectangular(it)) => it.shape_reference_point.as_ref(),
+        Some(BoundingShape::polygonal(polygon)) => polygon.shape_reference_point.as_ref(),
+        _ => None,
+    };
+    let position = position_of(container);
+    let metres = |centimetres: i16| f64::from(centimetres) / 100.0;
+    middle.map_or(position, |middle| {
+        let (east, north) = (middle.x_coordinate.0, middle.y_coordinate.0);
+        moved(&position, metres(east), metres(north))
+    })
+}
+
+/// A cluster is not its head, and a head may have several: the id tells them apart.
+const fn identity_of(station: u32, cluster: Option<u8>) -> Identity {
+    match cluster {
+        Some(id) => Identity::Object {
+            by: station,
+            number: id as u16,
+        },
+        None => Identity::Station(station),
     }
 }
 
