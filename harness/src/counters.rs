@@ -26,6 +26,8 @@ pub enum Cause {
     Ignored(Ignored),
     /// A datagram arrived while the inbox was full.
     InboxFull,
+    /// The robot perceived people and did not know where it is itself.
+    Unplaced,
     /// The fault layer dropped a datagram on purpose.
     Simulated(Loss),
     /// The operating system did not take a datagram.
@@ -50,6 +52,7 @@ impl Cause {
             Self::Ignored(Ignored::NotEngaged(..)) => "ignored: not engaged".to_owned(),
             Self::Ignored(why) => format!("ignored: {why}"),
             Self::InboxFull => "inbox full".to_owned(),
+            Self::Unplaced => "perceived without a position".to_owned(),
             Self::Simulated(how) => how.name().to_owned(),
             Self::NotSent => "not sent".to_owned(),
             Self::LinkFailed => "link failed".to_owned(),

@@ -9,6 +9,8 @@
 //!  time passes ────────────────────────────┘                    └─► stepped (for the log)
 //! ```
 
+mod act;
+
 use std::collections::BTreeMap;
 
 use crossguard_codec::geonet::{EgoPosition, Indication};
@@ -16,16 +18,17 @@ use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{ControlMode, RobotState, Service, TaskParameters, TaskProgression};
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::{
-    Availability, Config, CorridorClosure, Event, FallbackPolicy, Identity, Ignored, Input,
-    Maneuver, Millis, Notice, Output, Outputs, Rmcm, Robot, State, StationId, StopReason, TaskType,
-    Timer, Unavailability,
+    Availability, Config, Event, Identity, Input, Millis, Output, Outputs, Rmcm, Robot, State,
+    StationId, TaskType, Timer, Unavailability,
 };
 
+pub use self::act::Act;
+use self::act::act;
 use crate::counters::{Cause, Counters};
-use crate::ras::clustering::{self, Clustering, PerceivedVru};
-use crate::ras::generation::{
-    Generation, INTERVAL_MAX_MS, INTERVAL_MIN_MS, Limits, Status, Trigger,
-};
+use crate::ras::clustering::PerceivedVru;
+use crate::ras::containers;
+use crate::ras::generation::{Generation, INTERVAL_MIN_MS, Limits, Status, Trigger};
+use crate::ras::surroundings::{Awareness, Surroundings};
 use crate::station::{Security, Station};
 use crate::wire::{Heard, MessageKind, Wire};
 
@@ -108,27 +111,6 @@ pub enum Effect {
     },
 }
 
-/// What the application is to do or to know.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Act {
-    /// Start a maneuver with these parameters.
-    Start(Maneuver, TaskParameters),
-    /// Stop a maneuver.
-    Stop(Maneuver, StopReason),
-    /// Stop a maneuver by the policy of its task.
-    FallBack(Maneuver, FallbackPolicy),
-    /// Let the pedestrian cross.
-    OpenCorridor,
-    /// Hold the pedestrian back.
-    CloseCorridor(CorridorClosure),
-    /// Keep the pseudonym, or let it change.
-    LockIdentity(bool),
-    /// Know this.
-    Notice(Notice),
-    /// Know that the event that was told had no effect.
-    Ignored(Event, Ignored),
-}
-
 /// One robot's endpoint.
 #[derive(Clone, Debug)]
 pub struct Endpoint {
@@ -143,9 +125,7 @@ pub struct Endpoint {
     /// Parameters of each follower's newest command, for its repetition.
     orders: BTreeMap<StationId, TaskParameters>,
     /// Who is around the robot.
-    clustering: Clustering,
-    /// RAM sent; they announce one cluster after the other.
-    rams_sent: usize,
+    surroundings: Surroundings,
     /// Shortest interval that congestion control allows, in ms.
     congestion_ms: u64,
     counters: Counters,
@@ -168,8 +148,7 @@ impl Endpoint {
         now_ms: u64,
         rules: &'static dyn Rules,
     ) -> Self {
-        let seed = cluster_seed(&robot);
-        let clustering = Clustering::new(clustering::Settings::default(), seed);
+        let surroundings = Surroundings::new(Awareness::default(), cluster_seed(&robot));
         Self {
             station: Station::new(&wire.identifiers, robot.station()),
             robot,
@@ -179,16 +158,17 @@ impl Endpoint {
             told_ms: now_ms,
             generation: Generation::default(),
             orders: BTreeMap::new(),
-            clustering,
-            rams_sent: 0,
+            surroundings,
             congestion_ms: INTERVAL_MIN_MS,
             counters: Counters::default(),
         }
     }
 
-    /// Says how people around the robot are clustered; those known so far are forgotten.
-    pub fn cluster_by(&mut self, settings: clustering::Settings) {
-        self.clustering = Clustering::new(settings, cluster_seed(&self.robot));
+    /// Says how people around the robot are announced; those known so far are forgotten.
+    #[must_use]
+    pub fn with_awareness(mut self, awareness: Awareness) -> Self {
+        self.surroundings = Surroundings::new(awareness, cluster_seed(&self.robot));
+        self
     }
 
     /// Congestion control says that two RAM outside of a session are at least so many ms apart.
@@ -276,10 +256,7 @@ impl Endpoint {
             } => {
                 self.order(&mut turn, follower, task, parameters);
             }
-            Stimulus::Perceived(people) => {
-                let now_ms = turn.moment.now_ms;
-                self.clustering.perceive(now_ms, [0.0, 0.0], people);
-            }
+            Stimulus::Perceived(people) => self.perceive(&mut turn, people),
             Stimulus::Timer(timer) => {
                 self.step(&mut turn, Input::Expired(timer), None);
             }
@@ -318,6 +295,7 @@ impl Endpoint {
         }
         self.told_ms = turn.moment.now_ms;
         self.station.elapse(turn.moment.now_ms);
+        self.surroundings.elapse(turn.moment.now_ms);
         let elapsed = u32::try_from(elapsed).unwrap_or(u32::MAX);
         self.step(turn, Input::Elapsed(Millis(elapsed)), None);
     }
@@ -395,9 +373,23 @@ impl Endpoint {
         if let Some(state) = &heard.state {
             let (ego, now_ms) = (turn.ego(), turn.moment.now_ms);
             self.station.observe_robot(heard.from, state, &ego, now_ms);
+            let (from, position) = (heard.from.0, &state.position);
+            if let Some(plane) = self.surroundings.plane() {
+                let cluster = heard.cluster.as_ref();
+                let cluster = cluster.and_then(|it| containers::on_plane(it, position, plane));
+                let own = self.robot.station().0;
+                self.surroundings.hear(now_ms, own, from, cluster.as_ref());
+            }
         }
         for input in heard.inputs {
             self.step(turn, input, heard.parameters);
+        }
+    }
+
+    fn perceive(&mut self, turn: &mut Turn, people: &[PerceivedVru]) {
+        let (now_ms, position) = (turn.moment.now_ms, turn.state.position);
+        if let Err(unplaced) = self.surroundings.perceive(now_ms, &position, people) {
+            self.drop(turn, Cause::Unplaced, unplaced.to_string(), Vec::new());
         }
     }
 
@@ -460,8 +452,7 @@ impl Endpoint {
     fn send_ram(&mut self, turn: &mut Turn, trigger: Trigger) {
         let now_ms = turn.moment.now_ms;
         let low_frequency = self.generation.low_frequency_due(now_ms);
-        let clusters = self.clustering.clusters();
-        let cluster = clusters.get(self.rams_sent % clusters.len().max(1));
+        let cluster = self.surroundings.next_cluster();
         let status = self.status(&turn.state);
         let octets = self.wire.ram(
             &turn.state,
@@ -469,9 +460,8 @@ impl Endpoint {
             status.availability,
             turn.generation_delta_time(),
             low_frequency,
-            cluster,
+            cluster.as_ref().zip(self.surroundings.plane()),
         );
-        self.rams_sent = self.rams_sent.wrapping_add(1);
         self.generation
             .sent(now_ms, trigger, &turn.state, status, low_frequency);
         self.transmit(turn, MessageKind::Ram, trigger, octets);
@@ -494,7 +484,7 @@ impl Endpoint {
         turn: &mut Turn,
         kind: MessageKind,
         trigger: Trigger,
-        octets: Result<Vec<u8>, crate::wire::Unsendable>,
+        octets: Result<Vec<u8>, impl std::fmt::Display>,
     ) {
         let outcome = octets
             .map_err(|error| error.to_string())
@@ -523,16 +513,23 @@ impl Endpoint {
         });
     }
 
-    /// Outside of a session, sends a RAM when the generation rules say so.
+    /// Sends what is due by the generation rules: cluster VAM, and outside of a session RAM.
     fn generate(&mut self, turn: &mut Turn) {
+        let (moment, own) = (turn.moment, self.robot.station().0);
+        let position = turn.state.position;
+        let vams =
+            self.surroundings
+                .cluster_vams(moment.now_ms, moment.timestamp_its, own, &position);
+        for (_, vam) in vams {
+            self.transmit(turn, MessageKind::Vam, Trigger::Interval, vam);
+        }
         if self.robot.next_ram().is_some() {
             return;
         }
         let (now_ms, status) = (turn.moment.now_ms, self.status(&turn.state));
         let limits = Limits {
             congestion_ms: self.congestion_ms,
-            // Every cluster is announced about once a second.
-            max_ms: INTERVAL_MAX_MS / (self.clustering.count() as u64).max(1),
+            max_ms: self.surroundings.ram_interval_max_ms(),
         };
         if let Some(trigger) = self
             .generation
@@ -573,19 +570,4 @@ impl Turn {
 /// Ids of clusters differ from robot to robot and from boot to boot.
 fn cluster_seed(robot: &Robot) -> u64 {
     u64::from(robot.station().0) << 16 ^ u64::from(robot.boot())
-}
-
-/// What an output means to the application.
-fn act(output: Output, parameters: TaskParameters) -> Option<Act> {
-    Some(match output {
-        Output::StartManeuver(maneuver) => Act::Start(maneuver, parameters),
-        Output::StopManeuver(maneuver, why) => Act::Stop(maneuver, why),
-        Output::FallBack(maneuver, policy) => Act::FallBack(maneuver, policy),
-        Output::CorridorOpened => Act::OpenCorridor,
-        Output::CorridorClosed(why) => Act::CloseCorridor(why),
-        Output::LockIdentity => Act::LockIdentity(true),
-        Output::UnlockIdentity => Act::LockIdentity(false),
-        Output::Notify(notice) => Act::Notice(notice),
-        Output::SendRam | Output::SendRmcm(_) | Output::Ignored(_) => return None,
-    })
 }

@@ -7,7 +7,7 @@
 //!                                  radio: air time, carrier sense, EDCA
 //! ```
 //!
-//! - [`grid`] is the street grid and where robots stand, [`sumo`] makes mobility on it, [`trace`]
+//! - [`grid`] is the street grid, [`stationing`] where robots are on it, [`sumo`] makes mobility on it, [`trace`]
 //!   keeps it, [`shipped`] are the traces that come along.
 //! - [`coverage`] is the observation coverage ratio, and the greedy placement of robots.
 //! - [`simulation`] is a run on the air, with [`messages`] of real size, on the channel of [`radio`].
@@ -27,6 +27,7 @@ pub mod radio;
 mod robot;
 pub mod shipped;
 pub mod simulation;
+pub mod stationing;
 pub mod statistics;
 pub mod sumo;
 pub mod trace;

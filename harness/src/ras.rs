@@ -13,7 +13,8 @@
 //! - [`motion`] is where a station is and how it moves, and what counts as a change of that.
 //! - [`generation`] says when a RAM or a CAM is sent, and which trigger caused it.
 //! - [`clustering`] makes clusters of the road users that a robot perceives, [`area`] is what bounds
-//!   them, [`containers`] writes them into a RAM and reads them from one.
+//!   them, [`containers`] writes them into a RAM and reads them from one. [`surroundings`] are these
+//!   of one robot, together.
 //! - [`vru`] is the station of a road user: when it sends a VAM, when it leaves that to a robot, and
 //!   when it takes it up again. [`vam`] makes the message.
 
@@ -22,5 +23,6 @@ pub mod clustering;
 pub mod containers;
 pub mod generation;
 pub mod motion;
+pub mod surroundings;
 pub mod vam;
 pub mod vru;

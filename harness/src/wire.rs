@@ -1,5 +1,6 @@
 //! Messages of one robot: from what the protocol and the application say to octets, and back.
 
+use crossguard_codec::core::cdd::VruClusterInformation;
 use crossguard_codec::{
     EncodeError, ExecutionStatus, Identifiers, Message, RobotState, TaskParameters,
     availability_of, distance, encode, ram_from, rmcm_from_answer, rmcm_from_commands, state_of,
@@ -31,6 +32,8 @@ pub struct Heard {
     pub state: Option<RobotState>,
     /// The sender's availability, from a RAM.
     pub availability: Option<Availability>,
+    /// The people around the sender, from a RAM.
+    pub cluster: Option<VruClusterInformation>,
 }
 
 /// Encodes and decodes for one robot.
@@ -41,7 +44,7 @@ pub struct Wire {
 }
 
 impl Wire {
-    /// The octets of a RAM, which announces a cluster around the robot's own position.
+    /// The octets of a RAM, which announces a cluster, if there is one.
     ///
     /// # Errors
     /// When the view or state is one that no message can carry.
@@ -52,7 +55,7 @@ impl Wire {
         availability: Availability,
         generation_delta_time: u16,
         with_low_frequency: bool,
-        cluster: Option<&Cluster>,
+        cluster: Option<(&Cluster, &Plane)>,
     ) -> Result<Vec<u8>, Unsendable> {
         let ids = &self.identifiers;
         let mut ram = ram_from(
@@ -63,8 +66,8 @@ impl Wire {
             generation_delta_time,
             with_low_frequency,
         )?;
-        if let Some(plane) = Plane::around(&state.position) {
-            containers::write(&mut ram, &plane, cluster);
+        if let Some((cluster, plane)) = cluster {
+            containers::write(&mut ram, plane, Some(cluster));
         }
         Ok(encode(ids, &ram)?)
     }
@@ -116,6 +119,7 @@ impl Wire {
                 let view = view_of_ram(&ram)?;
                 let sender = state_of(&ram);
                 let distance = distance(&state.position, &sender.position);
+                let cluster = ram.ram.ram_parameters.vru_cluster_information_container;
                 Ok(Heard {
                     kind: MessageKind::Ram,
                     from: view.station,
@@ -125,6 +129,7 @@ impl Wire {
                     }],
                     parameters: None,
                     availability: Some(availability_of(&ram)),
+                    cluster: cluster.map(|it| it.vru_cluster_information),
                     state: Some(sender),
                 })
             }
@@ -141,6 +146,7 @@ impl Wire {
                     parameters: task_parameters_of(&rmcm, me),
                     state: None,
                     availability: None,
+                    cluster: None,
                 })
             }
         }

@@ -31,9 +31,20 @@ fn moving(from: Point, to: Point, seconds: f64) -> Track {
     Track::new(500, &(0..=SECONDS * 2).map(place).collect::<Vec<_>>())
 }
 
+fn standing_all(places: &[Point]) -> Vec<Track> {
+    places.iter().map(|&place| Track::standing(place)).collect()
+}
+
 fn measure(run: &Run, robots: &[Point], behaviour: &Behaviour) -> Measured {
     let sizes = Sizes::measure(5).unwrap();
-    simulate(run, SECONDS * 1_000, robots, behaviour, &sizes).unwrap()
+    simulate(
+        run,
+        SECONDS * 1_000,
+        &standing_all(robots),
+        behaviour,
+        &sizes,
+    )
+    .unwrap()
 }
 
 fn on_an_ideal_channel(vam: VamRule, ram_interval_ms: u64) -> Behaviour {
@@ -71,7 +82,7 @@ proptest! {
         let reduction = 1.0 - after.mcbr / before.mcbr;
         let by_silence = predicted_reduction(&before, &after, after.passive);
         prop_assert!((reduction - by_silence).abs() < 0.02, "{reduction} {by_silence} {before:?} {after:?}");
-        let covered = coverage(&run, &robots, Settings::default().radius_m);
+        let covered = coverage(&run, &standing_all(&robots), Settings::default().radius_m);
         if walkers == 0 {
             let by_coverage = predicted_reduction(&before, &after, covered);
             prop_assert!((reduction - by_coverage).abs() < 0.02, "{reduction} {by_coverage}");

@@ -6,14 +6,18 @@
 use super::trace::{Run, Track};
 use crate::ras::motion::{Point, distance_m};
 
-/// The observation coverage ratio of robots at these places, 0..1.
+/// The observation coverage ratio of robots on these ways, 0..1. Whoever is in the zones of two robots
+/// is seen once.
 #[must_use]
-pub fn coverage(run: &Run, robots: &[Point], radius_m: f64) -> f64 {
+pub fn coverage(run: &Run, robots: &[Track], radius_m: f64) -> f64 {
     let (mut seen, mut all) = (0_u32, 0_u32);
-    for motion in run.pedestrians.iter().flat_map(Track::samples) {
-        all += 1;
-        let near = |robot: &Point| distance_m(*robot, motion.position_m) <= radius_m;
-        seen += u32::from(robots.iter().any(near));
+    for track in &run.pedestrians {
+        for (index, motion) in track.samples().iter().enumerate() {
+            all += 1;
+            let near =
+                |robot: &Track| distance_m(robot.place_at(index), motion.position_m) <= radius_m;
+            seen += u32::from(robots.iter().any(near));
+        }
     }
     f64::from(seen) / f64::from(all.max(1))
 }
@@ -61,10 +65,21 @@ mod tests {
     #[test]
     fn who_is_seen_twice_counts_once() {
         let run = standing_at(&[[0.0, 0.0], [10.0, 0.0], [15.1, 0.0], [50.0, 0.0]]);
-        let robots = [[0.0, 0.0], [5.0, 0.0]];
+        let robots = [[0.0, 0.0], [5.0, 0.0]].map(Track::standing);
         assert!((coverage(&run, &robots[..1], 15.0) - 0.5).abs() < 1e-12);
         assert!((coverage(&run, &robots, 15.0) - 0.75).abs() < 1e-12);
         assert!(coverage(&run, &[], 15.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_robot_that_walks_sees_along_its_way() {
+        let walker = Track::new(500, &[[0.0, 0.0], [100.0, 0.0]]);
+        let stays = Track::new(500, &[[100.0, 0.0], [100.0, 0.0]]);
+        let run = Run {
+            pedestrians: vec![stays],
+            ..standing_at(&[])
+        };
+        assert!((coverage(&run, &[walker], 15.0) - 0.5).abs() < 1e-12);
     }
 
     #[test]

@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use serde::Serialize;
 
 use super::coverage::coverage;
-use super::grid::Site;
 use super::messages::Sizes;
 use super::robot::RobotError;
 use super::simulation::{Behaviour, Measured, simulate};
+use super::stationing::Stationing;
 use super::statistics::Estimate;
 use super::trace::Traces;
 
@@ -20,8 +20,8 @@ pub struct Axes {
     pub robots: Vec<usize>,
     /// Perception radii, in metres.
     pub radii_m: Vec<f64>,
-    /// Where at an intersection robots stand.
-    pub site: Site,
+    /// Where robots are.
+    pub stationing: Stationing,
     /// Seeds at most.
     pub seeds: usize,
     /// Threads at most.
@@ -73,10 +73,12 @@ pub fn obs(traces: &[Traces], axes: &Axes) -> Vec<ObsCell> {
     let mut cells = Vec::new();
     for traces in traces {
         for &robots in &axes.robots {
-            let places = traces.grid.robots(robots, axes.site);
+            let (duration_ms, sample_ms) = (traces.duration_ms(), traces.sample_ms);
+            let grid = &traces.grid;
+            let ways = axes.stationing.robots(grid, robots, duration_ms, sample_ms);
             for &radius_m in &axes.radii_m {
                 let runs = traces.runs.iter().take(axes.seeds);
-                let percent = runs.map(|run| 100.0 * coverage(run, &places, radius_m));
+                let percent = runs.map(|run| 100.0 * coverage(run, &ways, radius_m));
                 cells.push(ObsCell {
                     robots,
                     pedestrians: traces.pedestrians(),
@@ -201,12 +203,15 @@ fn measure(
 ) -> Result<Done, RobotError> {
     let file = &traces[job.traces];
     let run = &file.runs[job.run];
-    let places = file.grid.robots(job.robots, axes.site);
+    let (duration_ms, sample_ms) = (file.duration_ms(), file.sample_ms);
+    let robots = axes
+        .stationing
+        .robots(&file.grid, job.robots, duration_ms, sample_ms);
     let mut behaviour = behaviour.clone();
     behaviour.clustering.radius_m = job.radius_m;
     Ok(Done {
-        measured: simulate(run, file.duration_ms(), &places, &behaviour, sizes)?,
-        coverage: coverage(run, &places, job.radius_m),
+        measured: simulate(run, duration_ms, &robots, &behaviour, sizes)?,
+        coverage: coverage(run, &robots, job.radius_m),
     })
 }
 

@@ -1,21 +1,23 @@
-//! A robot of the simulation: it stands, perceives everybody around it, and announces them.
+//! A robot of the simulation: it perceives everybody around it, and announces them.
 
 #![allow(clippy::similar_names, reason = "the same time in us and in ms")]
 
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{
-    Capabilities, Identifiers, JobRole, Position, RobotCategory, RobotState, SlowState,
-    TaskProgression, decode, encode, ram_from,
+    Capabilities, Identifiers, JobRole, RobotCategory, RobotState, SlowState, TaskProgression,
+    decode, encode, ram_from,
 };
 use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
 
 use super::simulation::{Behaviour, Payload};
-use super::trace::Run;
-use crate::ras::clustering::{Cluster, Clustering, PerceivedVru, Settings, VruClass};
+use super::trace::{Run, Track};
+use crate::ras::area::Area;
+use crate::ras::clustering::{Cluster, PerceivedVru, VruClass};
 use crate::ras::containers;
-use crate::ras::generation::{Generation, INTERVAL_MAX_MS, Limits, Status, Trigger};
+use crate::ras::generation::{Generation, Limits, Status, Trigger};
 use crate::ras::motion::{Plane, Point, distance_m};
-use crate::ras::vam::{Content, VamError, vam};
+use crate::ras::surroundings::{Awareness, Surroundings, Unplaced};
+use crate::ras::vam::VamError;
 use crate::ras::vru::{AnnouncedCluster, Announcement, Understands};
 
 /// Where the grid's origin is, in degrees.
@@ -70,48 +72,47 @@ pub enum RobotError {
     /// A cluster VAM cannot be made.
     #[error(transparent)]
     Vam(#[from] VamError),
+    /// It does not know where it is.
+    #[error(transparent)]
+    Unplaced(#[from] Unplaced),
 }
 
 /// A robot.
-pub(super) struct Robot {
+pub(super) struct Robot<'a> {
     station: u32,
-    place: Point,
-    plane: Plane,
+    track: &'a Track,
     state: RobotState,
     generation: Generation,
-    clustering: Clustering,
+    surroundings: Surroundings,
+    radius_m: f64,
     ram_interval_ms: Option<u64>,
-    cluster_vam_interval_ms: Option<u64>,
     last_ram_ms: Option<u64>,
-    last_vam_ms: Option<u64>,
-    sent: usize,
     perceived: Vec<PerceivedVru>,
 }
 
-impl Robot {
-    pub(super) fn new(number: u32, place: Point, seed: u64, behaviour: &Behaviour) -> Self {
-        let grid = Plane::at(ORIGIN[0], ORIGIN[1]);
+impl<'a> Robot<'a> {
+    pub(super) fn new(number: u32, track: &'a Track, seed: u64, behaviour: &Behaviour) -> Self {
         let station = FIRST_STATION + number;
         let by_vam = behaviour.understands == Understands::ClusterVam;
-        let settings: Settings = behaviour.clustering;
+        let awareness = Awareness {
+            clustering: behaviour.clustering,
+            cluster_vam_interval_ms: by_vam.then_some(behaviour.cluster_vam_interval_ms),
+        };
         Self {
             station,
-            place,
-            plane: grid,
-            state: state_of_a_robot(grid.position(place)),
+            track,
+            state: state_of_a_robot(),
             generation: Generation::default(),
-            clustering: Clustering::new(settings, seed << 16 ^ u64::from(station)),
+            surroundings: Surroundings::new(awareness, seed << 16 ^ u64::from(station)),
+            radius_m: awareness.clustering.radius_m,
             ram_interval_ms: behaviour.ram_interval_ms,
-            cluster_vam_interval_ms: by_vam.then_some(behaviour.cluster_vam_interval_ms),
             last_ram_ms: None,
-            last_vam_ms: None,
-            sent: 0,
             perceived: Vec::new(),
         }
     }
 
-    pub(super) const fn place(&self) -> Point {
-        self.place
+    pub(super) fn place(&self, now_us: u64) -> Point {
+        self.track.motion(now_us).position_m
     }
 
     /// Perceives everybody around, and the messages that are due.
@@ -122,41 +123,66 @@ impl Robot {
         congestion_ms: u64,
     ) -> Result<Vec<Message>, RobotError> {
         let now_ms = now_us / 1_000;
-        self.perceive(now_us, run);
+        let motion = self.track.motion(now_us);
+        self.state.position = grid().position(motion.position_m);
+        self.state.speed = Some(motion.speed_mps.into());
+        self.state.heading = Some(motion.heading_deg.into());
+        self.perceive(now_us, motion.position_m, run)?;
         let mut messages = Vec::new();
         if let Some(trigger) = self.ram_trigger(now_ms, congestion_ms) {
             messages.push(self.ram(now_ms, trigger)?);
         }
-        if let Some(interval_ms) = self.cluster_vam_interval_ms
-            && self
-                .last_vam_ms
-                .is_none_or(|last| now_ms - last >= interval_ms)
-        {
-            for cluster in self.clustering.clusters() {
-                self.last_vam_ms = Some(now_ms);
-                messages.push(self.cluster_vam(now_ms, &cluster)?);
-            }
+        let position = self.state.position;
+        let vams = self
+            .surroundings
+            .cluster_vams(now_ms, now_ms, self.station, &position);
+        for (cluster, octets) in vams {
+            messages.push(self.cluster_vam(&cluster, octets?.len()));
         }
         Ok(messages)
     }
 
-    fn perceive(&mut self, now_us: u64, run: &Run) {
-        let reach_m = self.clustering.settings().radius_m + SENSED_BEYOND_M;
+    fn perceive(&mut self, now_us: u64, place: Point, run: &Run) -> Result<(), Unplaced> {
+        let reach_m = self.radius_m + SENSED_BEYOND_M;
         self.perceived.clear();
         for (id, track) in (0_u32..).zip(&run.pedestrians) {
             let motion = track.motion(now_us);
-            if distance_m(motion.position_m, self.place) <= reach_m {
+            if distance_m(motion.position_m, place) <= reach_m {
                 self.perceived.push(PerceivedVru {
                     id,
-                    position_m: motion.position_m,
+                    position_m: [0, 1].map(|axis| motion.position_m[axis] - place[axis]),
                     velocity_mps: motion.velocity_mps(),
                     class: VruClass::Pedestrian,
                     confidence: 1.0,
                 });
             }
         }
-        self.clustering
-            .perceive(now_us / 1_000, self.place, &self.perceived);
+        let position = self.state.position;
+        self.surroundings
+            .perceive(now_us / 1_000, &position, &self.perceived)
+    }
+
+    /// Another robot's RAM.
+    pub(super) fn hear(&mut self, now_ms: u64, heard: &Announced) {
+        if heard.by == Understands::Ram {
+            let cluster = heard.cluster.as_ref();
+            let on_own_plane = cluster.and_then(|it| self.on_own_plane(it));
+            let (own, head) = (self.station, heard.head);
+            self.surroundings
+                .hear(now_ms, own, head, on_own_plane.as_ref());
+        }
+    }
+
+    /// What is on the grid's plane, on the one that the robot keeps.
+    fn on_own_plane(&self, cluster: &containers::Announced) -> Option<containers::Announced> {
+        let origin = self
+            .surroundings
+            .plane()?
+            .point(&grid().position([0.0, 0.0]))?;
+        Some(containers::Announced {
+            area: cluster.area.clone().moved(origin),
+            ..cluster.clone()
+        })
     }
 
     fn status(&self) -> Status {
@@ -182,7 +208,7 @@ impl Robot {
         }
         let limits = Limits {
             congestion_ms,
-            max_ms: INTERVAL_MAX_MS / (self.clustering.count() as u64).max(1),
+            max_ms: self.surroundings.ram_interval_max_ms(),
         };
         self.generation
             .trigger(now_ms, limits, &self.state, &self.status())
@@ -190,9 +216,7 @@ impl Robot {
 
     fn ram(&mut self, now_ms: u64, trigger: Trigger) -> Result<Message, RobotError> {
         let ids = Identifiers::default();
-        let clusters = self.clustering.clusters();
-        let cluster = clusters.get(self.sent % clusters.len().max(1));
-        self.sent += 1;
+        let cluster = self.surroundings.next_cluster();
         self.last_ram_ms = Some(now_ms);
         let low_frequency = self.generation.low_frequency_due(now_ms);
         let (status, time) = (
@@ -208,7 +232,9 @@ impl Robot {
             time,
             low_frequency,
         )?;
-        containers::write(&mut ram, &self.plane, cluster);
+        if let Some(plane) = self.surroundings.plane() {
+            containers::write(&mut ram, plane, cluster.as_ref());
+        }
         self.generation
             .sent(now_ms, trigger, &self.state, status, low_frequency);
         let octets = encode(&ids, &ram)?;
@@ -216,7 +242,7 @@ impl Robot {
         let announced = Announced {
             head: self.station,
             by: Understands::Ram,
-            cluster: containers::read(&received, &self.plane),
+            cluster: containers::read(&received, &grid()),
             velocity_mps: None,
         };
         Ok(Message {
@@ -226,44 +252,37 @@ impl Robot {
     }
 
     /// The same cluster for devices that do not understand RAM. Its area is the one that is on the wire.
-    fn cluster_vam(&self, now_ms: u64, cluster: &Cluster) -> Result<Message, RobotError> {
-        let [east, north] = cluster.velocity_mps;
-        let state = RobotState {
-            position: self.plane.position(self.place),
-            heading: Some(east.atan2(north).to_degrees().rem_euclid(360.0).into()),
-            speed: Some(east.hypot(north).into()),
-            ..RobotState::default()
+    fn cluster_vam(&self, cluster: &Cluster, octets: usize) -> Message {
+        let on_grid = || {
+            let own = self.surroundings.plane()?;
+            let wire = cluster.area.to_wire(own.point(&self.state.position)?);
+            Some(Area::of_wire(&wire, grid().point(&self.state.position)?))
         };
-        let octets = vam(
-            self.station,
-            &state,
-            now_ms,
-            Content::Cluster(cluster, &self.plane),
-        )?;
-        let wire = cluster.area.to_wire(self.place);
         let announced = Announced {
             head: self.station,
             by: Understands::ClusterVam,
-            cluster: Some(containers::Announced {
+            cluster: on_grid().map(|area| containers::Announced {
                 id: Some(cluster.id),
-                area: crate::ras::area::Area::of_wire(&wire, self.place),
+                area,
                 cardinality: cluster.cardinality,
             }),
             velocity_mps: Some(cluster.velocity_mps),
         };
-        Ok(Message {
-            octets: octets.len(),
+        Message {
+            octets,
             payload: Payload::Robot(Some(Box::new(announced))),
-        })
+        }
     }
 }
 
-/// A robot that guards a crossing, and stands.
-fn state_of_a_robot(position: Position) -> RobotState {
+/// The plane of the grid.
+fn grid() -> Plane {
+    Plane::at(ORIGIN[0], ORIGIN[1])
+}
+
+/// A robot that guards a crossing.
+fn state_of_a_robot() -> RobotState {
     RobotState {
-        position,
-        speed: Some(0.0.into()),
-        heading: Some(0.0.into()),
         category: RobotCategory::Humanoid,
         job_role: JobRole::TrafficGuard,
         slow: Some(SlowState {

@@ -19,7 +19,7 @@ use super::radio::{Channel, Radio, Transmission, WINDOW_US};
 use super::robot::{Announced, Robot, RobotError};
 use super::trace::{Run, Track};
 use crate::ras::generation::{Cadence, LOW_FREQUENCY_INTERVAL_MS, Limits};
-use crate::ras::motion::{Change, Motion, Point};
+use crate::ras::motion::{Change, Motion};
 use crate::ras::vru::{Understands, VamRule, VruStation};
 
 /// How often a generation rule is checked, in microseconds.
@@ -70,7 +70,7 @@ impl Default for Behaviour {
             understands: Understands::Ram,
             v2x_share: 1.0,
             ram_interval_ms: None,
-            cluster_vam_interval_ms: 500,
+            cluster_vam_interval_ms: crate::ras::vam::CLUSTER_INTERVAL_MS,
             cam_interval_ms: None,
             cam_path_points: 5,
             vehicles_leave_s: None,
@@ -149,7 +149,7 @@ enum Role<'a> {
         track: &'a Track,
         station: Box<VruStation>,
     },
-    Robot(Box<Robot>),
+    Robot(Box<Robot<'a>>),
 }
 
 struct Station<'a> {
@@ -217,14 +217,14 @@ struct Sums {
     replaced: u64,
 }
 
-/// Measures a run with robots at these places.
+/// Measures a run with robots on these ways.
 ///
 /// # Errors
 /// When a robot's message cannot be encoded.
 pub fn simulate(
     run: &Run,
     duration_ms: u64,
-    robots: &[Point],
+    robots: &[Track],
     behaviour: &Behaviour,
     sizes: &Sizes,
 ) -> Result<Measured, RobotError> {
@@ -242,7 +242,7 @@ impl<'a> Simulation<'a> {
     fn new(
         run: &'a Run,
         duration_ms: u64,
-        robots: &[Point],
+        robots: &'a [Track],
         behaviour: &'a Behaviour,
         sizes: &'a Sizes,
     ) -> Self {
@@ -267,8 +267,8 @@ impl<'a> Simulation<'a> {
                 track,
                 station: Box::new(VruStation::new(behaviour.vam, behaviour.understands)),
             });
-        let robots = (0_u32..).zip(robots).map(|(number, &place)| {
-            Role::Robot(Box::new(Robot::new(number, place, run.seed, behaviour)))
+        let robots = (0_u32..).zip(robots).map(|(number, track)| {
+            Role::Robot(Box::new(Robot::new(number, track, run.seed, behaviour)))
         });
         let station = |role| Station {
             role,
@@ -306,7 +306,7 @@ impl<'a> Simulation<'a> {
                 Role::Vehicle { track, .. } | Role::Device { track, .. } => {
                     track.motion(now_us).position_m
                 }
-                Role::Robot(robot) => robot.place(),
+                Role::Robot(robot) => robot.place(now_us),
             };
             self.channel.place(number, place);
         }
@@ -486,21 +486,28 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Every device in range hears what a robot announces.
+    /// Everybody in range hears what a robot announces. Only devices are counted.
     fn announce(&mut self, now_us: u64, transmission: &Transmission, announced: &Announced) {
+        let now_ms = now_us / 1_000;
         for (number, station) in self.stations.iter_mut().enumerate() {
-            let Role::Device { track, station } = &mut station.role else {
-                continue;
-            };
-            if !self.channel.in_range(number, transmission.sender) {
+            if matches!(station.role, Role::Vehicle { .. })
+                || number == transmission.sender
+                || !self.channel.in_range(number, transmission.sender)
+            {
                 continue;
             }
-            self.sums.heard += 1;
-            if self.channel.receives(number, transmission) {
-                let motion = track.motion(now_us);
-                station.hear(now_us / 1_000, &motion, &announced.announcement());
-            } else {
-                self.sums.lost += 1;
+            let is_received = self.channel.receives(number, transmission);
+            match &mut station.role {
+                Role::Device { track, station } => {
+                    self.sums.heard += 1;
+                    self.sums.lost += u64::from(!is_received);
+                    if is_received {
+                        let motion = track.motion(now_us);
+                        station.hear(now_ms, &motion, &announced.announcement());
+                    }
+                }
+                Role::Robot(robot) if is_received => robot.hear(now_ms, announced),
+                Role::Robot(_) | Role::Vehicle { .. } => {}
             }
         }
     }

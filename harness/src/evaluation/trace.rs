@@ -213,6 +213,19 @@ impl Track {
         }
     }
 
+    /// The track of someone who stands at a place.
+    #[must_use]
+    pub fn standing(place: Point) -> Self {
+        Self::new(1_000, &[place, place])
+    }
+
+    /// The place at a sample; behind its end, at its end.
+    #[must_use]
+    pub fn place_at(&self, sample: usize) -> Point {
+        let there = self.samples.get(sample).or(self.samples.last());
+        there.map_or([0.0, 0.0], |motion| motion.position_m)
+    }
+
     /// How long the track is, in ms.
     #[must_use]
     pub fn duration_ms(&self) -> u64 {

@@ -137,7 +137,10 @@ impl Area {
     /// The area on the wire, as seen from `reference`. It is never smaller than this one.
     #[must_use]
     pub fn to_wire(&self, reference: Point) -> Shape {
-        let place = |center: &Point| Some(place(minus(*center, reference)));
+        // Without one, the reference position itself is meant.
+        let origin = place([0.0, 0.0]);
+        let place =
+            |center: &Point| Some(place(minus(*center, reference))).filter(|it| *it != origin);
         match self {
             Self::Circle { center, radius_m } => Shape::Circular(CircularShape {
                 shape_reference_point: place(center),

@@ -11,6 +11,10 @@
 //! | members of the same velocity (5 %) | any velocity: the robot sees them all the time. A device that joins by ETSI's rules checks its own velocity, see [`vru`](super::vru) |
 //! | cardinality counts the head | it does not: the head is no road user who needs to be seen |
 //! | at most 20 members | the same; a larger group is split along its longer side |
+//! | who is in two clusters chooses | who is in the zones of two robots is announced by the one of the lower station id: see [`Clustering::leave_to`] |
+//! | a head that ends its cluster warns for 3 s (`timeClusterBreakupWarning`) | no warning; devices of a cluster that is no longer announced resume by themselves, see [`vru`](super::vru) |
+//! | a head may change its cluster's id, with 3 s of notice | the id of a cluster stays |
+//! | clusters of different kinds combine (`maxCombinedClusterDistance`) | a cluster has all kinds from the beginning, and says which |
 //!
 //! No identifier of a person leaves the robot: what tracks them is used here only, and a cluster's
 //! random id is not used again for 30 s (`timeClusterUniquenessThreshold`) after the cluster is gone.
@@ -23,9 +27,12 @@ use serde::{Deserialize, Serialize};
 
 use super::area::Area;
 use super::motion::{Point, distance_m};
+use super::vru::CONTINUITY_MS;
 
 /// How long an id is not used again, in ms (`timeClusterUniquenessThreshold`).
 pub const UNIQUENESS_MS: u64 = 30_000;
+/// Clusters of other robots that are remembered.
+const OTHERS_MAX: usize = 64;
 
 /// Kind of a road user (TS 102 894-2 `VruClusterProfiles`).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
@@ -42,10 +49,10 @@ pub enum VruClass {
 }
 
 impl VruClass {
-    /// The bit of this class, the first bit being the most significant of four.
+    /// The bit of this class, bit 0 being the lowest one.
     #[must_use]
     pub const fn bit(self) -> u8 {
-        0b1000 >> self as u8
+        1 << self as u8
     }
 }
 
@@ -97,6 +104,29 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// Checks that they are possible.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn check(&self) -> Result<(), &'static str> {
+        let within = |value: f64, most: f64| (0.0..=most).contains(&value);
+        if !within(self.radius_m, 100.0) {
+            Err("radius_m is 0 to 100 m")
+        } else if !within(self.hysteresis_m, 20.0) || !within(self.margin_m, 20.0) {
+            Err("hysteresis_m and margin_m are 0 to 20 m")
+        } else if !within(self.confidence_min, 1.0) {
+            Err("confidence_min is 0 to 1")
+        } else if !(100..=CONTINUITY_MS).contains(&self.forget_ms) {
+            Err("forget_ms is 100 to 2000 ms")
+        } else if !(1..=255).contains(&self.size_max) {
+            Err("size_max is 1 to 255")
+        } else {
+            Ok(())
+        }
+    }
+}
+
 /// A group of road users, as it is announced.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Cluster {
@@ -121,6 +151,8 @@ pub struct Clustering {
     members: BTreeMap<u32, Member>,
     groups: Vec<(u8, BTreeSet<u32>)>,
     retired: BTreeMap<u8, u64>,
+    /// Clusters of robots that precede this one, by head and id.
+    others: BTreeMap<(u32, Option<u8>), Other>,
     random: ChaCha8Rng,
 }
 
@@ -128,6 +160,12 @@ pub struct Clustering {
 struct Member {
     vru: PerceivedVru,
     seen_ms: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Other {
+    area: Area,
+    heard_ms: u64,
 }
 
 impl Clustering {
@@ -139,6 +177,7 @@ impl Clustering {
             members: BTreeMap::new(),
             groups: Vec::new(),
             retired: BTreeMap::new(),
+            others: BTreeMap::new(),
             random: ChaCha8Rng::seed_from_u64(seed),
         }
     }
@@ -172,13 +211,58 @@ impl Clustering {
                 self.members.remove(&vru.id);
             }
         }
-        let forget_ms = settings.forget_ms;
-        self.members
-            .retain(|_, member| now_ms.saturating_sub(member.seen_ms) < forget_ms);
+        self.expire(now_ms);
         self.regroup(now_ms);
     }
 
-    /// How many road users belong to the robot's clusters.
+    /// Forgets who was not perceived for too long, also when the sensors say nothing any more.
+    pub fn elapse(&mut self, now_ms: u64) {
+        if self.expire(now_ms) {
+            self.regroup(now_ms);
+        }
+    }
+
+    /// Whether anybody was forgotten.
+    fn expire(&mut self, now_ms: u64) -> bool {
+        let known = self.members.len() + self.others.len();
+        let is_within = |since_ms, limit_ms| now_ms.saturating_sub(since_ms) < limit_ms;
+        let forget_ms = self.settings.forget_ms;
+        self.members
+            .retain(|_, member| is_within(member.seen_ms, forget_ms));
+        self.others
+            .retain(|_, other| is_within(other.heard_ms, CONTINUITY_MS));
+        self.members.len() + self.others.len() < known
+    }
+
+    /// Forgets everybody, as when places mean something else from now on.
+    pub fn forget_everybody(&mut self, now_ms: u64) {
+        self.members.clear();
+        self.others.clear();
+        self.regroup(now_ms);
+    }
+
+    /// Leaves those within a cluster of a robot that precedes this one to that robot, so that nobody is
+    /// announced twice, for 2 s (`timeClusterContinuity`). Which robot precedes has to be an order, as
+    /// that of station ids is: then at least one of those who see somebody announces them.
+    pub fn leave_to(&mut self, now_ms: u64, id: (u32, Option<u8>), area: Area) {
+        if self.others.len() >= OTHERS_MAX && !self.others.contains_key(&id) {
+            let oldest = self.others.iter().min_by_key(|(_, other)| other.heard_ms);
+            if let Some(oldest) = oldest.map(|(id, _)| *id) {
+                self.others.remove(&oldest);
+            }
+        }
+        let heard_ms = now_ms;
+        self.others.insert(id, Other { area, heard_ms });
+        self.regroup(now_ms);
+    }
+
+    /// Takes back those who were left to a robot that has no cluster any more.
+    pub fn take_back(&mut self, now_ms: u64, head: u32) {
+        self.others.retain(|(other, _), _| *other != head);
+        self.regroup(now_ms);
+    }
+
+    /// How many road users the robot perceives in its zone, also those whom it leaves to another robot.
     #[must_use]
     pub fn members(&self) -> usize {
         self.members.len()
@@ -229,11 +313,10 @@ impl Clustering {
     fn regroup(&mut self, now_ms: u64) {
         let size_max = self.settings.size_max.clamp(1, usize::from(u8::MAX));
         let mut parts = Vec::new();
-        let all: Vec<(u32, Point)> = self
-            .members
-            .iter()
-            .map(|(&id, member)| (id, member.vru.position_m))
-            .collect();
+        let places = self.members.iter();
+        let places = places.map(|(&id, member)| (id, member.vru.position_m));
+        let is_left = |place| self.others.values().any(|it| it.area.contains(place));
+        let all: Vec<(u32, Point)> = places.filter(|(_, place)| !is_left(*place)).collect();
         split(all, size_max, &mut parts);
         let mut before = std::mem::take(&mut self.groups);
         for part in parts {
@@ -316,7 +399,10 @@ mod tests {
     fn one_person_is_a_cluster() {
         let clusters = perceiving(&[pedestrian(7, 3.0, 4.0)]).clusters();
         assert_eq!(clusters.len(), 1);
-        assert_eq!((clusters[0].cardinality, clusters[0].profiles), (1, 0b1000));
+        assert_eq!(
+            (clusters[0].cardinality, clusters[0].profiles),
+            (1, VruClass::Pedestrian.bit())
+        );
         assert!(distance_m(clusters[0].velocity_mps, [1.0, 0.0]) < 1e-9);
     }
 
@@ -373,6 +459,38 @@ mod tests {
             assert_ne!(clustering.clusters()[0].id, id);
             clustering.perceive(now_ms + 60, [0.0, 0.0], &[pedestrian(3, 20.0, 0.0)]);
         }
+    }
+
+    #[test]
+    fn who_is_in_the_zones_of_two_robots_is_announced_by_one() {
+        let mut clustering = perceiving(&[pedestrian(1, 3.0, 0.0), pedestrian(2, -9.0, 0.0)]);
+        let announced = |clustering: &Clustering| -> u32 {
+            let clusters = clustering.clusters();
+            clusters.iter().map(|it| u32::from(it.cardinality)).sum()
+        };
+        assert_eq!(announced(&clustering), 2);
+        let area = Area::around(&[[3.0, 0.0]], 1.0).unwrap();
+        clustering.leave_to(0, (4, Some(9)), area);
+        assert_eq!((announced(&clustering), clustering.members()), (1, 2));
+        clustering.take_back(100, 5);
+        assert_eq!(announced(&clustering), 1);
+        clustering.take_back(100, 4);
+        assert_eq!(announced(&clustering), 2);
+    }
+
+    #[test]
+    fn people_are_taken_back_from_a_silent_robot_and_forgotten_without_a_sensor() {
+        let mut clustering = perceiving(&[]);
+        let area = Area::around(&[[3.0, 0.0]], 1.0).unwrap();
+        clustering.leave_to(0, (4, None), area);
+        clustering.perceive(1_500, [0.0, 0.0], &[pedestrian(1, 3.0, 0.0)]);
+        assert_eq!(clustering.count(), 0);
+        clustering.elapse(1_999);
+        assert_eq!(clustering.count(), 0);
+        clustering.elapse(2_000);
+        assert_eq!(clustering.count(), 1);
+        clustering.elapse(2_500);
+        assert_eq!((clustering.count(), clustering.members()), (0, 0));
     }
 
     proptest! {

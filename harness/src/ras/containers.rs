@@ -38,7 +38,9 @@ pub fn information(cluster: &Cluster, reference: Point) -> VruClusterInformation
             cluster_id: Some(Identifier1B(cluster.id)),
             cluster_bounding_box_shape: Some(cluster.area.to_wire(reference)),
             cluster_cardinality_size: CardinalNumber1B(cluster.cardinality),
-            cluster_profiles: Some(VruClusterProfiles::new(cluster.profiles)),
+            // Without any it is not known which.
+            cluster_profiles: (cluster.profiles != 0)
+                .then(|| VruClusterProfiles::new(cluster.profiles)),
         },
     }
 }
@@ -106,11 +108,21 @@ pub fn read(ram: &RAM, plane: &Plane) -> Option<Announced> {
     let parameters = &ram.ram.ram_parameters;
     let container = parameters.vru_cluster_information_container.as_ref()?;
     let position: Position = position_of(&parameters.basic_container);
-    let information = &container.vru_cluster_information;
+    on_plane(&container.vru_cluster_information, &position, plane)
+}
+
+/// A cluster that a message from `position` tells of, on the receiver's plane; `None` if it has no
+/// shape, or nobody knows where it is.
+#[must_use]
+pub fn on_plane(
+    information: &VruClusterInformation,
+    position: &Position,
+    plane: &Plane,
+) -> Option<Announced> {
     let shape = information.cluster_bounding_box_shape.as_ref()?;
     Some(Announced {
         id: information.cluster_id.map(|id| id.0),
-        area: Area::of_wire(shape, plane.point(&position)?),
+        area: Area::of_wire(shape, plane.point(position)?),
         cardinality: information.cluster_cardinality_size.0,
     })
 }

@@ -13,10 +13,15 @@
 //!
 //! A device that [understands RAM](Understands::Ram) is passive as soon as a RAM covers it: the robot
 //! has seen it, so there is nothing to join. An [unmodified](Understands::ClusterVam) one knows cluster
-//! VAMs only, and joins by their rules. Both resume by the same timers.
+//! VAMs only, and joins by their rules; being inside of the bounding shape after it fell silent stands for
+//! the confirmation, since a robot counts whom it sees. Both resume by the same timers.
 //!
-//! Not here: redundancy mitigation, zero-risk areas, the trajectory interception trigger, and leading a
-//! cluster, which a robot does.
+//! Where zones overlap, a device stays with the head that it is with. One that understands RAM goes over
+//! to another head without a VAM in between, once it is outside of the one's shape and inside of the
+//! other's; an unmodified one leaves and joins.
+//!
+//! Not here: redundancy mitigation, zero-risk areas, the trajectory interception trigger, clusters that
+//! change their id or combine, and leading a cluster, which a robot does.
 
 use serde::{Deserialize, Serialize};
 
@@ -208,6 +213,8 @@ pub struct Membership {
     pub since_ms: u64,
     /// When the device heard the last time that it is covered, in ms.
     pub covered_ms: u64,
+    /// When it heard its head the last time, in ms.
+    pub heard_ms: u64,
     /// What bounded the cluster then.
     pub area: Area,
     /// The velocity of the cluster then, from a cluster VAM.
@@ -260,14 +267,25 @@ impl VruStation {
         }
         match &mut self.state {
             State::Joining(membership) | State::Passive(membership) => {
+                let by_vam = self.understands == Understands::ClusterVam;
                 if membership.head != heard.head {
-                    return Reaction::InAnother;
+                    let is_inside = |area: &Area| area.contains(motion.position_m);
+                    let covered_there = heard.cluster.is_some_and(|it| is_inside(it.area));
+                    if by_vam || !covered_there || is_inside(&membership.area) {
+                        return Reaction::InAnother;
+                    }
+                    // From one robot's zone into the next.
+                    membership.head = heard.head;
                 }
+                membership.heard_ms = now_ms;
                 let Some(cluster) = heard.cluster else {
                     let id = membership.id;
                     self.leave(now_ms, id, LeaveReason::ClusterDisbandedByLeader);
                     return Reaction::Resumes;
                 };
+                if by_vam && membership.id != cluster.id {
+                    return Reaction::InAnother;
+                }
                 if !cluster.area.contains(motion.position_m) {
                     return Reaction::Outside;
                 }
@@ -302,6 +320,7 @@ impl VruStation {
             id: cluster.id,
             since_ms: now_ms,
             covered_ms: now_ms,
+            heard_ms: now_ms,
             area: cluster.area.clone(),
             velocity_mps: cluster.velocity_mps,
         };
@@ -423,9 +442,11 @@ impl VruStation {
 impl Membership {
     /// Why the device cannot stay, if it cannot.
     fn broken(&self, now_ms: u64, motion: &Motion) -> Option<LeaveReason> {
-        if now_ms.saturating_sub(self.covered_ms) >= CONTINUITY_MS {
+        let is_over = |since_ms| now_ms.saturating_sub(since_ms) >= CONTINUITY_MS;
+        let distance_m = self.area.distance_m(motion.position_m);
+        if is_over(self.heard_ms) {
             Some(LeaveReason::ClusterLeaderLost)
-        } else if self.area.distance_m(motion.position_m) > DISTANCE_MAX_M {
+        } else if is_over(self.covered_ms) || distance_m > DISTANCE_MAX_M {
             Some(LeaveReason::OutOfClusterBoundingBox)
         } else if !is_of_velocity(motion, self.velocity_mps) {
             Some(LeaveReason::OutOfClusterSpeedRange)

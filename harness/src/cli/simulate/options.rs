@@ -8,6 +8,7 @@ use crossguard_harness::evaluation::grid::{Grid, Preset, Site};
 use crossguard_harness::evaluation::matrix::Axes;
 use crossguard_harness::evaluation::shipped;
 use crossguard_harness::evaluation::simulation::Behaviour;
+use crossguard_harness::evaluation::stationing::Stationing;
 use crossguard_harness::evaluation::sumo::{Plan, Sumo};
 use crossguard_harness::evaluation::trace::Traces;
 use crossguard_harness::ras::vru::{Understands, VamRule};
@@ -93,6 +94,13 @@ pub(super) struct Matrix {
     /// Where at an intersection robots stand; the preset says it otherwise.
     #[arg(long, value_enum)]
     site: Option<Site>,
+    /// Robots at an intersection before the next one gets any, each at another corner; their zones may
+    /// overlap.
+    #[arg(long, default_value_t = 1, value_name = "1..4")]
+    per_intersection: usize,
+    /// Robots walk around their intersection, over its corners, so fast; they stand by default.
+    #[arg(long, value_name = "M/S")]
+    patrol: Option<f64>,
     /// Seeds to take the mean over, at most; with --sumo, so many fresh runs.
     #[arg(long, default_value_t = 10, value_name = "N")]
     pub(super) seeds: usize,
@@ -117,12 +125,20 @@ impl Matrix {
         self.site.unwrap_or_else(|| self.preset.site())
     }
 
+    fn stationing(&self) -> Stationing {
+        Stationing {
+            robots_per_intersection: self.per_intersection,
+            patrol_mps: self.patrol,
+            ..Stationing::at(self.site())
+        }
+    }
+
     pub(super) fn axes(&self) -> Axes {
         let processors = || std::thread::available_parallelism().ok();
         Axes {
             robots: self.robots.clone(),
             radii_m: self.radius.clone(),
-            site: self.site(),
+            stationing: self.stationing(),
             seeds: self.seeds,
             threads: self
                 .threads
@@ -162,17 +178,13 @@ impl Matrix {
                 .map(shipped)
                 .collect::<Result<Vec<_>, _>>()?
         };
-        let nodes = traces
-            .iter()
-            .map(|it| it.grid.nodes_per_side.pow(2) as usize)
-            .min();
         let most = self.robots.iter().max().copied().unwrap_or(0);
-        match nodes {
-            Some(nodes) if nodes < most => Err(Failure::Input(format!(
-                "{most} robots need as many intersections, and there are {nodes}"
-            ))),
-            _ => Ok(traces),
+        for traces in &traces {
+            let stationing = self.stationing();
+            let checked = stationing.check(&traces.grid, most);
+            checked.map_err(Failure::input)?;
         }
+        Ok(traces)
     }
 
     fn check(&self) -> Result<(), Failure> {
@@ -198,7 +210,7 @@ impl Matrix {
         let grid = first.map_or_else(|| self.grid(), |traces| traces.grid.clone());
         let corner_m = grid.corner_m();
         Parameters {
-            robot_site: self.site(),
+            stationing: self.stationing(),
             robot_offset_m: if self.site() == Site::Center {
                 0.0
             } else {
@@ -230,7 +242,8 @@ fn read(path: &PathBuf) -> Result<Traces, Failure> {
 #[derive(Serialize)]
 pub(super) struct Parameters {
     grid: Grid,
-    robot_site: Site,
+    #[serde(flatten)]
+    stationing: Stationing,
     robot_offset_m: f64,
     vehicles: usize,
     seeds: usize,
@@ -238,6 +251,21 @@ pub(super) struct Parameters {
     sample_ms: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     behaviour: Option<Behaviour>,
+}
+
+impl Parameters {
+    /// The most important ones in a line.
+    pub(super) fn in_brief(&self, preset: &str) -> String {
+        let vam = self
+            .behaviour
+            .as_ref()
+            .map(|behaviour| match behaviour.vam {
+                VamRule::Etsi => ", VAM by ETSI's triggers".to_owned(),
+                VamRule::Periodic(interval_ms) => format!(", a VAM every {interval_ms} ms"),
+            });
+        let (seeds, vam) = (self.seeds, vam.unwrap_or_default());
+        format!("preset {preset}, {seeds} seeds{vam}")
+    }
 }
 
 /// How robots are placed.

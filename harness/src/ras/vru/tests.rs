@@ -144,6 +144,73 @@ fn a_robot_without_a_cluster_releases_its_devices_and_nobody_elses() {
 }
 
 #[test]
+fn a_device_goes_over_to_the_next_robot_without_a_vam() {
+    let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
+    let near = |east_m: f64| Area::around(&[[east_m, 0.0]], 5.0).unwrap();
+    let (first, second) = (near(0.0), near(6.0));
+    let other = |area| Announcement {
+        head: HEAD + 1,
+        ..announcement(Understands::Ram, area)
+    };
+    station.hear(0, &walking(3.0), &announcement(Understands::Ram, &first));
+    let in_both = station.hear(100, &walking(3.0), &other(&second));
+    assert_eq!(in_both, Reaction::InAnother);
+    let in_one = station.hear(1_500, &walking(5.5), &other(&second));
+    assert_eq!(in_one, Reaction::GoesOn);
+    for now_ms in (1_600..3_400).step_by(100) {
+        assert_eq!(station.poll(now_ms, &walking(6.0), 0), None);
+    }
+    // The first one does not concern it any more.
+    let gone = Announcement {
+        cluster: None,
+        ..announcement(Understands::Ram, &first)
+    };
+    assert_eq!(
+        station.hear(3_400, &walking(6.0), &gone),
+        Reaction::InAnother
+    );
+    assert!(station.is_passive());
+}
+
+#[test]
+fn who_leaves_says_whether_its_head_was_silent_or_did_not_count_it() {
+    let left = |heard_again: bool| {
+        let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
+        let (area, elsewhere) = (circle(5.0), Area::around(&[[30.0, 0.0]], 2.0).unwrap());
+        station.hear(0, &standing(), &announcement(Understands::Ram, &area));
+        if heard_again {
+            let outside = station.hear(
+                1_000,
+                &standing(),
+                &announcement(Understands::Ram, &elsewhere),
+            );
+            assert_eq!(outside, Reaction::Outside);
+        }
+        assert_eq!(station.poll(1_900, &standing(), 0), None);
+        station.poll(2_000, &standing(), 0).unwrap().operation
+    };
+    let id = 7;
+    let reason = LeaveReason::ClusterLeaderLost;
+    assert_eq!(left(false), Some(Operation::Leave { id, reason }));
+    let reason = LeaveReason::OutOfClusterBoundingBox;
+    assert_eq!(left(true), Some(Operation::Leave { id, reason }));
+}
+
+#[test]
+fn an_unmodified_device_is_not_in_another_cluster_of_its_head() {
+    let mut station = VruStation::new(VamRule::Etsi, Understands::ClusterVam);
+    let area = circle(5.0);
+    let vam = announcement(Understands::ClusterVam, &area);
+    assert_eq!(station.hear(0, &standing(), &vam), Reaction::Joins);
+    let mut split_off = vam.clone();
+    split_off.cluster.as_mut().unwrap().id = Some(8);
+    assert_eq!(
+        station.hear(100, &standing(), &split_off),
+        Reaction::InAnother
+    );
+}
+
+#[test]
 fn an_unmodified_device_joins_by_the_rules_of_etsi() {
     let mut station = VruStation::new(VamRule::Periodic(500), Understands::ClusterVam);
     let area = circle(5.0);

@@ -1,0 +1,42 @@
+//! What an endpoint wants of the application.
+
+use crossguard_codec::TaskParameters;
+use crossguard_protocol::{
+    CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Notice, Output, StopReason,
+};
+
+/// What the application is to do or to know.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Act {
+    /// Start a maneuver with these parameters.
+    Start(Maneuver, TaskParameters),
+    /// Stop a maneuver.
+    Stop(Maneuver, StopReason),
+    /// Stop a maneuver by the policy of its task.
+    FallBack(Maneuver, FallbackPolicy),
+    /// Let the pedestrian cross.
+    OpenCorridor,
+    /// Hold the pedestrian back.
+    CloseCorridor(CorridorClosure),
+    /// Keep the pseudonym, or let it change.
+    LockIdentity(bool),
+    /// Know this.
+    Notice(Notice),
+    /// Know that the event that was told had no effect.
+    Ignored(Event, Ignored),
+}
+
+/// What an output means to the application.
+pub(super) fn act(output: Output, parameters: TaskParameters) -> Option<Act> {
+    Some(match output {
+        Output::StartManeuver(maneuver) => Act::Start(maneuver, parameters),
+        Output::StopManeuver(maneuver, why) => Act::Stop(maneuver, why),
+        Output::FallBack(maneuver, policy) => Act::FallBack(maneuver, policy),
+        Output::CorridorOpened => Act::OpenCorridor,
+        Output::CorridorClosed(why) => Act::CloseCorridor(why),
+        Output::LockIdentity => Act::LockIdentity(true),
+        Output::UnlockIdentity => Act::LockIdentity(false),
+        Output::Notify(notice) => Act::Notice(notice),
+        Output::SendRam | Output::SendRmcm(_) | Output::Ignored(_) => return None,
+    })
+}
