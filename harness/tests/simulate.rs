@@ -2,8 +2,9 @@
 
 mod support;
 
+use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
@@ -28,72 +29,48 @@ fn refusal(arguments: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
-/// Coverage by a few lines of another language, from the same file.
-const COVERAGE_IN_PYTHON: &str = r"
-import gzip, json, sys
-path, radius, robots = sys.argv[1], float(sys.argv[2]), json.loads(sys.argv[3])
-def places(changes):
-    at, step = changes[0], 0
-    yield at / 100
-    for change in changes[1:]:
-        step += change
-        at += step
-        yield at / 100
-ratios = []
-for run in json.load(gzip.open(path))['runs']:
-    people = [p for x, y in run['pedestrians'] for p in zip(places(x), places(y))]
-    seen = sum(any((x - a) ** 2 + (y - b) ** 2 <= radius ** 2 for a, b in robots) for x, y in people)
-    ratios.append(100 * seen / len(people))
-print(sum(ratios) / len(ratios))
-";
-
+/// The whole matrix of both presets, judged by an independent program.
 #[test]
 fn coverage_is_what_python_computes_from_the_same_traces() {
-    let traces = Path::new(env!("CARGO_MANIFEST_DIR")).join("traces/kerb-50.json.gz");
-    let kerb: Vec<[f64; 2]> = [-7.9, 92.1, 192.1]
-        .into_iter()
-        .flat_map(|x| [-7.9, 92.1, 192.1].map(|y| [x, y]))
-        .collect();
-    let cells = json(&["obs", "--json", "--preset", "kerb", "--pedestrians", "50"]);
-    for (robots, places) in [(1, vec![[92.1, 92.1]]), (9, kerb)] {
-        for radius in ["10", "15"] {
-            let python = Command::new("python3")
-                .args(["-c", COVERAGE_IN_PYTHON])
-                .arg(&traces)
-                .args([radius, &serde_json::to_string(&places).unwrap()])
-                .output();
-            let Ok(python) = python else {
-                println!(
-                    "skipped coverage_is_what_python_computes_from_the_same_traces: no python3"
-                );
-                return;
-            };
-            assert!(
-                python.status.success(),
-                "{}",
-                String::from_utf8_lossy(&python.stderr)
-            );
-            let expected: f64 = String::from_utf8(python.stdout)
-                .unwrap()
-                .trim()
-                .parse()
-                .unwrap();
-            let is_cell = |cell: &&Value| {
-                cell["robots"] == robots && cell["radius_m"].as_f64() == radius.parse().ok()
-            };
-            let cell = cells["cells"]
-                .as_array()
-                .unwrap()
-                .iter()
-                .find(is_cell)
-                .unwrap();
-            let found = cell["obs_percent"]["mean"].as_f64().unwrap();
-            assert!(
-                (found - expected).abs() < 0.1,
-                "{robots} {radius}: {found} {expected}"
-            );
-        }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for preset in ["kerb", "plain"] {
+        let results = simulate(&["obs", "--json", "--preset", preset]);
+        assert!(results.status.success());
+        let judged = judge(folder, preset, &results.stdout);
+        let Some((code, said)) = judged else {
+            println!("skipped coverage_is_what_python_computes_from_the_same_traces: no python3");
+            return;
+        };
+        assert_eq!(code, Some(0), "{said}");
+        assert!(said.starts_with("12 cells agree"), "{said}");
     }
+    // A judge that finds everything right is none.
+    let wrong = simulate(&["obs", "--json", "--site", "center", "--pedestrians", "20"]);
+    let wrong = String::from_utf8(wrong.stdout).unwrap();
+    let wrong = wrong.replace("\"center\"", "\"south-west\"");
+    let (code, said) = judge(folder, "kerb", wrong.as_bytes()).unwrap();
+    assert_eq!(code, Some(1), "{said}");
+}
+
+/// What `judges/coverage.py` says of results; `None` where there is no Python.
+fn judge(folder: &Path, preset: &str, results: &[u8]) -> Option<(Option<i32>, String)> {
+    let traces = ["20", "50", "100"].map(|people| format!("traces/{preset}-{people}.json.gz"));
+    let mut python = Command::new("python3")
+        .current_dir(folder)
+        .arg("judges/coverage.py")
+        .args(traces)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .ok()?;
+    python.stdin.take().unwrap().write_all(results).unwrap();
+    let said = python.wait_with_output().unwrap();
+    let text = [said.stdout, said.stderr].concat();
+    Some((
+        said.status.code(),
+        String::from_utf8_lossy(&text).into_owned(),
+    ))
 }
 
 #[test]
@@ -170,6 +147,10 @@ fn intersections_are_ranked_by_what_they_add() {
 fn bad_usage_says_what_to_do() {
     assert!(refusal(&["obs", "--pedestrians", "30"]).contains("--sumo"));
     assert!(refusal(&["obs", "--robots", "10"]).contains("intersections"));
+    assert!(refusal(&["obs", "--per-intersection", "5"]).contains("1 to 4 robots"));
+    assert!(refusal(&["obs", "--patrol", "50"]).contains("0.1 to 5 m/s"));
+    let plain = ["obs", "--preset", "plain", "--patrol", "1"];
+    assert!(refusal(&plain).contains("--site"));
     assert!(refusal(&["obs", "--radius", "500"]).contains("radius"));
     assert!(refusal(&["obs", "--traces", "nowhere.json.gz"]).contains("nowhere.json.gz"));
     assert!(refusal(&["cbr", "--vam", "often"]).contains("etsi"));
@@ -178,39 +159,120 @@ fn bad_usage_says_what_to_do() {
     assert!(refusal(&["obs", "--sumo", "nowhere"]).contains("pip install eclipse-sumo"));
 }
 
-/// The traces that come along are those that `record` makes, where the same SUMO is installed.
+/// Robots that overlap and robots that walk: nobody is counted twice, and more is seen.
 #[test]
-fn traces_can_be_recorded_again() {
-    let Some(folder) = std::env::var_os("SUMO_HOME").map(|home| Path::new(&home).join("bin"))
-    else {
-        println!("skipped traces_can_be_recorded_again: SUMO_HOME is not set");
+fn several_robots_at_an_intersection_and_robots_on_patrol_are_measured() {
+    let percent = |arguments: &[&str]| {
+        let common = ["obs", "--json", "--pedestrians", "20", "--radius", "15"];
+        let report = json(&[&common[..], arguments].concat());
+        let cell = report["cells"].as_array().unwrap().last().unwrap().clone();
+        (
+            report["parameters"].clone(),
+            cell["obs_percent"]["mean"].as_f64().unwrap(),
+        )
+    };
+    let (_, alone) = percent(&["--robots", "9"]);
+    let (parameters, two) = percent(&["--robots", "18", "--per-intersection", "2"]);
+    assert_eq!(parameters["robots_per_intersection"], 2);
+    assert!(two > 1.5 * alone && two < 3.0 * alone, "{alone} {two}");
+    let (_, four) = percent(&["--robots", "36", "--per-intersection", "4"]);
+    // Four zones overlap, so four robots see less than twice as many as two.
+    assert!(four > two && four < 1.7 * two, "{two} {four}");
+    let (parameters, walking) = percent(&["--robots", "9", "--patrol", "1"]);
+    assert_eq!(parameters["patrol_mps"], 1.0);
+    assert!(walking > alone && walking < four, "{alone} {walking}");
+
+    let arguments = [
+        "cbr",
+        "--json",
+        "--pedestrians",
+        "20",
+        "--radius",
+        "15",
+        "--seeds",
+        "1",
+    ];
+    let more = [
+        "--robots",
+        "0,18",
+        "--per-intersection",
+        "2",
+        "--patrol",
+        "1",
+    ];
+    let report = json(&[&arguments[..], &more[..]].concat());
+    let cell = &report["cells"][1];
+    assert!(
+        cell["passive_percent"]["mean"].as_f64().unwrap() > 20.0,
+        "{cell}"
+    );
+    // A robot that walks tells more often than once a second.
+    assert!(
+        cell["messages_per_s"][2]["mean"].as_f64().unwrap() > 18.0,
+        "{cell}"
+    );
+}
+
+/// The folder of SUMO's programs, which `judges/run` installs.
+fn sumo() -> Option<String> {
+    std::env::var("SUMO_BIN").ok()
+}
+
+/// The traces that come along are those that `record` makes.
+#[test]
+fn sumo_records_the_traces_that_come_along() {
+    let Some(sumo) = sumo() else {
+        println!("skipped sumo_records_the_traces_that_come_along: SUMO_BIN is not set");
         return;
     };
     let output = tempfile::tempdir().unwrap();
-    let [sumo, output_folder] =
-        [folder.as_path(), output.path()].map(|it| it.display().to_string());
-    let recorded = simulate(&[
-        "record",
-        "--sumo",
-        &sumo,
-        "--pedestrians",
-        "20",
-        "--seeds",
-        "2",
-        "--output",
-        &output_folder,
-    ]);
-    assert!(
-        recorded.status.success(),
-        "{}",
-        String::from_utf8_lossy(&recorded.stderr)
-    );
-    let file = output.path().join("kerb-20.json.gz").display().to_string();
-    let again = json(&["obs", "--json", "--seeds", "2", "--traces", &file]);
-    let shipped = json(&["obs", "--json", "--seeds", "2", "--pedestrians", "20"]);
-    if again["parameters"] == shipped["parameters"] {
-        assert_eq!(again["cells"], shipped["cells"]);
-    } else {
-        println!("skipped the comparison of traces_can_be_recorded_again: another SUMO");
+    let folder = output.path().display().to_string();
+    for preset in ["kerb", "plain"] {
+        let what = [
+            "record", "--sumo", &sumo, "--preset", preset, "--output", &folder,
+        ];
+        let how_many = ["--pedestrians", "20", "--seeds", "2"];
+        let recorded = simulate(&[&what[..], &how_many[..]].concat());
+        let said = String::from_utf8_lossy(&recorded.stderr).into_owned();
+        assert!(recorded.status.success(), "{said}");
+        let file = format!("{folder}/{preset}-20.json.gz");
+        let seeds = ["obs", "--json", "--seeds", "2", "--preset", preset];
+        let again = json(&[&seeds[..], &["--traces", &file]].concat());
+        let shipped = json(&[&seeds[..], &["--pedestrians", "20"]].concat());
+        let mobility = |report: &Value| report["parameters"]["grid"]["mobility"].clone();
+        if mobility(&again) == mobility(&shipped) {
+            assert_eq!(again["cells"], shipped["cells"]);
+        } else {
+            println!(
+                "skipped the comparison of sumo_records_the_traces_that_come_along: {}",
+                mobility(&again)
+            );
+        }
     }
+}
+
+/// Fresh mobility is of other seeds, and of any size.
+#[test]
+fn sumo_makes_fresh_mobility_on_a_larger_grid() {
+    let Some(sumo) = sumo() else {
+        println!("skipped sumo_makes_fresh_mobility_on_a_larger_grid: SUMO_BIN is not set");
+        return;
+    };
+    let size = [
+        "--grid-size",
+        "4",
+        "--pedestrians",
+        "30",
+        "--vehicles",
+        "10",
+        "--duration",
+        "20",
+    ];
+    let others = ["--robots", "0,16", "--radius", "15", "--seeds", "2"];
+    let cbr = ["cbr", "--json", "--sumo", &sumo];
+    let report = json(&[&cbr[..], &size[..], &others[..]].concat());
+    assert_eq!(report["parameters"]["grid"]["nodes_per_side"], 4);
+    assert_eq!(report["parameters"]["duration_s"], 20);
+    let reduction = &report["cells"][1]["reduction_percent"];
+    assert!(reduction["mean"].as_f64().unwrap() > 0.0, "{report}");
 }

@@ -108,7 +108,8 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let traces = matrix.traces(arguments.output.json)?;
     let cells = matrix::obs(&traces, &matrix.axes());
     let parameters = matrix.parameters(&traces, None);
-    let charts = [("coverage.svg", paper::coverage_figure(&cells))];
+    let assumptions = parameters.in_brief(matrix.preset.name());
+    let charts = [("coverage.svg", paper::coverage_figure(&cells, &assumptions))];
     output::write_charts(&arguments.output, &charts)?;
     output::write_csv(&arguments.output, &cells)?;
     finish(&arguments.output, matrix, &parameters, &cells)
@@ -128,9 +129,13 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     bar.finish_and_clear();
     let cells = cells.map_err(Failure::input)?;
     let parameters = matrix.parameters(&traces, Some(behaviour));
+    let assumptions = parameters.in_brief(matrix.preset.name());
     let charts = [
-        ("mcbr.svg", paper::load_figure(&cells)),
-        ("reduction.svg", paper::reduction_figure(&cells)),
+        ("mcbr.svg", paper::load_figure(&cells, &assumptions)),
+        (
+            "reduction.svg",
+            paper::reduction_figure(&cells, &assumptions),
+        ),
     ];
     output::write_charts(&arguments.output, &charts)?;
     output::write_csv(&arguments.output, &cells)?;

@@ -17,9 +17,9 @@ const CELL: (usize, f64) = (100, 15.0);
 /// Place of a cell in a figure: robots, people, radius.
 type Key = (usize, usize, f64);
 
-/// The figure of the observation coverage ratio.
+/// The figure of the observation coverage ratio, under these assumptions.
 #[must_use]
-pub fn coverage_figure(cells: &[ObsCell]) -> BarChart {
+pub fn coverage_figure(cells: &[ObsCell], assumptions: &str) -> BarChart {
     let bars: Vec<(Key, Estimate)> = cells
         .iter()
         .filter(|cell| cell.robots > 0)
@@ -31,16 +31,16 @@ pub fn coverage_figure(cells: &[ObsCell]) -> BarChart {
         })
         .collect();
     figure(
-        "Observation coverage ratio",
+        ["Observation coverage ratio", assumptions],
         "coverage in %",
         &bars,
         &COVERAGE_PERCENT,
     )
 }
 
-/// The figure of the reduction of the mean channel busy ratio.
+/// The figure of the reduction of the mean channel busy ratio, under these assumptions.
 #[must_use]
-pub fn reduction_figure(cells: &[CbrCell]) -> BarChart {
+pub fn reduction_figure(cells: &[CbrCell], assumptions: &str) -> BarChart {
     let bars: Vec<(Key, Estimate)> = cells
         .iter()
         .filter(|cell| cell.robots > 0)
@@ -52,16 +52,16 @@ pub fn reduction_figure(cells: &[CbrCell]) -> BarChart {
         })
         .collect();
     figure(
-        "Reduction of the mean channel busy ratio",
+        ["Reduction of the mean channel busy ratio", assumptions],
         "reduction in %",
         &bars,
         &[REDUCTION_PERCENT],
     )
 }
 
-/// The figure of the mean channel busy ratio itself, also without robots.
+/// The figure of the mean channel busy ratio itself, also without robots, under these assumptions.
 #[must_use]
-pub fn load_figure(cells: &[CbrCell]) -> BarChart {
+pub fn load_figure(cells: &[CbrCell], assumptions: &str) -> BarChart {
     let percent = |it: Estimate| Estimate {
         mean: 100.0 * it.mean,
         sd: 100.0 * it.sd,
@@ -75,16 +75,24 @@ pub fn load_figure(cells: &[CbrCell]) -> BarChart {
             )
         })
         .collect();
-    figure("Mean channel busy ratio", "mCBR in %", &bars, &[])
+    figure(
+        ["Mean channel busy ratio", assumptions],
+        "mCBR in %",
+        &bars,
+        &[],
+    )
 }
 
 /// Groups by the number of people, series by robots and radius.
 fn figure(
-    title: &str,
+    [title, assumptions]: [&str; 2],
     y_axis: &str,
     bars: &[(Key, Estimate)],
     stated: &[(usize, [f64; 2])],
 ) -> BarChart {
+    // Without robots there is one value, whatever the radius.
+    let without = |key: &Key| if key.0 == 0 { (0, key.1, 0.0) } else { *key };
+    let bars: Vec<(Key, Estimate)> = bars.iter().map(|(key, bar)| (without(key), *bar)).collect();
     let mut people: Vec<usize> = bars.iter().map(|(key, _)| key.1).collect();
     people.sort_unstable();
     people.dedup();
@@ -100,6 +108,7 @@ fn figure(
     };
     let series = kinds.iter().map(|&kind| Series {
         name: series_name(kind),
+        color: color(&kinds, kind),
         bars: people.iter().map(|&people| bar(kind, people)).collect(),
     });
     let stated = stated.iter().filter_map(|(robots, range)| {
@@ -112,6 +121,7 @@ fn figure(
     });
     BarChart {
         title: title.to_owned(),
+        subtitle: format!("{assumptions}; bars are means, whiskers standard deviations over seeds"),
         x_axis: "pedestrians".to_owned(),
         y_axis: y_axis.to_owned(),
         groups: people.iter().map(ToString::to_string).collect(),
@@ -121,6 +131,27 @@ fn figure(
 }
 
 fn series_name((robots, radius_m): (usize, f64)) -> String {
-    let plural = if robots == 1 { "" } else { "s" };
-    format!("{robots} robot{plural}, {radius_m} m")
+    match robots {
+        0 => "no robot".to_owned(),
+        1 => format!("1 robot, {radius_m} m"),
+        _ => format!("{robots} robots, {radius_m} m"),
+    }
+}
+
+/// A hue for every number of robots, darker for a larger radius. Blue and orange differ to everybody.
+fn color(kinds: &[(usize, f64)], kind: (usize, f64)) -> &'static str {
+    const HUES: [[&str; 3]; 4] = [
+        ["#9ecae1", "#2171b5", "#08306b"],
+        ["#fdae6b", "#d94801", "#7f2704"],
+        ["#cbc9e2", "#756bb1", "#3f007d"],
+        ["#a1d99b", "#238b45", "#00441b"],
+    ];
+    if kind.0 == 0 {
+        return "#969696";
+    }
+    let mut numbers: Vec<usize> = kinds.iter().map(|it| it.0).filter(|it| *it > 0).collect();
+    numbers.dedup();
+    let hue = numbers.iter().position(|it| *it == kind.0).unwrap_or(0);
+    let smaller = kinds.iter().filter(|it| it.0 == kind.0 && it.1 < kind.1);
+    HUES[hue % HUES.len()][smaller.count() % 3]
 }

@@ -5,21 +5,20 @@ use std::fmt::Write as _;
 
 use super::statistics::Estimate;
 
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 400.0;
-const LEFT: f64 = 70.0;
+const WIDTH: f64 = 760.0;
+const HEIGHT: f64 = 440.0;
+const LEFT: f64 = 64.0;
 const RIGHT: f64 = 20.0;
-const TOP: f64 = 50.0;
-const BOTTOM: f64 = 90.0;
-const COLORS: [&str; 6] = [
-    "#9ecae1", "#3182bd", "#a1d99b", "#31a354", "#fdae6b", "#e6550d",
-];
+const TOP: f64 = 66.0;
+const BOTTOM: f64 = 112.0;
 
 /// One series of bars.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
     /// Its name in the legend.
     pub name: String,
+    /// Its colour, in the notation of SVG.
+    pub color: &'static str,
     /// A bar for every group.
     pub bars: Vec<Estimate>,
 }
@@ -40,6 +39,8 @@ pub struct Stated {
 pub struct BarChart {
     /// What it shows.
     pub title: String,
+    /// Under which assumptions.
+    pub subtitle: String,
     /// What the groups are.
     pub x_axis: String,
     /// What the height of a bar is, with its unit.
@@ -61,7 +62,8 @@ impl BarChart {
              font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" \
              fill=\"white\"/>\n"
         );
-        text(&mut svg, WIDTH / 2.0, 22.0, "middle", 15, &self.title);
+        text(&mut svg, WIDTH / 2.0, 24.0, "middle", 16, &self.title);
+        text(&mut svg, WIDTH / 2.0, 44.0, "middle", 12, &self.subtitle);
         self.axes(&mut svg);
         for (index, series) in self.series.iter().enumerate() {
             for (group, bar) in series.bars.iter().enumerate() {
@@ -75,25 +77,34 @@ impl BarChart {
         svg + "</svg>\n"
     }
 
-    /// The largest value on the vertical axis, and the distance between two of its marks.
-    fn scale(&self) -> [f64; 2] {
-        let bars = self.series.iter().flat_map(|series| &series.bars);
-        let tops = bars.map(|bar| bar.mean + bar.sd);
-        let top = tops
-            .chain(self.stated.iter().map(|it| it.range[1]))
-            .fold(0.0, f64::max)
-            .max(1e-9);
-        let power = 10_f64.powf((top / 5.0).log10().floor());
+    /// The least and the largest value on the vertical axis, and the distance between two of its marks.
+    fn scale(&self) -> [f64; 3] {
+        let bars = || self.series.iter().flat_map(|series| &series.bars);
+        let stated = self.stated.iter().map(|it| it.range[1]);
+        let most = bars().map(|bar| bar.mean + bar.sd).chain(stated);
+        let most = most.fold(0.0, f64::max).max(1e-9);
+        let least = bars().map(|bar| bar.mean - bar.sd);
+        // Whiskers alone do not open the axis downwards.
+        let hangs = bars().any(|bar| bar.mean < 0.0);
+        let least = if hangs {
+            least.fold(0.0, f64::min)
+        } else {
+            0.0
+        };
+        let power = 10_f64.powf(((most - least) / 5.0).log10().floor());
         let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-        let step = steps
-            .into_iter()
-            .find(|step| step * 6.0 >= top)
-            .unwrap_or(steps[3]);
-        [(top / step).ceil() * step, step]
+        let fits = |step: &f64| step * 6.0 >= most - least;
+        let step = steps.into_iter().find(fits).unwrap_or(steps[3]);
+        [
+            (least / step).floor() * step,
+            (most / step).ceil() * step,
+            step,
+        ]
     }
 
     fn y(&self, value: f64) -> f64 {
-        let share = value.max(0.0) / self.scale()[0];
+        let [least, most, _] = self.scale();
+        let share = (value.max(least) - least) / (most - least);
         HEIGHT - BOTTOM - share * (HEIGHT - BOTTOM - TOP)
     }
 
@@ -109,13 +120,18 @@ impl BarChart {
     }
 
     fn axes(&self, svg: &mut String) {
-        let [top, step] = self.scale();
-        let mut value = 0.0;
-        while value <= top * 1.0001 {
+        let [least, most, step] = self.scale();
+        let mut value = least;
+        while value <= most + step * 1e-3 {
             let y = self.y(value);
+            let color = if value.abs() < step * 1e-3 {
+                "#555"
+            } else {
+                "#ddd"
+            };
             let _ = writeln!(
                 svg,
-                "<line x1=\"{LEFT}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{y:.1}\" stroke=\"#ddd\"/>",
+                "<line x1=\"{LEFT}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{y:.1}\" stroke=\"{color}\"/>",
                 WIDTH - RIGHT
             );
             let digits = if step < 1.0 { 2 } else { 0 };
@@ -125,14 +141,14 @@ impl BarChart {
                 y + 4.0,
                 "end",
                 12,
-                &format!("{value:.digits$}"),
+                &format!("{:.digits$}", value + 0.0),
             );
             value += step;
         }
         for (group, name) in self.groups.iter().enumerate() {
             let [first, _] = self.x(group, 0);
-            let [last, width] = self.x(group, self.series.len().saturating_sub(1));
-            let middle = f64::midpoint(first, last + width);
+            let [right, width] = self.x(group, self.series.len().saturating_sub(1));
+            let middle = f64::midpoint(first, right + width);
             text(svg, middle, HEIGHT - BOTTOM + 18.0, "middle", 12, name);
         }
         let middle = f64::midpoint(LEFT, WIDTH - RIGHT);
@@ -154,66 +170,90 @@ impl BarChart {
 
     fn bar(&self, svg: &mut String, group: usize, series: usize, bar: &Estimate) {
         let [x, width] = self.x(group, series);
-        let (y, bottom) = (self.y(bar.mean), self.y(0.0));
-        let color = COLORS[series % COLORS.len()];
+        let (top, bottom) = (self.y(bar.mean.max(0.0)), self.y(bar.mean.min(0.0)));
+        let color = self.series[series].color;
         let _ = writeln!(
             svg,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{color}\">\
+            "<rect x=\"{x:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{color}\">\
              <title>{:.3} ± {:.3}</title></rect>",
             width * 0.9,
-            bottom - y,
+            bottom - top,
             bar.mean,
             bar.sd
         );
         let middle = x + width * 0.45;
         let (low, high) = (self.y(bar.mean - bar.sd), self.y(bar.mean + bar.sd));
-        let _ = writeln!(
+        if bar.sd > 0.0 {
+            let _ = writeln!(
+                svg,
+                "<path d=\"M{middle:.1} {low:.1}V{high:.1}m-3 0h6M{:.1} {low:.1}h6\" stroke=\"#333\" \
+                 fill=\"none\"/>",
+                middle - 3.0
+            );
+        }
+        let stated = self.stated.iter();
+        let marks = stated.filter(|it| (it.group, it.series) == (group, series));
+        let above = marks.map(|it| self.y(it.range[1])).fold(high, f64::min);
+        text(
             svg,
-            "<path d=\"M{middle:.1} {low:.1}V{high:.1}m-3 0h6M{:.1} {low:.1}h6\" stroke=\"#333\" \
-             fill=\"none\"/>",
-            middle - 3.0
+            middle,
+            above - 5.0,
+            "middle",
+            10,
+            &format!("{:.1}", bar.mean),
         );
     }
 
     fn mark(&self, svg: &mut String, stated: &Stated) {
         let [x, width] = self.x(stated.group, stated.series);
         let [low, high] = stated.range.map(|value| self.y(value));
-        let _ = writeln!(
-            svg,
-            "<rect x=\"{:.1}\" y=\"{high:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"none\" \
-             stroke=\"#c00\" stroke-width=\"1.5\" stroke-dasharray=\"4 2\"/>",
-            x - 2.0,
-            width * 0.9 + 4.0,
+        let area = format!(
+            "x=\"{:.1}\" y=\"{high:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"none\"",
+            x - 3.0,
+            width * 0.9 + 6.0,
             (low - high).max(1.0)
         );
+        // Black on white shows on every bar, and to everybody.
+        let _ = writeln!(svg, "<rect {area} stroke=\"white\" stroke-width=\"3.5\"/>");
+        let _ = writeln!(svg, "<rect {area} {DASHES}/>");
     }
 
     fn legend(&self, svg: &mut String) {
-        let y = HEIGHT - 24.0;
-        let mut x = LEFT;
-        for (index, series) in self.series.iter().enumerate() {
-            let color = COLORS[index % COLORS.len()];
+        let (y, mut x) = (HEIGHT - 46.0, LEFT);
+        for series in &self.series {
             let _ = writeln!(
                 svg,
-                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"12\" height=\"12\" fill=\"{color}\"/>",
-                y - 10.0
+                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"12\" height=\"12\" fill=\"{}\"/>",
+                y - 10.0,
+                series.color
             );
             text(svg, x + 17.0, y, "start", 12, &series.name);
             #[expect(clippy::cast_precision_loss, reason = "a name")]
             let length = series.name.chars().count() as f64;
             x += 32.0 + 6.6 * length;
         }
-        if !self.stated.is_empty() {
-            let _ = writeln!(
-                svg,
-                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"12\" height=\"12\" fill=\"none\" \
-                 stroke=\"#c00\" stroke-width=\"1.5\" stroke-dasharray=\"4 2\"/>",
-                y - 10.0
-            );
-            text(svg, x + 17.0, y, "start", 12, "stated in the paper");
+        if self.stated.is_empty() {
+            return;
         }
+        let y = HEIGHT - 20.0;
+        let _ = writeln!(
+            svg,
+            "<rect x=\"{LEFT}\" y=\"{:.1}\" width=\"12\" height=\"12\" fill=\"none\" {DASHES}/>",
+            y - 10.0,
+        );
+        let words = self.stated.iter().map(|it| {
+            let [low, high] = it.range;
+            let (series, group) = (&self.series[it.series].name, &self.groups[it.group]);
+            format!("{low} to {high} % ({series}, {group} {})", self.x_axis)
+        });
+        let words = words.collect::<Vec<_>>().join("; ");
+        let words = format!("stated in the paper: {words}");
+        text(svg, LEFT + 17.0, y, "start", 12, &words);
     }
 }
+
+/// How a stated range is drawn.
+const DASHES: &str = "stroke=\"black\" stroke-width=\"1.5\" stroke-dasharray=\"4 2\"";
 
 fn text(svg: &mut String, x: f64, y: f64, anchor: &str, size: u32, words: &str) {
     let _ = writeln!(
@@ -234,30 +274,44 @@ fn escape(words: &str) -> String {
 mod tests {
     use super::*;
 
-    #[test]
-    fn bars_are_as_high_as_their_values() {
-        let bar = |mean| Estimate { mean, sd: 0.5 };
-        let chart = BarChart {
+    fn chart(bars: &[f64]) -> BarChart {
+        let bar = |&mean: &f64| Estimate { mean, sd: 0.5 };
+        BarChart {
             title: "A < B".to_owned(),
+            subtitle: String::new(),
             x_axis: "people".to_owned(),
             y_axis: "%".to_owned(),
             groups: vec!["20".to_owned(), "50".to_owned()],
             series: vec![Series {
                 name: "1 robot".to_owned(),
-                bars: vec![bar(5.0), bar(10.0)],
+                color: "#888",
+                bars: bars.iter().map(bar).collect(),
             }],
             stated: vec![Stated {
                 group: 1,
                 series: 0,
                 range: [17.0, 18.0],
             }],
-        };
-        let [top, step] = chart.scale();
-        assert!((top - 20.0).abs() < 1e-9 && (step - 5.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn bars_are_as_high_as_their_values() {
+        let chart = chart(&[5.0, 10.0]);
+        assert_eq!(format!("{:?}", chart.scale()), "[0.0, 20.0, 5.0]");
         let svg = chart.to_svg();
         assert!(svg.contains("A &lt; B") && svg.contains("5.000 ± 0.500"));
+        assert!(svg.contains("stated in the paper: 17 to 18 % (1 robot, 50 people)"));
         let heights = (chart.y(0.0) - chart.y(5.0), chart.y(0.0) - chart.y(10.0));
         assert!((heights.1 - 2.0 * heights.0).abs() < 1e-9);
-        assert_eq!(svg.matches("<rect").count(), 1 + 2 + 1 + 2);
+        assert_eq!(svg.matches("<rect").count(), 1 + 2 + 2 + 2);
+    }
+
+    #[test]
+    fn what_costs_more_than_it_saves_hangs_below_the_line() {
+        let chart = chart(&[-9.0, 10.0]);
+        assert_eq!(format!("{:?}", chart.scale()), "[-10.0, 20.0, 5.0]");
+        assert!(chart.y(-9.0) > chart.y(0.0) && chart.y(-9.5) <= HEIGHT - BOTTOM);
+        assert!(chart.to_svg().contains(">-9.0</text>"));
     }
 }
