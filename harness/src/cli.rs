@@ -22,6 +22,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use crossguard_harness::capture::Capture;
+use crossguard_harness::perception::Feed;
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -147,6 +148,11 @@ fn finish_capture(capture: Option<Capture>) -> Result<(), Failure> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// Opens a file of people whom sensors have.
+fn open_feed(path: Option<&Path>) -> Result<Option<Feed>, Failure> {
+    path.map(Feed::open).transpose().map_err(Failure::Input)
 }
 
 /// Whether progress is worth showing: only to people, and never among the output.

@@ -19,6 +19,8 @@ use serde::Serialize;
 use crate::application::{Application, Wish};
 use crate::body::Body;
 use crate::capture::Capture;
+use crate::perception::Feed;
+use crate::ras::surroundings::Awareness;
 use crate::runtime::{Clock, Order, Running, Setup};
 use crate::site::Site;
 use crate::station::{Mode, Security};
@@ -56,6 +58,10 @@ pub struct Options {
     pub security: Vec<Security>,
     /// Where packets are recorded.
     pub capture: Option<Capture>,
+    /// People whom the robots' sensors have.
+    pub perceived: Option<Feed>,
+    /// How robots announce the people around them.
+    pub awareness: Awareness,
 }
 
 /// What came of a demonstration.
@@ -123,6 +129,8 @@ struct Demo<'a> {
     is_corridor_open: bool,
     /// Whether the victim of the scenario has lost power.
     has_struck: bool,
+    /// People whom the robots' sensors have.
+    perceived: Option<Feed>,
     watch: &'a mut dyn FnMut(Seen<'_>),
 }
 
@@ -183,6 +191,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
             config: Config::default(),
             wire: Wire::default(),
             security: securities.next().unwrap_or_default(),
+            awareness: options.awareness,
             application: Application::new(body, participant.plan.clone()),
             link,
             log: SyncSender::clone(&log),
@@ -203,6 +212,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         end: None,
         is_corridor_open: false,
         has_struck: false,
+        perceived: options.perceived.clone(),
         watch,
     })
 }
@@ -279,12 +289,31 @@ impl Demo<'_> {
 
     /// Takes in what the robots report within a moment.
     fn take_records(&mut self, moment: Duration) {
+        self.tell_perceived();
         let deadline = Instant::now() + moment;
         loop {
             let left = deadline.saturating_duration_since(Instant::now());
             match self.records.recv_timeout(left) {
                 Ok(record) => self.take(&record),
                 Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    }
+
+    /// Tells all robots whom their sensors have. A pipe that says something else has no more to say.
+    fn tell_perceived(&mut self) {
+        match self.perceived.as_ref().map(Feed::due) {
+            None => {}
+            Some(Ok(people)) => {
+                for (_, robot) in &self.robots {
+                    for &vru in &people {
+                        robot.order(Order::Perceived(vru));
+                    }
+                }
+            }
+            Some(Err(error)) => {
+                eprintln!("{error}");
+                self.perceived = None;
             }
         }
     }

@@ -48,6 +48,7 @@ pub mod endpoint;
 pub mod evaluation;
 pub mod machine;
 pub mod operator;
+pub mod perception;
 pub mod pki;
 pub mod plan;
 pub mod ras;

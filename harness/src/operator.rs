@@ -9,6 +9,8 @@ use crossguard_protocol::{
 };
 
 use crate::application::Wish;
+use crate::perception;
+use crate::ras::clustering::PerceivedVru;
 use crate::runtime::Order;
 use crate::site::{Place, Site};
 
@@ -38,6 +40,8 @@ pub enum Tell {
     Wish(Wish),
     /// The maneuver that runs is finished, well or not.
     Finish(bool),
+    /// Its sensors have this person, at this place on the site.
+    Perceived(PerceivedVru),
 }
 
 impl From<Tell> for Order {
@@ -45,6 +49,7 @@ impl From<Tell> for Order {
         match tell {
             Tell::Wish(wish) => Self::Wish(wish),
             Tell::Finish(well) => Self::Finish { well },
+            Tell::Perceived(vru) => Self::Perceived(vru),
         }
     }
 }
@@ -64,6 +69,8 @@ available              take part again
 status                 what the robot is doing
 wait SECONDS           before the next line
 until STATE [SECONDS]  wait for idle, help-requested, role-established or maneuver-executing
+{\"id\": N, \"position_m\": [EAST, NORTH], \"velocity_mps\": [1, 0], \"class\": \"pedestrian\",
+ \"confidence\": 0.9}    the sensors have this person now; only id and position_m are needed
 help                   this
 quit                   leave the session and stop
 TASK is initialPos, move, block, or task3 to task15. What follows a # is a comment.";
@@ -90,6 +97,9 @@ pub enum Misunderstood {
         /// What was wanted in its place.
         wanted: &'static str,
     },
+    /// It is no person.
+    #[error("{0}")]
+    Person(String),
     /// There are more words than the command takes.
     #[error("'{0}' is one word too many")]
     Surplus(String),
@@ -100,6 +110,9 @@ pub enum Misunderstood {
 /// # Errors
 /// Why it means nothing.
 pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
+    if text.trim_start().starts_with('{') {
+        return person(text);
+    }
     let text = text.split('#').next().unwrap_or_default();
     let mut words = text.split_whitespace();
     let Some(command) = words.next() else {
@@ -145,6 +158,16 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
             [.., last],
         ) => Err(Misunderstood::Surplus((*last).to_owned())),
         (other, _) => Err(Misunderstood::Command(other.to_owned())),
+    }
+}
+
+fn person(text: &str) -> Result<Line, Misunderstood> {
+    match perception::parse(text) {
+        Ok(observation) if observation.at_s.is_some() => Err(Misunderstood::Person(
+            "at_s is for files of --perceived; here 'wait' does it".to_owned(),
+        )),
+        Ok(observation) => Ok(Line::Order(Tell::Perceived(observation.vru))),
+        Err(error) => Err(Misunderstood::Person(error.to_string())),
     }
 }
 
@@ -345,9 +368,23 @@ mod tests {
             ("wait inf", "'inf' is not a number of seconds up to a day"),
             ("until done", "'done' is not a state; see 'help'"),
             ("quit now", "'now' is one word too many"),
+            (
+                r#"{"id": 1, "position_m": [1, 2], "at_s": 3}"#,
+                "at_s is for files of --perceived; here 'wait' does it",
+            ),
         ] {
             assert_eq!(parsed(text), Err(answer.to_owned()), "{text}");
         }
+    }
+
+    #[test]
+    fn a_person_whom_the_sensors_have_is_a_line_of_json() {
+        let line = parsed(r#" {"id": 7, "position_m": [3.0, -1.5]} "#);
+        let Ok(Line::Order(Tell::Perceived(vru))) = line else {
+            panic!("{line:?}")
+        };
+        assert_eq!((vru.id, vru.position_m), (7, [3.0, -1.5]));
+        assert!(parsed("{}").unwrap_err().contains("a person is like"));
     }
 
     #[test]

@@ -8,6 +8,9 @@ use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
 use crate::body::Build;
+use crate::ras::clustering;
+use crate::ras::surroundings::Awareness;
+use crate::ras::vam::CLUSTER_INTERVAL_MS;
 use crate::site::{Place, Site};
 use crate::transport::Link;
 
@@ -36,6 +39,8 @@ pub struct RobotFile {
     pub config: Config,
     /// What no standard has assigned.
     pub identifiers: Identifiers,
+    /// How it announces the people around it.
+    pub awareness: Awareness,
 }
 
 #[derive(Deserialize)]
@@ -58,6 +63,10 @@ struct Text {
     protocol: Settings,
     #[serde(default)]
     identifiers: Identifiers,
+    #[serde(default)]
+    people: clustering::Settings,
+    #[serde(default)]
+    cluster_vam: bool,
 }
 
 const fn one() -> f64 {
@@ -134,6 +143,9 @@ pub enum Impossibility {
     /// The body's time does not pass, or goes back.
     #[error("speed is {0}: a number from 1 to 100 is wanted")]
     Speed(f64),
+    /// People cannot be clustered so.
+    #[error("[people] {0}")]
+    People(&'static str),
     /// A site that is not on earth.
     #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
     Site(f64, f64),
@@ -176,6 +188,7 @@ impl Text {
             return Err(Impossibility::Site(site.latitude, site.longitude));
         }
         self.identifiers.check()?;
+        self.people.check().map_err(Impossibility::People)?;
         Ok(RobotFile {
             name: self.name,
             station: StationId(self.station),
@@ -188,6 +201,10 @@ impl Text {
             link: self.link.check()?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,
+            awareness: Awareness {
+                clustering: self.people,
+                cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
+            },
         })
     }
 }

@@ -24,6 +24,9 @@ use crate::application::{Application, Wish};
 use crate::counters::Cause;
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crate::machine::{Machine, stimulus_of};
+use crate::perception::seen_from;
+use crate::ras::clustering::PerceivedVru;
+use crate::ras::surroundings::Awareness;
 use crate::station::Security;
 use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Receiver, Sender};
@@ -85,6 +88,8 @@ pub enum Order {
         /// Whether it was completed.
         well: bool,
     },
+    /// The sensors have this person, at this place on the site.
+    Perceived(PerceivedVru),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -113,6 +118,8 @@ pub struct Setup {
     pub wire: Wire,
     /// Whether it signs and verifies.
     pub security: Security,
+    /// How it announces the people around it.
+    pub awareness: Awareness,
     /// Moves the body, and leads.
     pub application: Application,
     /// Its link, open.
@@ -147,7 +154,9 @@ impl Setup {
         let robot = Robot::new(self.station, self.boot);
         let mut turn = Loop {
             machine: Machine::new(
-                Endpoint::new(robot, self.config, self.wire, now_ms).with_security(self.security),
+                Endpoint::new(robot, self.config, self.wire, now_ms)
+                    .with_security(self.security)
+                    .with_awareness(self.awareness),
                 self.application,
             ),
             name: self.name,
@@ -304,6 +313,10 @@ impl Loop {
                 if let Some(event) = self.machine.finish(well) {
                     self.handle(Stimulus::Event(event));
                 }
+            }
+            Order::Perceived(vru) => {
+                let place = self.machine.application().body().place();
+                self.handle(Stimulus::Perceived(&[seen_from(place, vru)]));
             }
             Order::Reset => self.machine.application_mut().reset(),
             Order::Stop => self.begin_to_stop(),

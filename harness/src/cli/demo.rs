@@ -7,6 +7,8 @@ use comfy_table::{CellAlignment, Table};
 use crossguard_codec::Identifiers;
 use crossguard_harness::chart::Chart;
 use crossguard_harness::demo::{self, Options, Outcome, Scenario, Seen};
+use crossguard_harness::ras::surroundings::Awareness;
+use crossguard_harness::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_harness::station::Mode;
 use crossguard_harness::timing::{Statistic, Summary};
 use crossguard_harness::transport::Faults;
@@ -44,6 +46,12 @@ pub(super) struct Arguments {
     /// Write all packets to this file, for Wireshark.
     #[arg(long, value_name = "FILE")]
     pcap: Option<PathBuf>,
+    /// People whom the robots' sensors have: a file of JSON lines as for `crossguard run`.
+    #[arg(long, value_name = "FILE")]
+    perceived: Option<PathBuf>,
+    /// Announce clusters of people by ETSI's cluster VAM as well.
+    #[arg(long)]
+    cluster_vam: bool,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -104,6 +112,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             .as_deref()
             .map(super::create_capture)
             .transpose()?,
+        perceived: super::open_feed(arguments.perceived.as_deref())?,
+        awareness: Awareness {
+            cluster_vam_interval_ms: arguments.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
+            ..Awareness::default()
+        },
     };
     let mut log_file = match &arguments.log {
         Some(path) => Some(create(path)?),

@@ -13,12 +13,14 @@ use crossguard_harness::application::Application;
 use crossguard_harness::body::Body;
 use crossguard_harness::boot;
 use crossguard_harness::operator::{self, HELP, Line};
+use crossguard_harness::perception::{Announced, Feed};
 use crossguard_harness::plan::Plan;
+use crossguard_harness::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_harness::robot_file::RobotFile;
 use crossguard_harness::runtime::{Clock, Order, Running, Setup};
 use crossguard_harness::trace::{self, Entry, Record};
 use crossguard_harness::transport::{Faults, Link, Transport, WithFaults};
-use crossguard_harness::wire::Wire;
+use crossguard_harness::wire::{MessageKind, Wire, overhear};
 use crossguard_protocol::{Input, Output, Robot, State};
 
 use super::{Failure, print};
@@ -51,6 +53,12 @@ pub(super) struct Arguments {
     /// Seed of the faults and of the robot's gait.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// People whom the robot's sensors have: a file or pipe of JSON lines, see below.
+    #[arg(long, value_name = "FILE")]
+    perceived: Option<PathBuf>,
+    /// Announce clusters of people by ETSI's cluster VAM as well, for devices that do not understand RAM.
+    #[arg(long)]
+    cluster_vam: bool,
     #[command(flatten)]
     security: super::security::SecurityArguments,
     /// Write the log to this file, one JSON object per line.
@@ -64,8 +72,17 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-const AFTER_HELP: &str = "Events are typed or piped in; type 'help' for a list. At the end of piped \
-input the robot goes on; 'quit' or Ctrl-C makes it leave its session in order and stop.";
+const AFTER_HELP: &str =
+    "Events are typed or piped in; type 'help' for a list. At the end of piped \
+input the robot goes on; 'quit' or Ctrl-C makes it leave its session in order and stop.
+
+A line of --perceived is one person at one time, like
+  {\"at_s\": 1.5, \"id\": 7, \"position_m\": [3.0, -1.5], \"velocity_mps\": [1.2, 0.0],
+   \"class\": \"pedestrian\", \"confidence\": 0.9}
+in metres on the site and seconds from the start; only id and position_m are needed. Classes are
+pedestrian, bicyclist, motorcyclist and animal. Without at_s a line is told when it is read, from a
+pipe or typed. Who is within the radius of [people] in the configuration (15 m) is announced, and
+forgotten a second after the last line. Try --perceived harness/examples/people.jsonl.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !(0.0..=1.0).contains(&arguments.loss) {
@@ -106,6 +123,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => None,
     };
     let security = arguments.security.of_robot(&file.name)?;
+    let perceived = super::open_feed(arguments.perceived.as_deref())?;
+    let mut awareness = file.awareness;
+    if arguments.cluster_vam {
+        awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);
+    }
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
     let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
     let body = Body::new(
@@ -126,6 +148,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             identifiers: file.identifiers,
         },
         security,
+        awareness,
         application: Application::new(body, plan),
         link,
         log,
@@ -145,6 +168,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         robot: Robot::new(file.station, boot.counter),
         pending: VecDeque::new(),
         hold: None,
+        perceived,
+        announced: Announced::default(),
         reads: true,
     }
     .attend(&running, &records, &lines());
@@ -182,6 +207,9 @@ struct Console<'a> {
     robot: Robot,
     pending: VecDeque<Line>,
     hold: Option<Hold>,
+    /// Whom the robot's sensors have, from a file.
+    perceived: Option<Feed>,
+    announced: Announced,
     /// Whether somebody still reads what is printed.
     reads: bool,
 }
@@ -211,6 +239,11 @@ impl Console<'_> {
             while let Ok(text) = lines.try_recv() {
                 self.type_in(&text)?;
             }
+            if let Some(feed) = &self.perceived {
+                for vru in feed.due().map_err(Failure::Input)? {
+                    running.order(Order::Perceived(vru));
+                }
+            }
             if !quits && (interrupted.load(Ordering::Relaxed) || self.next_line(running)?) {
                 quits = true;
                 running.order(Order::Stop);
@@ -227,8 +260,11 @@ impl Console<'_> {
                 self.reads = trace::write(&mut std::io::stdout(), record).is_ok();
             }
         } else {
-            for line in self.texts(record) {
-                self.say(&line);
+            let announced = self.announced(record);
+            for line in self.texts(record).into_iter().chain(announced) {
+                #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
+                let time = record.at_us as f64 / 1e6;
+                self.say(&format!("{time:>9.3} {}: {line}", record.robot));
             }
         }
         if let Entry::Step { state, .. } = &record.entry {
@@ -245,8 +281,6 @@ impl Console<'_> {
     }
 
     fn texts(&self, record: &Record) -> Vec<String> {
-        #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
-        let time = record.at_us as f64 / 1e6;
         let mut texts = Vec::new();
         match &record.entry {
             Entry::Step {
@@ -278,9 +312,20 @@ impl Console<'_> {
             _ => {}
         }
         texts
-            .iter()
-            .map(|text| format!("{time:>9.3} {}: {text}", record.robot))
-            .collect()
+    }
+
+    /// What is new in whom a RAM announces.
+    fn announced(&mut self, record: &Record) -> Option<String> {
+        let Entry::Sent {
+            message: MessageKind::Ram,
+            octets,
+            ..
+        } = &record.entry
+        else {
+            return None;
+        };
+        let ram = overhear(&self.file.identifiers, octets).ok()?;
+        self.announced.note(ram.cluster.as_ref())
     }
 
     fn type_in(&mut self, text: &str) -> Result<(), Failure> {

@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use crossguard_codec::Identifiers;
+use crossguard_codec::its::ItsMessage;
 use crossguard_protocol::{
     Config, Decimetres, Input, Output, Outputs, Rmcm, Robot, Settings, StationId,
 };
 
 use super::fault::Fault;
 use crate::counters::Cause;
-use crate::wire::{MessageKind, overhear};
+use crate::wire::{MessageKind, Unheard, overhear};
 
 /// By how much the time that a robot is told may be ahead of the log's clock, in ms, besides a
 /// hundredth for the drift of either.
@@ -170,8 +171,19 @@ impl Follow {
         }
     }
 
-    /// A RAM says what the state is, an RMCM what a step has put out.
+    /// A RAM says what the state is, an RMCM what a step has put out. A cluster VAM says nothing of either.
     pub(super) fn sent(&mut self, kind: MessageKind, octets: &[u8]) -> Result<(), Fault> {
+        if kind == MessageKind::Vam {
+            let vam = ItsMessage::decode(&self.identifiers, octets);
+            return match vam
+                .map_err(Unheard::from)
+                .map_err(Fault::NoMessage)?
+                .message
+            {
+                ItsMessage::Vam(_) | ItsMessage::Vam211(_) => Ok(()),
+                _ => Err(Fault::OtherOctets(kind.name().to_owned())),
+            };
+        }
         let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
         if message.kind != kind {
             return Err(Fault::OtherOctets(kind.name().to_owned()));
