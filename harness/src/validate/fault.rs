@@ -18,7 +18,7 @@ pub enum Fault {
     #[error("is not a record: {0}")]
     NotARecord(serde_json::Error),
     /// The robot runs with settings that break an inequality.
-    #[error("was started with settings that {0}")]
+    #[error("was started although {0}")]
     Settings(BrokenInequality),
     /// The robot does something without having been started.
     #[error("does something and was never started")]

@@ -1,0 +1,325 @@
+//! `crossguard validate`: logs of real robots, and what somebody has altered in them.
+
+mod support;
+
+use std::path::Path;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use support::*;
+
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// Two processes do the crossing; the paths of their logs.
+fn crossing(folder: &Path) -> [String; 2] {
+    let port = two_free_ports();
+    let ari = robot_file(folder, "ARI", 1, port, port + 1);
+    let go2 = robot_file(folder, "Go2", 2, port + 1, port);
+    let (mut dog, mut humanoid) = (start(&go2), start(&ari));
+    let script = "wait 0.3\ndetect\nuntil maneuver-executing\nuntil idle\nquit\n";
+    type_to(&mut humanoid, script);
+    assert_eq!(wait_for(&mut humanoid, PATIENCE).code(), Some(0));
+    type_to(&mut dog, "quit\n");
+    assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
+    ["ARI", "Go2"].map(|name| path_in(folder, &format!("{name}.log")))
+}
+
+fn path_in(folder: &Path, name: &str) -> String {
+    folder.join(name).display().to_string()
+}
+
+fn write(path: &str, lines: &[Value]) {
+    let lines: Vec<_> = lines.iter().map(ToString::to_string).collect();
+    std::fs::write(path, lines.join("\n") + "\n").unwrap();
+}
+
+#[test]
+fn logs_of_two_processes_are_valid_together_and_alone_and_not_when_altered() {
+    let folder = tempfile::tempdir().unwrap();
+    let [ari, go2] = crossing(folder.path());
+    let output = run(&["validate", &ari, &go2, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
+    let report = json(&output);
+    assert_eq!(report["valid"], true);
+    assert_eq!(report["robots"], 2);
+    assert_eq!(report["from_strangers"], 0);
+    assert_eq!(report["cut_off"], json!([]));
+    assert!(report["heard"].as_u64().unwrap() > 20, "{report}");
+    assert_eq!(run(&["validate", &go2]).status.code(), Some(0));
+
+    // The dog's log says that it acknowledged another command.
+    let mut lines = records(&std::fs::read_to_string(&go2).unwrap());
+    let is_ack = |line: &Value| line["outputs"].to_string().contains("accepted");
+    let at = lines.iter().position(is_ack).unwrap();
+    let outputs = lines[at]["outputs"].to_string();
+    let altered = outputs.replace("\"request\":0", "\"request\":1");
+    assert_ne!(outputs, altered);
+    lines[at]["outputs"] = serde_json::from_str(&altered).unwrap();
+    write(&go2, &lines);
+    let output = run(&["validate", &ari, &go2]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = stdout(&output);
+    let position = format!("{go2}, line {}: Go2 on 'RMCM command", at + 1);
+    assert!(said.contains(&position), "{said}");
+    assert!(said.contains("the protocol puts out"), "{said}");
+}
+
+/// Where an altered log is refused, given where it was altered.
+#[derive(Clone, Copy, Debug)]
+enum Where {
+    /// At the altered line.
+    There,
+    /// There, or at the next line of that robot.
+    ThereOrNext,
+    /// There or at the next line of that robot, or where another robot hears what was not sent.
+    AsHeard,
+    /// Where that robot stops and says what it has counted.
+    AtTheEnd,
+}
+
+/// A kind of alteration: its name, the line that it is made to, what it does with the lines from there
+/// on, where it is noticed, and a part of the reason.
+struct Alteration {
+    name: &'static str,
+    line: fn(&Value) -> bool,
+    alter: fn(&mut Vec<Value>, usize),
+    refused: Where,
+    reason: &'static str,
+}
+
+fn is(line: &Value, entry: &str) -> bool {
+    line["entry"] == entry
+}
+
+/// A step in which something is sent, in the middle of a session.
+fn is_busy_step(line: &Value) -> bool {
+    let acts = !line["outputs"].as_array().is_none_or(Vec::is_empty);
+    is(line, "step") && acts && line["state"]["phase"].is_object()
+}
+
+fn is_heard_in_session(line: &Value) -> bool {
+    is(line, "heard") && line["message"] == "RMCM"
+}
+
+/// The last octet but eight, which is past the message's header.
+fn flip_octet(line: &mut Value) {
+    let octets = line["octets"].as_str().unwrap();
+    let at = octets.len() - 16;
+    let digit = if octets.as_bytes()[at] == b'0' {
+        "f"
+    } else {
+        "0"
+    };
+    let flipped = format!("{}{digit}{}", &octets[..at], &octets[at + 1..]);
+    line["octets"] = flipped.into();
+}
+
+/// The next line of the same robot.
+fn next_of_robot(lines: &[Value], at: usize) -> usize {
+    let same = |i: &usize| lines[*i]["robot"] == lines[at]["robot"];
+    (at + 1..lines.len()).find(same).unwrap_or(lines.len() - 1)
+}
+
+const ALTERATIONS: [Alteration; 18] = [
+    Alteration {
+        name: "settings that break an inequality",
+        line: |line| is(line, "started"),
+        alter: |lines, at| lines[at]["settings"]["t_lease"] = 1_999.into(),
+        refused: Where::There,
+        reason: "was started although the settings break 'lease-within-safety'",
+    },
+    Alteration {
+        name: "another boot counter",
+        line: |line| is(line, "started"),
+        alter: |lines, at| lines[at]["boot"] = 7.into(),
+        refused: Where::ThereOrNext,
+        reason: "went into a state that the protocol does not lead to",
+    },
+    Alteration {
+        name: "another event",
+        line: |line| line["input"]["local"].get("pedestrianDetected").is_some(),
+        alter: |lines, at| lines[at]["input"] = json!({"local": "leaveRequested"}),
+        refused: Where::There,
+        reason: "the protocol puts out",
+    },
+    Alteration {
+        name: "more time than has passed",
+        line: |line| is(line, "step") && line["input"].get("elapsed").is_some(),
+        alter: |lines, at| lines[at]["input"]["elapsed"] = 60_000.into(),
+        refused: Where::There,
+        reason: "was told that",
+    },
+    Alteration {
+        name: "an output less",
+        line: is_busy_step,
+        alter: |lines, at| {
+            lines[at]["outputs"].as_array_mut().unwrap().pop();
+        },
+        refused: Where::There,
+        reason: "the protocol puts out",
+    },
+    Alteration {
+        name: "an output more",
+        line: is_busy_step,
+        alter: |lines, at| {
+            let outputs = lines[at]["outputs"].as_array_mut().unwrap();
+            outputs.push("corridorOpened".into());
+        },
+        refused: Where::There,
+        reason: "corridor opened",
+    },
+    Alteration {
+        name: "another state",
+        line: is_busy_step,
+        alter: |lines, at| lines[at]["state"]["next_count"] = 9.into(),
+        refused: Where::There,
+        reason: "went into a state that the protocol does not lead to",
+    },
+    Alteration {
+        name: "another message sent",
+        line: |line| is(line, "sent") && line["trigger"] == "protocol",
+        alter: |lines, at| flip_octet(&mut lines[at]),
+        refused: Where::AsHeard,
+        reason: "",
+    },
+    Alteration {
+        name: "another kind of message sent",
+        line: |line| is(line, "sent") && line["message"] == "RAM",
+        alter: |lines, at| lines[at]["message"] = "RMCM".into(),
+        refused: Where::There,
+        reason: "recorded octets that are not the RMCM it says",
+    },
+    Alteration {
+        name: "another message heard",
+        line: is_heard_in_session,
+        alter: |lines, at| flip_octet(&mut lines[at]),
+        refused: Where::ThereOrNext,
+        reason: "",
+    },
+    Alteration {
+        name: "another sender",
+        line: is_heard_in_session,
+        alter: |lines, at| lines[at]["from"] = 77.into(),
+        refused: Where::There,
+        reason: "recorded octets that are not the RMCM of station",
+    },
+    Alteration {
+        name: "another cause of a loss",
+        line: |line| is(line, "dropped"),
+        alter: |lines, at| lines[at]["cause"] = "simulated rain".into(),
+        refused: Where::AtTheEnd,
+        reason: "times, and its log has it",
+    },
+    Alteration {
+        name: "another count",
+        line: |line| is(line, "stopped"),
+        alter: |lines, at| lines[at]["counters"]["ignored: nothing new"] = 999.into(),
+        refused: Where::There,
+        reason: "counted 'ignored: nothing new' 999 times, and its log has it",
+    },
+    Alteration {
+        name: "a step less",
+        line: is_busy_step,
+        alter: |lines, at| {
+            lines.remove(at);
+        },
+        refused: Where::ThereOrNext,
+        reason: "",
+    },
+    Alteration {
+        name: "a transmission less",
+        line: |line| is(line, "sent") && line["message"] == "RMCM",
+        alter: |lines, at| {
+            lines.remove(at);
+        },
+        refused: Where::AsHeard,
+        reason: "",
+    },
+    Alteration {
+        name: "a line twice",
+        line: is_busy_step,
+        alter: |lines, at| {
+            let line = lines[at].clone();
+            lines.insert(at, line);
+        },
+        refused: Where::ThereOrNext,
+        reason: "",
+    },
+    Alteration {
+        name: "two lines of a robot in each other's place",
+        line: is_busy_step,
+        alter: |lines, at| {
+            let next = next_of_robot(lines, at);
+            lines.swap(at, next);
+        },
+        refused: Where::ThereOrNext,
+        reason: "",
+    },
+    Alteration {
+        name: "an earlier time",
+        line: is_busy_step,
+        alter: |lines, at| lines[at]["atUs"] = 1.into(),
+        refused: Where::There,
+        reason: "has a clock that went back from",
+    },
+];
+
+#[test]
+fn every_kind_of_alteration_is_refused_with_position_and_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = path_in(folder.path(), "log");
+    let port = free_ports(3).to_string();
+    let demo = ["demo", "--scenario", "trio", "--speed", "50", "--json"];
+    let more = ["--loss", "0.2", "--port", &port, "--log", &log];
+    assert_eq!(run(&[demo, more].concat()).status.code(), Some(0));
+    let whole = records(&std::fs::read_to_string(&log).unwrap());
+    assert_eq!(run(&["validate", &log]).status.code(), Some(0));
+    let mut wrong = Vec::new();
+    for Alteration {
+        name,
+        line,
+        alter,
+        refused,
+        reason,
+    } in ALTERATIONS
+    {
+        let at = whole.iter().position(line);
+        let at = at.unwrap_or_else(|| panic!("nothing to make it to: {name}"));
+        let mut lines = whole.clone();
+        alter(&mut lines, at);
+        write(&log, &lines);
+        let output = run(&["validate", &log, "--json"]);
+        assert_eq!(output.status.code(), Some(1), "{name}: {}", stderr(&output));
+        let report = json(&output);
+        let found = usize::try_from(report["line"].as_u64().unwrap()).unwrap();
+        let said = report["error"].as_str().unwrap();
+        let (there, next) = (at + 1, next_of_robot(&lines, at) + 1);
+        let is_there = match refused {
+            Where::There => found == there,
+            Where::ThereOrNext => (there..=next).contains(&found),
+            Where::AsHeard => {
+                (there..=next).contains(&found) || found > there && is(&lines[found - 1], "heard")
+            }
+            Where::AtTheEnd => is(&lines[found - 1], "stopped"),
+        };
+        let begin = format!("{log}, line {found}: ");
+        if !is_there || !said.starts_with(&begin) || !said.contains(reason) {
+            wrong.push(format!("{name}, at line {there}: {said}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn what_is_no_log_is_refused() {
+    assert_refused(
+        &run(&["validate", "no-such.log"]),
+        "no-such.log: No such file",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let path = path_in(folder.path(), "log");
+    std::fs::write(&path, "hello\n").unwrap();
+    assert_refused(&run(&["validate", &path]), "line 1: is not a record");
+    std::fs::write(&path, "").unwrap();
+    assert_refused(&run(&["validate", &path]), "there is nothing in this log");
+}
