@@ -1,12 +1,13 @@
 //! The boot counter: the only thing that a robot persists.
 //!
 //! Session and offer numbers are built from it, so it must never go back. It is written before the
-//! robot takes part in anything, into a file beside it that then takes its name, so that a crash at
-//! any moment leaves the old counter or the new one. A counter that is taken and not used is lost,
-//! which does no harm.
+//! robot takes part in anything, into a file beside it (`.new`) that then takes its name, so that a
+//! crash at any moment leaves the old counter or the new one. A counter that is taken and not used is
+//! lost, which does no harm. The text ends with its line: one that was cut off, at whatever byte, is
+//! corrupt and not a smaller counter.
 
 use std::fs::{File, TryLockError};
-use std::io::{Read, Seek, Write};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 /// What the file begins with.
@@ -16,7 +17,11 @@ const MAGIC: &str = "crossguard boot counter";
 #[derive(Debug, thiserror::Error)]
 pub enum BootError {
     /// The file or its folder cannot be used.
-    #[error("{}: {cause}", path.display())]
+    #[error(
+        "the boot counter cannot be kept in {}: {cause}. The robot does not start, because its next \
+         session numbers might be those of this boot",
+        path.display()
+    )]
     Unusable {
         /// The file.
         path: PathBuf,
@@ -26,7 +31,7 @@ pub enum BootError {
     /// The file holds something else.
     #[error(
         "{} does not hold a boot counter: it begins with '{found}'. If the counter is lost, write \
-         '{MAGIC} N' into it, with N larger than at any boot of this robot before",
+         the line '{MAGIC} N' into it, with N larger than at any boot of this robot before",
         path.display()
     )]
     Corrupt {
@@ -104,9 +109,14 @@ fn lock(path: &Path) -> Result<File, BootError> {
 fn next(path: &Path, file: File) -> Result<u16, BootError> {
     let mut text = String::new();
     let read = file.take(200).read_to_string(&mut text);
-    let last = read
-        .ok()
-        .and_then(|_| text.trim().strip_prefix(MAGIC)?.trim().parse::<u16>().ok());
+    let number = |text: &str| {
+        text.strip_suffix('\n')?
+            .strip_prefix(MAGIC)?
+            .trim()
+            .parse()
+            .ok()
+    };
+    let last: Option<u16> = read.ok().and_then(|_| number(&text));
     let Some(last) = last else {
         let found = text.chars().take(40).collect();
         return Err(BootError::Corrupt {
@@ -125,11 +135,12 @@ fn replace(path: &Path, counter: u16) -> std::io::Result<()> {
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    let mut new = tempfile::NamedTempFile::new_in(folder)?;
-    writeln!(new, "{MAGIC} {counter}")?;
-    new.rewind()?;
-    new.as_file().sync_all()?;
-    new.persist(path).map_err(|error| error.error)?;
+    // Nobody else writes it, under the lock; one that a crash has left is written over.
+    let new_path = path.with_added_extension("new");
+    let mut new = File::create(&new_path)?;
+    new.write_all(format!("{MAGIC} {counter}\n").as_bytes())?;
+    new.sync_all()?;
+    std::fs::rename(new_path, path)?;
     // The name itself is on the disk only when the folder is.
     File::open(folder)?.sync_all()
 }
@@ -169,7 +180,7 @@ mod tests {
             assert!(
                 error
                     .to_string()
-                    .contains("write 'crossguard boot counter N'")
+                    .contains("write the line 'crossguard boot counter N'")
             );
             assert_eq!(fs::read_to_string(&path).unwrap(), garbage);
         }
@@ -181,7 +192,7 @@ mod tests {
     fn the_way_out_of_a_corrupt_file_works() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("robot.boot");
-        fs::write(&path, "crossguard boot counter 41").unwrap();
+        fs::write(&path, "crossguard boot counter 41\n").unwrap();
         assert_eq!(take(&path).unwrap().counter, 42);
     }
 

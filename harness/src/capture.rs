@@ -1,10 +1,12 @@
 //! Packets in pcap files, as the field's tools read them: each in an Ethernet frame of ethertype 0x8947,
-//! which Wireshark takes apart down to BTP.
+//! which Wireshark takes apart down to BTP. A thread writes them, so that no robot waits for a disk.
 
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver as Queue, SyncSender, sync_channel};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::geonet::ethernet;
@@ -14,18 +16,41 @@ use pcap_file::pcap::{PcapPacket, PcapReader, PcapWriter};
 use crate::station::link_layer_of;
 use crate::transport::{Arrival, Halves, NotSent, Receiver, Sender};
 
+/// How many packets may wait to be written.
+const WAITING: usize = 4_096;
+
+/// How long the end waits for what is still to be written.
+const PATIENCE: Duration = Duration::from_secs(2);
+
 /// A file that packets are written to as they come and go. Clones write to the same file.
 #[derive(Clone, Debug)]
 pub struct Capture {
-    state: Arc<Mutex<State>>,
+    items: SyncSender<Item>,
+    /// How many packets found no place in the queue.
+    lost: Arc<AtomicU64>,
 }
 
+/// What the thread that writes is told.
 #[derive(Debug)]
-struct State {
-    /// Without a buffer, so that nothing is missing when the process is killed.
-    writer: PcapWriter<File>,
-    /// The first thing that went wrong; nothing is written after it.
-    failure: Option<PcapError>,
+enum Item {
+    /// This frame was on the link, so long after 1970.
+    Frame(Duration, Vec<u8>),
+    /// Tell how it went up to here.
+    Finish(SyncSender<Result<(), PcapError>>),
+}
+
+/// Why not all packets are in a file.
+#[derive(Debug, thiserror::Error)]
+pub enum Incomplete {
+    /// The file could not be written to; nothing was after that.
+    #[error("{0}")]
+    Failed(#[from] PcapError),
+    /// The disk was too slow.
+    #[error("there was no time for {0} of them")]
+    TooSlow(u64),
+    /// The disk does not answer.
+    #[error("the disk does not answer")]
+    Stuck,
 }
 
 impl Capture {
@@ -34,38 +59,48 @@ impl Capture {
     /// # Errors
     /// When it cannot be created or written to.
     pub fn create(path: &Path) -> Result<Self, PcapError> {
+        // Without a buffer, so that nothing is missing when the process is killed.
         let writer = PcapWriter::new(File::create(path).map_err(PcapError::IoError)?)?;
-        let state = State {
-            writer,
-            failure: None,
-        };
+        let (items, queue) = sync_channel(WAITING);
+        std::thread::spawn(move || write(writer, &queue));
         Ok(Self {
-            state: Arc::new(Mutex::new(state)),
+            items,
+            lost: Arc::default(),
         })
     }
 
-    /// Writes a packet that is on the link now.
+    /// Writes a packet that is on the link now. It waits for nobody; what finds no place is counted.
     pub fn record(&self, packet: &[u8]) {
-        let frame = [&ethernet::header(link_layer_of(packet))[..], packet].concat();
         let now = SystemTime::now().duration_since(UNIX_EPOCH);
-        let now = now.unwrap_or(Duration::ZERO);
-        let length = u32::try_from(frame.len()).unwrap_or(u32::MAX);
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        if state.failure.is_none() {
-            let written = state
-                .writer
-                .write_packet(&PcapPacket::new(now, length, &frame));
-            state.failure = written.err();
+        let item = frame(now.unwrap_or(Duration::ZERO), packet);
+        if self.items.try_send(item).is_err() {
+            self.lost.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// Writes a packet that was on the link so long after 1970, and waits until there is a place for
+    /// it: for those who have the time.
+    pub fn record_at(&self, at: Duration, packet: &[u8]) {
+        if self.items.send(frame(at, packet)).is_err() {
+            self.lost.fetch_add(1, Ordering::Relaxed);
         }
     }
 
     /// Whether everything was recorded.
     ///
     /// # Errors
-    /// The first thing that went wrong.
-    pub fn finish(self) -> Result<(), PcapError> {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.failure.take().map_or(Ok(()), Err)
+    /// Why not.
+    pub fn finish(self) -> Result<(), Incomplete> {
+        let (tell, result) = sync_channel(1);
+        let finish = self.items.try_send(Item::Finish(tell));
+        let result = finish
+            .ok()
+            .and_then(|()| result.recv_timeout(PATIENCE).ok());
+        result.ok_or(Incomplete::Stuck)??;
+        match self.lost.load(Ordering::Relaxed) {
+            0 => Ok(()),
+            lost => Err(Incomplete::TooSlow(lost)),
+        }
     }
 
     /// `halves`, and what goes out over them is recorded.
@@ -90,6 +125,30 @@ impl Capture {
         Halves {
             sender,
             receiver: Box::new(RecordingReceiver { inner, capture }),
+        }
+    }
+}
+
+fn frame(at: Duration, packet: &[u8]) -> Item {
+    let header = ethernet::header(link_layer_of(packet));
+    Item::Frame(at, [&header[..], packet].concat())
+}
+
+/// Writes frames until nobody is left who has some, or until something goes wrong.
+fn write(mut writer: PcapWriter<File>, queue: &Queue<Item>) {
+    let mut result = Ok(());
+    for item in queue {
+        match item {
+            Item::Frame(at, frame) if result.is_ok() => {
+                let length = u32::try_from(frame.len()).unwrap_or(u32::MAX);
+                let written = writer.write_packet(&PcapPacket::new(at, length, &frame));
+                result = written.map(drop);
+            }
+            Item::Frame(..) => {}
+            Item::Finish(tell) => {
+                // Who asked may have given up.
+                let _ = tell.send(std::mem::replace(&mut result, Ok(())));
+            }
         }
     }
 }

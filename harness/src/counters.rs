@@ -34,8 +34,10 @@ pub enum Cause {
     NotSent,
     /// The operating system gave no datagrams any more.
     LinkFailed,
-    /// The log's reader was too slow.
+    /// The log's reader was too slow; the log ended before this record.
     LogFull,
+    /// A reader of records that need not have all was too slow.
+    OutputFull,
 }
 
 impl Cause {
@@ -57,6 +59,7 @@ impl Cause {
             Self::NotSent => "not sent".to_owned(),
             Self::LinkFailed => "link failed".to_owned(),
             Self::LogFull => "log full".to_owned(),
+            Self::OutputFull => "output full".to_owned(),
         }
     }
 }

@@ -10,7 +10,8 @@ pub use scenario::{Participant, Scenario};
 
 use std::collections::BTreeMap;
 use std::net::{Ipv4Addr, SocketAddr};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use crossguard_protocol::{Config, EndReason, Event, Notice, Output, Phase};
@@ -19,6 +20,8 @@ use serde::Serialize;
 use crate::application::{Application, Wish};
 use crate::body::Body;
 use crate::capture::Capture;
+use crate::counters::Cause;
+use crate::journal::{Journal, WhenFull};
 use crate::perception::Feed;
 use crate::ras::surroundings::Awareness;
 use crate::runtime::{Clock, Order, Running, Setup};
@@ -116,7 +119,7 @@ const WITHOUT_POWER: &str = "without power";
 struct Demo<'a> {
     scenario: Scenario,
     robots: Vec<(Participant, Running)>,
-    records: Receiver<Record>,
+    records: Receiver<Arc<Record>>,
     clock: Clock,
     timing: Timing,
     /// The log as it would stand in a file.
@@ -172,7 +175,8 @@ pub fn run(
 }
 
 fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<Demo<'a>, LinkError> {
-    let (log, records) = sync_channel(LOG);
+    let mut journal = Journal::new();
+    let records = journal.reader(LOG, WhenFull::End, Cause::LogFull);
     let clock = Clock::start();
     let participants = options.scenario.participants();
     // All sockets are open before any robot says anything.
@@ -194,7 +198,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
             awareness: options.awareness,
             application: Application::new(body, participant.plan.clone()),
             link,
-            log: SyncSender::clone(&log),
+            journal: journal.clone(),
             clock,
         }
         .start();
@@ -369,7 +373,7 @@ impl Demo<'_> {
         let lost_records = self
             .counters
             .values()
-            .filter_map(|c| c.get("log full"))
+            .filter_map(|counters| counters.get(&Cause::LogFull.name()))
             .sum::<u64>();
         let validated = validate::one(&*self.log).map_err(|error| error.to_string());
         let validated = match validated {

@@ -24,14 +24,15 @@
 //! - [`evaluation`] simulates the paper's street grid: how many people robots see, and the channel load.
 //! - [`machine::Machine`] adds an [`application`] with a simulated [`body`] and a [`plan`], still without
 //!   input and output.
-//! - [`runtime`] is such a loop, with threads and a bounded inbox; [`transport`] has UDP to peers, UDP
+//! - [`runtime`] is such a loop, with threads and a bounded inbox; [`journal`] is where its records go,
+//!   and waits for no reader. [`transport`] has UDP to peers, UDP
 //!   multicast, queues within a process, and a layer of seeded faults over any of them.
 //! - [`sim`] runs many machines in virtual time under seeded faults, and judges every step.
 //! - [`trace`] is the log, one JSON object per line; [`validate`] tells whether logs of one or several
 //!   robots are of something that could have happened.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
-//! - [`demo`] is the paper's crossing with two robots and their simulated [`body`]s, [`timing`] its
-//!   table, [`chart`] its sequence chart.
+//! - [`demo`] is the paper's crossing and its extensions to teams, with simulated [`body`]s; [`timing`] is
+//!   its table, [`chart`] its sequence chart.
 //! - [`drive`] drives endpoints along a run of the model checker, and compares the two.
 //! - [`robot_file`] and [`operator`] are what `crossguard run` reads: a configuration, and what a
 //!   person types.
@@ -46,6 +47,7 @@ pub mod demo;
 pub mod drive;
 pub mod endpoint;
 pub mod evaluation;
+pub mod journal;
 pub mod machine;
 pub mod operator;
 pub mod perception;

@@ -171,7 +171,7 @@ impl Feed {
     pub fn due(&self) -> Result<Vec<PerceivedVru>, String> {
         let observations = self.observations.lock();
         let observations = observations.unwrap_or_else(PoisonError::into_inner);
-        observations.try_iter().collect()
+        observations.try_iter().take(AHEAD).collect()
     }
 }
 

@@ -1,16 +1,25 @@
 //! One robot as a running program: its endpoint, link and application in one loop.
 //!
 //! ```text
-//!   socket ──► reader thread ──► inbox (bounded) ──► loop ──► endpoint ──► effects
-//!   events ──────────────────────────┘                │                     │
-//!   clock ─── advances body and endpoint ─────────────┘     link, application, log
+//!   socket ──► reader thread ──► inbox ──┐               ┌──► link     (never waits for a receiver)
+//!   orders ──────────────────────────────┼──► Machine ───┤
+//!   clock  ── when something is due ─────┘               └──► journal  (never waits for a reader)
 //! ```
 //!
-//! The loop owns everything; nothing is locked. An inbox that is full drops the newest datagram, and
-//! counts it.
+//! 1. The loop waits for the inbox, at most until the machine or the body has something to do.
+//! 2. What came in is handed to the [`Machine`], and then that time has passed.
+//! 3. Effects are carried out in order: what is sent is put into the [`Journal`] first, so that no
+//!    receiver logs it before its sender.
+//!
+//! The loop owns the machine, the sending half of the link, and the journal; nothing is locked. It
+//! waits for nobody but the clock: a link that does not take a packet, and a reader that does not take
+//! a record, lose it, and that is counted. The inbox takes a limited number of datagrams and drops the
+//! newest; orders have places of their own in it, so that a flood does not keep a robot from stopping.
+//!
+//! A robot that is told to stop leaves its session by name, says so for `T_farewell`, and then ends.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{
     Receiver as Inbox, RecvTimeoutError, SyncSender, TrySendError, sync_channel,
 };
@@ -23,6 +32,7 @@ use crossguard_protocol::{Config, Event, Phase, Robot, StationId};
 use crate::application::{Application, Wish};
 use crate::counters::Cause;
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crate::journal::Journal;
 use crate::machine::{Machine, stimulus_of};
 use crate::perception::seen_from;
 use crate::ras::clustering::PerceivedVru;
@@ -32,8 +42,17 @@ use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Receiver, Sender};
 use crate::wire::Wire;
 
-/// How many datagrams and orders may wait.
-const INBOX: usize = 256;
+/// How many datagrams may wait.
+const DATAGRAMS: usize = 256;
+
+/// How many orders may wait besides, before who gives them has to.
+const ORDERS: usize = 16;
+
+/// How long the reader leaves a link alone that has failed.
+const LINK_REST: Duration = Duration::from_millis(200);
+
+/// How long the last record waits for a reader that is slow.
+const LAST_RECORD_WAIT: Duration = Duration::from_secs(1);
 
 /// How long the reader waits for a datagram before it looks whether it should stop.
 const READER_WAIT: Duration = Duration::from_millis(100);
@@ -124,8 +143,8 @@ pub struct Setup {
     pub application: Application,
     /// Its link, open.
     pub link: Halves,
-    /// Where the log goes.
-    pub log: SyncSender<Record>,
+    /// Where its records go.
+    pub journal: Journal,
     /// The clock.
     pub clock: Clock,
 }
@@ -141,13 +160,13 @@ impl Setup {
     /// Starts the robot in threads of its own.
     #[must_use]
     pub fn start(self) -> Running {
-        let (deliveries, inbox) = sync_channel(INBOX);
+        let (deliveries, inbox) = sync_channel(DATAGRAMS + ORDERS);
         let stop = Arc::new(AtomicBool::new(false));
-        let overflow = Arc::new(AtomicU64::new(0));
+        let waiting = Arc::new(Waiting::default());
         let reader = Reader {
             receiver: self.link.receiver,
             deliveries: deliveries.clone(),
-            overflow: Arc::clone(&overflow),
+            waiting: Arc::clone(&waiting),
             stop: Arc::clone(&stop),
         };
         let now_ms = self.clock.now_us() / 1_000;
@@ -161,9 +180,9 @@ impl Setup {
             ),
             name: self.name,
             sender: self.link.sender,
-            log: self.log,
+            journal: self.journal,
             clock: self.clock,
-            overflow,
+            waiting,
             stopping: false,
             is_dead: false,
         };
@@ -211,10 +230,20 @@ impl Running {
     }
 }
 
+/// What the reader and the loop know of the datagrams between them.
+#[derive(Debug, Default)]
+struct Waiting {
+    /// How many are in the inbox.
+    datagrams: AtomicUsize,
+    /// How many were dropped and are not counted yet.
+    dropped: AtomicU64,
+}
+
+/// Takes datagrams off the link, so that it does not have to keep them.
 struct Reader {
     receiver: Box<dyn Receiver>,
     deliveries: SyncSender<Delivery>,
-    overflow: Arc<AtomicU64>,
+    waiting: Arc<Waiting>,
     stop: Arc<AtomicBool>,
 }
 
@@ -226,18 +255,33 @@ impl Reader {
                 Ok(Some(arrival)) => Delivery::Arrived(arrival),
                 Err(error) => Delivery::LinkFailed(error),
             };
-            let failed = matches!(delivery, Delivery::LinkFailed(_));
-            match self.deliveries.try_send(delivery) {
-                Ok(()) => {}
-                Err(TrySendError::Full(_)) => {
-                    self.overflow.fetch_add(1, Ordering::Relaxed);
-                }
-                Err(TrySendError::Disconnected(_)) => return,
+            let has_failed = matches!(delivery, Delivery::LinkFailed(_));
+            if !self.deliver(delivery) {
+                return;
             }
-            if failed {
+            if has_failed {
                 // An interface that is gone may come back; until then there is no hurry.
-                std::thread::sleep(Duration::from_millis(200));
+                std::thread::sleep(LINK_REST);
             }
+        }
+    }
+
+    /// Puts something into the inbox, if it has a place for it. Whether there still is an inbox.
+    fn deliver(&self, delivery: Delivery) -> bool {
+        let Waiting { datagrams, dropped } = &*self.waiting;
+        if datagrams.load(Ordering::Relaxed) >= DATAGRAMS {
+            dropped.fetch_add(1, Ordering::Relaxed);
+            return true;
+        }
+        datagrams.fetch_add(1, Ordering::Relaxed);
+        match self.deliveries.try_send(delivery) {
+            Ok(()) => true,
+            Err(TrySendError::Full(_)) => {
+                datagrams.fetch_sub(1, Ordering::Relaxed);
+                dropped.fetch_add(1, Ordering::Relaxed);
+                true
+            }
+            Err(TrySendError::Disconnected(_)) => false,
         }
     }
 }
@@ -246,9 +290,9 @@ struct Loop {
     machine: Machine,
     name: String,
     sender: Box<dyn Sender>,
-    log: SyncSender<Record>,
+    journal: Journal,
     clock: Clock,
-    overflow: Arc<AtomicU64>,
+    waiting: Arc<Waiting>,
     stopping: bool,
     is_dead: bool,
 }
@@ -264,10 +308,10 @@ impl Loop {
         });
         while !self.is_done() {
             match inbox.recv_timeout(self.patience()) {
-                Ok(Delivery::Arrived(arrival)) => self.arrive(arrival),
                 Ok(Delivery::Order(order)) => self.obey(order),
-                Ok(Delivery::LinkFailed(cause)) => {
-                    self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
+                Ok(delivery) => {
+                    self.waiting.datagrams.fetch_sub(1, Ordering::Relaxed);
+                    self.take(delivery);
                 }
                 Err(RecvTimeoutError::Timeout) => {}
                 // Nobody is left who could tell it to stop.
@@ -278,11 +322,10 @@ impl Loop {
             }
             self.handle(Stimulus::Time);
         }
-        for _ in 0..self.overflow.swap(0, Ordering::Relaxed) {
-            self.machine.endpoint_mut().count(Cause::InboxFull);
-        }
+        self.count_overflow();
         let counters = self.machine.endpoint().counters().by_name().clone();
-        self.log(Entry::Stopped { counters });
+        let last = self.record(Entry::Stopped { counters });
+        self.journal.put_last(last, LAST_RECORD_WAIT);
     }
 
     /// How long the loop may wait for something to arrive.
@@ -296,13 +339,28 @@ impl Loop {
         Duration::from_micros(due_us.saturating_sub(now_us)).min(BODY_PERIOD)
     }
 
-    fn arrive(&mut self, arrival: Arrival) {
-        match arrival {
-            Arrival::Datagram { octets, .. } => self.handle(Stimulus::Datagram(&octets)),
-            Arrival::Lost { how, octets } => {
+    /// Takes in what comes from the reader.
+    fn take(&mut self, delivery: Delivery) {
+        match delivery {
+            Delivery::Arrived(Arrival::Datagram { octets, .. }) => {
+                self.handle(Stimulus::Datagram(&octets));
+            }
+            Delivery::Arrived(Arrival::Lost { how, octets }) => {
                 let detail = "by the fault layer".to_owned();
                 self.drop(Cause::Simulated(how), detail, octets);
             }
+            Delivery::LinkFailed(cause) => {
+                self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
+            }
+            Delivery::Order(order) => self.obey(order),
+        }
+        self.count_overflow();
+    }
+
+    /// Counts what the reader had no place for.
+    fn count_overflow(&mut self) {
+        for _ in 0..self.waiting.dropped.swap(0, Ordering::Relaxed) {
+            self.machine.endpoint_mut().count(Cause::InboxFull);
         }
     }
 
@@ -374,13 +432,17 @@ impl Loop {
     }
 
     fn log(&mut self, entry: Entry) {
-        let record = Record {
+        let record = self.record(entry);
+        for lost in self.journal.put(record) {
+            self.machine.endpoint_mut().count(lost);
+        }
+    }
+
+    fn record(&self, entry: Entry) -> Record {
+        Record {
             at_us: self.clock.now_us(),
             robot: self.name.clone(),
             entry,
-        };
-        if self.log.try_send(record).is_err() {
-            self.machine.endpoint_mut().count(Cause::LogFull);
         }
     }
 }

@@ -8,16 +8,19 @@
 //! [`Link`] is UDP, to the peers on the loopback interface or to a multicast group, or Ethernet. [`Air`] joins
 //! robots in one process. [`WithFaults`] lays seeded faults over either: what becomes of a datagram is
 //! drawn by a [`Channel`], the one place where faults are made; the simulator draws from it as well.
+//! [`Reopening`] opens one again that has failed.
 
 mod ethernet;
 mod faults;
 mod layer;
 mod memory;
+mod reopening;
 mod udp;
 
 pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Loss, Outage};
 pub use layer::WithFaults;
 pub use memory::{Air, Port};
+pub use reopening::Reopening;
 pub use udp::{Link, LinkError};
 
 use std::net::SocketAddr;

@@ -1,4 +1,16 @@
 //! `crossguard run`.
+//!
+//! ```text
+//!   robot ──► journal ─┬─► log file        a thread of its own
+//!     ▲                ├─► --json          a thread of its own
+//!     │ orders         └─► Console ─► lines for people, by a thread of its own
+//!     └──────────────────────┘ ▲
+//!                              └── standard input, signals
+//! ```
+//!
+//! The console never waits for anybody but the robot, so that it hears a signal at any time.
+
+mod output;
 
 use std::collections::VecDeque;
 use std::io::{BufRead, IsTerminal};
@@ -12,21 +24,26 @@ use std::time::{Duration, Instant};
 use crossguard_harness::application::Application;
 use crossguard_harness::body::Body;
 use crossguard_harness::boot;
+use crossguard_harness::counters::Cause;
 use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_harness::perception::{Announced, Feed};
 use crossguard_harness::plan::Plan;
 use crossguard_harness::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_harness::robot_file::RobotFile;
 use crossguard_harness::runtime::{Clock, Order, Running, Setup};
-use crossguard_harness::trace::{self, Entry, Record};
-use crossguard_harness::transport::{Faults, Link, Transport, WithFaults};
+use crossguard_harness::trace::{Entry, Record};
+use crossguard_harness::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use crossguard_harness::wire::{MessageKind, Wire, overhear};
 use crossguard_protocol::{Input, Output, Robot, State};
 
-use super::{Failure, print};
+use super::Failure;
+use output::{Lines, Outputs};
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);
+
+/// How many typed lines are kept until it is their turn; the others stay in the pipe.
+const TYPED: usize = 64;
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -92,6 +109,72 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     let file = RobotFile::read(&arguments.config).map_err(Failure::input)?;
+    let (mut link, address) = open_link(arguments, &file)?;
+    let capture = arguments.pcap.as_deref().map(super::create_capture);
+    let capture = capture.transpose()?;
+    if let Some(capture) = &capture {
+        link = capture.of_all(link);
+    }
+    let outputs = Outputs::open(arguments.log.as_deref(), arguments.json)?;
+    let security = arguments.security.of_robot(&file.name)?;
+    let perceived = super::open_feed(arguments.perceived.as_deref())?;
+    let mut awareness = file.awareness;
+    if arguments.cluster_vam {
+        awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);
+    }
+    // The counter is taken last, when nothing else can go wrong, and before anything is sent.
+    let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
+    let body = Body::new(
+        file.build,
+        file.site,
+        file.place,
+        file.speed,
+        arguments.seed,
+    );
+    let plan = file.autopilot.then(|| Plan::crossing(file.site));
+    let running = Setup {
+        name: file.name.clone(),
+        station: file.station,
+        boot: boot.counter,
+        config: file.config.clone(),
+        wire: Wire {
+            identifiers: file.identifiers,
+        },
+        security,
+        awareness,
+        application: Application::new(body, plan),
+        link,
+        journal: outputs.journal,
+        clock: Clock::start(),
+    }
+    .start();
+    let mut console = Console {
+        file: &file,
+        lines: outputs.lines,
+        robot: Robot::new(file.station, boot.counter),
+        pending: VecDeque::new(),
+        hold: None,
+        perceived,
+        announced: Announced::default(),
+        missing: 0,
+    };
+    let (name, station, counter) = (&file.name, file.station, boot.counter);
+    console.say(&format!(
+        "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
+    ));
+    let outcome = console.attend(&running, &outputs.records, &lines_typed());
+    running.order(Order::Stop);
+    running.wait();
+    let missing = console.missing;
+    drop(console);
+    let written = outputs.writings.finish(missing);
+    super::finish_capture(capture)?;
+    outcome?;
+    written
+}
+
+/// The link, and where it is.
+fn open_link(arguments: &Arguments, file: &RobotFile) -> Result<(Halves, String), Failure> {
     let link = match (
         &arguments.multicast,
         &arguments.interface,
@@ -111,83 +194,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         ..arguments.faults.clone()
     };
     let address = link.to_string();
-    let link = WithFaults::new(link, faults, arguments.seed).open();
-    let mut link = link.map_err(Failure::input)?;
-    let capture = arguments.pcap.as_deref().map(super::create_capture);
-    let capture = capture.transpose()?;
-    if let Some(capture) = &capture {
-        link = capture.of_all(link);
-    }
-    let log_file = match &arguments.log {
-        Some(path) => Some(create(path)?),
-        None => None,
-    };
-    let security = arguments.security.of_robot(&file.name)?;
-    let perceived = super::open_feed(arguments.perceived.as_deref())?;
-    let mut awareness = file.awareness;
-    if arguments.cluster_vam {
-        awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);
-    }
-    // The counter is taken last, when nothing else can go wrong, and before anything is sent.
-    let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
-    let body = Body::new(
-        file.build,
-        file.site,
-        file.place,
-        file.speed,
-        arguments.seed,
-    );
-    let plan = file.autopilot.then(|| Plan::crossing(file.site));
-    let (log, records) = sync_channel(4_096);
-    let running = Setup {
-        name: file.name.clone(),
-        station: file.station,
-        boot: boot.counter,
-        config: file.config.clone(),
-        wire: Wire {
-            identifiers: file.identifiers,
-        },
-        security,
-        awareness,
-        application: Application::new(body, plan),
-        link,
-        log,
-        clock: Clock::start(),
-    }
-    .start();
-    if !arguments.json {
-        let (name, station, counter) = (&file.name, file.station, boot.counter);
-        print(format_args!(
-            "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
-        ))?;
-    }
-    let outcome = Console {
-        file: &file,
-        is_json: arguments.json,
-        log_file,
-        robot: Robot::new(file.station, boot.counter),
-        pending: VecDeque::new(),
-        hold: None,
-        perceived,
-        announced: Announced::default(),
-        reads: true,
-    }
-    .attend(&running, &records, &lines());
-    running.order(Order::Stop);
-    running.wait();
-    super::finish_capture(capture)?;
-    outcome
-}
-
-fn create(path: &std::path::Path) -> Result<std::io::BufWriter<std::fs::File>, Failure> {
-    std::fs::File::create(path)
-        .map(std::io::BufWriter::new)
-        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+    let link = WithFaults::new(Reopening(link), faults, arguments.seed).open();
+    Ok((link.map_err(Failure::input)?, address))
 }
 
 /// What is typed, line by line, from a thread that ends with the input.
-fn lines() -> Receiver<String> {
-    let (send, lines) = sync_channel(64);
+fn lines_typed() -> Receiver<String> {
+    let (send, lines) = sync_channel(TYPED);
     std::thread::spawn(move || {
         for line in std::io::stdin().lock().lines().map_while(Result::ok) {
             if send.send(line).is_err() {
@@ -201,8 +214,8 @@ fn lines() -> Receiver<String> {
 /// The person at the robot: what was typed, and what is printed.
 struct Console<'a> {
     file: &'a RobotFile,
-    is_json: bool,
-    log_file: Option<std::io::BufWriter<std::fs::File>>,
+    /// Where it says something to people; nowhere, when standard output is the log.
+    lines: Option<Lines>,
     /// The robot as its newest record shows it.
     robot: Robot,
     pending: VecDeque<Line>,
@@ -210,8 +223,8 @@ struct Console<'a> {
     /// Whom the robot's sensors have, from a file.
     perceived: Option<Feed>,
     announced: Announced,
-    /// Whether somebody still reads what is printed.
-    reads: bool,
+    /// How many records did not get into a log, by the robot's own account.
+    missing: u64,
 }
 
 /// What the next line waits for.
@@ -224,19 +237,21 @@ impl Console<'_> {
     fn attend(
         &mut self,
         running: &Running,
-        records: &Receiver<Record>,
+        records: &Receiver<Arc<Record>>,
         lines: &Receiver<String>,
     ) -> Result<(), Failure> {
         let interrupted = interrupts();
         let mut quits = false;
         loop {
             match records.recv_timeout(TICK) {
-                Ok(record) => self.record(&record)?,
+                Ok(record) => self.record(&record),
                 Err(RecvTimeoutError::Timeout) => {}
                 // The robot has stopped, and everything that it said has been taken.
-                Err(RecvTimeoutError::Disconnected) => return self.close(),
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
-            while let Ok(text) = lines.try_recv() {
+            while self.pending.len() < TYPED
+                && let Ok(text) = lines.try_recv()
+            {
                 self.type_in(&text)?;
             }
             if let Some(feed) = &self.perceived {
@@ -251,15 +266,8 @@ impl Console<'_> {
         }
     }
 
-    fn record(&mut self, record: &Record) -> Result<(), Failure> {
-        if let Some(file) = &mut self.log_file {
-            trace::write(file, record).map_err(|error| Failure::Input(format!("log: {error}")))?;
-        }
-        if self.is_json {
-            if self.reads {
-                self.reads = trace::write(&mut std::io::stdout(), record).is_ok();
-            }
-        } else {
+    fn record(&mut self, record: &Record) {
+        if self.lines.is_some() {
             let announced = self.announced(record);
             for line in self.texts(record).into_iter().chain(announced) {
                 #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
@@ -267,16 +275,19 @@ impl Console<'_> {
                 self.say(&format!("{time:>9.3} {}: {line}", record.robot));
             }
         }
-        if let Entry::Step { state, .. } = &record.entry {
-            self.robot = (**state).clone();
+        match &record.entry {
+            Entry::Step { state, .. } => self.robot = (**state).clone(),
+            Entry::Stopped { counters } => {
+                let missing = counters.get(&Cause::LogFull.name());
+                self.missing = missing.copied().unwrap_or(0);
+            }
+            _ => {}
         }
-        Ok(())
     }
 
-    /// A robot goes on also when nobody reads what it says.
     fn say(&mut self, line: &str) {
-        if self.reads && !self.is_json {
-            self.reads = print(line).is_ok();
+        if let Some(lines) = &mut self.lines {
+            lines.say(line);
         }
     }
 
@@ -365,15 +376,6 @@ impl Console<'_> {
             Some(Line::Blank) | None => {}
         }
         Ok(false)
-    }
-
-    fn close(&mut self) -> Result<(), Failure> {
-        match &mut self.log_file {
-            Some(file) => {
-                std::io::Write::flush(file).map_err(|error| Failure::Input(format!("log: {error}")))
-            }
-            None => Ok(()),
-        }
     }
 }
 

@@ -82,7 +82,7 @@ struct EthernetSender {
 impl Sender for EthernetSender {
     fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
         let frame = [&ethernet::header(link_layer_of(octets))[..], octets].concat();
-        match send(self.socket.as_raw_fd(), &frame, MsgFlags::empty()) {
+        match send(self.socket.as_raw_fd(), &frame, MsgFlags::MSG_DONTWAIT) {
             Ok(_) => Ok(()),
             Err(errno) => Err(NotSent {
                 failed: 1,

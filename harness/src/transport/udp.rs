@@ -5,7 +5,8 @@ use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
 use std::time::Duration;
 
-use socket2::{Domain, InterfaceIndexOrAddress, Protocol, Socket, Type};
+use nix::sys::socket::MsgFlags;
+use socket2::{Domain, InterfaceIndexOrAddress, Protocol, SockRef, Socket, Type};
 
 use super::{Arrival, Halves, NotSent, Receiver, Sender, Source, Transport};
 
@@ -189,10 +190,9 @@ fn interface_of(name: &str) -> Result<(u32, Ipv4Addr), LinkError> {
 
 impl Sender for UdpSender {
     fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
-        let failures = self
-            .to
-            .iter()
-            .filter_map(|to| self.socket.send_to(octets, to).err());
+        let (socket, now) = (SockRef::from(&self.socket), MsgFlags::MSG_DONTWAIT.bits());
+        let send = |to: &SocketAddr| socket.send_to_with_flags(octets, &(*to).into(), now);
+        let failures = self.to.iter().filter_map(|to| send(to).err());
         let (failed, cause) =
             failures.fold((0, None), |(failed, _), cause| (failed + 1, Some(cause)));
         match cause {

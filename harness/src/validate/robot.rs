@@ -247,7 +247,7 @@ impl Follow {
         self.settle_sending()?;
         let missing = counters.get(&Cause::LogFull.name()).copied().unwrap_or(0);
         // What these count has no record of its own.
-        let silent = [Cause::LogFull.name(), Cause::InboxFull.name()];
+        let silent = [Cause::LogFull, Cause::OutputFull, Cause::InboxFull].map(Cause::name);
         let causes = counters.keys().chain(self.counted.keys());
         for cause in causes.filter(|cause| !silent.contains(cause)) {
             let of = |counts: &BTreeMap<String, u64>| counts.get(cause).copied().unwrap_or(0);

@@ -1,0 +1,77 @@
+//! A transport that comes back: one that stops sending is opened again until it sends.
+//!
+//! An interface that disappears takes a group's membership and raw sockets with it, also when another
+//! of the same name takes its place. The sender notices, because robots send several times a second;
+//! it opens the transport anew and hands the receiving half over to the thread that receives.
+
+use std::sync::mpsc::{Receiver as Coming, SyncSender, sync_channel};
+use std::time::{Duration, Instant};
+
+use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Transport};
+
+/// How long after an attempt the next one is made.
+const PERIOD: Duration = Duration::from_secs(1);
+
+/// A transport that is opened again when it fails.
+#[derive(Clone, Debug)]
+pub struct Reopening<T>(
+    /// What is opened.
+    pub T,
+);
+
+impl<T: Transport + Clone + Send + 'static> Transport for Reopening<T> {
+    fn open(&self) -> Result<Halves, LinkError> {
+        let Halves { sender, receiver } = self.0.open()?;
+        let (hand_over, coming) = sync_channel(1);
+        Ok(Halves {
+            sender: Box::new(ReopeningSender {
+                transport: self.0.clone(),
+                sender,
+                hand_over,
+                tried: None,
+            }),
+            receiver: Box::new(ReopeningReceiver { receiver, coming }),
+        })
+    }
+}
+
+struct ReopeningSender<T> {
+    transport: T,
+    sender: Box<dyn Sender>,
+    hand_over: SyncSender<Box<dyn Receiver>>,
+    /// When it was opened again last.
+    tried: Option<Instant>,
+}
+
+impl<T: Transport + Send> Sender for ReopeningSender<T> {
+    fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
+        let Err(failure) = self.sender.send(octets) else {
+            return Ok(());
+        };
+        if self.tried.is_some_and(|tried| tried.elapsed() < PERIOD) {
+            return Err(failure);
+        }
+        self.tried = Some(Instant::now());
+        let Ok(Halves { sender, receiver }) = self.transport.open() else {
+            return Err(failure);
+        };
+        // One that has not been taken yet is as good as this one was a moment ago.
+        let _ = self.hand_over.try_send(receiver);
+        self.sender = sender;
+        self.sender.send(octets)
+    }
+}
+
+struct ReopeningReceiver {
+    receiver: Box<dyn Receiver>,
+    coming: Coming<Box<dyn Receiver>>,
+}
+
+impl Receiver for ReopeningReceiver {
+    fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
+        if let Ok(receiver) = self.coming.try_recv() {
+            self.receiver = receiver;
+        }
+        self.receiver.receive(at_most)
+    }
+}
