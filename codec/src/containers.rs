@@ -228,7 +228,10 @@ pub(crate) fn low_frequency(slow: &SlowState, reference: &Position) -> RobotLowF
     RobotLowFrequencyContainer {
         capabilities: RobotCapabilities::new(slow.capabilities.0),
         supported_tasks: task_set(slow.supported_tasks),
+        #[cfg(feature = "std")]
         path_history: path_history(&slow.path, reference),
+        #[cfg(not(feature = "std"))]
+        path_history: path_history(&[], reference),
         exterior_lights: slow.lights.map(|lights| ExteriorLights::new(lights.0)),
         signals_shown: slow.signals.map(|signals| ram::SignalsShown {
             to_vehicles: signals.to_vehicles.to_wire(),
@@ -238,6 +241,7 @@ pub(crate) fn low_frequency(slow: &SlowState, reference: &Position) -> RobotLowF
     }
 }
 
+#[cfg_attr(not(feature = "std"), expect(unused_variables))]
 pub(crate) fn slow_state_of(
     container: &RobotLowFrequencyContainer,
     reference: &Position,
@@ -246,6 +250,7 @@ pub(crate) fn slow_state_of(
     SlowState {
         capabilities: Capabilities(container.capabilities.bits()),
         supported_tasks: tasks_of(container.supported_tasks),
+        #[cfg(feature = "std")]
         path: path_of(&container.path_history, reference),
         lights: lights.map(|lights| Lights(lights.bits())),
         signals: container.signals_shown.map(|signals| SignalsShown {
@@ -292,6 +297,7 @@ fn path_point(past: &PastPosition, before: &Position) -> Option<PathPoint> {
     })
 }
 
+#[cfg(feature = "std")]
 fn path_of(points: &[PathPoint], reference: &Position) -> Vec<PastPosition> {
     let mut path = Vec::new();
     let mut before = *reference;

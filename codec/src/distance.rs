@@ -1,5 +1,9 @@
 //! Distance between two robots.
 
+#[cfg(not(feature = "std"))]
+#[allow(unused_imports, reason = "another crate may link the standard library")]
+use num_traits::Float as _;
+
 use crossguard_protocol::Decimetres;
 
 use crate::state::Position;
@@ -50,6 +54,7 @@ pub(crate) fn offset(from: &Position, to: &Position) -> Option<(f64, f64)> {
 }
 
 /// The position so many metres east and north of another one; for distances of a street.
+#[cfg(feature = "std")]
 pub(crate) fn moved(from: &Position, east: f64, north: f64) -> Position {
     let latitude = from.latitude.map(|south| {
         let (_, along) = metres_per_radian(south);

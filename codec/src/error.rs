@@ -1,6 +1,6 @@
 //! What can be wrong with a message, for people to act on.
 
-use std::fmt;
+use ::core::fmt;
 
 use crossguard_protocol::{MAX_FOLLOWERS, SessionId, StationId};
 use thiserror::Error;
@@ -78,6 +78,31 @@ pub enum DecodeError {
 }
 
 impl DecodeError {
+    /// The name of the cause, for counters.
+    #[must_use]
+    pub const fn cause(&self) -> &'static str {
+        match self {
+            Self::TooShort { .. } => "too short",
+            Self::TooLong { .. } => "too long",
+            Self::MessageId { .. } => "unknown messageId",
+            Self::ProtocolVersion { .. } => "unknown protocolVersion",
+            Self::TrailingOctets { .. } => "trailing octets",
+            Self::NotCanonical { .. } => "not canonical",
+            Self::Rule(_) => "broken rule",
+            Self::Disagreement => "other",
+            Self::Malformed { fault, .. } => match fault {
+                Fault::Truncated => "truncated",
+                Fault::Value { .. } => "value out of range",
+                Fault::Size { .. } | Fault::BeyondRoot => "size out of range",
+                Fault::TooMany { .. } | Fault::AbsentAlternative => "broken rule",
+                Fault::DefaultSpelledOut => "not canonical",
+                Fault::UnknownAlternative => "unknown alternative",
+                Fault::Padding => "padding not zero",
+                _ => "malformed extension",
+            },
+        }
+    }
+
     /// The error of the core, with the names of the fields of `T`.
     pub(crate) fn of_core<T: Uper>(error: core::Error) -> Self {
         match error.fault {
@@ -133,8 +158,9 @@ pub enum BrokenRule {
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 #[non_exhaustive]
 pub enum EncodeError {
-    /// A number is not one of its type. The conversions of [`si`](crate::si) never produce such a
+    /// A number is not one of its type. Only with the feature `std`, as the next two. The conversions of [`si`](crate::si) never produce such a
     /// number.
+    #[cfg(feature = "std")]
     #[error("{number} is not a value of its type, which is {allowed}")]
     Value {
         /// The number.
@@ -143,6 +169,7 @@ pub enum EncodeError {
         allowed: String,
     },
     /// A list has a size that is not one of its type.
+    #[cfg(feature = "std")]
     #[error("{size} is not a size of its type, which is {allowed}")]
     Size {
         /// The size.
@@ -151,6 +178,7 @@ pub enum EncodeError {
         allowed: String,
     },
     /// Another reason of rasn.
+    #[cfg(feature = "std")]
     #[error("not encodable: {0}")]
     Other(String),
     /// The header is not the one of this message.
@@ -250,8 +278,24 @@ pub enum ViewError {
     Target(StationId),
 }
 
+impl ViewError {
+    /// The name of the cause, for counters.
+    #[must_use]
+    pub const fn cause(&self) -> &'static str {
+        match self {
+            Self::NotOwnSession { .. } => "leads a session that is not its own",
+            Self::OwnSession(_) => "follows in its own session",
+            Self::HelpStatus { .. } => "helpStatus does not fit the role",
+            Self::TaskProgression { .. } => "taskProgression does not fit the report",
+            Self::NamedTwice(_) | Self::OwnFollower(_) => "impossible followers",
+            Self::FarewellToPresent(_) => "farewell to the present session",
+            _ => "other",
+        }
+    }
+}
+
 /// The way from a message to one of its fields, in Rust's spelling.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct FieldPath(Way);
 
 #[derive(Clone)]
@@ -259,12 +303,14 @@ enum Way {
     /// Names that nobody has read yet, so that hostile input costs no allocation.
     OfCore(core::Path, &'static [Field]),
     /// Names that rasn gave, outermost first.
+    #[cfg(feature = "std")]
     Named(Vec<&'static str>),
 }
 
-impl Default for Way {
+#[cfg(feature = "std")]
+impl Default for FieldPath {
     fn default() -> Self {
-        Self::Named(Vec::new())
+        Self(Way::Named(Vec::new()))
     }
 }
 
@@ -274,6 +320,7 @@ impl FieldPath {
     }
 
     /// The field to which rasn gives these names, each with its type, as `Type.field`.
+    #[cfg(feature = "std")]
     pub(crate) fn named(qualified_names: impl Iterator<Item = &'static str>) -> Self {
         let names = qualified_names.map(|name| name.rsplit('.').next().unwrap_or(name));
         Self(Way::Named(names.collect()))
@@ -281,9 +328,10 @@ impl FieldPath {
 
     /// The names of the fields, outermost first.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
-        let (of_core, named) = match &self.0 {
-            Way::OfCore(path, fields) => (Some(path.names(fields)), &[][..]),
-            Way::Named(names) => (None, &names[..]),
+        let (of_core, named): (_, &[&'static str]) = match &self.0 {
+            Way::OfCore(path, fields) => (Some(path.names(fields)), &[]),
+            #[cfg(feature = "std")]
+            Way::Named(names) => (None, names),
         };
         of_core.into_iter().flatten().chain(named.iter().copied())
     }

@@ -27,6 +27,10 @@
 //! - `security` (with the feature of that name) signs and verifies packets by TS 103 097.
 //! - [`Identifiers`] holds what no standard has assigned.
 //!
+//! Without the feature `std`, which is on by default, the crate is `no_std` and needs no heap. RAM,
+//! RMCM, their mapping and [`geonet`] remain; `asn1`, `its`, `encode` and what else needs a vector do
+//! not.
+//!
 //! ```
 //! use crossguard_codec::{
 //!     Identifiers, Message, Position, RobotState, decode, distance, encode, ram_from, state_of,
@@ -54,6 +58,9 @@
 //! # }
 //! ```
 
+#![cfg_attr(not(feature = "std"), no_std)]
+
+#[cfg(feature = "std")]
 pub mod asn1;
 mod containers;
 pub mod core;
@@ -61,9 +68,11 @@ mod distance;
 mod error;
 pub mod geonet;
 mod identifiers;
+#[cfg(feature = "std")]
 pub mod its;
 mod message;
 mod part;
+#[cfg(feature = "std")]
 mod rules;
 #[cfg(feature = "security")]
 pub mod security;
@@ -71,6 +80,7 @@ mod service;
 pub mod si;
 mod size;
 mod state;
+#[cfg(feature = "std")]
 mod uper;
 pub mod view;
 mod wire;
@@ -81,7 +91,9 @@ pub use containers::position_of;
 pub use distance::distance;
 pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
 pub use identifiers::{Dictionary, IdentifierClash, Identifiers, MessageIdentifiers};
-pub use message::{Message, Pdu, Received, decode, encode, encode_into};
+#[cfg(feature = "std")]
+pub use message::encode;
+pub use message::{Message, Pdu, Received, decode, encode_into};
 pub use part::{Part, SSP_VERSION};
 pub use service::Service;
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};

@@ -1,6 +1,7 @@
 //! Whole messages as octets: the header first, then the codec. RAM and RMCM are those of the
-//! [core](crate::core), which is their codec; those of other stations are in [`its`](crate::its).
+//! [core](crate::core), which is their codec; those of other stations are in `its`.
 
+#[cfg(feature = "std")]
 use serde::{Deserialize, Serialize};
 
 use crate::core::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B};
@@ -13,7 +14,7 @@ use crate::size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
 use crate::{core, wire};
 
 /// A complete message that this crate encodes and decodes: [`RAM`], [`RMCM`] or one of
-/// [`its`](crate::its).
+/// `its`.
 pub trait Pdu: sealed::Sealed {
     /// Name of the message.
     const NAME: &'static str;
@@ -95,6 +96,7 @@ pub struct Received<M> {
 /// # Errors
 /// When the header is not that of the message. Every other RAM and RMCM has an encoding; other messages
 /// may hold numbers and sizes that have none.
+#[cfg(feature = "std")]
 pub fn encode<M: Pdu>(identifiers: &Identifiers, message: &M) -> Result<Vec<u8>, EncodeError> {
     let mut octets = vec![0; M::LEN_MAX];
     let length = encode_into(identifiers, message, &mut octets)?;
@@ -106,7 +108,8 @@ pub fn encode<M: Pdu>(identifiers: &Identifiers, message: &M) -> Result<Vec<u8>,
 /// that takes. [`Pdu::LEN_MAX`] are enough for every message. A RAM or an RMCM takes no heap.
 ///
 /// # Errors
-/// As for [`encode`], and when the buffer is too small. The buffer may have been written to.
+/// When the header is not that of the message, and when the buffer is too small. The buffer may have
+/// been written to.
 pub fn encode_into<M: Pdu>(
     identifiers: &Identifiers,
     message: &M,
@@ -190,8 +193,9 @@ pub(crate) fn header<M: Pdu>(
 }
 
 /// A message of the robots, told apart by its header.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "std", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "std", serde(rename_all = "lowercase"))]
 #[allow(clippy::large_enum_variant, reason = "there is no heap")]
 pub enum Message {
     /// Robot awareness message.
@@ -205,6 +209,7 @@ impl Message {
     ///
     /// # Errors
     /// As for [`encode`].
+    #[cfg(feature = "std")]
     pub fn encode(&self, identifiers: &Identifiers) -> Result<Vec<u8>, EncodeError> {
         match self {
             Self::Ram(ram) => encode(identifiers, ram),

@@ -3,7 +3,7 @@
 //! Plain values for the application: nothing here depends on the wire. [`ram_from`](crate::ram_from)
 //! and [`state_of`](crate::state_of) convert by the tables of [`si`](crate::si).
 
-use crossguard_protocol::TaskSet;
+use crossguard_protocol::{Availability, Config, Robot, State, TaskSet, Unavailability};
 use serde::{Deserialize, Serialize};
 
 use crate::core::{cdd, common, ram};
@@ -48,6 +48,28 @@ pub struct RobotState {
     pub control_mode: ControlMode,
     /// What changes slowly; absent from a RAM without low-frequency container.
     pub slow: Option<SlowState>,
+}
+
+impl RobotState {
+    /// Sets what the protocol knows better than the application: how far the robot is with its task,
+    /// who steers it where it is unavailable for that reason, and the maneuvers that it can do.
+    pub fn correct(&mut self, robot: &Robot, config: &Config) {
+        self.task_progression = match robot.state() {
+            State::ManeuverExecuting => TaskProgression::Executing,
+            _ => TaskProgression::Idle,
+        };
+        if let Availability::Unavailable(reason) = robot.availability() {
+            self.control_mode = match reason {
+                Unavailability::Teleoperated => ControlMode::Teleoperated,
+                Unavailability::EmergencyStop => ControlMode::EmergencyStop,
+                Unavailability::LocalFault => ControlMode::Fault,
+                Unavailability::LowBattery | Unavailability::NotSafe => self.control_mode,
+            };
+        }
+        if let Some(slow) = &mut self.slow {
+            slow.supported_tasks = config.settings().capabilities;
+        }
+    }
 }
 
 /// A quantity and the half width of its 95 % interval, in the same unit.
@@ -141,7 +163,8 @@ pub struct SlowState {
     /// The maneuvers that it can do at all.
     pub supported_tasks: TaskSet,
     /// Where it came from, newest first. A RAM takes the first 23 points, and ends at the first one
-    /// that is more than 0.0131071 degrees from the one before it.
+    /// that is more than 0.0131071 degrees from the one before it. Only with the feature `std`.
+    #[cfg(feature = "std")]
     pub path: Vec<PastPosition>,
     /// Lights that are on; `None` for a robot without lights.
     pub lights: Option<Lights>,

@@ -97,7 +97,7 @@ fn the_golden_packets_are_understood() {
         let indication = listener().receive(&ego(), &packet).map(|indication| {
             assert_eq!(indication.source, ego().vector(address()));
             assert_eq!(indication.signer, None);
-            (indication.service, indication.message.into_owned())
+            (indication.service, indication.message.to_vec())
         });
         assert_eq!(indication, Ok((service, vector(message))));
     }
@@ -188,7 +188,7 @@ fn check(octets: &[u8]) {
     match listener().receive(&ego(), octets) {
         Ok(indication) => {
             let headers = indication.headers.encode(indication.message.len()).unwrap();
-            assert_eq!([headers.as_ref(), &indication.message].concat(), octets);
+            assert_eq!([headers.as_ref(), indication.message].concat(), octets);
         }
         Err(discarded) => assert!(!discarded.cause().is_empty()),
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crossguard_codec::geonet::Discarded;
-use crossguard_codec::{DecodeError, Fault, Service, ViewError};
+use crossguard_codec::{DecodeError, Service, ViewError};
 use crossguard_protocol::Ignored;
 use serde::Serialize;
 
@@ -77,40 +77,13 @@ impl From<Discarded> for Cause {
 
 impl From<&DecodeError> for Cause {
     fn from(error: &DecodeError) -> Self {
-        Self::Undecodable(match error {
-            DecodeError::TooShort { .. } => "too short",
-            DecodeError::TooLong { .. } => "too long",
-            DecodeError::MessageId { .. } => "unknown messageId",
-            DecodeError::ProtocolVersion { .. } => "unknown protocolVersion",
-            DecodeError::TrailingOctets { .. } => "trailing octets",
-            DecodeError::NotCanonical { .. } => "not canonical",
-            DecodeError::Rule(_) => "broken rule",
-            DecodeError::Malformed { fault, .. } => match fault {
-                Fault::Truncated => "truncated",
-                Fault::Value { .. } => "value out of range",
-                Fault::Size { .. } | Fault::BeyondRoot => "size out of range",
-                Fault::TooMany { .. } | Fault::AbsentAlternative => "broken rule",
-                Fault::DefaultSpelledOut => "not canonical",
-                Fault::UnknownAlternative => "unknown alternative",
-                Fault::Padding => "padding not zero",
-                _ => "malformed extension",
-            },
-            _ => "other",
-        })
+        Self::Undecodable(error.cause())
     }
 }
 
 impl From<&ViewError> for Cause {
     fn from(error: &ViewError) -> Self {
-        Self::Contradictory(match error {
-            ViewError::NotOwnSession { .. } => "leads a session that is not its own",
-            ViewError::OwnSession(_) => "follows in its own session",
-            ViewError::HelpStatus { .. } => "helpStatus does not fit the role",
-            ViewError::TaskProgression { .. } => "taskProgression does not fit the report",
-            ViewError::NamedTwice(_) | ViewError::OwnFollower(_) => "impossible followers",
-            ViewError::FarewellToPresent(_) => "farewell to the present session",
-            _ => "other",
-        })
+        Self::Contradictory(error.cause())
     }
 }
 

@@ -15,11 +15,11 @@ use std::collections::BTreeMap;
 
 use crossguard_codec::geonet::{EgoPosition, Indication};
 use crossguard_codec::si::generation_delta_time;
-use crossguard_codec::{ControlMode, RobotState, Service, TaskParameters, TaskProgression};
+use crossguard_codec::{RobotState, Service, TaskParameters};
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::{
-    Availability, Config, Event, Identity, Input, Millis, Output, Outputs, Rmcm, Robot, State,
-    StationId, TaskType, Timer, Unavailability,
+    Config, Event, Identity, Input, Millis, Output, Outputs, Rmcm, Robot, StationId, TaskType,
+    Timer,
 };
 
 pub use self::act::Act;
@@ -269,21 +269,7 @@ impl Endpoint {
     /// The application's state, with what the protocol knows better.
     fn complete(&self, state: &RobotState) -> RobotState {
         let mut state = state.clone();
-        state.task_progression = match self.robot.state() {
-            State::ManeuverExecuting => TaskProgression::Executing,
-            _ => TaskProgression::Idle,
-        };
-        if let Availability::Unavailable(reason) = self.robot.availability() {
-            state.control_mode = match reason {
-                Unavailability::Teleoperated => ControlMode::Teleoperated,
-                Unavailability::EmergencyStop => ControlMode::EmergencyStop,
-                Unavailability::LocalFault => ControlMode::Fault,
-                Unavailability::LowBattery | Unavailability::NotSafe => state.control_mode,
-            };
-        }
-        if let Some(slow) = &mut state.slow {
-            slow.supported_tasks = self.config.settings().capabilities;
-        }
+        state.correct(&self.robot, &self.config);
         state
     }
 
@@ -326,7 +312,7 @@ impl Endpoint {
     }
 
     fn hear_message(&mut self, turn: &mut Turn, packet: &[u8], indication: &Indication<'_>) {
-        let (service, octets) = (indication.service, &*indication.message);
+        let (service, octets) = (indication.service, indication.message);
         let dropped = match service {
             Service::Ram | Service::Rmcm => {
                 match self.wire.hear(self.robot.station(), &turn.state, octets) {

@@ -312,7 +312,7 @@ fn each_mode_takes_what_it_says() {
     let taken = |station: &mut Station| {
         [&plain, &forged, &signed].map(|packet| match station.receive(&now, packet) {
             Ok(indication) => {
-                assert_eq!(&*indication.message, &message);
+                assert_eq!(indication.message, &message[..]);
                 "taken"
             }
             Err(discarded) => discarded.cause(),

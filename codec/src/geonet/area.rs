@@ -1,5 +1,9 @@
 //! Whether a place is in a destination area (EN 302 931).
 
+#[cfg(not(feature = "std"))]
+#[allow(unused_imports, reason = "another crate may link the standard library")]
+use num_traits::Float as _;
+
 use super::{Area, Shape};
 use crate::distance::offset;
 use crate::state::Position;

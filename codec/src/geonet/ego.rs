@@ -1,5 +1,9 @@
 //! Where the own station is.
 
+#[cfg(not(feature = "std"))]
+#[allow(unused_imports, reason = "another crate may link the standard library")]
+use num_traits::Float as _;
+
 use super::{Address, LongPositionVector};
 use crate::si;
 use crate::state::{DriveDirection, RobotState};

@@ -1,7 +1,5 @@
 //! The security envelope between basic and common header (EN 302 636-4-1, clause 9.4; TS 103 097).
 
-use std::borrow::Cow;
-
 use super::{BasicHeader, EgoPosition};
 #[cfg(feature = "security")]
 use super::{Headers, secured::Secured};
@@ -53,7 +51,7 @@ impl Permits {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Opened<'a> {
     /// Common header, extended header, BTP and message.
-    pub plain: Cow<'a, [u8]>,
+    pub plain: &'a [u8],
     /// The ITS-AID under which it was sent.
     pub its_aid: u32,
     /// Who vouches for it.

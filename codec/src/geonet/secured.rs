@@ -1,7 +1,5 @@
 //! Packets that are signed and verified.
 
-use std::borrow::Cow;
-
 use super::{EgoPosition, LongPositionVector, Opened, Permits, Signer};
 use crate::part::SSP_VERSION;
 use crate::security::{HashedId8, Place, Rejected, SignedMessage, Station, Time64, Unsigned};
@@ -77,7 +75,7 @@ impl Secured {
         });
         let verified = self.station.verify(now(ego), place, &message)?;
         Ok(Opened {
-            plain: Cow::Borrowed(message.payload),
+            plain: message.payload,
             its_aid: message.header.its_aid,
             signer: Signer(verified.signer.0),
             permits: Permits::of_bits(verified.ssp.bits(SSP_VERSION)),

@@ -6,8 +6,6 @@
 //!                   └────────────┴─────────────┴──────────┴─────────┴──► Discarded
 //! ```
 
-use std::borrow::Cow;
-
 use super::{
     Address, Area, BASIC_LEN, BasicHeader, Duplicates, EgoPosition, Envelope, EnvelopeError,
     GeonetError, HEADERS_LEN_MAX, Headers, Lifetime, LongPositionVector, NextHeader,
@@ -54,7 +52,7 @@ pub struct Indication<'a> {
     /// Which service it is for.
     pub service: Service,
     /// The message.
-    pub message: Cow<'a, [u8]>,
+    pub message: &'a [u8],
     /// Where its source was.
     pub source: LongPositionVector,
     /// The headers that it came with.
@@ -273,7 +271,7 @@ impl Stack {
         let (plain, permission) = match basic.next {
             NextHeader::Common => {
                 self.envelope.admit_plain()?;
-                (Cow::Borrowed(rest), None)
+                (rest, None)
             }
             NextHeader::Secured => {
                 let opened = self.envelope.open(ego, basic, rest)?;
@@ -281,12 +279,11 @@ impl Stack {
                 (opened.plain, Some(permission))
             }
         };
-        let (headers, message) = Headers::decode_behind(basic, &plain)?;
-        let header_length = plain.len() - message.len();
+        let (headers, message) = Headers::decode_behind(basic, plain)?;
         let service = self.admit(ego, &headers, permission.map(|(its_aid, ..)| its_aid))?;
         Ok(Indication {
             service,
-            message: behind(plain, header_length),
+            message,
             source: headers.source,
             headers,
             signer: permission.map(|(_, signer, _)| signer),
@@ -340,15 +337,4 @@ const fn within_limit(length: usize) -> Result<usize, SendError> {
         return Err(SendError::NoRoom);
     }
     Ok(length)
-}
-
-/// What stands behind the first octets.
-fn behind(octets: Cow<'_, [u8]>, length: usize) -> Cow<'_, [u8]> {
-    match octets {
-        Cow::Borrowed(octets) => Cow::Borrowed(&octets[length..]),
-        Cow::Owned(mut octets) => {
-            octets.drain(..length);
-            Cow::Owned(octets)
-        }
-    }
 }
