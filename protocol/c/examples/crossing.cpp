@@ -1,0 +1,304 @@
+// One robot of a crossing, in C++17: what crossing.c does, with crossguard.hpp.
+//
+// Usage: crossing_cpp leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
+//
+// It ends with 0 when the crossing was completed, with 1 when it was not, with 2 on wrong usage.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "crossguard.hpp"
+
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using std::chrono::duration_cast;
+using std::chrono::milliseconds;
+
+constexpr auto maneuver_time = 1500ms;
+constexpr auto patience = 60s;
+
+// TimestampIts counts from 2004 with leap seconds, of which there were 5 since.
+std::uint64_t unix_ms() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(duration_cast<milliseconds>(now).count());
+}
+std::uint64_t timestamp_its() { return unix_ms() - 1072915200000u + 5000u; }
+
+// The next boot counter. It is on the disk before the robot takes part in anything.
+std::optional<std::uint16_t> next_boot(const std::string &path) {
+  unsigned boot = 0;
+  if (std::ifstream before{path}; before && (!(before >> boot) || boot >= UINT16_MAX))
+    return std::nullopt;
+  const std::string beside = path + ".new";
+  std::FILE *file = std::fopen(beside.c_str(), "w");
+  if (!file) return std::nullopt;
+  const bool written = std::fprintf(file, "%u\n", boot + 1) > 0 && std::fflush(file) == 0 &&
+                       fsync(fileno(file)) == 0;
+  if (std::fclose(file) != 0 || !written || std::rename(beside.c_str(), path.c_str()) != 0)
+    return std::nullopt;
+  return static_cast<std::uint16_t>(boot + 1);
+}
+
+// A UDP socket on the loopback interface, and who is at its other end.
+class Link {
+public:
+  Link(std::uint16_t port, std::uint16_t peer) : socket_{::socket(AF_INET, SOCK_DGRAM, 0)} {
+    const sockaddr_in own = address(port);
+    is_open_ = socket_ >= 0 && bind(socket_, reinterpret_cast<const sockaddr *>(&own), sizeof own) == 0;
+    peer_ = address(peer);
+  }
+  ~Link() { close(socket_); }
+  Link(const Link &) = delete;
+  Link &operator=(const Link &) = delete;
+
+  bool is_open() const { return is_open_; }
+  void send(crossguard::Octets packet) const {
+    // A packet that the link does not take is as lost as one on the air.
+    (void)::sendto(socket_, packet.data, packet.size, 0,
+                   reinterpret_cast<const sockaddr *>(&peer_), sizeof peer_);
+  }
+  std::optional<crossguard::Octets> receive(milliseconds at_most) {
+    pollfd readable{socket_, POLLIN, 0};
+    if (poll(&readable, 1, static_cast<int>(at_most.count())) <= 0) return std::nullopt;
+    const ssize_t length = recv(socket_, packet_.data(), packet_.size(), MSG_DONTWAIT);
+    if (length < 0) return std::nullopt;
+    return crossguard::Octets{packet_.data(), static_cast<std::size_t>(length)};
+  }
+
+private:
+  int socket_;
+  bool is_open_ = false;
+  sockaddr_in peer_{};
+  std::array<std::uint8_t, 2048> packet_{};
+
+  static sockaddr_in address(std::uint16_t port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return address;
+  }
+};
+
+class Application {
+public:
+  Application(bool leads, crossguard::Robot robot, Link &link, std::ofstream *log)
+      : leads_{leads}, robot_{std::move(robot)}, link_{link}, log_{log} {
+    turn_.body().latitude_deg = 49.0101;
+    turn_.body().longitude_deg = 8.4124;
+    turn_.body().speed_mps = 0;
+    turn_.body().category = leads ? 1 : 2;
+    prepare();
+    finish("log", robot_.start_log(unix_ms(), turn_));
+  }
+
+  bool run() {
+    while (Clock::now() - started_ < patience) {
+      const auto view = robot_.view();
+      if (over_ && view.state == CROSSGUARD_STATE_IDLE && !view.is_locked) break;
+      const auto due = robot_.next_due().value_or(20ms);
+      if (const auto packet = link_.receive(due < 20ms ? due : 20ms)) receive(*packet);
+      let_time_pass();
+      live(view);
+      while (!wishes_.empty()) {
+        const crossguard::Event event = wishes_.front();
+        wishes_.pop_front();
+        let_time_pass();
+        prepare();
+        finish("tell", robot_.tell(event, turn_));
+      }
+    }
+    prepare();
+    finish("log", robot_.stop_log(turn_));
+    return completed_;
+  }
+
+  // What a robot is to do, by kind of output.
+  void operator()(const crossguard::Send &send) { link_.send(send.packet); }
+  void operator()(const crossguard::StartManeuver &start) {
+    maneuver_ = start.maneuver;
+    done_at_ = Clock::now() + maneuver_time;
+    std::cout << "starts task " << int(start.maneuver.task) << " of request "
+              << int(start.maneuver.request) << std::endl;
+  }
+  void operator()(const crossguard::StopManeuver &) { maneuver_.reset(); }
+  void operator()(const crossguard::FallBack &) { maneuver_.reset(); }
+  void operator()(const crossguard::CorridorOpened &) {
+    corridor_was_open_ = true;
+    std::cout << "corridor open" << std::endl;
+  }
+  void operator()(const crossguard::CorridorClosed &) { std::cout << "corridor closed" << std::endl; }
+  void operator()(const crossguard::LockIdentity &) {}
+  void operator()(const crossguard::Ignored &) {}
+  void operator()(const crossguard::Notice &notice) {
+    if (leads_) {
+      lead(notice);
+    } else if (notice.kind == CROSSGUARD_NOTICE_RELEASED) {
+      over_ = true;
+      completed_ = notice.why.reason == CROSSGUARD_REASON_SESSION_ENDED && maneuvers_done_ == 2;
+    }
+  }
+
+private:
+  enum class Stage { waits, asks, positions, escorts };
+
+  bool leads_;
+  crossguard::Robot robot_;
+  Link &link_;
+  std::ofstream *log_;
+  crossguard::Turn turn_;
+  Clock::time_point started_ = Clock::now();
+  milliseconds told_{0};
+  Clock::time_point announced_{}, tried_{}, done_at_{};
+  std::deque<crossguard::Event> wishes_;
+  std::optional<crossguard::Maneuver> maneuver_;
+  Stage stage_ = Stage::waits;
+  std::uint32_t follower_ = 0;
+  int maneuvers_done_ = 0;
+  bool corridor_was_open_ = false, over_ = false, completed_ = false;
+
+  void prepare() {
+    const auto log_at = duration_cast<std::chrono::microseconds>(Clock::now() - started_);
+    turn_.at(timestamp_its(), static_cast<std::uint64_t>(log_at.count()));
+  }
+
+  void finish(const char *what, crossguard::Status status) {
+    if (status != CROSSGUARD_STATUS_OK) {
+      std::cerr << what << ": " << crossguard::text(status) << std::endl;
+      std::exit(1);
+    }
+    if (log_) *log_ << turn_.log();
+    for (const auto output : turn_.outputs()) std::visit(*this, output.what());
+  }
+
+  // Time first, then what happened in it.
+  void let_time_pass() {
+    const auto passed = duration_cast<milliseconds>(Clock::now() - started_);
+    prepare();
+    const auto status = robot_.elapse(passed - told_, turn_);
+    told_ = passed;
+    finish("elapse", status);
+  }
+
+  void receive(crossguard::Octets packet) {
+    let_time_pass();
+    prepare();
+    finish("receive", robot_.receive(packet, turn_));
+    if (const auto why = turn_.dropped()) std::cout << "dropped, " << *why << std::endl;
+  }
+
+  void command(crossguard::Task task, double latitude) {
+    crossguard::TaskParameters parameters;
+    parameters.place_deg = {latitude, 8.4124137};
+    parameters.maximum_speed_mps = 1.4;
+    wishes_.push_back(crossguard::Event::command(follower_, task, parameters));
+  }
+
+  void open_corridor() {
+    tried_ = Clock::now();
+    wishes_.push_back(crossguard::Event::open_corridor());
+  }
+
+  // What a leader makes of the news.
+  void lead(const crossguard::Notice &notice) {
+    switch (notice.kind) {
+    case CROSSGUARD_NOTICE_FOLLOWER_JOINED:
+      follower_ = notice.station;
+      stage_ = Stage::positions;
+      command(crossguard::Task::initial_pos, 49.010091);
+      break;
+    case CROSSGUARD_NOTICE_MANEUVER_REPORTED:
+      if (stage_ == Stage::escorts) open_corridor();
+      break;
+    case CROSSGUARD_NOTICE_MANEUVER_COMPLETED:
+      if (stage_ == Stage::positions) {
+        stage_ = Stage::escorts;
+        command(crossguard::Task::move, 49.010172);
+      } else {
+        wishes_.push_back(crossguard::Event::task_completed());
+      }
+      break;
+    case CROSSGUARD_NOTICE_SESSION_ENDED:
+      over_ = true;
+      completed_ = notice.why.reason == CROSSGUARD_REASON_TASK_COMPLETED && corridor_was_open_;
+      break;
+    default: break;
+    }
+  }
+
+  // What the application does by the clock.
+  void live(const crossguard::View &view) {
+    const auto now = Clock::now();
+    if (maneuver_ && now >= done_at_) {
+      wishes_.push_back(crossguard::Event::completed(*maneuver_));
+      maneuver_.reset();
+      ++maneuvers_done_;
+    }
+    if (leads_ && stage_ == Stage::waits && now - started_ > 300ms) {
+      using crossguard::Task;
+      stage_ = Stage::asks;
+      const auto tasks = crossguard::tasks(Task::initial_pos, Task::move);
+      wishes_.push_back(crossguard::Event::pedestrian_detected(1, tasks));
+    }
+    if (stage_ == Stage::escorts && !view.is_corridor_open && !over_ && now - tried_ > 200ms)
+      open_corridor();
+    if (robot_.announces_itself() && now - announced_ >= 1s) {
+      announced_ = now;
+      let_time_pass();
+      prepare();
+      finish("announce", robot_.announce(turn_));
+    }
+  }
+};
+
+} // namespace
+
+int main(int argc, char **argv) {
+  const std::string role = argc > 1 ? argv[1] : "";
+  if (argc < 6 || argc > 7 || (role != "leader" && role != "follower")) {
+    std::cerr << "usage: " << argv[0]
+              << " leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]" << std::endl;
+    return 2;
+  }
+  const auto station = static_cast<std::uint32_t>(std::stoul(argv[2]));
+  Link link{static_cast<std::uint16_t>(std::stoi(argv[3])),
+            static_cast<std::uint16_t>(std::stoi(argv[4]))};
+  if (!link.is_open()) {
+    std::perror("link");
+    return 2;
+  }
+  const auto boot = next_boot(argv[5]);
+  if (!boot) {
+    std::cerr << argv[5] << ": no boot counter can be taken" << std::endl;
+    return 2;
+  }
+  std::ofstream log;
+  if (argc == 7) log.open(argv[6]);
+  const crossguard::Config config{station, *boot, "Cpp" + std::to_string(station)};
+  auto robot = crossguard::Robot::start(config);
+  if (!robot) {
+    std::cerr << config.why().value_or("the robot cannot be started") << std::endl;
+    return 2;
+  }
+  // An application is large: buffers for packets and log are in it.
+  const auto application = std::make_unique<Application>(
+      role == "leader", std::move(*robot), link, log.is_open() ? &log : nullptr);
+  const bool completed = application->run();
+  std::cout << "crossing " << (completed ? "completed" : "not completed") << std::endl;
+  return completed ? 0 : 1;
+}

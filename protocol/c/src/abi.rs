@@ -1,0 +1,729 @@
+//! What crosses the boundary: numbers, and structs of numbers.
+//!
+//! Every pattern of bits is a value of these types, so nothing that C leaves in them can be wrong before
+//! it is looked at. Codes are octets, and their enumerations say what they mean. A quantity that is
+//! not known is NaN, a time that there is not `CROSSGUARD_NONE_MS`.
+
+use core::ffi::c_char;
+
+/// The version of this interface. It grows with every change that a program must be compiled for.
+pub const CROSSGUARD_ABI_VERSION: u32 = 1;
+/// Eight-octet words in a `CrossguardRobot`.
+pub const CROSSGUARD_ROBOT_WORDS: usize = 1_280;
+/// How many outputs one call can have.
+pub const CROSSGUARD_OUTPUTS_MAX: usize = 32;
+/// How many followers a leader can have.
+pub const CROSSGUARD_FOLLOWERS_MAX: usize = 4;
+/// How many task types there are.
+pub const CROSSGUARD_TASKS: usize = 16;
+/// Octets of a robot's name, with the NUL at its end.
+pub const CROSSGUARD_NAME_LEN: usize = 32;
+/// Octets of the name of a cause, with the NUL at its end.
+pub const CROSSGUARD_CAUSE_LEN: usize = 64;
+/// Octets that the packets of every call fit into; a call with less room is refused.
+pub const CROSSGUARD_PACKETS_LEN: usize = 8_192;
+/// Octets that the log lines of nearly every call fit into. A line that does not fit is left out as a
+/// whole, and counted.
+pub const CROSSGUARD_LOG_LEN: usize = 32_768;
+/// A time in milliseconds that there is not.
+pub const CROSSGUARD_NONE_MS: u32 = 0xFFFF_FFFF;
+/// A lane that is not given.
+pub const CROSSGUARD_NO_LANE: i8 = -128;
+
+/// What became of a call.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u32)]
+pub enum CrossguardStatus {
+    /// It did what it is for.
+    Ok = 0,
+    /// A pointer that must point to something is null.
+    Null = 1,
+    /// A buffer is too short; nothing has happened.
+    ShortBuffer = 2,
+    /// Header and library are of different versions, or the robot was made by another version.
+    WrongVersion = 3,
+    /// The robot was never initialised, or its memory has been overwritten.
+    NotInitialised = 4,
+    /// The robot was finished.
+    Finished = 5,
+    /// A pointer is not aligned as its type demands.
+    Misaligned = 6,
+    /// A code is none of its enumeration, or a number is out of range; nothing has happened.
+    BadArgument = 7,
+    /// The settings break an inequality; `crossguard_config_check` says which.
+    BrokenSettings = 8,
+    /// There is no more.
+    End = 9,
+    /// The library was built without this.
+    Unsupported = 10,
+}
+
+/// The state of the paper's finite-state model.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardState {
+    /// No part in a session.
+    Idle = 0,
+    /// Asks for help, or offers it.
+    HelpRequested = 1,
+    /// Has a role; nothing is executed.
+    RoleEstablished = 2,
+    /// A maneuver is executed.
+    ManeuverExecuting = 3,
+}
+
+/// A robot's role in a session.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardRole {
+    /// No part in a session.
+    None = 0,
+    /// Asks for help.
+    Requester = 1,
+    /// Offers help.
+    Helper = 2,
+    /// Leads.
+    Leader = 3,
+    /// Follows.
+    Follower = 4,
+}
+
+/// Task types that have names; a robot may give meaning to the others, up to 15.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardTask {
+    /// Go to the place where the maneuver starts.
+    InitialPos = 0,
+    /// Escort: move along with the pedestrian.
+    Move = 1,
+    /// Hold back one direction of traffic.
+    Block = 2,
+}
+
+/// How urgent a request for help is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardUrgency {
+    /// Nobody waits at the kerb yet.
+    Low = 0,
+    /// A pedestrian waits.
+    Medium = 1,
+    /// A pedestrian who needs more help than others waits.
+    High = 2,
+    /// A pedestrian is on the road.
+    Emergency = 3,
+}
+
+/// Why a robot takes no part in coordination.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardUnavailability {
+    /// It takes part.
+    None = 0,
+    /// The battery is below the robot's limit.
+    LowBattery = 1,
+    /// A person steers the robot.
+    Teleoperated = 2,
+    /// The emergency stop is engaged.
+    EmergencyStop = 3,
+    /// A fault of the robot.
+    LocalFault = 4,
+    /// The application holds it unsafe to act.
+    NotSafe = 5,
+}
+
+/// What a follower does with a running maneuver when it loses contact with its leader.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardFallback {
+    /// Stop where it stands.
+    StopInPlace = 0,
+    /// Leave the carriageway for the safe position that the application knows.
+    GoToSafePosition = 1,
+    /// Hold the position and the traffic until the carriageway is clear, then stop.
+    HoldUntilClear = 2,
+}
+
+/// How far a command is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardProgress {
+    /// There is none, or it was not acknowledged.
+    None = 0,
+    /// It is acknowledged, and nothing is reported yet.
+    Acknowledged = 1,
+    /// The maneuver runs.
+    Executing = 2,
+    /// It was finished.
+    Completed = 3,
+    /// It ended without success.
+    Failed = 4,
+    /// It was stopped because contact with the leader was lost.
+    SafeIdle = 5,
+}
+
+/// A message of robots.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardMessage {
+    /// None.
+    None = 0,
+    /// Robot awareness message.
+    Ram = 1,
+    /// Robot maneuver coordination message.
+    Rmcm = 2,
+}
+
+/// What happened in the robot itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardEventKind {
+    /// A pedestrian needs help that takes more robots than this one: `urgency`, `followers`, `tasks`.
+    PedestrianDetected = 0,
+    /// The leader's application wants a follower to do a maneuver: `station`, `task`, `parameters`.
+    CommandManeuver = 1,
+    /// The maneuver that was started has been finished: `session`, `request`.
+    ManeuverCompleted = 2,
+    /// The maneuver that was started cannot be finished: `session`, `request`.
+    ManeuverFailed = 3,
+    /// The pedestrian has crossed; the session may end.
+    TaskCompleted = 4,
+    /// The robot wants to leave whatever session it is in.
+    LeaveRequested = 5,
+    /// The robot became available or unavailable: `unavailability`.
+    AvailabilityChanged = 6,
+    /// The leader's application wants to let the pedestrian cross.
+    OpenCorridor = 7,
+    /// The leader's application wants to hold the pedestrian back again.
+    CloseCorridor = 8,
+    /// The robot has changed its pseudonym: `station`. Only while the identity is not locked.
+    IdentityChanged = 9,
+}
+
+/// What the robot is to do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardOutputKind {
+    /// Send a packet: `message`, and where packet and message are among the packets of the turn.
+    Send = 0,
+    /// Start a maneuver: `session`, `request`, `task`, `parameters`.
+    StartManeuver = 1,
+    /// Stop a maneuver: `session`, `request`, `task`, `reason`.
+    StopManeuver = 2,
+    /// Stop a maneuver because contact with the leader is lost: as before, and `policy`.
+    FallBack = 3,
+    /// The pedestrian may cross from now on.
+    CorridorOpened = 4,
+    /// The pedestrian may not cross from now on: `reason`, and `station` where it is about one.
+    CorridorClosed = 5,
+    /// Keep station id, certificate and link address from now on.
+    LockIdentity = 6,
+    /// Station id, certificate and link address may change again.
+    UnlockIdentity = 7,
+    /// Know this: `notice`, and what that says.
+    Notice = 8,
+    /// Know that what was told or heard changed nothing: `reason`, and `station` where it is about one.
+    Ignored = 9,
+}
+
+/// News for the application. In parentheses is which fields of the output are set besides.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardNotice {
+    /// None.
+    None = 0,
+    /// Leader: the followers are confirmed (`session`).
+    RolesEstablished = 1,
+    /// Leader: a follower has taken its role (`station`).
+    FollowerJoined = 2,
+    /// Leader: a follower has no part in the session any more (`station`, `reason`).
+    FollowerGone = 3,
+    /// Leader: the lease on a follower stands (`station`).
+    LeaseGranted = 4,
+    /// Leader: the lease on a follower has run out (`station`).
+    LeaseExpired = 5,
+    /// Leader: a command was acknowledged (`station`, `session`, `request`).
+    CommandAcknowledged = 6,
+    /// Leader: a command was rejected (`station`, `session`, `request`, `reason`).
+    CommandRejected = 7,
+    /// Leader: a follower reports that it executes a command (`station`, `session`, `request`).
+    ManeuverReported = 8,
+    /// Leader: a follower finished a command (`station`, `session`, `request`).
+    ManeuverCompleted = 9,
+    /// Leader: a command failed (`station`, `session`, `request`, `reason`).
+    ManeuverFailed = 10,
+    /// Leader: a follower fell back (`station`, `session`, `request`).
+    FollowerSafeIdle = 11,
+    /// Requester or leader: the session is over (`session`, `reason`, `station` if withdrawn for one).
+    SessionEnded = 12,
+    /// Helper: offers to take part in a session (`session`).
+    Offering = 13,
+    /// Follower: takes part in a session (`session`).
+    Joined = 14,
+    /// Helper or follower: has no part in a session any more (`session`, `reason`).
+    Released = 15,
+    /// Follower: contact with the leader is lost (`session`).
+    ContactLost = 16,
+    /// Follower: contact with the leader is back (`session`).
+    ContactRegained = 17,
+}
+
+/// Why something is as it is. With `Unavailable`, the output's `unavailability` says more.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardReason {
+    /// None is given.
+    None = 0,
+    /// A newer command takes its place.
+    Superseded = 1,
+    /// The session ended.
+    SessionEnded = 2,
+    /// The leader does not list this robot.
+    NotListed = 3,
+    /// `T_offer` ran out.
+    ReservationExpired = 4,
+    /// `T_leave` ran out without contact.
+    ContactLost = 5,
+    /// The application asked to leave.
+    LeaveRequested = 6,
+    /// The robot that it is about is unavailable.
+    Unavailable = 7,
+    /// The identity must be unlocked before anything else.
+    IdentityLockLimit = 8,
+    /// The application said that the task is done.
+    TaskCompleted = 9,
+    /// `T_help` ran out before enough helpers were found.
+    NoHelp = 10,
+    /// The request of `station` goes before.
+    Withdrawn = 11,
+    /// No follower is left.
+    NoFollowers = 12,
+    /// The request numbers are used up; a new session follows at once.
+    Renewed = 13,
+    /// The follower named the session as left.
+    Left = 14,
+    /// The follower did not acknowledge a command, however often it was repeated.
+    NoAcknowledgement = 15,
+    /// The follower was without a lease for too long.
+    NoContact = 16,
+    /// The robot cannot do such a task.
+    UnsupportedTask = 17,
+    /// Fewer followers are left than the task requires.
+    FollowerMissing = 18,
+    /// The application asked for it.
+    Application = 19,
+    /// The leader has no lease on the follower.
+    NoLease = 20,
+    /// The follower has a command that it has not acknowledged.
+    CommandOutstanding = 21,
+    /// The robot executes no such maneuver, or has not reported that it does.
+    NotExecuting = 22,
+    /// The follower's task does not guard a pedestrian.
+    NotGuarding = 23,
+    /// The follower finished its task.
+    Completed = 24,
+    /// The robot could not do the maneuver.
+    ManeuverFailed = 25,
+    /// The leader's execution limit `T_exec` ran out.
+    ExecutionLimit = 26,
+    /// The follower fell back for lack of contact.
+    SafeIdle = 27,
+    /// The message carries this robot's own station id.
+    OwnStation = 28,
+    /// The message is meant for another station.
+    NotAddressed = 29,
+    /// The message names a session that this robot has no part in.
+    OtherSession = 30,
+    /// The message repeats what is known.
+    NothingNew = 31,
+    /// The heartbeat is not newer than the newest one heard.
+    OldHeartbeat = 32,
+    /// The echo names a heartbeat that was never sent.
+    EchoFromFuture = 33,
+    /// The command is older than the newest one of the session.
+    OldCommand = 34,
+    /// The station is not a follower in this session.
+    NotAFollower = 35,
+    /// The followers are already confirmed.
+    RolesAlreadyAssigned = 36,
+    /// The answer is not for the outstanding command.
+    NotOutstanding = 37,
+    /// The request does not go before this robot's own.
+    LowerPrecedence = 38,
+    /// The robot has a part in a session already.
+    InSession = 39,
+    /// The robot leads no session.
+    NotLeading = 40,
+    /// The robot has no part in a session.
+    NotInSession = 41,
+    /// The number of followers is zero or above the limit, or no task is asked for.
+    ImpossibleRequest = 42,
+    /// The follower has not taken its role yet.
+    NotJoined = 43,
+    /// The corridor is open already.
+    CorridorOpen = 44,
+    /// The corridor is closed already.
+    CorridorClosed = 45,
+    /// The identity is locked.
+    IdentityLocked = 46,
+    /// This boot's numbers for sessions and offers are used up; restart the robot.
+    NumbersExhausted = 47,
+    /// No such timer is armed.
+    TimerNotArmed = 48,
+}
+
+/// The memory of one robot. It is the caller's, may be copied and moved, and holds no address; what is in it is
+/// the library's. Robots in different memory may be used from different threads at the same time.
+#[repr(C)]
+pub struct CrossguardRobot {
+    /// Not for use.
+    pub words: [u64; CROSSGUARD_ROBOT_WORDS],
+}
+
+/// A coordination session: who leads it, and its number there.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(C)]
+pub struct CrossguardSession {
+    /// Station id of the leader.
+    pub leader: u32,
+    /// Boot counter in the upper half, count in the lower.
+    pub number: u32,
+}
+
+/// Timers, limits and capabilities, as `Settings` of the protocol. Times are in milliseconds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(C)]
+pub struct CrossguardSettings {
+    /// Interval of RAM in a session.
+    pub ram_period_ms: u32,
+    /// How long a requester gathers offers, counted from the first.
+    pub t_select_ms: u32,
+    /// How long a helper reserves itself for one requester.
+    pub t_offer_ms: u32,
+    /// How long a request for help stands.
+    pub t_help_ms: u32,
+    /// How long a leader waits for an acknowledgement before it repeats the command.
+    pub t_ack_ms: u32,
+    /// How long a follower goes on without a newer heartbeat or command.
+    pub t_safety_ms: u32,
+    /// How long a lease stands after the leader sent the newest echoed heartbeat.
+    pub t_lease_ms: u32,
+    /// How long a follower stays in the session after `t_safety_ms` ran out.
+    pub t_leave_ms: u32,
+    /// How long a robot names a session as over.
+    pub t_farewell_ms: u32,
+    /// How long the identity may stay locked, farewells included.
+    pub t_lock_ms: u32,
+    /// `T_exec` by task type: how long a maneuver may run.
+    pub t_exec_ms: [u32; CROSSGUARD_TASKS],
+    /// Largest error of the robot's clock rate, in parts per million.
+    pub drift_ppm: u32,
+    /// Longest time by which the robot is told late that time has passed.
+    pub delay_max_ms: u32,
+    /// The maneuvers that the robot can do: bit *n* stands for task type *n*.
+    pub capabilities: u16,
+    /// The maneuvers under which a pedestrian may cross.
+    pub guarding: u16,
+    /// `CrossguardFallback` by task type.
+    pub fallback: [u8; CROSSGUARD_TASKS],
+    /// How often a leader repeats a command, 1..15.
+    pub n_ack: u8,
+    /// Not used.
+    pub reserved: [u8; 3],
+}
+
+/// The identifiers of one message, which no standard has assigned.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(C)]
+pub struct CrossguardMessageIdentifiers {
+    /// ITS-AID (PSID).
+    pub its_aid: u32,
+    /// Destination port of BTP.
+    pub btp_port: u16,
+    /// `messageId` of the header.
+    pub message_id: u8,
+    /// `protocolVersion` of the header.
+    pub protocol_version: u8,
+}
+
+/// What a robot is started with.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub struct CrossguardConfig {
+    /// Its station id.
+    pub station: u32,
+    /// Its boot counter: larger than at any boot before, and persisted before the robot is started.
+    pub boot: u16,
+    /// Station type in basic container and address; 12, `lightVruVehicle`, by default.
+    pub station_type: u8,
+    /// Not used.
+    pub reserved: u8,
+    /// Its name in logs, UTF-8 that ends with NUL.
+    pub name: [c_char; CROSSGUARD_NAME_LEN],
+    /// Those of RAM.
+    pub ram: CrossguardMessageIdentifiers,
+    /// Those of RMCM.
+    pub rmcm: CrossguardMessageIdentifiers,
+    /// Timers, limits and capabilities.
+    pub settings: CrossguardSettings,
+}
+
+/// What the robot knows of its body at the time of a call. NaN is *not known*.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[repr(C)]
+pub struct CrossguardBody {
+    /// Degrees, north positive.
+    pub latitude_deg: f64,
+    /// Degrees, east positive.
+    pub longitude_deg: f64,
+    /// Metres above the WGS84 ellipsoid.
+    pub altitude_m: f64,
+    /// Radius in metres of the circle that holds the position with 95 %.
+    pub accuracy_m: f64,
+    /// Direction of motion, degrees clockwise from north.
+    pub heading_deg: f64,
+    /// Speed over ground in m/s, not negative.
+    pub speed_mps: f64,
+    /// Longitudinal acceleration in m/s².
+    pub acceleration_mps2: f64,
+    /// Degrees per second, to the left positive.
+    pub yaw_rate_dps: f64,
+    /// Direction of the body, degrees clockwise from north, where it is not that of the motion.
+    pub orientation_deg: f64,
+    /// Metres along the body.
+    pub length_m: f64,
+    /// Metres across the body.
+    pub width_m: f64,
+    /// Metres above ground.
+    pub height_m: f64,
+    /// Percent of the usable battery capacity.
+    pub battery_percent: f64,
+    /// Whether the battery is being charged: 0 or 1.
+    pub charging: u8,
+    /// Build: 0 unknown, 1 humanoid, 2 quadruped, 3 wheeled, 4 tracked, 5 aerial, 6 other.
+    pub category: u8,
+    /// Job: 0 none, 1 traffic guard, 2 escort, 3 patrol, 4 delivery, 5 maintenance, 6 other.
+    pub job_role: u8,
+    /// Steered by: 0 itself, 1 a person, 2 nobody (emergency stop), 3 nobody (fault), 4 unavailable.
+    pub control_mode: u8,
+    /// What it can do besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
+    /// has a display, 5 speaks.
+    pub abilities: u8,
+    /// Not used.
+    pub reserved: [u8; 3],
+}
+
+/// Where and how a maneuver is to be done. NaN, and 0 or -128 where said, leave it to the follower.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[repr(C)]
+pub struct CrossguardTaskParameters {
+    /// Target, degrees, north positive. NaN for none.
+    pub latitude_deg: f64,
+    /// Target, degrees, east positive. NaN for none.
+    pub longitude_deg: f64,
+    /// Target, metres above the WGS84 ellipsoid. NaN if open.
+    pub altitude_m: f64,
+    /// Which way to face at the target, degrees clockwise from north.
+    pub heading_deg: f64,
+    /// Largest speed in m/s.
+    pub maximum_speed_mps: f64,
+    /// Smallest distance to the pedestrian in metres, 51.1 at most.
+    pub pedestrian_distance_m: f64,
+    /// How long the command may be executed, in milliseconds from the message on. 0 if open.
+    pub validity_ms: u32,
+    /// Lane instead of a position, -1..14; -128 for none.
+    pub lane: i8,
+    /// 1 where the position is an offset from the leader's, in degrees and metres.
+    pub is_offset: u8,
+    /// Not used.
+    pub reserved: [u8; 2],
+}
+
+/// Something that happened in the robot itself; `kind` says which fields count.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[repr(C)]
+pub struct CrossguardEvent {
+    /// `CrossguardEventKind`.
+    pub kind: u8,
+    /// `CrossguardUrgency`.
+    pub urgency: u8,
+    /// How many followers are asked for, 1..4.
+    pub followers: u8,
+    /// Task type, 0..15.
+    pub task: u8,
+    /// Task types that followers are asked for: bit *n* stands for task type *n*.
+    pub tasks: u16,
+    /// `requestID` of a maneuver.
+    pub request: u8,
+    /// `CrossguardUnavailability`.
+    pub unavailability: u8,
+    /// A station id.
+    pub station: u32,
+    /// Session of a maneuver.
+    pub session: CrossguardSession,
+    /// Where and how.
+    pub parameters: CrossguardTaskParameters,
+}
+
+/// One output; `kind` says which fields count.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[repr(C)]
+pub struct CrossguardOutput {
+    /// `CrossguardOutputKind`.
+    pub kind: u8,
+    /// `CrossguardNotice`.
+    pub notice: u8,
+    /// `CrossguardReason`.
+    pub reason: u8,
+    /// `CrossguardUnavailability`.
+    pub unavailability: u8,
+    /// `CrossguardFallback`.
+    pub policy: u8,
+    /// Task type, 0..15.
+    pub task: u8,
+    /// `requestID` of a command.
+    pub request: u8,
+    /// `CrossguardMessage`.
+    pub message: u8,
+    /// The station that it is about.
+    pub station: u32,
+    /// The session that it is about.
+    pub session: CrossguardSession,
+    /// Where the packet begins among the packets of the turn, in octets.
+    pub packet_offset: u32,
+    /// Its octets: a whole `GeoNetworking` packet.
+    pub packet_length: u32,
+    /// Where the message in it begins, for a stack that makes packets itself.
+    pub message_offset: u32,
+    /// Its octets: UPER.
+    pub message_length: u32,
+    /// Destination port of BTP-B.
+    pub port: u16,
+    /// Traffic class: 0..3 for DCC profiles DP0..DP3.
+    pub traffic_class: u16,
+    /// Where and how a maneuver is to be done.
+    pub parameters: CrossguardTaskParameters,
+}
+
+/// Who was heard.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[repr(C)]
+pub struct CrossguardHeard {
+    /// Degrees, north positive.
+    pub latitude_deg: f64,
+    /// Degrees, east positive.
+    pub longitude_deg: f64,
+    /// Direction of motion, degrees clockwise from north.
+    pub heading_deg: f64,
+    /// m/s.
+    pub speed_mps: f64,
+    /// How far away, in metres.
+    pub distance_m: f64,
+    /// Station id.
+    pub station: u32,
+    /// `CrossguardMessage`; `None` if nothing was understood, and then nothing else counts.
+    pub message: u8,
+    /// `CrossguardUnavailability` by its RAM.
+    pub unavailability: u8,
+    /// Not used.
+    pub reserved: [u8; 2],
+}
+
+/// What a call works with: what the caller gives, and what the library gives back. Buffers are the
+/// caller's, and may not overlap each other or the turn.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct CrossguardTurn {
+    /// In: `TimestampIts` now: milliseconds since 2004-01-01 (TAI), for messages and packets.
+    pub timestamp_its: u64,
+    /// In: the body now.
+    pub body: CrossguardBody,
+    /// In: where packets go.
+    pub packets: *mut u8,
+    /// In: octets there, `CROSSGUARD_PACKETS_LEN` at least.
+    pub packets_capacity: usize,
+    /// In: where log lines go; null for no log.
+    pub log: *mut c_char,
+    /// In: octets there.
+    pub log_capacity: usize,
+    /// In: microseconds on the log's clock, which never goes back.
+    pub log_at_us: u64,
+    /// Out: octets of packets.
+    pub packets_length: usize,
+    /// Out: octets of log lines; each ends with a newline.
+    pub log_length: usize,
+    /// Out: who was heard.
+    pub heard: CrossguardHeard,
+    /// Out: why a packet came to nothing, ends with NUL; empty if it did not.
+    pub dropped: [c_char; CROSSGUARD_CAUSE_LEN],
+    /// Out: how many outputs there are.
+    pub outputs_length: u32,
+    /// Out: how many lines did not fit into the log.
+    pub log_lost: u32,
+    /// Out: what the robot is to do, in this order.
+    pub outputs: [CrossguardOutput; CROSSGUARD_OUTPUTS_MAX],
+}
+
+/// A leader's record of one follower.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(C)]
+pub struct CrossguardFollower {
+    /// Station id.
+    pub station: u32,
+    /// 1 once it has taken its role.
+    pub has_joined: u8,
+    /// 1 while the leader's lease on it stands.
+    pub has_lease: u8,
+    /// 1 while a command is not acknowledged.
+    pub is_outstanding: u8,
+    /// `CrossguardProgress` of the newest acknowledged command.
+    pub progress: u8,
+    /// `requestID` of that command.
+    pub request: u8,
+    /// Its task type.
+    pub task: u8,
+    /// Not used.
+    pub reserved: [u8; 2],
+}
+
+/// What a robot is doing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(C)]
+pub struct CrossguardView {
+    /// Station id.
+    pub station: u32,
+    /// Milliseconds until the robot must be told that time has passed; `CROSSGUARD_NONE_MS` if no timer
+    /// is armed. At most `delay_max_ms` later.
+    pub next_due_ms: u32,
+    /// Milliseconds until its next periodic RAM; `CROSSGUARD_NONE_MS` outside of a session, where the
+    /// caller announces the robot.
+    pub next_ram_ms: u32,
+    /// The session, if `has_session`.
+    pub session: CrossguardSession,
+    /// Boot counter.
+    pub boot: u16,
+    /// `CrossguardState`.
+    pub state: u8,
+    /// `CrossguardRole`.
+    pub role: u8,
+    /// `CrossguardUnavailability`.
+    pub unavailability: u8,
+    /// 1 while the identity is locked.
+    pub is_locked: u8,
+    /// 1 while it has a part in a session.
+    pub has_session: u8,
+    /// Leader: 1 while the pedestrian may cross.
+    pub is_corridor_open: u8,
+    /// Follower: 1 while contact with the leader is lost.
+    pub is_contact_lost: u8,
+    /// Follower: `CrossguardProgress` of the newest accepted command.
+    pub progress: u8,
+    /// Follower: its `requestID`.
+    pub request: u8,
+    /// Follower: its task type.
+    pub task: u8,
+    /// Leader: how many followers there are.
+    pub followers_length: u32,
+    /// Leader: the followers.
+    pub followers: [CrossguardFollower; CROSSGUARD_FOLLOWERS_MAX],
+}

@@ -1,0 +1,236 @@
+//! What a robot is started with, and what happens to it: plain numbers, checked.
+
+use core::ffi::c_char;
+
+use crossguard_codec::{Identifiers, MessageIdentifiers};
+use crossguard_protocol::{
+    Availability, BrokenInequality, Config, Event, FallbackPolicy, HelpRequest, ManeuverId, Millis,
+    RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, Urgency,
+};
+
+use crate::abi::{
+    CROSSGUARD_NAME_LEN, CROSSGUARD_TASKS, CrossguardConfig, CrossguardEvent,
+    CrossguardMessageIdentifiers, CrossguardSettings,
+};
+use crate::output::{policy, policy_code};
+
+const _: () = assert!(CROSSGUARD_TASKS == TaskType::COUNT);
+
+/// Why a configuration is refused.
+#[derive(Debug)]
+pub(crate) enum Refused {
+    /// A fallback policy is none.
+    Fallback,
+    /// An inequality does not hold.
+    Broken(BrokenInequality),
+    /// Identifiers cannot be told apart.
+    Identifiers(crossguard_codec::IdentifierClash),
+    /// The name is not UTF-8 that ends with NUL.
+    Name,
+}
+
+impl core::fmt::Display for Refused {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Fallback => f.write_str("a fallback policy is none of CrossguardFallback"),
+            Self::Broken(broken) => broken.fmt(f),
+            Self::Identifiers(clash) => clash.fmt(f),
+            Self::Name => f.write_str("the name is not UTF-8 that ends with NUL"),
+        }
+    }
+}
+
+impl From<&Settings> for CrossguardSettings {
+    fn from(settings: &Settings) -> Self {
+        let mut fallback = [0; CROSSGUARD_TASKS];
+        for (code, policy) in fallback.iter_mut().zip(settings.fallback) {
+            *code = policy_code(policy);
+        }
+        Self {
+            ram_period_ms: settings.ram_period.0,
+            t_select_ms: settings.t_select.0,
+            t_offer_ms: settings.t_offer.0,
+            t_help_ms: settings.t_help.0,
+            t_ack_ms: settings.t_ack.0,
+            t_safety_ms: settings.t_safety.0,
+            t_lease_ms: settings.t_lease.0,
+            t_leave_ms: settings.t_leave.0,
+            t_farewell_ms: settings.t_farewell.0,
+            t_lock_ms: settings.t_lock.0,
+            t_exec_ms: settings.t_exec.map(|time| time.0),
+            drift_ppm: settings.drift_ppm,
+            delay_max_ms: settings.delay_max.0,
+            capabilities: settings.capabilities.0,
+            guarding: settings.guarding.0,
+            fallback,
+            n_ack: settings.n_ack,
+            reserved: [0; 3],
+        }
+    }
+}
+
+impl CrossguardSettings {
+    fn to_protocol(self) -> Result<Config, Refused> {
+        let mut fallback = [FallbackPolicy::StopInPlace; CROSSGUARD_TASKS];
+        for (to, code) in fallback.iter_mut().zip(self.fallback) {
+            *to = policy(code).ok_or(Refused::Fallback)?;
+        }
+        Config::new(Settings {
+            ram_period: Millis(self.ram_period_ms),
+            t_select: Millis(self.t_select_ms),
+            t_offer: Millis(self.t_offer_ms),
+            t_help: Millis(self.t_help_ms),
+            t_ack: Millis(self.t_ack_ms),
+            n_ack: self.n_ack,
+            t_safety: Millis(self.t_safety_ms),
+            t_lease: Millis(self.t_lease_ms),
+            t_leave: Millis(self.t_leave_ms),
+            t_farewell: Millis(self.t_farewell_ms),
+            t_lock: Millis(self.t_lock_ms),
+            t_exec: self.t_exec_ms.map(Millis),
+            drift_ppm: self.drift_ppm,
+            delay_max: Millis(self.delay_max_ms),
+            capabilities: TaskSet(self.capabilities),
+            guarding: TaskSet(self.guarding),
+            fallback,
+            ..Settings::default()
+        })
+        .map_err(Refused::Broken)
+    }
+}
+
+impl From<MessageIdentifiers> for CrossguardMessageIdentifiers {
+    fn from(identifiers: MessageIdentifiers) -> Self {
+        Self {
+            its_aid: identifiers.its_aid,
+            btp_port: identifiers.btp_port,
+            message_id: identifiers.message_id,
+            protocol_version: identifiers.protocol_version,
+        }
+    }
+}
+
+impl From<CrossguardMessageIdentifiers> for MessageIdentifiers {
+    fn from(identifiers: CrossguardMessageIdentifiers) -> Self {
+        Self {
+            its_aid: identifiers.its_aid,
+            btp_port: identifiers.btp_port,
+            message_id: identifiers.message_id,
+            protocol_version: identifiers.protocol_version,
+        }
+    }
+}
+
+/// A robot's name.
+#[derive(Clone, Copy)]
+pub(crate) struct Name {
+    octets: [u8; CROSSGUARD_NAME_LEN],
+    length: usize,
+}
+
+impl Name {
+    fn new(name: &[c_char; CROSSGUARD_NAME_LEN]) -> Option<Self> {
+        #[allow(
+            clippy::cast_sign_loss,
+            clippy::unnecessary_cast,
+            reason = "a char is an octet"
+        )]
+        let octets = name.map(|octet| octet as u8);
+        let length = octets.iter().position(|octet| *octet == 0)?;
+        core::str::from_utf8(&octets[..length]).ok()?;
+        Some(Self { octets, length })
+    }
+
+    #[cfg_attr(not(feature = "trace"), expect(dead_code))]
+    pub(crate) fn as_str(&self) -> &str {
+        core::str::from_utf8(&self.octets[..self.length]).unwrap_or_default()
+    }
+}
+
+/// A configuration that was checked.
+pub(crate) struct Checked {
+    pub(crate) config: Config,
+    pub(crate) identifiers: Identifiers,
+    pub(crate) name: Name,
+}
+
+impl CrossguardConfig {
+    /// The defaults, of a robot without station id, boot counter and name.
+    pub(crate) fn standard() -> Self {
+        let identifiers = Identifiers::default();
+        Self {
+            station_type: identifiers.robot_station_type,
+            ram: identifiers.ram.into(),
+            rmcm: identifiers.rmcm.into(),
+            settings: Config::default().settings().into(),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<Checked, Refused> {
+        let identifiers = Identifiers {
+            ram: self.ram.into(),
+            rmcm: self.rmcm.into(),
+            robot_station_type: self.station_type,
+            ..Identifiers::default()
+        };
+        identifiers.check().map_err(Refused::Identifiers)?;
+        Ok(Checked {
+            config: self.settings.to_protocol()?,
+            identifiers,
+            name: Name::new(&self.name).ok_or(Refused::Name)?,
+        })
+    }
+}
+
+fn urgency(code: u8) -> Option<Urgency> {
+    Some(match code {
+        0 => Urgency::Low,
+        1 => Urgency::Medium,
+        2 => Urgency::High,
+        3 => Urgency::Emergency,
+        _ => return None,
+    })
+}
+
+fn availability(code: u8) -> Option<Availability> {
+    Some(Availability::Unavailable(match code {
+        0 => return Some(Availability::Available),
+        1 => Unavailability::LowBattery,
+        2 => Unavailability::Teleoperated,
+        3 => Unavailability::EmergencyStop,
+        4 => Unavailability::LocalFault,
+        5 => Unavailability::NotSafe,
+        _ => return None,
+    }))
+}
+
+impl CrossguardEvent {
+    /// The event; `None` where a code is none.
+    pub(crate) fn to_protocol(self) -> Option<Event> {
+        let id = ManeuverId {
+            session: self.session.into(),
+            request: RequestId(self.request),
+        };
+        Some(match self.kind {
+            0 => Event::PedestrianDetected(HelpRequest {
+                urgency: urgency(self.urgency)?,
+                followers: self.followers,
+                tasks: TaskSet(self.tasks),
+            }),
+            1 => Event::CommandManeuver {
+                follower: StationId(self.station),
+                task: TaskType::new(self.task)?,
+            },
+            2 => Event::ManeuverCompleted(id),
+            3 => Event::ManeuverFailed(id),
+            4 => Event::TaskCompleted,
+            5 => Event::LeaveRequested,
+            6 => Event::AvailabilityChanged(availability(self.unavailability)?),
+            7 => Event::OpenCorridor,
+            8 => Event::CloseCorridor,
+            9 => Event::IdentityChanged(StationId(self.station)),
+            _ => return None,
+        })
+    }
+}
