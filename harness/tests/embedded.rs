@@ -7,7 +7,7 @@ mod support;
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command};
 use std::time::Duration;
 
 use c::{Language, compile};
@@ -92,15 +92,24 @@ fn assert_valid(embedded: &str, rust: &str) {
     }
 }
 
-fn leads(language: Language) {
-    let Some(program) = compile("crossing-leads", language, source(language)) else {
-        return;
+/// Both roles, beside a robot of `crossguard run` in the other one.
+fn cross(language: Language) {
+    let source = match language {
+        Language::C => "examples/crossing.c",
+        Language::Cpp => "examples/crossing.cpp",
     };
+    if let Some(program) = compile("crossing", language, source) {
+        leads(&program);
+        follows(&program);
+    }
+}
+
+fn leads(program: &Path) {
     let folder = tempfile::tempdir().unwrap();
     let port = two_free_ports();
     let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
     let mut dog = start(&go2);
-    let mut leader = Embedded::start(&program, folder.path(), "leader", 1, port, port + 1);
+    let mut leader = Embedded::start(program, folder.path(), "leader", 1, port, port + 1);
     let log = leader.finish();
     assert!(leader.said("embedded.out").contains("corridor open\n"));
     type_to(&mut dog, "quit\n");
@@ -108,14 +117,11 @@ fn leads(language: Language) {
     assert_valid(&log, &log_of(&go2));
 }
 
-fn follows(language: Language) {
-    let Some(program) = compile("crossing-follows", language, source(language)) else {
-        return;
-    };
+fn follows(program: &Path) {
     let folder = tempfile::tempdir().unwrap();
     let port = two_free_ports();
     let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
-    let mut follower = Embedded::start(&program, folder.path(), "follower", 2, port + 1, port);
+    let mut follower = Embedded::start(program, folder.path(), "follower", 2, port + 1, port);
     let mut humanoid = start(&ari);
     type_to(
         &mut humanoid,
@@ -132,29 +138,12 @@ fn follows(language: Language) {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
-const fn source(language: Language) -> &'static str {
-    match language {
-        Language::C => "examples/crossing.c",
-        Language::Cpp => "examples/crossing.cpp",
-    }
+#[test]
+fn a_robot_in_c_leads_and_follows() {
+    cross(Language::C);
 }
 
 #[test]
-fn a_robot_in_c_leads() {
-    leads(Language::C);
-}
-
-#[test]
-fn a_robot_in_c_follows() {
-    follows(Language::C);
-}
-
-#[test]
-fn a_robot_in_cpp_leads() {
-    leads(Language::Cpp);
-}
-
-#[test]
-fn a_robot_in_cpp_follows_and_its_log_is_valid() {
-    follows(Language::Cpp);
+fn a_robot_in_cpp_leads_and_follows_and_its_log_is_valid() {
+    cross(Language::Cpp);
 }
