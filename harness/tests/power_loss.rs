@@ -1,0 +1,44 @@
+//! The boot counter when power fails while it is written, or cuts it off at any byte: no counter, and so
+//! no session number, is ever used twice.
+
+use std::fs;
+
+use crossguard_harness::boot::{self, BootError};
+
+#[test]
+fn a_counter_that_was_cut_off_at_any_byte_is_refused_and_never_smaller() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.boot");
+    let whole = "crossguard boot counter 12345\n";
+    for length in 0..whole.len() {
+        fs::write(&path, &whole[..length]).unwrap();
+        let error = boot::take(&path).unwrap_err();
+        assert!(
+            matches!(error, BootError::Corrupt { .. }),
+            "{length}: {error}"
+        );
+        let way_out = "with N larger than at any boot of this robot before";
+        assert!(error.to_string().contains(way_out), "{error}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), whole[..length]);
+    }
+    // What a disk may hold in place of what was never written.
+    for garbage in [&[0; 30][..], b"crossguard boot counter 12\0\0\0\n"] {
+        fs::write(&path, garbage).unwrap();
+        assert!(matches!(boot::take(&path), Err(BootError::Corrupt { .. })));
+    }
+}
+
+#[test]
+fn power_that_fails_while_the_next_counter_is_written_leaves_the_old_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.boot");
+    let new = folder.path().join("robot.boot.new");
+    let next = "crossguard boot counter 8\n";
+    for length in 0..=next.len() {
+        fs::write(&path, "crossguard boot counter 7\n").unwrap();
+        fs::write(&new, &next[..length]).unwrap();
+        assert_eq!(boot::take(&path).unwrap().counter, 8);
+        assert!(!new.exists(), "what a crash has left is used up");
+    }
+    assert_eq!(boot::take(&path).unwrap().counter, 9);
+}

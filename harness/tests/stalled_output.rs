@@ -1,0 +1,69 @@
+//! A reader of standard output that does not read: the robot goes on, and hears a signal.
+
+mod support;
+
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::Duration;
+
+use support::*;
+
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// ARI, whose output nobody reads, in a crossing with Go2. It is then told to stop; what it complained.
+fn cross_unread(more: &[&str], chatter: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let port = two_free_ports();
+    let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
+    let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
+    let mut dog = start(&go2);
+    let log = folder.path().join("ari.jsonl");
+    let log = log.to_str().unwrap();
+    let mut humanoid: Child = crossguard(&["run", "--config", &ari, "--log", log])
+        .args(more)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    type_to(&mut humanoid, chatter);
+    type_to(&mut humanoid, "wait 0.3\ndetect\n");
+    // The dog sees the whole crossing, although nobody reads what its leader says.
+    type_to(
+        &mut dog,
+        "until maneuver-executing 30\nuntil idle 30\nquit\n",
+    );
+    assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
+    let dog = log_of(&go2);
+    assert!(dog.contains("sessionEnded") && !dog.contains("fallBack"));
+    signal(&humanoid, "-TERM");
+    let status = wait_for(&mut humanoid, PATIENCE);
+    // The log has all, and is that of a robot that stopped in order.
+    let text = std::fs::read_to_string(Path::new(log)).unwrap();
+    let last = records(&text).pop().unwrap();
+    assert_eq!(last["entry"], "stopped");
+    let verdict = run(&["validate", log]);
+    assert_eq!(verdict.status.code(), Some(0), "{}", stdout(&verdict));
+    let output = humanoid.wait_with_output().unwrap();
+    assert_eq!(status.code(), Some(3), "{}", stderr(&output));
+    stderr(&output)
+}
+
+#[test]
+fn a_person_who_looks_away_does_not_stop_the_robot() {
+    // More than a pipe holds.
+    let complaint = cross_unread(&[], &"help\n".repeat(200));
+    assert!(
+        complaint.contains("standard output is not read"),
+        "{complaint}"
+    );
+}
+
+#[test]
+fn a_program_that_does_not_take_the_log_does_not_stop_the_robot() {
+    let complaint = cross_unread(&["--json"], "wait 2\n");
+    assert!(
+        complaint.contains("standard output is not read"),
+        "{complaint}"
+    );
+}
