@@ -100,6 +100,28 @@ fn crowd() -> Run {
     }
 }
 
+/// A law that would hold of anything says nothing: each of its terms is needed.
+#[test]
+fn the_law_does_not_hold_without_one_of_its_terms() {
+    let drive = (0..6_u8).map(|i| moving([f64::from(i) * 9.0, 90.0], [0.0, -90.0], 15.0));
+    let run = Run {
+        vehicles: drive.collect(),
+        ..crowd()
+    };
+    let behaviour = on_an_ideal_channel(VamRule::Periodic(200), 100);
+    let (before, after) = (
+        measure(&run, &[], &behaviour),
+        measure(&run, &[[0.0, 0.0]], &behaviour),
+    );
+    let reduction = 1.0 - after.mcbr / before.mcbr;
+    let is_off = |law: f64| (reduction - law).abs() > 0.02;
+    let (quiet, share) = (after.passive, vam_share(&before));
+    let law = predicted_reduction(&before, &after, quiet);
+    let of_ram = quiet * share - law;
+    assert!(!is_off(law), "{reduction} {law}");
+    assert!(is_off(quiet * share) && is_off(share - of_ram) && is_off(quiet - of_ram));
+}
+
 #[test]
 fn what_robots_say_can_cost_more_than_devices_save() {
     // Devices that stand send one VAM in 5 s by ETSI's rule; a robot sends ten RAM a second.
