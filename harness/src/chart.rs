@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use crossguard_codec::Identifiers;
 use crossguard_protocol::{
-    Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Ram, State, StationId,
+    Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Ram, Rmcm, State, StationId,
 };
 
 use crate::trace::{Entry, Record};
@@ -20,12 +20,13 @@ const SPACING: usize = 50;
 const SPACING_OF_MANY: usize = 36;
 
 /// A chart in the making.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Chart {
-    identifiers: Identifiers,
     /// How far apart columns are.
     spacing: usize,
     lanes: Vec<Lane>,
+    /// Whether robots get columns as they turn up in the records.
+    grows: bool,
     /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
     drawn: HashMap<(usize, usize), Ram>,
 }
@@ -58,6 +59,9 @@ struct Lane {
     name: String,
     station: StationId,
     state: State,
+    identifiers: Identifiers,
+    /// Whether nothing is known of it but what others hear.
+    is_stranger: bool,
 }
 
 impl Chart {
@@ -68,17 +72,33 @@ impl Chart {
             name: name.to_owned(),
             station,
             state: State::Idle,
+            identifiers,
+            is_stranger: false,
         };
         Self {
-            identifiers,
             spacing: if robots.len() > 2 {
                 SPACING_OF_MANY
             } else {
                 SPACING
             },
             lanes: robots.iter().map(lane).collect(),
-            drawn: HashMap::new(),
+            ..Self::default()
         }
+    }
+
+    /// A chart of the robots that turn up in the records, and of the stations that they hear.
+    #[must_use]
+    pub fn of_whoever_comes() -> Self {
+        Self {
+            spacing: SPACING,
+            grows: true,
+            ..Self::default()
+        }
+    }
+
+    /// The names above the columns.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.lanes.iter().map(|lane| lane.name.as_str())
     }
 
     /// The line above the chart.
@@ -120,6 +140,14 @@ impl Chart {
 
     /// What a record adds.
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
+        if let Entry::Started {
+            station,
+            identifiers,
+            ..
+        } = &record.entry
+        {
+            self.seat(&record.robot, *station, *identifiers);
+        }
         let Some(lane) = self.lanes.iter().position(|lane| lane.name == record.robot) else {
             return Vec::new();
         };
@@ -149,35 +177,88 @@ impl Chart {
             Entry::Dropped { cause, detail, .. } => {
                 vec![note(format!("! dropped, {cause}: {detail}"))]
             }
-            Entry::Started { .. } => {
-                self.lanes[lane].state = State::Idle;
-                Vec::new()
-            }
-            Entry::Sent { .. } | Entry::Stopped { .. } => Vec::new(),
+            Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
+            Entry::Started { .. } | Entry::Stopped { .. } => Vec::new(),
         }
     }
 
-    fn arrow(&mut self, to: usize, octets: &[u8], is_lost: bool) -> Vec<Mark> {
-        let Ok(heard) = overhear(&self.identifiers, octets) else {
-            return Vec::new();
+    /// Gives a robot that starts its column, that of the station that others heard before, or a new
+    /// one.
+    fn seat(&mut self, robot: &str, station: StationId, identifiers: Identifiers) {
+        let known = |lane: &Lane| lane.name == robot;
+        let heard = |lane: &Lane| lane.is_stranger && lane.station == station;
+        let seat = self.lanes.iter().position(known);
+        let seat = seat.or_else(|| self.lanes.iter().position(heard));
+        let lane = Lane {
+            name: robot.to_owned(),
+            station,
+            state: State::Idle,
+            identifiers,
+            is_stranger: false,
         };
-        let Some(from) = self
-            .lanes
-            .iter()
-            .position(|lane| lane.station == heard.from)
-        else {
-            return Vec::new();
-        };
-        if heard.kind == MessageKind::Ram && !self.is_news(from, to, &heard, is_lost) {
+        match seat {
+            Some(seat) => self.lanes[seat] = lane,
+            None if self.grows => self.lanes.push(lane),
+            None => {}
+        }
+    }
+
+    /// The column of a station that was heard, if it has one or gets one.
+    fn lane_of(&mut self, station: StationId) -> Option<usize> {
+        let known = self.lanes.iter().position(|lane| lane.station == station);
+        if known.is_none() && self.grows {
+            self.lanes.push(Lane {
+                name: format!("station {station}"),
+                station,
+                state: State::Idle,
+                identifiers: Identifiers::default(),
+                is_stranger: true,
+            });
+            return Some(self.lanes.len() - 1);
+        }
+        known
+    }
+
+    /// What a robot sends to stations without records, which cannot say whether it arrives.
+    fn arrows_to_strangers(&mut self, from: usize, octets: &[u8]) -> Vec<Mark> {
+        if !self.lanes.iter().any(|lane| lane.is_stranger) {
             return Vec::new();
         }
+        let Ok(heard) = overhear(&self.lanes[from].identifiers, octets) else {
+            return Vec::new();
+        };
+        let mut marks = Vec::new();
+        for to in 0..self.lanes.len() {
+            let lane = &self.lanes[to];
+            let is_meant = |input: &Input| addressee(input).is_none_or(|it| it == lane.station);
+            if lane.is_stranger && heard.inputs.iter().any(is_meant) {
+                marks.extend(self.message(from, to, &heard, false));
+            }
+        }
+        marks
+    }
+
+    fn arrow(&mut self, to: usize, octets: &[u8], is_lost: bool) -> Vec<Mark> {
+        let Ok(heard) = overhear(&self.lanes[to].identifiers, octets) else {
+            return Vec::new();
+        };
+        let from = self.lane_of(heard.from).filter(|from| *from != to);
+        let arrow = from.and_then(|from| self.message(from, to, &heard, is_lost));
+        arrow.into_iter().collect()
+    }
+
+    /// A message from column to column, unless it repeats what was drawn.
+    fn message(&mut self, from: usize, to: usize, heard: &Heard, is_lost: bool) -> Option<Mark> {
+        if heard.kind == MessageKind::Ram && !self.is_news(from, to, heard, is_lost) {
+            return None;
+        }
         let text: Vec<_> = heard.inputs.iter().map(text_of).collect();
-        vec![Mark::Arrow {
+        Some(Mark::Arrow {
             from,
             to,
             text: text.join("; "),
             is_lost,
-        }]
+        })
     }
 
     /// Whether a RAM says something that was not drawn before.
@@ -208,6 +289,15 @@ fn essence(mut ram: Ram) -> Ram {
         Coordination::None | Coordination::NeedHelp { .. } | Coordination::OfferHelp { .. } => {}
     }
     ram
+}
+
+/// Whom an RMCM is for; `None` for what everybody may hear.
+const fn addressee(input: &Input) -> Option<StationId> {
+    match input {
+        Input::Rmcm(Rmcm::Command(command)) => Some(command.to),
+        Input::Rmcm(Rmcm::Answer(answer)) => Some(answer.session.leader),
+        _ => None,
+    }
 }
 
 /// A message in a few words.

@@ -6,23 +6,29 @@ mod check;
 mod codec;
 mod demo;
 mod explore;
+mod export;
 mod fsm;
 mod fuzz;
 mod pki;
+mod records;
 mod replay;
+mod report;
 mod run;
 mod security;
 mod simulate;
 mod sniff;
 mod validate;
+mod watch;
 
-use std::io::{ErrorKind, IsTerminal, Write};
-use std::path::Path;
+use std::fs::File;
+use std::io::{BufReader, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use crossguard_harness::capture::Capture;
 use crossguard_harness::perception::Feed;
+use crossguard_harness::trace::Log;
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -33,6 +39,10 @@ use crossguard_harness::perception::Feed;
     after_help = "Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete."
 )]
 struct Arguments {
+    /// Tell on standard error what robots do, why they drop what they drop: -v for a little, -vv and
+    /// -vvv for more. The variable RUST_LOG says it in detail, like crossguard_harness=debug.
+    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    verbose: u8,
     #[command(subcommand)]
     command: Command,
 }
@@ -51,6 +61,10 @@ enum Command {
     Fuzz(fuzz::Arguments),
     /// Tell whether logs of one or several robots are of something that could have happened.
     Validate(validate::Arguments),
+    /// Write a page about a run: states, map, times, verdicts, sequence chart.
+    Report(report::Arguments),
+    /// Convert logs to what other tools open: MCAP, sequence charts.
+    Export(export::Arguments),
     /// Print the state diagram of the protocol, drawn from what the transition function does.
     Fsm(fsm::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
@@ -96,12 +110,16 @@ impl From<std::io::Error> for Failure {
 }
 
 pub(crate) fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let arguments = Arguments::parse();
+    observe(arguments.verbose);
+    let done = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
@@ -121,6 +139,27 @@ pub(crate) fn main() -> ExitCode {
     }
 }
 
+/// Has what is observed written to standard error, if that is wanted.
+fn observe(verbose: u8) {
+    let level = match verbose {
+        0 => "off",
+        1 => "info",
+        2 => "debug",
+        _ => "trace",
+    };
+    let filter = match (verbose, std::env::var("RUST_LOG")) {
+        (0, Ok(filter)) => filter,
+        _ => format!("crossguard_harness={level}"),
+    };
+    let subscriber = tracing_subscriber::fmt()
+        .with_env_filter(tracing_subscriber::EnvFilter::new(filter))
+        .with_writer(std::io::stderr)
+        .with_target(false)
+        .with_ansi(std::io::stderr().is_terminal());
+    // It can only fail when there is a subscriber already, and there is none.
+    let _ = subscriber.try_init();
+}
+
 /// Prints a line to standard output.
 fn print(line: impl std::fmt::Display) -> Result<(), Failure> {
     Ok(writeln!(std::io::stdout(), "{line}")?)
@@ -133,6 +172,21 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
         Ok(()) => Ok(writeln!(out)?),
         Err(error) => Err(std::io::Error::from(error).into()),
     }
+}
+
+/// Opens logs.
+fn open_logs(paths: &[PathBuf]) -> Result<Vec<Log<'static>>, Failure> {
+    let open = |path: &PathBuf| {
+        let name = path.display().to_string();
+        match File::open(path) {
+            Ok(file) => Ok(Log {
+                name,
+                lines: Box::new(BufReader::new(file)),
+            }),
+            Err(error) => Err(Failure::Input(format!("{name}: {error}"))),
+        }
+    };
+    paths.iter().map(open).collect()
 }
 
 /// Creates a file for packets.

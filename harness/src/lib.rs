@@ -30,6 +30,9 @@
 //! - [`sim`] runs many machines in virtual time under seeded faults, and judges every step.
 //! - [`trace`] is the log, one JSON object per line; [`validate`] tells whether logs of one or several
 //!   robots are of something that could have happened.
+//! - [`facts`] works out of logs where robots are and what they do; [`mcap_file`] writes that for Foxglove,
+//!   [`report`] for people.
+//! - [`observe`] tells `tracing` what a robot does; [`tally`] and [`metrics`] say how it is.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
 //! - [`demo`] is the paper's crossing and its extensions to teams, with simulated [`body`]s; [`timing`] is
 //!   its table, [`chart`] its sequence chart.
@@ -47,13 +50,18 @@ pub mod demo;
 pub mod drive;
 pub mod endpoint;
 pub mod evaluation;
+pub mod facts;
 pub mod journal;
 pub mod machine;
+pub mod mcap_file;
+pub mod metrics;
+pub mod observe;
 pub mod operator;
 pub mod perception;
 pub mod pki;
 pub mod plan;
 pub mod ras;
+pub mod report;
 pub mod robot_file;
 pub mod runtime;
 pub mod sequence;
@@ -61,6 +69,7 @@ pub mod sim;
 pub mod site;
 pub mod sniffer;
 pub mod station;
+pub mod tally;
 pub mod timing;
 pub mod trace;
 pub mod transport;

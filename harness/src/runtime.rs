@@ -27,13 +27,14 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::si::timestamp_its;
-use crossguard_protocol::{Config, Event, Phase, Robot, StationId};
+use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
 use crate::application::{Application, Wish};
 use crate::counters::Cause;
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crate::journal::Journal;
 use crate::machine::{Machine, stimulus_of};
+use crate::observe;
 use crate::perception::seen_from;
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::surroundings::Awareness;
@@ -152,6 +153,7 @@ pub struct Setup {
 /// A robot that runs.
 pub struct Running {
     orders: SyncSender<Delivery>,
+    waiting: Arc<Waiting>,
     threads: Vec<JoinHandle<()>>,
     stop: Arc<AtomicBool>,
 }
@@ -182,7 +184,8 @@ impl Setup {
             sender: self.link.sender,
             journal: self.journal,
             clock: self.clock,
-            waiting,
+            waiting: Arc::clone(&waiting),
+            observed: State::Idle,
             stopping: false,
             is_dead: false,
         };
@@ -196,6 +199,7 @@ impl Setup {
         ];
         Running {
             orders: deliveries,
+            waiting,
             threads,
             stop,
         }
@@ -212,6 +216,12 @@ impl Running {
     #[must_use]
     pub fn has_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    /// How many datagrams have been dropped so far because the inbox was full.
+    #[must_use]
+    pub fn inbox_full(&self) -> u64 {
+        self.waiting.dropped_in_all.load(Ordering::Relaxed)
     }
 
     /// Tells the robot to stop and waits until it has said farewell.
@@ -237,6 +247,16 @@ struct Waiting {
     datagrams: AtomicUsize,
     /// How many were dropped and are not counted yet.
     dropped: AtomicU64,
+    dropped_in_all: AtomicU64,
+}
+
+impl Waiting {
+    /// There is no place for one more.
+    fn drop_one(&self) {
+        self.dropped.fetch_add(1, Ordering::Relaxed);
+        let before = self.dropped_in_all.fetch_add(1, Ordering::Relaxed);
+        tracing::warn!(cause = Cause::InboxFull.name(), before, "dropped");
+    }
 }
 
 /// Takes datagrams off the link, so that it does not have to keep them.
@@ -268,9 +288,9 @@ impl Reader {
 
     /// Puts something into the inbox, if it has a place for it. Whether there still is an inbox.
     fn deliver(&self, delivery: Delivery) -> bool {
-        let Waiting { datagrams, dropped } = &*self.waiting;
+        let datagrams = &self.waiting.datagrams;
         if datagrams.load(Ordering::Relaxed) >= DATAGRAMS {
-            dropped.fetch_add(1, Ordering::Relaxed);
+            self.waiting.drop_one();
             return true;
         }
         datagrams.fetch_add(1, Ordering::Relaxed);
@@ -278,7 +298,7 @@ impl Reader {
             Ok(()) => true,
             Err(TrySendError::Full(_)) => {
                 datagrams.fetch_sub(1, Ordering::Relaxed);
-                dropped.fetch_add(1, Ordering::Relaxed);
+                self.waiting.drop_one();
                 true
             }
             Err(TrySendError::Disconnected(_)) => false,
@@ -293,12 +313,15 @@ struct Loop {
     journal: Journal,
     clock: Clock,
     waiting: Arc<Waiting>,
+    /// The newest state that was told to whoever observes.
+    observed: State,
     stopping: bool,
     is_dead: bool,
 }
 
 impl Loop {
     fn run(&mut self, inbox: &Inbox<Delivery>) {
+        let _span = tracing::info_span!("robot", name = self.name).entered();
         self.log(Entry::Started {
             station: self.machine.endpoint().robot().station(),
             boot: self.machine.endpoint().robot().boot(),
@@ -434,11 +457,13 @@ impl Loop {
     fn log(&mut self, entry: Entry) {
         let record = self.record(entry);
         for lost in self.journal.put(record) {
+            tracing::error!(cause = lost.name(), "dropped");
             self.machine.endpoint_mut().count(lost);
         }
     }
 
-    fn record(&self, entry: Entry) -> Record {
+    fn record(&mut self, entry: Entry) -> Record {
+        observe::entry(&entry, &mut self.observed);
         Record {
             at_us: self.clock.now_us(),
             robot: self.name.clone(),

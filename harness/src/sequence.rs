@@ -13,7 +13,6 @@ use crate::trace::Record;
 #[derive(Debug)]
 pub struct Sequence {
     chart: Chart,
-    names: Vec<String>,
 }
 
 impl Sequence {
@@ -22,7 +21,14 @@ impl Sequence {
     pub fn new(robots: &[(&str, StationId)]) -> Self {
         Self {
             chart: Chart::new(robots, Identifiers::default()),
-            names: robots.iter().map(|(name, _)| (*name).to_owned()).collect(),
+        }
+    }
+
+    /// Of the robots that turn up in the records, and of the stations that they hear.
+    #[must_use]
+    pub fn of_whoever_comes() -> Self {
+        Self {
+            chart: Chart::of_whoever_comes(),
         }
     }
 
@@ -53,9 +59,10 @@ impl Sequence {
 
     /// Draws steps under a title.
     pub fn draw<T>(&self, title: &str, steps: &[ChartStep], draw: impl FnOnce(Drawing) -> T) -> T {
+        let names: Vec<_> = self.chart.names().map(str::to_owned).collect();
         draw(Drawing {
             title,
-            robots: &self.names,
+            robots: &names,
             steps,
             repeats_after: None,
         })

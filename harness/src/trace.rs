@@ -4,6 +4,10 @@
 //! every message. [`validate`](crate::validate) replays it; so a log proves that the robot did what the
 //! verified transition function does, or shows the first record that does not fit.
 
+mod reader;
+
+pub use reader::{Log, LogError, Merged, Records, Unreadable};
+
 use std::collections::BTreeMap;
 use std::io::Write;
 

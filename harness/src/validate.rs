@@ -27,16 +27,9 @@ use crossguard_model_check::monitor::Monitor;
 use crossguard_protocol::{Event, Input, StationId};
 use serde::Serialize;
 
-use crate::trace::{Entry, Record};
+pub use crate::trace::Log;
+use crate::trace::{Entry, Record, Records, Unreadable};
 use robot::Follow;
-
-/// A log to be validated.
-pub struct Log<'a> {
-    /// What it is called in messages.
-    pub name: String,
-    /// Its lines.
-    pub lines: Box<dyn BufRead + 'a>,
-}
 
 /// What valid logs hold.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
@@ -110,11 +103,7 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
     let mut street = Street::default();
     let mut cursors = Vec::new();
     for log in logs {
-        let cursor = Cursor::new(log)?;
-        if cursor.head.is_none() {
-            return Err(cursor.invalid(None, Fault::Empty));
-        }
-        cursors.push(cursor);
+        cursors.push(Cursor::new(log)?);
     }
     while let Some(next) = street.choose(&cursors) {
         let cursor = &mut cursors[next];
@@ -133,12 +122,8 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
 
 /// A log, and how far it has been read.
 struct Cursor<'a> {
-    name: String,
-    lines: Box<dyn BufRead + 'a>,
-    line: usize,
+    records: Records<'a>,
     head: Option<Record>,
-    /// Milliseconds since 1970 at which the log's clock started, as far as is known.
-    began_ms: i128,
     /// The robots that it is of.
     robots: BTreeSet<String>,
 }
@@ -146,50 +131,42 @@ struct Cursor<'a> {
 impl<'a> Cursor<'a> {
     fn new(log: Log<'a>) -> Result<Self, Invalid> {
         let mut cursor = Self {
-            name: log.name,
-            lines: log.lines,
-            line: 0,
+            records: Records::new(log),
             head: None,
-            began_ms: 0,
             robots: BTreeSet::new(),
         };
         cursor.advance()?;
         Ok(cursor)
     }
 
-    /// Reads the next record. A last line without an end that is no record was cut off.
     fn advance(&mut self) -> Result<(), Invalid> {
-        let mut text = String::new();
-        self.line += 1;
-        let read = self.lines.read_line(&mut text);
-        let length = read.map_err(|cause| self.invalid(None, Fault::Unreadable(cause)))?;
-        self.head = match serde_json::from_str::<Record>(&text) {
-            _ if length == 0 => None,
-            Ok(record) => Some(record),
-            Err(_) if !text.ends_with('\n') && self.line > 1 => None,
-            Err(cause) => return Err(self.invalid(None, Fault::NotARecord(cause))),
-        };
-        if let Some(record) = &self.head {
-            if let Entry::Started { unix_ms, .. } = record.entry {
-                self.began_ms = i128::from(unix_ms) - i128::from(record.at_us / 1_000);
-            }
-            if !self.robots.contains(&record.robot) {
-                self.robots.insert(record.robot.clone());
-            }
+        self.head = self.records.take().map_err(|unreadable| {
+            let fault = match unreadable {
+                Unreadable::Io(cause) => Fault::Unreadable(cause),
+                Unreadable::Empty => Fault::Empty,
+                Unreadable::NotARecord(cause) => Fault::NotARecord(cause),
+            };
+            self.invalid(None, fault)
+        })?;
+        if let Some(record) = &self.head
+            && !self.robots.contains(&record.robot)
+        {
+            self.robots.insert(record.robot.clone());
         }
         Ok(())
     }
 
-    /// About when the next record was written, in ms since 1970.
-    fn at_ms(&self) -> i128 {
-        let at_us = self.head.as_ref().map_or(0, |record| record.at_us);
-        self.began_ms + i128::from(at_us / 1_000)
+    /// About when the next record was written, in µs since 1970.
+    fn unix_us(&self) -> u64 {
+        self.head
+            .as_ref()
+            .map_or(0, |head| self.records.unix_us(head))
     }
 
     fn invalid(&self, robot: Option<String>, fault: Fault) -> Invalid {
         Invalid {
-            log: self.name.clone(),
-            line: self.line,
+            log: self.records.name().to_owned(),
+            line: self.records.line(),
             robot,
             fault: Box::new(fault),
         }
@@ -228,7 +205,7 @@ impl Street {
     /// if all do, the earliest of all. `None` when all are at their ends.
     fn choose(&self, cursors: &[Cursor]) -> Option<usize> {
         let with_head = || (0..cursors.len()).filter(|&i| cursors[i].head.is_some());
-        let earliest = |i: &usize| cursors[*i].at_ms();
+        let earliest = |i: &usize| cursors[*i].unix_us();
         let alone = with_head().nth(1).is_none();
         let ready = with_head().filter(|&i| alone || !self.must_wait(cursors, i));
         ready

@@ -3,6 +3,7 @@
 
 mod support;
 
+use crossguard_harness::capture;
 use crossguard_harness::plan::Plan;
 use crossguard_harness::sim::{
     Deed, Failure, Finding, Fuzz, Happening, Swarm, Worst, run, write_failure,
@@ -173,7 +174,12 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
             .starts_with("<svg")
     );
     let log = std::fs::read(&files.log).unwrap();
-    assert!(validate::one(&*log).unwrap().steps > 100);
+    let validated = validate::one(&*log).unwrap();
+    assert!(validated.steps > 100);
+    let packets = capture::read(&files.pcap).unwrap();
+    assert_eq!(packets.map(Result::unwrap).count(), validated.sent);
+    let page = std::fs::read_to_string(&files.html).unwrap();
+    assert!(page.contains("A property was broken") && page.contains(again));
     let words: Vec<_> = again.split(' ').skip(1).collect();
     let output = support::run(&words);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -213,11 +213,20 @@ struct Drawing {
 impl Drawing {
     const LANE: usize = 420;
     const LINE: usize = 17;
-    const STYLE: &'static str = "text{font:13px sans-serif;fill:#222;paint-order:stroke;stroke:#fff;\
-        stroke-width:4px}.name{font-weight:bold}\
-        .number{fill:#888;font-size:11px}.output{fill:#0a5}.turn{fill:#a00;font-weight:bold}\
-        line{stroke:#bbb}.message{stroke:#222;stroke-width:1.3}.lost{stroke:#c00}\
-        .delayed{stroke:#c80}.late{stroke:#06c}path{fill:none}";
+    /// For the picture alone, also where it is part of a page; dark where that is wanted.
+    const STYLE: &'static str = ".sequence{--ink:#222;--paper:#fff;--faint:#888;--lane:#bbb;--lost:#c00;\
+        --delayed:#b60;--late:#06c;--output:#074}\
+        @media screen and (prefers-color-scheme:dark){.sequence{--ink:#ddd;--paper:#16181c;--faint:#999;\
+        --lane:#555;--lost:#ff7b72;--delayed:#e3a34f;--late:#79b8ff;--output:#5fd39a}}\
+        .sequence .paper{fill:var(--paper)}\
+        .sequence text{font:13px sans-serif;fill:var(--ink);paint-order:stroke;stroke:var(--paper);\
+        stroke-width:4px}.sequence .name{font-weight:bold}\
+        .sequence .number{fill:var(--faint);font-size:11px}.sequence .output{fill:var(--output)}\
+        .sequence .turn{fill:var(--lost);font-weight:bold}.sequence line{stroke:var(--lane)}\
+        .sequence .message{stroke:var(--ink);stroke-width:1.3}\
+        .sequence .lost{stroke:var(--lost);stroke-dasharray:5 3}\
+        .sequence .delayed{stroke:var(--delayed)}.sequence .late{stroke:var(--late)}\
+        .sequence path{fill:none;stroke-dasharray:none!important}";
 
     const fn x(lane: usize) -> usize {
         Self::LANE / 2 + lane * Self::LANE
@@ -299,6 +308,7 @@ impl Drawing {
 
     fn finish(self, title: &str, robots: &[String]) -> String {
         let (width, height) = (Self::LANE * robots.len(), self.y + 30);
+        let title = markup(title);
         let mut lanes = String::new();
         for (i, name) in robots.iter().enumerate() {
             let (x, bottom, name) = (Self::x(i), self.y + 20, markup(name));
@@ -309,12 +319,11 @@ impl Drawing {
             );
         }
         format!(
-            "<svg xmlns='http://www.w3.org/2000/svg' width='{width}' height='{height}' \
-             viewBox='0 0 {width} {height}'>\n<style>{}</style>\n\
-             <rect width='100%' height='100%' fill='#fff'/>\n\
-             <text class='name' x='8' y='20'>{}</text>\n{lanes}{}</svg>\n",
+            "<svg xmlns='http://www.w3.org/2000/svg' class='sequence' role='img' width='{width}' \
+             height='{height}' viewBox='0 0 {width} {height}'>\n<title>{title}</title>\n\
+             <style>{}</style>\n<rect class='paper' width='100%' height='100%'/>\n\
+             <text class='name' x='8' y='20'>{title}</text>\n{lanes}{}</svg>\n",
             Self::STYLE,
-            markup(title),
             self.rows
         )
     }

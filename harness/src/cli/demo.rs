@@ -52,6 +52,8 @@ pub(super) struct Arguments {
     /// Announce clusters of people by ETSI's cluster VAM as well.
     #[arg(long)]
     cluster_vam: bool,
+    #[command(flatten)]
+    records: super::records::RecordArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -151,6 +153,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
     }
     super::finish_capture(options.capture)?;
+    let (title, speed) = ("Crossguard demo", arguments.speed);
+    arguments
+        .records
+        .write(title, &log, speed, arguments.json)?;
     if arguments.json {
         print_json(&outcome)?;
     } else {

@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     /// After how many failed seeds it is enough.
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..))]
     failures: u16,
-    /// Write log and sequence chart of failed seeds into this folder.
+    /// Write log, packets, sequence chart and report of failed seeds into this folder.
     #[arg(long, value_name = "DIR", default_value = "crossguard-fuzz")]
     out: PathBuf,
     /// Print the results as JSON, and nothing else.
@@ -132,12 +132,15 @@ fn tell_failure(
         failure.seed, finding.property, finding.robot, finding.statement
     ))?;
     print(format_args!("  again: {}", fuzz.reproduce(failure.seed)))?;
-    print(format_args!(
-        "  log {}, chart {} and {}",
-        files.log.display(),
-        files.text.display(),
-        files.svg.display()
-    ))
+    let files = [
+        &files.html,
+        &files.log,
+        &files.pcap,
+        &files.svg,
+        &files.text,
+    ];
+    let files: Vec<_> = files.map(|file| file.display().to_string()).into();
+    print(format_args!("  written: {}", files.join(", ")))
 }
 
 fn tell(totals: &Totals, seconds: Duration) -> Result<(), Failure> {

@@ -84,6 +84,8 @@ pub(super) struct Arguments {
     /// Write all packets that are sent and received to this file, for Wireshark.
     #[arg(long, value_name = "FILE")]
     pcap: Option<PathBuf>,
+    #[command(flatten)]
+    watch: super::watch::WatchArguments,
     /// Print the log to standard output, and nothing else.
     #[arg(long)]
     json: bool,
@@ -115,7 +117,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(capture) = &capture {
         link = capture.of_all(link);
     }
-    let outputs = Outputs::open(arguments.log.as_deref(), arguments.json)?;
+    let watch = arguments.watch.begin()?;
+    let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
     let security = arguments.security.of_robot(&file.name)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
     let mut awareness = file.awareness;
@@ -151,6 +154,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut console = Console {
         file: &file,
         lines: outputs.lines,
+        watch,
         robot: Robot::new(file.station, boot.counter),
         pending: VecDeque::new(),
         hold: None,
@@ -162,6 +166,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     console.say(&format!(
         "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
     ));
+    if let Some(address) = console.watch.metrics {
+        console.say(&format!("Metrics are at http://{address}/metrics."));
+    }
     let outcome = console.attend(&running, &outputs.records, &lines_typed());
     running.order(Order::Stop);
     running.wait();
@@ -216,6 +223,7 @@ struct Console<'a> {
     file: &'a RobotFile,
     /// Where it says something to people; nowhere, when standard output is the log.
     lines: Option<Lines>,
+    watch: super::watch::Watch,
     /// The robot as its newest record shows it.
     robot: Robot,
     pending: VecDeque<Line>,
@@ -249,6 +257,7 @@ impl Console<'_> {
                 // The robot has stopped, and everything that it said has been taken.
                 Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
+            self.watch.look(running);
             while self.pending.len() < TYPED
                 && let Ok(text) = lines.try_recv()
             {
@@ -267,6 +276,7 @@ impl Console<'_> {
     }
 
     fn record(&mut self, record: &Record) {
+        self.watch.record(record);
         if self.lines.is_some() {
             let announced = self.announced(record);
             for line in self.texts(record).into_iter().chain(announced) {

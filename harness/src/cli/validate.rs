@@ -1,13 +1,11 @@
 //! `crossguard validate`.
 
-use std::fs::File;
-use std::io::BufReader;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crossguard_harness::validate::{self, Fault, Invalid, Log, Validated};
+use crossguard_harness::validate::{self, Fault, Invalid, Validated};
 use serde::Serialize;
 
-use super::{Failure, print, print_json};
+use super::{Failure, open_logs, print, print_json};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -41,9 +39,7 @@ struct Report {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let logs = arguments.logs.iter().map(|path| open(path));
-    let logs = logs.collect::<Result<Vec<_>, _>>()?;
-    let result = validate::all(logs);
+    let result = validate::all(open_logs(&arguments.logs)?);
     if let Err(invalid) = &result
         && matches!(
             *invalid.fault,
@@ -58,21 +54,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         tell(&result)?;
     }
+    verdict(&result)
+}
+
+/// How a command ends that has validated logs.
+pub(super) fn verdict(result: &Result<Validated, Invalid>) -> Result<(), Failure> {
     match result {
         Err(_) => Err(Failure::Wrong),
         Ok(validated) if validated.missing > 0 => Err(Failure::Incomplete),
         Ok(_) => Ok(()),
-    }
-}
-
-fn open(path: &Path) -> Result<Log<'static>, Failure> {
-    let name = path.display().to_string();
-    match File::open(path) {
-        Ok(file) => Ok(Log {
-            name,
-            lines: Box::new(BufReader::new(file)),
-        }),
-        Err(error) => Err(Failure::Input(format!("{name}: {error}"))),
     }
 }
 

@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 use std::rc::Rc;
+use std::time::Duration;
 
 use crossguard_codec::TaskParameters;
 use crossguard_codec::si::timestamp_its;
@@ -70,10 +71,24 @@ pub struct Outcome {
     pub worst: Worst,
 }
 
-/// Runs a swarm to its end or to the first thing that is wrong. `watch`, if there is one, sees every
-/// record of every robot.
+/// Who sees what happens in a run.
+pub trait Watch {
+    /// A robot did something.
+    fn record(&mut self, record: Record);
+
+    /// A packet is on the air, at this time since 1970.
+    fn packet(&mut self, _at: Duration, _packet: &[u8]) {}
+}
+
+impl<F: FnMut(Record)> Watch for F {
+    fn record(&mut self, record: Record) {
+        self(record);
+    }
+}
+
+/// Runs a swarm to its end or to the first thing that is wrong. `watch`, if there is one, sees it.
 #[must_use]
-pub fn run<'a>(swarm: &'a Swarm, watch: Option<&'a mut dyn FnMut(Record)>) -> Outcome {
+pub fn run<'a>(swarm: &'a Swarm, watch: Option<&'a mut dyn Watch>) -> Outcome {
     run_with(swarm, &Protocol, watch)
 }
 
@@ -81,7 +96,7 @@ pub fn run<'a>(swarm: &'a Swarm, watch: Option<&'a mut dyn FnMut(Record)>) -> Ou
 pub fn run_with<'a>(
     swarm: &'a Swarm,
     rules: &'static dyn Rules,
-    watch: Option<&'a mut dyn FnMut(Record)>,
+    watch: Option<&'a mut dyn Watch>,
 ) -> Outcome {
     let mut world = World::new(swarm, rules, watch);
     let finding = world.go_on().err();
@@ -124,7 +139,7 @@ struct Seat<'a> {
 struct World<'a> {
     swarm: &'a Swarm,
     rules: &'static dyn Rules,
-    watch: Option<&'a mut dyn FnMut(Record)>,
+    watch: Option<&'a mut dyn Watch>,
     now_us: u64,
     seats: Vec<Seat<'a>>,
     ways: Vec<Channel>,
@@ -140,11 +155,7 @@ struct World<'a> {
 }
 
 impl<'a> World<'a> {
-    fn new(
-        swarm: &'a Swarm,
-        rules: &'static dyn Rules,
-        watch: Option<&'a mut dyn FnMut(Record)>,
-    ) -> Self {
+    fn new(swarm: &'a Swarm, rules: &'static dyn Rules, watch: Option<&'a mut dyn Watch>) -> Self {
         let mut draws = ChaCha8Rng::seed_from_u64(swarm.seed ^ 0x5741_4553);
         let mut monitor = Monitor::new(true);
         let seats = swarm.robots.iter().map(|draw| {
@@ -418,6 +429,10 @@ impl<'a> World<'a> {
 
     fn transmit(&mut self, from: usize, packet: &Rc<[u8]>) {
         self.packets += 1;
+        if let Some(watch) = &mut self.watch {
+            let epoch = Duration::from_millis(EPOCH_UNIX_MS.unsigned_abs());
+            watch.packet(epoch + Duration::from_micros(self.now_us), packet);
+        }
         for to in (0..self.seats.len()).filter(|&to| to != from) {
             match self.ways[from * self.seats.len() + to].fate(self.now_us) {
                 Fate::Lost(how) => {
@@ -462,7 +477,7 @@ impl<'a> World<'a> {
 
     fn record(&mut self, place: usize, entry: Entry) {
         if let Some(watch) = &mut self.watch {
-            watch(Record {
+            watch.record(Record {
                 at_us: self.now_us,
                 robot: self.seats[place].draw.name.clone(),
                 entry,

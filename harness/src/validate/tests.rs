@@ -8,7 +8,7 @@ use crate::trace;
 
 fn records(seed: u64) -> Vec<Record> {
     let mut records = Vec::new();
-    let mut watch = |record| records.push(record);
+    let mut watch = |record: Record| records.push(record);
     let _ = run(&Swarm::draw(seed, 4, None), Some(&mut watch));
     records
 }

@@ -1,6 +1,6 @@
 //! What `crossguard run` writes, from threads of their own: nobody who does not read holds the robot up.
 
-use std::io::{BufWriter, ErrorKind, Write};
+use std::io::{BufWriter, ErrorKind, Stdout, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, TrySendError};
@@ -10,6 +10,7 @@ use std::time::Duration;
 use crossguard_harness::counters::Cause;
 use crossguard_harness::journal::{Journal, WhenFull};
 use crossguard_harness::trace::{self, Record};
+use indicatif::ProgressBar;
 
 use super::super::Failure;
 
@@ -33,8 +34,13 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    /// Opens a log file, if there is to be one, and standard output.
-    pub(super) fn open(log: Option<&Path>, is_json: bool) -> Result<Self, Failure> {
+    /// Opens a log file, if there is to be one, and standard output; what people read there stands above
+    /// the status line `bar`.
+    pub(super) fn open(
+        log: Option<&Path>,
+        is_json: bool,
+        bar: ProgressBar,
+    ) -> Result<Self, Failure> {
         let mut journal = Journal::new();
         let records = journal.reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
         let mut of_log = || journal.reader(RECORDS, WhenFull::End, Cause::LogFull);
@@ -46,7 +52,7 @@ impl Outputs {
         if is_json {
             writings.push(Writing::to_stdout(of_log()));
         } else {
-            let (for_people, writing) = Lines::start();
+            let (for_people, writing) = Lines::start(bar);
             lines = Some(for_people);
             writings.push(writing);
         }
@@ -108,7 +114,7 @@ impl Writing {
         name: String,
         queue: Receiver<T>,
         mut to: W,
-        write: fn(&mut W, &T) -> std::io::Result<()>,
+        write: impl Fn(&mut W, &T) -> std::io::Result<()> + Send + 'static,
     ) -> Self {
         let (tell, result) = channel();
         let of_thread = name.clone();
@@ -153,7 +159,7 @@ fn write_record(to: &mut impl Write, record: &Arc<Record>) -> std::io::Result<()
 fn write_all<T, W: Write>(
     queue: &Receiver<T>,
     to: &mut W,
-    write: fn(&mut W, &T) -> std::io::Result<()>,
+    write: impl Fn(&mut W, &T) -> std::io::Result<()>,
 ) -> std::io::Result<()> {
     loop {
         let next = match queue.try_recv() {
@@ -185,12 +191,11 @@ pub(super) struct Lines {
 
 impl Lines {
     /// The lines, and the thread that writes them, which ends after this has been dropped.
-    fn start() -> (Self, Writing) {
+    fn start(bar: ProgressBar) -> (Self, Writing) {
         let (queue, lines) = sync_channel(LINES);
         let name = "standard output".to_owned();
-        let writing = Writing::start(name, lines, std::io::stdout(), |to, line| {
-            writeln!(to, "{line}")
-        });
+        let write = move |to: &mut Stdout, line: &String| bar.suspend(|| writeln!(to, "{line}"));
+        let writing = Writing::start(name, lines, std::io::stdout(), write);
         let lines = Self { queue, left_out: 0 };
         (lines, writing)
     }

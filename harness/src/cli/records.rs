@@ -1,0 +1,58 @@
+//! What else a command writes of the log of its robots.
+
+use std::io::Cursor;
+use std::path::PathBuf;
+
+use crossguard_harness::trace::{Log, Merged};
+
+use super::report::Page;
+use super::{Failure, export, print};
+
+/// What else is written of a log.
+#[derive(clap::Args)]
+pub(super) struct RecordArguments {
+    /// Write an MCAP file, for Foxglove and tools of ROS 2.
+    #[arg(long, value_name = "FILE")]
+    mcap: Option<PathBuf>,
+    /// Write a page about the run: states, map, times, verdicts, sequence chart.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+}
+
+impl RecordArguments {
+    /// Writes what is wanted of `log`, in which the bodies of robots moved `time_scale` times as fast as
+    /// real; says so unless the output is for a program.
+    pub(super) fn write(
+        &self,
+        title: &str,
+        log: &[u8],
+        time_scale: f64,
+        is_json: bool,
+    ) -> Result<(), Failure> {
+        let logs = || {
+            vec![Log {
+                name: "the log of this run".to_owned(),
+                lines: Box::new(Cursor::new(log.to_vec())),
+            }]
+        };
+        let mut written = Vec::new();
+        if let Some(path) = &self.mcap {
+            let logs = Merged::new(logs()).map_err(Failure::input)?;
+            written.push(export::write_mcap(logs, path)?);
+        }
+        if let Some(path) = &self.report {
+            let page = Page {
+                title,
+                logs: &["the log of this run".to_owned()],
+                time_scale,
+            };
+            // What it says of the log is what the command says of it, too.
+            let _ = page.write(path, logs(), logs())?;
+            written.push(format!("{}: report", path.display()));
+        }
+        if !is_json {
+            written.iter().try_for_each(print)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,272 @@
+//! The page itself.
+
+use std::collections::BTreeSet;
+use std::time::{Duration, UNIX_EPOCH};
+
+use crossguard_model_check::properties::PropertyId;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::collect::Run;
+use super::{Outcome, Report, street, timeline};
+use crate::timing::{Statistic, Summary};
+
+const STYLE: &str = include_str!("style.css");
+
+/// Nothing is loaded from anywhere, and nothing runs.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
+
+/// The page of a run.
+pub(super) fn page(report: &Report, run: &Run) -> Markup {
+    let street = street::street(run);
+    let sections = [
+        ("states", "States", Some(timeline::timeline(run))),
+        (
+            "map",
+            "Map",
+            Some(street.unwrap_or_else(|| html! { p { "No robot says where it is." } })),
+        ),
+        ("times", "Times", Some(times(report, run))),
+        ("nothing", "What came to nothing", Some(counters(run))),
+        ("properties", "Properties", properties(report)),
+        ("robots", "Robots", Some(robots(run))),
+        ("sequence", "Sequence of messages", Some(sequence(run))),
+    ];
+    let sections: Vec<_> = sections
+        .into_iter()
+        .filter_map(|(id, name, it)| Some((id, name, it?)))
+        .collect();
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="generator" content=(concat!("crossguard ", env!("CARGO_PKG_VERSION")));
+                title { (report.title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { (report.title) }
+                    p.faint { (when(run)) }
+                    (verdict(report))
+                    nav aria-label="Contents" { ul {
+                        @for (id, name, _) in &sections { li { a href=(format!("#{id}")) { (name) } } }
+                    } }
+                }
+                main {
+                    @for (id, name, section) in &sections {
+                        section id=(id) aria-labelledby=(format!("{id}-title")) {
+                            h2 id=(format!("{id}-title")) { (name) }
+                            (section)
+                        }
+                    }
+                }
+                footer {
+                    p { "Made by Crossguard " (env!("CARGO_PKG_VERSION")) " of " (report.logs.join(", ")) "." }
+                }
+            }
+        }
+    }
+}
+
+fn when(run: &Run) -> String {
+    let began = UNIX_EPOCH + Duration::from_micros(run.from_us);
+    let lasted = Duration::from_micros(run.to_us.saturating_sub(run.from_us));
+    let names: Vec<_> = run.robots.iter().map(|robot| robot.name.as_str()).collect();
+    format!(
+        "{} · {:.1} s · {}",
+        humantime::format_rfc3339_seconds(began)
+            .to_string()
+            .replace('T', " ")
+            .replace('Z', " UTC"),
+        lasted.as_secs_f64(),
+        names.join(", ")
+    )
+}
+
+fn verdict(report: &Report) -> Markup {
+    let (class, word) = match report.outcome() {
+        Outcome::Valid => ("valid", "✓ Valid"),
+        Outcome::Incomplete => ("incomplete", "! Valid, and not all of it is there"),
+        Outcome::Invalid if report.finding.is_some() => ("invalid", "✗ A property was broken"),
+        Outcome::Invalid => ("invalid", "✗ Not valid"),
+    };
+    html! {
+        div.verdict.(class) role="status" {
+            strong { (word) }
+            @if let Some(finding) = report.finding { p { (finding) } }
+            @match report.verdict {
+                Ok(valid) => {
+                    (valid.steps) " steps, each one of the transition function; " (valid.sent) " messages sent; "
+                    (valid.heard) " receptions, each with its transmission; " (valid.properties.len())
+                    " properties put to the test and kept."
+                    @if valid.from_strangers > 0 { " " (valid.from_strangers) " messages came from stations whose logs are not here." }
+                    @if valid.beyond_logs > 0 { " " (valid.beyond_logs) " messages came from robots after the end of their logs." }
+                    @if valid.missing > 0 { " " (valid.missing) " records are missing by the robots' own account." }
+                    @for robot in &valid.cut_off { " The log of " (robot) " ends in the middle of a run." }
+                }
+                Err(invalid) => { (invalid) "." }
+            }
+            @if let Some(command) = report.reproduce { p { "It runs again by " code { (command) } } }
+        }
+    }
+}
+
+fn times(report: &Report, run: &Run) -> Markup {
+    let summaries = run.timing.summaries(report.time_scale);
+    if summaries.is_empty() {
+        return html! { p { "No maneuver was completed." } };
+    }
+    html! {
+        div.scroll tabindex="0" role="group" aria-label="Times of maneuvers" {
+            table {
+                thead { tr {
+                    th scope="col" { "maneuver" } th.n scope="col" { "completed" } th.n scope="col" { "T_neg [s]" }
+                    th.n scope="col" { "T_exec [s]" } th.n scope="col" { "T_TMCT [s]" }
+                    th.n scope="col" { "paper T_neg [s]" } th.n scope="col" { "paper T_exec [s]" }
+                } }
+                tbody { @for summary in &summaries { (time_row(summary)) } }
+            }
+        }
+        p.faint {
+            "T_neg: from the leader's command to its acknowledgement. T_exec: from its start at the follower to its "
+            "end, in the robots' own time" @if report.time_scale > 1.0 { ", which passes " (report.time_scale) " times as fast" }
+            ". T_TMCT = T_neg + T_exec. Mean ± standard deviation."
+        }
+    }
+}
+
+fn time_row(summary: &Summary) -> Markup {
+    let statistic =
+        |it: Statistic, digits: usize| format!("{:.digits$} ± {:.digits$}", it.mean, it.sd);
+    html! {
+        tr {
+            th scope="row" { (summary.task) }
+            td.n { (summary.trials) }
+            td.n { (statistic(summary.t_neg_s, 4)) }
+            td.n { (statistic(summary.t_exec_s, 2)) }
+            td.n { (statistic(summary.t_tmct_s, 2)) }
+            td.n { @if let Some(paper) = summary.paper.t_neg_s { (statistic(paper, 3)) } }
+            td.n { @if let Some(paper) = summary.paper.t_exec_s { (format!("{paper:.1}")) } }
+        }
+    }
+}
+
+fn counters(run: &Run) -> Markup {
+    let causes: BTreeSet<_> = run
+        .robots
+        .iter()
+        .flat_map(|robot| robot.counters.keys())
+        .collect();
+    if causes.is_empty() {
+        return html! { p { "Nothing." } };
+    }
+    html! {
+        p { "Every message and event without effect, by its cause. Most are repetitions, which is how the protocol works." }
+        div.scroll tabindex="0" role="group" aria-label="Counters" {
+            table {
+                thead { tr {
+                    th scope="col" { "cause" }
+                    @for robot in &run.robots { th.n scope="col" { (robot.name) } }
+                } }
+                tbody {
+                    @for cause in causes {
+                        tr {
+                            th scope="row" { (cause) }
+                            @for robot in &run.robots { td.n { (robot.counters.get(cause).copied().unwrap_or(0)) } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What became of each property; nothing where the logs could not be judged by them.
+fn properties(report: &Report) -> Option<Markup> {
+    let broken = report.broken();
+    let kept: &[String] = report.verdict.map_or(&[], |valid| &valid.properties);
+    if kept.is_empty() && broken.is_none() {
+        return None;
+    }
+    let rows = PropertyId::ALL.into_iter().filter_map(|id| {
+        let name = id.to_string();
+        let verdict = if broken.as_deref() == Some(&name) {
+            "✗ broken"
+        } else if kept.contains(&name) {
+            "✓ kept"
+        } else {
+            return None;
+        };
+        Some((name, verdict, id.statement()))
+    });
+    Some(html! {
+        div.scroll tabindex="0" role="group" aria-label="Properties" {
+            table {
+                thead { tr { th scope="col" { "property" } th scope="col" { "verdict" } th scope="col" { "what it says" } } }
+                tbody {
+                    @for (name, verdict, statement) in rows {
+                        tr { th scope="row" { (name) } td { (verdict) } td { (statement) } }
+                    }
+                }
+            }
+        }
+        p.faint { "Those that had nothing to say in this run are left out." }
+    })
+}
+
+fn robots(run: &Run) -> Markup {
+    html! {
+        div.scroll tabindex="0" role="group" aria-label="Robots" {
+            table {
+                thead { tr {
+                    th scope="col" { "robot" } th scope="col" { "station" } th scope="col" { "boots" } th.n scope="col" { "sent" }
+                    th.n scope="col" { "heard" } th.n scope="col" { "lost on the way" } th.n scope="col" { "records" }
+                    th scope="col" { "in the end" }
+                } }
+                tbody {
+                    @for robot in &run.robots {
+                        tr {
+                            th scope="row" { (robot.name) }
+                            td { (list(&robot.stations)) }
+                            td { (list(&robot.boots)) }
+                            td.n { (robot.sent) }
+                            td.n { (robot.heard) }
+                            td.n { (robot.lost) }
+                            td.n { (robot.records) }
+                            td {
+                                @if let Some(last) = robot.states.last() { (format!("{:?}", last.what.state)) }
+                                @if robot.has_stopped { ", stopped in order" } @else { ", cut off" }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn list(items: &[impl ToString]) -> String {
+    items
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+fn sequence(run: &Run) -> Markup {
+    run.sequence.draw("Sequence of messages", &run.steps, |chart| {
+        html! {
+            p { "Of the RAM that repeat what is known, only the first is drawn. Times are those of the robots' logs." }
+            div.scroll tabindex="0" role="group" aria-label="Sequence chart; the same is in the text below" {
+                (PreEscaped(chart.svg()))
+            }
+            details {
+                summary { "As text" }
+                pre tabindex="0" { (chart.text()) }
+            }
+        }
+    })
+}

@@ -1,0 +1,135 @@
+//! What other programs make of what the kit writes for them. `harness/judges/run` installs them and runs
+//! this.
+
+mod support;
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, BufWriter, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crossguard_harness::sim::{Fuzz, run};
+use crossguard_harness::trace::{self, Record};
+use support::{robot_file, stderr, type_to, wait_for};
+
+/// Runs a judge with something on its standard input, and shows what it says.
+fn judge(script: &str, arguments: &[&Path], input: &str) {
+    let python = std::env::var("CROSSGUARD_JUDGE_PYTHON")
+        .expect("harness/judges/run says which Python has the judges");
+    let script = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("judges")
+        .join(script);
+    let mut command = Command::new(python);
+    command
+        .arg(script)
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut child = command.spawn().expect("Python runs");
+    child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(input.as_bytes())
+        .unwrap();
+    let output = child.wait_with_output().unwrap();
+    eprintln!("{}", stderr(&output));
+    assert!(output.status.success(), "the judge does not agree");
+}
+
+/// The log of a simulated street: robots that crash and boot again, radios that lose and repeat.
+fn log_of(seed: u64, path: &Path) {
+    let fuzz = Fuzz {
+        first: seed,
+        seeds: 1,
+        robots: 6,
+        faults: None,
+        threads: 1,
+        failures_max: 1,
+    };
+    let mut file = BufWriter::new(File::create(path).unwrap());
+    let mut watch = |record: Record| trace::write(&mut file, &record).unwrap();
+    let outcome = run(&fuzz.swarm(seed), Some(&mut watch));
+    assert_eq!(outcome.finding, None);
+    file.flush().unwrap();
+}
+
+#[test]
+#[ignore = "needs what harness/judges/run installs"]
+fn an_independent_reader_finds_the_log_in_the_mcap_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for seed in 1..=8 {
+        let (log, file) = (path("log.jsonl"), path("log.mcap"));
+        log_of(seed, &log);
+        let text = |path: &Path| path.to_str().unwrap().to_owned();
+        let output = support::run(&["export", &text(&log), "--mcap", &text(&file)]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        judge("mcap_judge.py", &[&log, &file], "");
+    }
+    let log = path("demo.jsonl");
+    let port = support::two_free_ports().to_string();
+    let arguments = [
+        "demo", "--speed", "10", "--loss", "0.1", "--quiet", "--port", &port, "--log",
+    ];
+    let demo = support::crossguard(&arguments).arg(&log).output().unwrap();
+    assert!(demo.status.success(), "{}", stderr(&demo));
+    let file = path("demo.mcap");
+    let export = support::crossguard(&["export", "--mcap"])
+        .arg(&file)
+        .arg(&log)
+        .output()
+        .unwrap();
+    assert!(export.status.success(), "{}", stderr(&export));
+    judge("mcap_judge.py", &[&log, &file], "");
+}
+
+#[test]
+#[ignore = "needs what harness/judges/run installs"]
+fn prometheus_reads_the_metrics_of_a_robot_that_leads() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = support::two_free_ports();
+    let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
+    let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
+    let mut dog = support::start(&go2);
+    let mut command = support::crossguard(&["run", "--config", &ari, "--metrics", "0"]);
+    let mut robot = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(robot.stdout.take().unwrap())
+        .lines()
+        .map_while(Result::ok);
+    let address = lines.find_map(|line| {
+        let address = line.strip_prefix("Metrics are at http://")?;
+        Some(address.strip_suffix("/metrics.")?.to_owned())
+    });
+    type_to(
+        &mut robot,
+        "detect\nuntil maneuver-executing\nwait 2\nquit\n",
+    );
+    lines
+        .find(|line| line.contains("now ManeuverExecuting"))
+        .expect("it leads");
+    let mut client = TcpStream::connect(address.expect("metrics are served")).unwrap();
+    client
+        .set_read_timeout(Some(Duration::from_secs(10)))
+        .unwrap();
+    client
+        .write_all(b"GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n")
+        .unwrap();
+    let mut answer = String::new();
+    client.read_to_string(&mut answer).unwrap();
+    let (head, body) = answer.split_once("\r\n\r\n").unwrap();
+    assert!(head.starts_with("HTTP/1.1 200"), "{head}");
+    // Whoever reads the output reads it to its end.
+    for _ in lines {}
+    type_to(&mut dog, "quit\n");
+    for child in [&mut robot, &mut dog] {
+        assert!(wait_for(child, Duration::from_secs(30)).success());
+    }
+    judge("metrics_judge.py", &[], body);
+}

@@ -1,0 +1,210 @@
+//! The page about a run: what is in it, and that a browser shows it without a network.
+
+mod support;
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use crossguard_harness::sim::{Swarm, run};
+use crossguard_harness::trace::{self, Record};
+use support::{assert_refused, crossguard, stderr, stdout};
+
+/// The log of simulated robots.
+fn log_of(seed: u64, folder: &Path) -> PathBuf {
+    let path = folder.join(format!("seed-{seed}.jsonl"));
+    let mut file = BufWriter::new(File::create(&path).unwrap());
+    let mut watch = |record: Record| trace::write(&mut file, &record).unwrap();
+    let outcome = run(&Swarm::draw(seed, 5, None), Some(&mut watch));
+    assert_eq!(outcome.finding, None);
+    file.flush().unwrap();
+    path
+}
+
+fn report(logs: &[&Path], page: &Path) -> Output {
+    let mut command = crossguard(&["report", "--output"]);
+    command.arg(page).args(logs).output().unwrap()
+}
+
+#[test]
+fn the_page_tells_of_every_robot_and_loads_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let (log, page) = (log_of(3, folder.path()), folder.path().join("page.html"));
+    let output = report(&[&log], &page);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(
+        stdout(&output).ends_with("page.html: valid\n"),
+        "{}",
+        stdout(&output)
+    );
+    let page = std::fs::read_to_string(page).unwrap();
+    for section in [
+        "states",
+        "map",
+        "times",
+        "nothing",
+        "properties",
+        "robots",
+        "sequence",
+    ] {
+        assert!(
+            page.contains(&format!("<section id=\"{section}\"")),
+            "{section}"
+        );
+    }
+    let robots: Vec<_> = Swarm::draw(3, 5, None).robots;
+    assert!(robots.len() > 1);
+    for robot in robots {
+        assert!(page.contains(&format!("<div class=\"who\">{}</div>", robot.name)));
+    }
+    let addresses = page.match_indices("http").map(|(at, _)| &page[at..at + 26]);
+    let others: Vec<_> = addresses
+        .filter(|it| !it.starts_with("http://www.w3.org/2000/svg"))
+        .collect();
+    assert!(
+        others.iter().all(|it| it.starts_with("http-equiv")),
+        "{others:?}"
+    );
+    for loads in ["<script", "<link", "<img", "src=", "@import", "url("] {
+        assert!(!page.contains(loads), "{loads}");
+    }
+}
+
+#[test]
+fn a_page_is_written_of_a_log_that_is_not_valid_and_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let (log, page) = (log_of(3, folder.path()), folder.path().join("page.html"));
+    let text = std::fs::read_to_string(&log).unwrap();
+    let mut lines: Vec<_> = text.lines().collect();
+    let sent = lines
+        .iter()
+        .position(|line| line.contains(r#""entry":"sent""#))
+        .unwrap();
+    lines.remove(sent);
+    std::fs::write(&log, lines.join("\n") + "\n").unwrap();
+    let output = report(&[&log], &page);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(
+        page.contains("✗ Not valid") && page.contains("not among those it had sent"),
+        "no reason"
+    );
+    std::fs::write(&log, "nonsense\n").unwrap();
+    let nowhere = folder.path().join("nowhere.html");
+    assert_refused(&report(&[&log], &nowhere), "line 1: is not a record");
+    assert!(!nowhere.exists());
+    assert_refused(
+        &report(&[&folder.path().join("none")], &nowhere),
+        "none: No such file",
+    );
+}
+
+#[test]
+fn the_log_of_one_robot_alone_shows_those_that_it_heard() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = std::fs::read_to_string(log_of(2, folder.path())).unwrap();
+    let own = whole
+        .lines()
+        .filter(|line| line.contains(r#""robot":"R1""#));
+    let log = folder.path().join("r1.jsonl");
+    std::fs::write(&log, own.collect::<Vec<_>>().join("\n") + "\n").unwrap();
+    let svg = folder.path().join("r1.svg");
+    let output = crossguard(&["export", "--svg"])
+        .arg(&svg)
+        .arg(&log)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let svg = std::fs::read_to_string(svg).unwrap();
+    assert!(
+        svg.contains(">R1</text>") && svg.contains(">station "),
+        "no stranger"
+    );
+}
+
+/// What a browser of Debian says, with flags that keep it off any network of its own.
+fn browser(folder: &Path, arguments: &[&str], page: &Path) -> Option<Output> {
+    let mut command = Command::new("chromium");
+    command.args([
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-quic",
+        "--no-first-run",
+    ]);
+    command.args([
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+    ]);
+    command.args(["--enable-logging=stderr", "--log-level=0"]);
+    command.arg(format!(
+        "--user-data-dir={}",
+        folder.join("profile").display()
+    ));
+    command
+        .args(arguments)
+        .arg(format!("file://{}", page.display()));
+    match command.output() {
+        Ok(output) => Some(output),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
+        Err(error) => panic!("chromium: {error}"),
+    }
+}
+
+#[test]
+fn a_browser_shows_the_page_without_an_error_and_without_a_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let (log, page) = (log_of(3, folder.path()), folder.path().join("page.html"));
+    assert!(report(&[&log], &page).status.success());
+    let net_log = folder.path().join("net.json");
+    let net = format!("--log-net-log={}", net_log.display());
+    let Some(output) = browser(folder.path(), &[&net, "--dump-dom"], &page) else {
+        eprintln!("SKIPPED a_browser_shows_the_page: no chromium (Debian package chromium)");
+        return;
+    };
+    let (dom, said) = (stdout(&output), stderr(&output));
+    assert!(output.status.success(), "{said}");
+    assert!(!said.contains("CONSOLE"), "{said}");
+    for element in [
+        "<main>",
+        "class=\"timeline\"",
+        "class=\"map\"",
+        "class=\"sequence\"",
+        "<footer>",
+    ] {
+        assert!(
+            dom.contains(element),
+            "{element} is not in the page as the browser has it"
+        );
+    }
+    let net = std::fs::read_to_string(net_log).unwrap();
+    // What the browser asks its makers is not the page's.
+    let is_own = |url: &&str| {
+        let host = url.split('/').nth(2).unwrap_or_default();
+        [".google.com", ".googleapis.com", ".gvt1.com"]
+            .iter()
+            .any(|own| host.ends_with(own))
+    };
+    let requests: Vec<_> = net
+        .match_indices("\"url\":\"")
+        .map(|(at, key)| net[at + key.len()..].split('"').next().unwrap())
+        .filter(|url| url.starts_with("http") || url.starts_with("ws"))
+        .filter(|url| !is_own(url))
+        .collect();
+    assert!(requests.is_empty(), "{requests:?}");
+    for width in [1_280, 390] {
+        let picture = folder.path().join(format!("{width}.png"));
+        let (size, to) = (
+            format!("--window-size={width},900"),
+            format!("--screenshot={}", picture.display()),
+        );
+        let output = browser(folder.path(), &[&size, &to, "--hide-scrollbars"], &page).unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(
+            std::fs::metadata(picture).unwrap().len() > 10_000,
+            "an empty picture"
+        );
+    }
+}
