@@ -39,13 +39,14 @@ use crossguard_harness::trace::Log;
     after_help = "Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete."
 )]
 struct Arguments {
-    /// Tell on standard error what robots do, why they drop what they drop: -v for a little, -vv and
-    /// -vvv for more. The variable RUST_LOG says it in detail, like crossguard_harness=debug.
-    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    #[arg(short, long, action = clap::ArgAction::Count, global = true, help = VERBOSE)]
     verbose: u8,
     #[command(subcommand)]
     command: Command,
 }
+
+const VERBOSE: &str = "Tell on standard error what robots do, and why they drop what they drop: -v for a \
+    little, -vv and -vvv for more. Without it, RUST_LOG says it in detail, like crossguard_harness=debug";
 
 #[derive(Subcommand)]
 enum Command {

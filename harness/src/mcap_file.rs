@@ -268,12 +268,12 @@ impl<W: Write + Seek> Recording<W> {
         let Some((channel, count)) = self.channels.get_mut(topic) else {
             return Ok(());
         };
-        let at_ns = at_us.saturating_mul(1_000);
+        let nanoseconds = at_us.saturating_mul(1_000);
         let header = MessageHeader {
             channel_id: *channel,
             sequence: u32::try_from(*count).unwrap_or(u32::MAX),
-            log_time: at_ns,
-            publish_time: at_ns,
+            log_time: nanoseconds,
+            publish_time: nanoseconds,
         };
         *count += 1;
         let text = serde_json::to_vec(message).map_err(std::io::Error::from)?;

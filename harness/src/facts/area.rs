@@ -123,7 +123,7 @@ impl Areas {
                 let (north, east) = self.places.get(&leader)?;
                 Some((north + latitude, east + longitude))
             }
-            _ => None,
+            Target::Lane(_) => None,
         }
     }
 }

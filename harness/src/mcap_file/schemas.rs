@@ -52,6 +52,10 @@ pub(super) struct Time {
 }
 
 /// A robot's part in a session, when it has changed.
+#[expect(
+    clippy::struct_field_names,
+    reason = "it is named after what matters in it"
+)]
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct State {
     pub(super) timestamp: Time,
@@ -120,6 +124,10 @@ pub(super) struct Message {
 }
 
 /// What came to nothing so far.
+#[expect(
+    clippy::struct_field_names,
+    reason = "it is named after what matters in it"
+)]
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct Counters {
     pub(super) timestamp: Time,

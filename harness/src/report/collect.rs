@@ -244,7 +244,7 @@ impl RobotRun {
     fn place(&mut self, placed: &Placed) {
         self.places += 1;
         let place = (placed.latitude, placed.longitude);
-        if self.places % self.stride != 0 || self.way.last() == Some(&place) {
+        if !self.places.is_multiple_of(self.stride) || self.way.last() == Some(&place) {
             return;
         }
         self.way.push(place);

@@ -144,14 +144,11 @@ fn length(way: &[(f64, f64)]) -> f64 {
 fn grid(view: &View, step_m: f64) -> Markup {
     let step = step_m * view.pixels_per_m;
     let lines = |until: f64| {
-        let count = (until / step).ceil().clamp(0.0, 100.0);
-        let mut at = MARGIN % step;
-        std::iter::from_fn(move || {
-            let here = at;
-            at += step;
-            (here < until).then_some(here)
-        })
-        .take(count as usize + 1)
+        let first = MARGIN % step;
+        // Never so fine that the page grows with it.
+        (0..100_u8)
+            .map(move |number| first + f64::from(number) * step)
+            .take_while(move |at| *at < until)
     };
     let across = lines(view.height).map(|y| format!("M0 {y:.1}H{WIDTH}"));
     let along = lines(WIDTH).map(|x| format!("M{x:.1} 0V{:.1}", view.height));

@@ -1,0 +1,141 @@
+//! What an endpoint holds on to over an hour of virtual time in a busy street: a crossing every minute,
+//! and three hundred vehicles that come and go.
+//!
+//! `cargo bench -p crossguard-harness --bench memory`
+
+use std::hint::black_box;
+
+use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::{Identifiers, Service};
+use crossguard_harness::application::Application;
+use crossguard_harness::body::{Body, Build};
+use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_harness::machine::Machine;
+use crossguard_harness::plan::Plan;
+use crossguard_harness::site::{Place, Site};
+use crossguard_harness::station::Station;
+use crossguard_harness::wire::Wire;
+use crossguard_protocol::{Config, Event, Robot, StationId};
+
+const ITS: &str = include_str!("../../codec/tests/golden/its.txt");
+
+/// How many vehicles are heard at a time, and how many different ones in an hour.
+const VEHICLES: u32 = 300;
+const VEHICLES_IN_ALL: u32 = 18_000;
+
+const TICK_MS: u64 = 10;
+const MINUTE_MS: u64 = 60_000;
+
+fn machine(station: u32, plan: Option<Plan>) -> Machine {
+    let robot = Robot::new(StationId(station), 1);
+    let endpoint = Endpoint::new(robot, Config::default(), Wire::default(), 0);
+    let place = Place::new(f64::from(station), 0.0);
+    let body = Body::new(Build::Quadruped, Site::default(), place, 3.0, 1);
+    Machine::new(endpoint, Application::new(body, plan))
+}
+
+/// A CAM, to be given a station id of its own.
+fn cam() -> Vec<u8> {
+    let vector = ITS.lines().find_map(|line| line.strip_prefix("C2: "));
+    hex::decode(vector.expect("a vector")).expect("hexadecimal digits")
+}
+
+fn packet_of(vehicle: u32, cam: &mut [u8]) -> Vec<u8> {
+    let station = 10_000 + vehicle;
+    cam[2..6].copy_from_slice(&station.to_be_bytes());
+    Station::new(&Identifiers::default(), StationId(station))
+        .send(&EgoPosition::default(), Service::Cam, cam)
+        .expect("it fits")
+}
+
+struct Street {
+    robots: [Machine; 2],
+    cam: Vec<u8>,
+    now_ms: u64,
+    handled: u64,
+}
+
+impl Street {
+    fn turn(&mut self, robot: usize, stimulus: Stimulus<'_>) -> Vec<Vec<u8>> {
+        let moment = Moment {
+            now_ms: self.now_ms,
+            timestamp_its: 694_694_401_000 + self.now_ms,
+        };
+        #[expect(clippy::cast_precision_loss, reason = "an hour of milliseconds fits")]
+        let now_s = self.now_ms as f64 / 1e3;
+        self.handled += 1;
+        let effects = self.robots[robot].handle(moment, now_s, stimulus);
+        let packets = effects.into_iter().filter_map(|effect| match effect {
+            Effect::Transmit { packet, .. } => Some(packet),
+            _ => None,
+        });
+        packets.collect()
+    }
+
+    fn minute(&mut self) {
+        let detected = Event::PedestrianDetected(Plan::crossing(Site::default()).request());
+        let mut on_air = vec![(1, self.turn(0, Stimulus::Event(detected)))];
+        let end_ms = self.now_ms + MINUTE_MS;
+        while self.now_ms < end_ms {
+            self.now_ms += TICK_MS;
+            for robot in 0..2 {
+                let sent = self.turn(robot, Stimulus::Time);
+                on_air.push((1 - robot, sent));
+            }
+            while let Some((to, packets)) = on_air.pop() {
+                for packet in packets {
+                    let answers = self.turn(to, Stimulus::Datagram(&packet));
+                    on_air.push((1 - to, answers));
+                }
+            }
+            // Each vehicle is heard once a second, and after a minute another one comes in its place.
+            for number in 0..VEHICLES / 100 {
+                let tick = u32::try_from(self.now_ms / TICK_MS).unwrap_or(0);
+                let place = (tick * 3 + number) % VEHICLES;
+                let minute = u32::try_from(self.now_ms / MINUTE_MS).unwrap_or(0);
+                let vehicle = (place + minute * VEHICLES) % VEHICLES_IN_ALL;
+                let packet = packet_of(vehicle, &mut self.cam);
+                let _ = self.turn(0, Stimulus::Datagram(&packet));
+            }
+        }
+    }
+}
+
+fn main() {
+    println!(
+        "| after [min] | held by both endpoints [KiB] | most at a time in these minutes [KiB] | known road users |"
+    );
+    println!("|--:|--:|--:|--:|");
+    let mut street = None;
+    let mut held: i64 = 0;
+    for minutes in [1, 9, 10, 10, 10, 10, 10] {
+        let before = held;
+        let info = allocation_counter::measure(|| {
+            let street = street.get_or_insert_with(|| Street {
+                robots: [
+                    machine(1, Some(Plan::crossing(Site::default()))),
+                    machine(2, None),
+                ],
+                cam: cam(),
+                now_ms: 0,
+                handled: 0,
+            });
+            for _ in 0..minutes {
+                street.minute();
+            }
+        });
+        held += info.bytes_current;
+        let street = street.as_ref().expect("it runs");
+        let kib = |bytes: i64| bytes / 1_024;
+        let most = before + i64::try_from(info.bytes_max).unwrap_or(i64::MAX);
+        println!(
+            "| {} | {} | {} | {} |",
+            street.now_ms / MINUTE_MS,
+            kib(held),
+            kib(most),
+            street.robots[0].endpoint().station().map().iter().count()
+        );
+    }
+    let street = black_box(street).expect("it ran");
+    println!("\n{} inputs were handled.", street.handled);
+}
