@@ -1,7 +1,7 @@
 """What other encoders make of the messages of this kit.
 
 Reads lines `TYPE HEX`. Each is decoded and encoded again by asn1tools from the kit's own modules, a CAM
-also by pycrate from the modules of release 1 that it brings along; what differs is an error. Then parts
+or DENM also by pycrate from the modules of release 1 that it brings along; what differs is an error. Then parts
 of the decoded messages are exchanged, and the encodings of the results are printed in the same form,
 for the kit to decode. RAM and RMCM also go through the C codec that asn1c makes of the modules, if
 $CROSSGUARD_JUDGE_C names the folder with its converters. All of them run in processes of their own; no
@@ -20,9 +20,11 @@ import tempfile
 
 import asn1tools
 from pycrate_asn1dir.ITS_CAM_2 import CAM_PDU_Descriptions
+from pycrate_asn1dir.ITS_DENM_3 import DENM_PDU_Descriptions
 
 ASN1 = pathlib.Path(__file__).parent.parent / "asn1"
-MODULES = ["CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211"]
+MODULES = ["CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211", "DENM"]
+RELEASE_1 = {"CAM": CAM_PDU_Descriptions.CAM, "DENM": DENM_PDU_Descriptions.DENM}
 
 
 def without_defaults(value):
@@ -96,12 +98,12 @@ def main():
         values.setdefault(kind, []).append(value)
         if kind in robots:
             robots[kind].append(octets)
-        if kind == "CAM":
-            cam = CAM_PDU_Descriptions.CAM
-            cam.from_uper(octets)
-            cam.set_val(cam.get_val())
-            if cam.to_uper() != octets:
-                sys.exit(f"pycrate disagrees on {kind} {digits}: {cam.to_uper().hex()}")
+        if kind in RELEASE_1:
+            pdu = RELEASE_1[kind]
+            pdu.from_uper(octets)
+            pdu.set_val(pdu.get_val())
+            if pdu.to_uper() != octets:
+                sys.exit(f"pycrate disagrees on {kind} {digits}: {pdu.to_uper().hex()}")
             counts[kind, "pycrate"] = counts.get((kind, "pycrate"), 0) + 1
     for kind, messages in robots.items():
         judge_by_c(kind, messages, counts)

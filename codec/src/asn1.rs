@@ -25,6 +25,6 @@ mod view;
 pub use crate::uper::{Decoded, decode, encode};
 pub use generated::{
     crossguard_cam as cam, crossguard_cdd as cdd, crossguard_cdd211 as cdd211,
-    crossguard_common as common, crossguard_cpm as cpm, crossguard_ram as ram,
-    crossguard_rmcm as rmcm, crossguard_vam as vam,
+    crossguard_common as common, crossguard_cpm as cpm, crossguard_denm as denm,
+    crossguard_ram as ram, crossguard_rmcm as rmcm, crossguard_vam as vam,
 };

@@ -1,8 +1,9 @@
-//! The messages of other stations: CAM, VAM and CPM, in the versions that are on the road.
+//! The messages of other stations: CAM, DENM, VAM and CPM, in the versions that are on the road.
 //!
 //! | message | standard | dictionary (TS 102 894-2) |
 //! |---|---|---|
 //! | [`CAM`] | TS 103 900 v2.3.1; EN 302 637-2 v1.4.1 has the same bits | v2.4.1 |
+//! | [`DENM`] | TS 103 831 v2.3.1; EN 302 637-3 v1.3.1 has the same bits | v2.4.1 |
 //! | [`VAM`] | TS 103 300-3 v2.3.1 | v2.4.1 |
 //! | [`VAM211`] | TS 103 300-3 v2.2.1 | v2.1.1 |
 //! | [`CPM`] | TS 103 324 v2.1.1 | v2.4.1 or v2.1.1 |
@@ -11,15 +12,21 @@
 //! the stations on the channel use. As with RAM and RMCM exactly the canonical encodings are accepted,
 //! unknown extension additions are skipped and counted, and everything else is an error with its
 //! field. Sizes and values behind an extension marker are refused, so that what a message takes is
-//! bounded. The extension containers of a CAM are kept as octets.
+//! bounded. The extension containers of a CAM (two-wheelers, paths, lanes and the like, which release 2
+//! adds) are kept as the octets that they are on the wire, and not looked into. What release 2 adds to
+//! a DENM behind its extension markers is skipped and counted like any unknown addition. Causes of
+//! events are those of release 2, 0 to 128; release 1 has assigned no other.
 
+mod cause;
 mod cpm;
+mod event;
 mod road_user;
 
 use serde::{Deserialize, Serialize};
 
 use crate::asn1::cam::CAM;
 use crate::asn1::cdd211::VAM211;
+use crate::asn1::denm::DENM;
 use crate::asn1::vam::VAM;
 use crate::core::Fault;
 use crate::core::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B, StationId};
@@ -32,11 +39,15 @@ use crate::message::{Pdu, Received, decode, encode, header_of};
 use crate::size::MESSAGE_LEN_MAX;
 use crate::{asn1, rules, uper};
 
+pub use cause::Cause;
 pub use cpm::{CPM, CpmContainer};
+pub use event::Event;
 pub use road_user::{Identity, Kind, RoadUser};
 
 /// `protocolVersion` and `messageId` of CAM.
 const CAM_HEADER: (u8, u8) = (2, 2);
+/// Those of DENM.
+const DENM_HEADER: (u8, u8) = (2, 1);
 /// Those of CPM.
 const CPM_HEADER: (u8, u8) = (2, 14);
 /// Those of VAM.
@@ -53,6 +64,8 @@ pub enum ItsMessage {
     Rmcm(Box<RMCM>),
     /// Cooperative awareness.
     Cam(Box<CAM>),
+    /// Notification of an event on the road.
+    Denm(Box<DENM>),
     /// Awareness of a vulnerable road user.
     Vam(Box<VAM>),
     /// The same on the dictionary v2.1.1.
@@ -81,12 +94,13 @@ impl ItsMessage {
             (id, _) if id == identifiers.ram.message_id => of(identifiers, octets, Self::Ram),
             (id, _) if id == identifiers.rmcm.message_id => of(identifiers, octets, Self::Rmcm),
             (id, _) if id == CAM_HEADER.1 => of(identifiers, octets, Self::Cam),
+            (id, _) if id == DENM_HEADER.1 => of(identifiers, octets, Self::Denm),
             (id, _) if id == CPM_HEADER.1 => of(identifiers, octets, Self::Cpm),
             (id, Dictionary::V2_4_1) if id == VAM_HEADER.1 => of(identifiers, octets, Self::Vam),
             (id, Dictionary::V2_1_1) if id == VAM_HEADER.1 => of(identifiers, octets, Self::Vam211),
             _ => Err(DecodeError::MessageId {
                 found,
-                expected: "RAM, RMCM, CAM, VAM or CPM",
+                expected: "RAM, RMCM, CAM, DENM, VAM or CPM",
             }),
         }
     }
@@ -100,6 +114,7 @@ impl ItsMessage {
             Self::Ram(ram) => encode(identifiers, &**ram),
             Self::Rmcm(rmcm) => encode(identifiers, &**rmcm),
             Self::Cam(cam) => encode(identifiers, &**cam),
+            Self::Denm(denm) => encode(identifiers, &**denm),
             Self::Vam(vam) => encode(identifiers, &**vam),
             Self::Vam211(vam) => encode(identifiers, &**vam),
             Self::Cpm(cpm) => encode(identifiers, &**cpm),
@@ -113,6 +128,7 @@ impl ItsMessage {
             Self::Ram(ram) => ram.header(),
             Self::Rmcm(rmcm) => rmcm.header(),
             Self::Cam(cam) => cam.header(),
+            Self::Denm(denm) => denm.header(),
             Self::Vam(vam) => vam.header(),
             Self::Vam211(vam) => vam.header(),
             Self::Cpm(cpm) => cpm.header(),
@@ -130,6 +146,9 @@ impl ItsMessage {
             }
             Self::Cam(_) => {
                 "EN 302 637-2 v1.4.1 and TS 103 900 v2.3.1, which have the same bits here"
+            }
+            Self::Denm(_) => {
+                "EN 302 637-3 v1.3.1 and TS 103 831 v2.3.1, which have the same bits here"
             }
             Self::Vam(_) => "TS 103 300-3 v2.3.1 on TS 102 894-2 v2.4.1",
             Self::Vam211(_) => "TS 103 300-3 v2.2.1 on TS 102 894-2 v2.1.1",
@@ -178,16 +197,16 @@ fn receivable<T: rasn::Encode + rasn::Decode>(value: &T) -> Result<Vec<u8>, Enco
 
 /// The codec of messages that are one rasn type.
 macro_rules! by_rasn {
-    ($message:ident, $name:literal, $header:expr, $check:expr) => {
+    ($message:ident, $name:literal, $header:expr $(, $check:expr)?) => {
         impl Sealed for $message {
             fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
-                $check(self)?;
+                $($check(self)?;)?
                 put(&receivable(self)?, buffer)
             }
 
             fn read(_: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
                 let uper::Decoded { value, extended } = uper::decode::<Self>(octets)?;
-                $check(&value)?;
+                $($check(&value)?;)?
                 let message = value;
                 Ok(Received { message, extended })
             }
@@ -207,5 +226,6 @@ macro_rules! by_rasn {
 }
 
 by_rasn!(CAM, "CAM", CAM_HEADER, rules::check_cam);
+by_rasn!(DENM, "DENM", DENM_HEADER);
 by_rasn!(VAM, "VAM", VAM_HEADER, rules::check_vam);
 by_rasn!(VAM211, "VAM", VAM_HEADER, rules::check_vam211);

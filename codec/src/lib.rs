@@ -18,7 +18,7 @@
 //!   an error that names the field. [`encode_into`] writes to a buffer of the caller's.
 //! - [`asn1`] has the types that rasn makes of the modules: the reference that the core is compared
 //!   with, the JSON view of the core's messages, and what the core does not have.
-//! - [`its`] has the messages of other stations: CAM, VAM and CPM.
+//! - [`its`] has the messages of other stations: CAM, DENM, VAM and CPM.
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
 //!   map to and from the protocol's view; [`view`] has its laws.

@@ -1,5 +1,6 @@
 //! Limits of CAM, VAM and CPM that their encoding does not show, for senders and receivers alike.
-//! Those of RAM and RMCM are in the types of the [core](crate::core).
+//! Those of RAM and RMCM are in the types of the [core](crate::core); the encoding of a DENM shows all of
+//! its own.
 //!
 //! - Sizes and values behind an extension marker are not used: a list of the common data dictionary
 //!   has no more items than its root allows, so a message has a largest size. The decoder refuses

@@ -9,8 +9,8 @@ use std::{env, fs};
 use rasn_compiler::prelude::*;
 
 /// In the order of their imports.
-const MODULES: [&str; 8] = [
-    "CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211",
+const MODULES: [&str; 9] = [
+    "CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211", "DENM",
 ];
 
 /// Set to write the generated file instead of comparing it.
@@ -81,6 +81,8 @@ fn with_serde_view(item: &str) -> String {
         ("BitString)", "bits"),
         ("Integer)", "integer"),
         ("OctetString)", "octets"),
+        ("Ia5String)", "ia5"),
+        ("NumericString)", "numeric"),
     ];
     for (inner, view) in views {
         if let Some((start, end)) = item.split_once(&format!("(pub {inner}")) {

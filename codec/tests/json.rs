@@ -5,6 +5,7 @@ mod support;
 use std::fmt::Debug;
 
 use crossguard_codec::asn1;
+use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::vam::VAM;
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{Identifiers, Message, RobotState, TaskParameters};
@@ -94,6 +95,7 @@ proptest! {
         keeps(&rmcm);
         keeps(&rmcm.to_message().unwrap());
         keeps(&arbitrary::message::<VAM>(&identifiers, seed));
+        keeps(&arbitrary::message::<DENM>(&identifiers, seed));
     }
 
     #[test]

@@ -8,13 +8,14 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::rmcm;
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{Dictionary, Identifiers, encode};
 use support::reference::Reference;
 use support::{arbitrary, from_hex, to_hex};
 
-/// How many RAM, and how many RMCM.
+/// How many RAM, how many RMCM, and of how many DENM those that fit.
 const MESSAGES: u64 = 2_000;
 
 fn on(dictionary: Dictionary) -> Identifiers {
@@ -40,6 +41,15 @@ fn of_robots() -> Vec<(&'static str, Vec<u8>)> {
         .collect()
 }
 
+/// Any DENM that fits into a packet.
+fn of_events() -> Vec<(&'static str, Vec<u8>)> {
+    let identifiers = Identifiers::default();
+    let messages = (0..MESSAGES).map(|seed| arbitrary::message::<DENM>(&identifiers, seed));
+    messages
+        .filter_map(|denm| Some(("DENM", encode(&identifiers, &denm).ok()?)))
+        .collect()
+}
+
 /// The golden vectors of other stations, and whatever they become by a flipped bit that is still a
 /// message without additions.
 fn of_others() -> Vec<(&'static str, Vec<u8>)> {
@@ -54,6 +64,7 @@ fn of_others() -> Vec<(&'static str, Vec<u8>)> {
             // C4 is of release 2, which pycrate does not know.
             b"C4" => continue,
             [b'C', _] => ("CAM", Dictionary::V2_4_1),
+            [b'D', _] => ("DENM", Dictionary::V2_4_1),
             [b'P', _] => ("CPM", Dictionary::V2_4_1),
             [b'V', ..] => ("VAM", Dictionary::V2_4_1),
             [b'W', _] => ("VAM211", Dictionary::V2_1_1),
@@ -85,7 +96,7 @@ fn asn1tools_and_pycrate_agree_byte_for_byte() {
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
-    let messages = [of_robots(), of_others()].concat();
+    let messages = [of_robots(), of_events(), of_others()].concat();
     let mut input = judge.stdin.take().unwrap();
     for (kind, octets) in &messages {
         writeln!(input, "{kind} {}", to_hex(octets)).unwrap();

@@ -4,6 +4,7 @@ mod support;
 
 use std::collections::BTreeSet;
 
+use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::ram::RAM;
 use crossguard_codec::asn1::rmcm::RMCM;
 use crossguard_codec::asn1::vam::VAM;
@@ -48,6 +49,13 @@ fn vams() -> Vec<Vec<u8>> {
     lines
         .map(|line| from_hex(line.split_once(": ").unwrap().1))
         .collect()
+}
+
+fn denms() -> Vec<Vec<u8>> {
+    let lines = include_str!("golden/its.txt")
+        .lines()
+        .filter_map(|line| line.strip_prefix("D1: "));
+    lines.map(from_hex).collect()
 }
 
 fn flip(octets: &[u8], bit: usize) -> Vec<u8> {
@@ -112,6 +120,7 @@ fn a_message_that_ends_too_early_is_refused_as_truncated() {
     truncations_are_refused::<RAM>(&rams());
     truncations_are_refused::<RMCM>(&rmcms());
     truncations_are_refused::<VAM>(&vams());
+    truncations_are_refused::<DENM>(&denms());
 }
 
 #[test]
@@ -129,6 +138,11 @@ fn a_flipped_bit_leaves_a_canonical_encoding_or_none_at_all() {
     for octets in vams() {
         for bit in 0..octets.len() * 8 {
             let _ = decode_checked::<VAM>(&flip(&octets, bit));
+        }
+    }
+    for octets in denms() {
+        for bit in 0..octets.len() * 8 {
+            let _ = decode_checked::<DENM>(&flip(&octets, bit));
         }
     }
 }
@@ -338,7 +352,8 @@ proptest! {
         let _ = decode_checked::<RAM>(&octets);
         let _ = decode_checked::<RAM>(&with_header::<RAM>(octets.clone()));
         let _ = decode_checked::<RMCM>(&with_header::<RMCM>(octets.clone()));
-        let _ = decode_checked::<VAM>(&with_header::<VAM>(octets));
+        let _ = decode_checked::<VAM>(&with_header::<VAM>(octets.clone()));
+        let _ = decode_checked::<DENM>(&with_header::<DENM>(octets));
     }
 
     #[test]
@@ -357,6 +372,21 @@ proptest! {
         let octets = encode(&identifiers, &rmcm).unwrap();
         prop_assert_eq!(decode_checked::<RMCM>(&octets).unwrap(), rmcm);
         let _ = decode_checked::<RMCM>(&mutate(octets, &flips, length));
+    }
+
+    #[test]
+    fn arbitrary_denms_survive_and_their_mutations_are_no_trouble(
+        seed: u64,
+        flips in prop::collection::vec(any::<prop::sample::Index>(), 1..4),
+        length in 0_usize..6,
+    ) {
+        let identifiers = identifiers();
+        let denm: DENM = arbitrary::message(&identifiers, seed);
+        // A DENM may be longer than a packet.
+        if let Ok(octets) = encode(&identifiers, &denm) {
+            prop_assert_eq!(decode_checked::<DENM>(&octets).unwrap(), denm);
+            let _ = decode_checked::<DENM>(&mutate(octets, &flips, length));
+        }
     }
 
     #[test]

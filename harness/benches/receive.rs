@@ -54,6 +54,7 @@ fn receive(c: &mut Criterion) {
     for (name, packet) in [
         ("RAM", ram()),
         ("CAM", golden(Service::Cam, ITS, "C2")),
+        ("DENM", golden(Service::Denm, ITS, "D1")),
         ("VAM", golden(Service::Vam, VAM, "V11")),
         ("CPM", golden(Service::Cpm, ITS, "P2")),
         ("garbage", vec![0xA5; 200]),

@@ -334,17 +334,17 @@ impl Endpoint {
                     Err(unheard) => ((&unheard).into(), unheard.to_string()),
                 }
             }
-            Service::Cam | Service::Vam | Service::Cpm => {
+            Service::Cam | Service::Denm | Service::Vam | Service::Cpm => {
                 let (ego, now_ms) = (turn.ego(), turn.moment.now_ms);
                 match self.station.observe(service, octets, &ego, now_ms) {
-                    Ok(_) => return,
+                    // An event is nobody for the map, and changes nothing that the robot does.
+                    Ok(message) => match message.event() {
+                        Some(event) => (Cause::NoUse(service), event.to_string()),
+                        None => return,
+                    },
                     Err(unobserved) => ((&unobserved).into(), unobserved.to_string()),
                 }
             }
-            Service::Denm => (
-                Cause::NoUse(service),
-                "the robot does not take it in".to_owned(),
-            ),
         };
         self.drop(turn, dropped.0, dropped.1, packet.to_vec());
     }

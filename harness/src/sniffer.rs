@@ -4,7 +4,7 @@
 
 use crossguard_codec::geonet::{BasicHeader, LongPositionVector};
 use crossguard_codec::geonet::{Headers, NextHeader, Transport};
-use crossguard_codec::its::{Identity, ItsMessage, Kind, RoadUser};
+use crossguard_codec::its::{Event, Identity, ItsMessage, Kind, RoadUser};
 use crossguard_codec::{Identifiers, Service};
 use serde::Serialize;
 
@@ -33,6 +33,9 @@ pub struct Seen {
     /// Who is on the road, as the message tells.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub road_users: Vec<RoadUser>,
+    /// What happened on the road, as a DENM tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub event: Option<Event>,
 }
 
 /// Listens in, and remembers who is around.
@@ -83,6 +86,7 @@ impl Sniffer {
             is_signed,
             text: String::new(),
             road_users: Vec::new(),
+            event: None,
         };
         if let Err((cause, text)) = self.read(packet, now_ms, now_its, &mut seen) {
             self.counters.count(cause);
@@ -116,6 +120,7 @@ impl Sniffer {
         }
         seen.station = Some(message.header().station_id.0);
         seen.road_users = message.road_users(now_its);
+        seen.event = message.event();
         for user in &seen.road_users {
             self.map.observe(*user, now_ms);
         }
@@ -148,6 +153,7 @@ impl Sniffer {
                 // The people around a robot.
                 parts.extend(users.iter().skip(1).map(cluster));
             }
+            ItsMessage::Denm(denm) => parts.push(Event::from(&**denm).to_string()),
             ItsMessage::Cpm(_) => {
                 parts.push(format!("{} objects", users.len()));
                 parts.push(place_of_packet(&headers.source));

@@ -378,8 +378,15 @@ fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() 
     for (file, name, kind, standard) in [
         ("its.txt", "C4", "cam", "TS 103 900 v2.3.1"),
         ("its.txt", "P2", "cpm", "TS 103 324 v2.1.1"),
+        (
+            "its.txt",
+            "D1",
+            "denm",
+            "EN 302 637-3 v1.3.1 and TS 103 831",
+        ),
         ("vam.txt", "V11", "vam", "TS 103 300-3 v2.3.1"),
         ("packets.txt", "G1", "cam", "EN 302 637-2 v1.4.1"),
+        ("packets.txt", "G2", "denm", "EN 302 637-3 v1.3.1"),
     ] {
         let digits = golden(file, name);
         let decoded = run(&["codec", "decode", "--hex", &digits]);
@@ -387,7 +394,8 @@ fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() 
         let value = json(&decoded);
         assert!(value["message"][kind].is_object(), "{value}");
         assert!(value["standard"].as_str().unwrap().starts_with(standard));
-        assert_eq!(value["packet"].is_object(), name == "G1");
+        assert_eq!(value["packet"].is_object(), name.starts_with('G'));
+        assert_eq!(value["event"].is_object(), kind == "denm");
         let encoded = run_with(&["codec", "encode"], &decoded.stdout);
         assert_eq!(stdout(&encoded).trim(), digits, "{}", stderr(&encoded));
     }
@@ -416,8 +424,8 @@ fn what_is_no_message_is_refused_with_the_field_or_the_cause() {
         "protocolVersion 9 of RMCM is unknown, 1 is known",
     );
     refused(
-        "0201000000050000",
-        "messageId 1 is not that of RAM, RMCM, CAM, VAM or CPM",
+        "0209000000050000",
+        "messageId 9 is not that of RAM, RMCM, CAM, DENM, VAM or CPM",
     );
     refused("0202000000050000", "the message ends within it");
     refused("11001a01", "the packet ends within CommonNextHeader");

@@ -37,7 +37,8 @@ fn packet(n: u32) -> Vec<u8> {
             .unwrap()
     };
     match n % 5 {
-        0 | 1 => send(Service::Cam, &message(ITS, "C2", station)),
+        0 => send(Service::Cam, &message(ITS, "C2", station)),
+        1 => send(Service::Denm, &message(ITS, "D1", station)),
         2 => send(Service::Vam, &message(VAM, "V11", station)),
         3 => send(Service::Cpm, &message(ITS, "P2", station)),
         // Garbage: a CAM that says to be a RAM, and is cut off.

@@ -55,6 +55,9 @@ fn hostile_datagrams() -> Vec<Vec<u8>> {
     cut_short.truncate(50);
     let mut secured = a_ram(&good);
     secured[0] = 0x12;
+    let mut golden = include_str!("../../codec/tests/golden/its.txt").lines();
+    let denm = golden.find_map(|line| line.strip_prefix("D1: "));
+    let denm = hex::decode(denm.unwrap()).unwrap();
     vec![
         Vec::new(),
         vec![1],
@@ -63,6 +66,7 @@ fn hostile_datagrams() -> Vec<Vec<u8>> {
         vec![0x11; 1_900],
         cut_short,
         secured,
+        packet(Service::Denm, &denm),
         packet(Service::Denm, &good),
         packet(Service::Rmcm, &good),
         a_ram(&[1]),

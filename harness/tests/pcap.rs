@@ -7,6 +7,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crossguard_codec::Identifiers;
+use crossguard_harness::sniffer::Sniffer;
 use serde_json::Value;
 use support::*;
 
@@ -120,6 +122,22 @@ fn wireshark_understands(path: &Path, packets: usize) {
         "_ws.malformed || _ws.lua.error",
     ];
     assert_eq!(tshark(&malformed).unwrap(), "");
+}
+
+#[test]
+fn a_denm_is_a_line_that_names_its_cause_and_place() {
+    let mut golden = include_str!("../../codec/tests/golden/packets.txt").lines();
+    let packet = golden.find_map(|line| line.strip_prefix("G2: "));
+    let packet = hex::decode(packet.unwrap()).unwrap();
+    let seen = Sniffer::new(Identifiers::default()).see(&packet, 5_000, 694_694_401_000);
+    assert_eq!(
+        seen.to_string(),
+        "    0.000  DENM  123456789   111 B  collisionRisk (vulnerableRoadUser), \
+         48.765432 9.123457, event 1 of station 123456789, for 600 s, geo-broadcast"
+    );
+    let json = serde_json::to_value(&seen).unwrap();
+    assert_eq!(json["event"]["cause"]["name"], "collisionRisk");
+    assert_eq!(json["event"]["number"], 1);
 }
 
 #[test]

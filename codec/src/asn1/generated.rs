@@ -224,21 +224,22 @@ pub mod crossguard_cam {
             }
         }
     }
-    /// What happened: cause and sub cause. CDD CauseCode, and CauseCodeV2 up to cause 128.
+    /// What happened: cause and sub cause. CDD CauseCodeV2, which has the bits of release 1 but for the
+    /// causes from 129 on, which nothing has assigned.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
     #[rasn(automatic_tags)]
     #[non_exhaustive]
-    pub struct CauseCode {
-        #[rasn(value("0..=255"), identifier = "causeCode")]
+    pub struct CauseCodeV2 {
+        #[rasn(value("0..=128"), identifier = "causeCode")]
         #[serde(rename = "causeCode")]
         pub cause_code: u8,
         #[rasn(value("0..=255"), identifier = "subCauseCode")]
         #[serde(rename = "subCauseCode")]
         pub sub_cause_code: u8,
     }
-    impl CauseCode {
+    impl CauseCodeV2 {
         pub fn new(cause_code: u8, sub_cause_code: u8) -> Self {
             Self {
                 cause_code,
@@ -373,7 +374,7 @@ pub mod crossguard_cam {
         pub light_bar_siren_in_use: LightBarSirenInUse,
         #[rasn(identifier = "incidentIndication")]
         #[serde(rename = "incidentIndication")]
-        pub incident_indication: Option<CauseCode>,
+        pub incident_indication: Option<CauseCodeV2>,
         #[rasn(identifier = "emergencyPriority")]
         #[serde(rename = "emergencyPriority")]
         pub emergency_priority: Option<EmergencyPriority>,
@@ -381,7 +382,7 @@ pub mod crossguard_cam {
     impl EmergencyContainer {
         pub fn new(
             light_bar_siren_in_use: LightBarSirenInUse,
-            incident_indication: Option<CauseCode>,
+            incident_indication: Option<CauseCodeV2>,
             emergency_priority: Option<EmergencyPriority>,
         ) -> Self {
             Self {
@@ -688,7 +689,7 @@ pub mod crossguard_cam {
         pub light_bar_siren_in_use: LightBarSirenInUse,
         #[rasn(identifier = "incidentIndication")]
         #[serde(rename = "incidentIndication")]
-        pub incident_indication: Option<CauseCode>,
+        pub incident_indication: Option<CauseCodeV2>,
         #[rasn(identifier = "trafficRule")]
         #[serde(rename = "trafficRule")]
         pub traffic_rule: Option<TrafficRule>,
@@ -699,7 +700,7 @@ pub mod crossguard_cam {
     impl SafetyCarContainer {
         pub fn new(
             light_bar_siren_in_use: LightBarSirenInUse,
-            incident_indication: Option<CauseCode>,
+            incident_indication: Option<CauseCodeV2>,
             traffic_rule: Option<TrafficRule>,
             speed_limit: Option<SpeedLimit>,
         ) -> Self {
@@ -4774,6 +4775,804 @@ pub mod crossguard_common {
         localFault = 3,
         notSafe = 4,
     }
+}
+#[allow(
+    non_camel_case_types,
+    non_snake_case,
+    non_upper_case_globals,
+    unused,
+    clippy::too_many_arguments
+)]
+pub mod crossguard_denm {
+    extern crate alloc;
+    use super::crossguard_cam::{
+        CauseCodeV2, ClosedLanes, DangerousGoodsBasic, LightBarSirenInUse, SpeedLimit, TrafficRule,
+    };
+    use super::crossguard_cdd::{
+        DeltaReferencePosition, DeltaTimeSecond, ItsPduHeader, LanePosition, PathDeltaTime,
+        PathHistory, Speed, StationId, TimestampIts, TrafficParticipantType, Wgs84Angle,
+    };
+    use super::crossguard_cpm::ReferencePosition;
+    use core::borrow::Borrow;
+    use rasn::prelude::*;
+    use serde::{Deserialize, Serialize};
+    use std::sync::LazyLock;
+    /// An event: the station that noticed it first, and its number there. CDD ActionId.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct ActionId {
+        #[rasn(identifier = "originatingStationId")]
+        #[serde(rename = "originatingStationId")]
+        pub originating_station_id: StationId,
+        #[rasn(identifier = "sequenceNumber")]
+        #[serde(rename = "sequenceNumber")]
+        pub sequence_number: SequenceNumber,
+    }
+    impl ActionId {
+        pub fn new(originating_station_id: StationId, sequence_number: SequenceNumber) -> Self {
+            Self {
+                originating_station_id,
+                sequence_number,
+            }
+        }
+    }
+    /// CDD ActionIdList.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=8", extensible))]
+    pub struct ActionIdList(pub SequenceOf<ActionId>);
+    /// More, for some kinds of events. TS 103 831 AlacarteContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct AlacarteContainer {
+        #[rasn(identifier = "lanePosition")]
+        #[serde(rename = "lanePosition")]
+        pub lane_position: Option<LanePosition>,
+        #[rasn(identifier = "impactReduction")]
+        #[serde(rename = "impactReduction")]
+        pub impact_reduction: Option<ImpactReductionContainer>,
+        #[rasn(identifier = "externalTemperature")]
+        #[serde(rename = "externalTemperature")]
+        pub external_temperature: Option<Temperature>,
+        #[rasn(identifier = "roadWorks")]
+        #[serde(rename = "roadWorks")]
+        pub road_works: Option<RoadWorksContainerExtended>,
+        #[rasn(identifier = "positioningSolution")]
+        #[serde(rename = "positioningSolution")]
+        pub positioning_solution: Option<PositioningSolutionType>,
+        #[rasn(identifier = "stationaryVehicle")]
+        #[serde(rename = "stationaryVehicle")]
+        pub stationary_vehicle: Option<StationaryVehicleContainer>,
+    }
+    impl AlacarteContainer {
+        pub fn new(
+            lane_position: Option<LanePosition>,
+            impact_reduction: Option<ImpactReductionContainer>,
+            external_temperature: Option<Temperature>,
+            road_works: Option<RoadWorksContainerExtended>,
+            positioning_solution: Option<PositioningSolutionType>,
+            stationary_vehicle: Option<StationaryVehicleContainer>,
+        ) -> Self {
+            Self {
+                lane_position,
+                impact_reduction,
+                external_temperature,
+                road_works,
+                positioning_solution,
+                stationary_vehicle,
+            }
+        }
+    }
+    /// The size, which PER does not see, is that of characters. Of CDD DangerousGoodsExtended.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=24"))]
+    pub struct CompanyName(pub Utf8String);
+    /// Decentralized environmental notification message: header protocolVersion 2, messageId 1. TS 103 831
+    /// DENM.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct DENM {
+        pub header: ItsPduHeader,
+        pub denm: DenmPayload,
+    }
+    impl DENM {
+        pub fn new(header: ItsPduHeader, denm: DenmPayload) -> Self {
+            Self { header, denm }
+        }
+    }
+    /// CDD DangerousGoodsExtended.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct DangerousGoodsExtended {
+        #[rasn(identifier = "dangerousGoodsType")]
+        #[serde(rename = "dangerousGoodsType")]
+        pub dangerous_goods_type: DangerousGoodsBasic,
+        #[rasn(value("0..=9999"), identifier = "unNumber")]
+        #[serde(rename = "unNumber")]
+        pub un_number: u16,
+        #[rasn(identifier = "elevatedTemperature")]
+        #[serde(rename = "elevatedTemperature")]
+        pub elevated_temperature: bool,
+        #[rasn(identifier = "tunnelsRestricted")]
+        #[serde(rename = "tunnelsRestricted")]
+        pub tunnels_restricted: bool,
+        #[rasn(identifier = "limitedQuantity")]
+        #[serde(rename = "limitedQuantity")]
+        pub limited_quantity: bool,
+        #[rasn(identifier = "emergencyActionCode")]
+        #[serde(rename = "emergencyActionCode")]
+        pub emergency_action_code: Option<EmergencyActionCode>,
+        #[rasn(identifier = "phoneNumber")]
+        #[serde(rename = "phoneNumber")]
+        pub phone_number: Option<PhoneNumber>,
+        #[rasn(identifier = "companyName")]
+        #[serde(rename = "companyName")]
+        pub company_name: Option<CompanyName>,
+    }
+    impl DangerousGoodsExtended {
+        pub fn new(
+            dangerous_goods_type: DangerousGoodsBasic,
+            un_number: u16,
+            elevated_temperature: bool,
+            tunnels_restricted: bool,
+            limited_quantity: bool,
+            emergency_action_code: Option<EmergencyActionCode>,
+            phone_number: Option<PhoneNumber>,
+            company_name: Option<CompanyName>,
+        ) -> Self {
+            Self {
+                dangerous_goods_type,
+                un_number,
+                elevated_temperature,
+                tunnels_restricted,
+                limited_quantity,
+                emergency_action_code,
+                phone_number,
+                company_name,
+            }
+        }
+    }
+    /// 1 ms. CDD DeltaTimeMilliSecondPositive.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=10000"))]
+    pub struct DeltaTimeMilliSecondPositive(pub u16);
+    /// Which event, where, and for how long; referenceTime orders what is said of it. TS 103 831
+    /// ManagementContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct DenmManagementContainer {
+        #[rasn(identifier = "actionId")]
+        #[serde(rename = "actionId")]
+        pub action_id: ActionId,
+        #[rasn(identifier = "detectionTime")]
+        #[serde(rename = "detectionTime")]
+        pub detection_time: TimestampIts,
+        #[rasn(identifier = "referenceTime")]
+        #[serde(rename = "referenceTime")]
+        pub reference_time: TimestampIts,
+        pub termination: Option<Termination>,
+        #[rasn(identifier = "eventPosition")]
+        #[serde(rename = "eventPosition")]
+        pub event_position: ReferencePosition,
+        #[rasn(identifier = "awarenessDistance")]
+        #[serde(rename = "awarenessDistance")]
+        pub awareness_distance: Option<StandardLength3b>,
+        #[rasn(identifier = "trafficDirection")]
+        #[serde(rename = "trafficDirection")]
+        pub traffic_direction: Option<TrafficDirection>,
+        #[rasn(
+            default = "denm_management_container_validity_duration_default",
+            identifier = "validityDuration"
+        )]
+        #[serde(rename = "validityDuration")]
+        pub validity_duration: DeltaTimeSecond,
+        #[rasn(identifier = "transmissionInterval")]
+        #[serde(rename = "transmissionInterval")]
+        pub transmission_interval: Option<DeltaTimeMilliSecondPositive>,
+        #[rasn(identifier = "stationType")]
+        #[serde(rename = "stationType")]
+        pub station_type: TrafficParticipantType,
+    }
+    impl DenmManagementContainer {
+        pub fn new(
+            action_id: ActionId,
+            detection_time: TimestampIts,
+            reference_time: TimestampIts,
+            termination: Option<Termination>,
+            event_position: ReferencePosition,
+            awareness_distance: Option<StandardLength3b>,
+            traffic_direction: Option<TrafficDirection>,
+            validity_duration: DeltaTimeSecond,
+            transmission_interval: Option<DeltaTimeMilliSecondPositive>,
+            station_type: TrafficParticipantType,
+        ) -> Self {
+            Self {
+                action_id,
+                detection_time,
+                reference_time,
+                termination,
+                event_position,
+                awareness_distance,
+                traffic_direction,
+                validity_duration,
+                transmission_interval,
+                station_type,
+            }
+        }
+    }
+    fn denm_management_container_validity_duration_default() -> DeltaTimeSecond {
+        DeltaTimeSecond(600)
+    }
+    /// TS 103 831 DenmPayload.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct DenmPayload {
+        pub management: DenmManagementContainer,
+        pub situation: Option<SituationContainer>,
+        pub location: Option<LocationContainer>,
+        pub alacarte: Option<AlacarteContainer>,
+    }
+    impl DenmPayload {
+        pub fn new(
+            management: DenmManagementContainer,
+            situation: Option<SituationContainer>,
+            location: Option<LocationContainer>,
+            alacarte: Option<AlacarteContainer>,
+        ) -> Self {
+            Self {
+                management,
+                situation,
+                location,
+                alacarte,
+            }
+        }
+    }
+    /// How to put out the fire. Of CDD DangerousGoodsExtended.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=24"))]
+    pub struct EmergencyActionCode(#[serde(with = "crate::asn1::view::ia5")] pub Ia5String);
+    /// What it runs on. CDD EnergyStorageType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct EnergyStorageType(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<7usize>);
+    /// CDD EventPoint.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct EventPoint {
+        #[rasn(identifier = "eventPosition")]
+        #[serde(rename = "eventPosition")]
+        pub event_position: DeltaReferencePosition,
+        #[rasn(identifier = "eventDeltaTime")]
+        #[serde(rename = "eventDeltaTime")]
+        pub event_delta_time: Option<PathDeltaTime>,
+        #[rasn(identifier = "informationQuality")]
+        #[serde(rename = "informationQuality")]
+        pub information_quality: InformationQuality,
+    }
+    impl EventPoint {
+        pub fn new(
+            event_position: DeltaReferencePosition,
+            event_delta_time: Option<PathDeltaTime>,
+            information_quality: InformationQuality,
+        ) -> Self {
+            Self {
+                event_position,
+                event_delta_time,
+                information_quality,
+            }
+        }
+    }
+    /// Where else the event was noticed. CDD EventZone.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=23"))]
+    pub struct EventZone(pub SequenceOf<EventPoint>);
+    /// 0.01 m, of a longitudinal carrier above ground. CDD HeightLonCarr.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=100"))]
+    pub struct HeightLonCarr(pub u8);
+    /// The body of a vehicle, for those that are about to hit it. TS 103 831 ImpactReductionContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct ImpactReductionContainer {
+        #[rasn(identifier = "heightLonCarrLeft")]
+        #[serde(rename = "heightLonCarrLeft")]
+        pub height_lon_carr_left: HeightLonCarr,
+        #[rasn(identifier = "heightLonCarrRight")]
+        #[serde(rename = "heightLonCarrRight")]
+        pub height_lon_carr_right: HeightLonCarr,
+        #[rasn(identifier = "posLonCarrLeft")]
+        #[serde(rename = "posLonCarrLeft")]
+        pub pos_lon_carr_left: PosLonCarr,
+        #[rasn(identifier = "posLonCarrRight")]
+        #[serde(rename = "posLonCarrRight")]
+        pub pos_lon_carr_right: PosLonCarr,
+        #[rasn(identifier = "positionOfPillars")]
+        #[serde(rename = "positionOfPillars")]
+        pub position_of_pillars: PositionOfPillars,
+        #[rasn(identifier = "posCentMass")]
+        #[serde(rename = "posCentMass")]
+        pub pos_cent_mass: PosCentMass,
+        #[rasn(identifier = "wheelBaseVehicle")]
+        #[serde(rename = "wheelBaseVehicle")]
+        pub wheel_base_vehicle: WheelBaseVehicle,
+        #[rasn(identifier = "turningRadius")]
+        #[serde(rename = "turningRadius")]
+        pub turning_radius: TurningRadius,
+        #[rasn(identifier = "posFrontAx")]
+        #[serde(rename = "posFrontAx")]
+        pub pos_front_ax: PosFrontAx,
+        #[rasn(identifier = "positionOfOccupants")]
+        #[serde(rename = "positionOfOccupants")]
+        pub position_of_occupants: PositionOfOccupants,
+        #[rasn(identifier = "vehicleMass")]
+        #[serde(rename = "vehicleMass")]
+        pub vehicle_mass: VehicleMass,
+        #[rasn(identifier = "requestResponseIndication")]
+        #[serde(rename = "requestResponseIndication")]
+        pub request_response_indication: RequestResponseIndication,
+    }
+    impl ImpactReductionContainer {
+        pub fn new(
+            height_lon_carr_left: HeightLonCarr,
+            height_lon_carr_right: HeightLonCarr,
+            pos_lon_carr_left: PosLonCarr,
+            pos_lon_carr_right: PosLonCarr,
+            position_of_pillars: PositionOfPillars,
+            pos_cent_mass: PosCentMass,
+            wheel_base_vehicle: WheelBaseVehicle,
+            turning_radius: TurningRadius,
+            pos_front_ax: PosFrontAx,
+            position_of_occupants: PositionOfOccupants,
+            vehicle_mass: VehicleMass,
+            request_response_indication: RequestResponseIndication,
+        ) -> Self {
+            Self {
+                height_lon_carr_left,
+                height_lon_carr_right,
+                pos_lon_carr_left,
+                pos_lon_carr_right,
+                position_of_pillars,
+                pos_cent_mass,
+                wheel_base_vehicle,
+                turning_radius,
+                pos_front_ax,
+                position_of_occupants,
+                vehicle_mass,
+                request_response_indication,
+            }
+        }
+    }
+    /// 0 is not known, 7 is best. CDD InformationQuality.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=7"))]
+    pub struct InformationQuality(pub u8);
+    /// The way around. CDD ItineraryPath.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=40"))]
+    pub struct ItineraryPath(pub SequenceOf<ReferencePosition>);
+    /// Where it is on the road; the traces lead to the event, the nearest point first. TS 103 831
+    /// LocationContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct LocationContainer {
+        #[rasn(identifier = "eventSpeed")]
+        #[serde(rename = "eventSpeed")]
+        pub event_speed: Option<Speed>,
+        #[rasn(identifier = "eventPositionHeading")]
+        #[serde(rename = "eventPositionHeading")]
+        pub event_position_heading: Option<Wgs84Angle>,
+        #[rasn(identifier = "detectionZonesToEventPosition")]
+        #[serde(rename = "detectionZonesToEventPosition")]
+        pub detection_zones_to_event_position: Traces,
+        #[rasn(identifier = "roadType")]
+        #[serde(rename = "roadType")]
+        pub road_type: Option<RoadType>,
+    }
+    impl LocationContainer {
+        pub fn new(
+            event_speed: Option<Speed>,
+            event_position_heading: Option<Wgs84Angle>,
+            detection_zones_to_event_position: Traces,
+            road_type: Option<RoadType>,
+        ) -> Self {
+            Self {
+                event_speed,
+                event_position_heading,
+                detection_zones_to_event_position,
+                road_type,
+            }
+        }
+    }
+    /// CDD NumberOfOccupants.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=127"))]
+    pub struct NumberOfOccupants(pub u8);
+    /// CDD PhoneNumber.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=16"))]
+    pub struct PhoneNumber(#[serde(with = "crate::asn1::view::numeric")] pub NumericString);
+    /// 0.1 m, of the centre of mass behind the front. CDD PosCentMass.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=63"))]
+    pub struct PosCentMass(pub u8);
+    /// 0.1 m, of the front axle behind the front. CDD PosFrontAx.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=20"))]
+    pub struct PosFrontAx(pub u8);
+    /// 0.01 m, of a longitudinal carrier from the middle of the front. CDD PosLonCarr.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=127"))]
+    pub struct PosLonCarr(pub u8);
+    /// 0.1 m. CDD PosPillar.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=30"))]
+    pub struct PosPillar(pub u8);
+    /// Seats that are taken. CDD PositionOfOccupants.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate)]
+    pub struct PositionOfOccupants(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<20usize>);
+    /// Of each pillar from the one before. CDD PositionOfPillars.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=3", extensible))]
+    pub struct PositionOfPillars(pub SequenceOf<PosPillar>);
+    /// What the position comes from. CDD PositioningSolutionType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    #[non_exhaustive]
+    pub enum PositioningSolutionType {
+        noPositioningSolution = 0,
+        sGNSS = 1,
+        dGNSS = 2,
+        sGNSSplusDR = 3,
+        dGNSSplusDR = 4,
+        dR = 5,
+        #[rasn(extension_addition)]
+        manuallyByOperator = 6,
+    }
+    /// CDD RequestResponseIndication.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum RequestResponseIndication {
+        request = 0,
+        response = 1,
+    }
+    /// Who may not pass. CDD RestrictedTypes.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=3", extensible))]
+    pub struct RestrictedTypes(pub SequenceOf<TrafficParticipantType>);
+    /// CDD RoadType.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum RoadType {
+        #[rasn(identifier = "urban-NoStructuralSeparationToOppositeLanes")]
+        #[serde(rename = "urban-NoStructuralSeparationToOppositeLanes")]
+        urban_NoStructuralSeparationToOppositeLanes = 0,
+        #[rasn(identifier = "urban-WithStructuralSeparationToOppositeLanes")]
+        #[serde(rename = "urban-WithStructuralSeparationToOppositeLanes")]
+        urban_WithStructuralSeparationToOppositeLanes = 1,
+        #[rasn(identifier = "nonUrban-NoStructuralSeparationToOppositeLanes")]
+        #[serde(rename = "nonUrban-NoStructuralSeparationToOppositeLanes")]
+        nonUrban_NoStructuralSeparationToOppositeLanes = 2,
+        #[rasn(identifier = "nonUrban-WithStructuralSeparationToOppositeLanes")]
+        #[serde(rename = "nonUrban-WithStructuralSeparationToOppositeLanes")]
+        nonUrban_WithStructuralSeparationToOppositeLanes = 3,
+    }
+    /// TS 103 831 RoadWorksContainerExtended.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct RoadWorksContainerExtended {
+        #[rasn(identifier = "lightBarSirenInUse")]
+        #[serde(rename = "lightBarSirenInUse")]
+        pub light_bar_siren_in_use: Option<LightBarSirenInUse>,
+        #[rasn(identifier = "closedLanes")]
+        #[serde(rename = "closedLanes")]
+        pub closed_lanes: Option<ClosedLanes>,
+        pub restriction: Option<RestrictedTypes>,
+        #[rasn(identifier = "speedLimit")]
+        #[serde(rename = "speedLimit")]
+        pub speed_limit: Option<SpeedLimit>,
+        #[rasn(identifier = "incidentIndication")]
+        #[serde(rename = "incidentIndication")]
+        pub incident_indication: Option<CauseCodeV2>,
+        #[rasn(identifier = "recommendedPath")]
+        #[serde(rename = "recommendedPath")]
+        pub recommended_path: Option<ItineraryPath>,
+        #[rasn(identifier = "startingPointSpeedLimit")]
+        #[serde(rename = "startingPointSpeedLimit")]
+        pub starting_point_speed_limit: Option<DeltaReferencePosition>,
+        #[rasn(identifier = "trafficFlowRule")]
+        #[serde(rename = "trafficFlowRule")]
+        pub traffic_flow_rule: Option<TrafficRule>,
+        #[rasn(identifier = "referenceDenms")]
+        #[serde(rename = "referenceDenms")]
+        pub reference_denms: Option<ActionIdList>,
+    }
+    impl RoadWorksContainerExtended {
+        pub fn new(
+            light_bar_siren_in_use: Option<LightBarSirenInUse>,
+            closed_lanes: Option<ClosedLanes>,
+            restriction: Option<RestrictedTypes>,
+            speed_limit: Option<SpeedLimit>,
+            incident_indication: Option<CauseCodeV2>,
+            recommended_path: Option<ItineraryPath>,
+            starting_point_speed_limit: Option<DeltaReferencePosition>,
+            traffic_flow_rule: Option<TrafficRule>,
+            reference_denms: Option<ActionIdList>,
+        ) -> Self {
+            Self {
+                light_bar_siren_in_use,
+                closed_lanes,
+                restriction,
+                speed_limit,
+                incident_indication,
+                recommended_path,
+                starting_point_speed_limit,
+                traffic_flow_rule,
+                reference_denms,
+            }
+        }
+    }
+    /// CDD SequenceNumber.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("0..=65535"))]
+    pub struct SequenceNumber(pub u16);
+    /// What happened. TS 103 831 SituationContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct SituationContainer {
+        #[rasn(identifier = "informationQuality")]
+        #[serde(rename = "informationQuality")]
+        pub information_quality: InformationQuality,
+        #[rasn(identifier = "eventType")]
+        #[serde(rename = "eventType")]
+        pub event_type: CauseCodeV2,
+        #[rasn(identifier = "linkedCause")]
+        #[serde(rename = "linkedCause")]
+        pub linked_cause: Option<CauseCodeV2>,
+        #[rasn(identifier = "eventZone")]
+        #[serde(rename = "eventZone")]
+        pub event_zone: Option<EventZone>,
+    }
+    impl SituationContainer {
+        pub fn new(
+            information_quality: InformationQuality,
+            event_type: CauseCodeV2,
+            linked_cause: Option<CauseCodeV2>,
+            event_zone: Option<EventZone>,
+        ) -> Self {
+            Self {
+                information_quality,
+                event_type,
+                linked_cause,
+                event_zone,
+            }
+        }
+    }
+    /// How far away the event matters. CDD StandardLength3b.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum StandardLength3b {
+        lessThan50m = 0,
+        lessThan100m = 1,
+        lessThan200m = 2,
+        lessThan500m = 3,
+        lessThan1000m = 4,
+        lessThan5km = 5,
+        lessThan10km = 6,
+        over10km = 7,
+    }
+    /// CDD StationarySince.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum StationarySince {
+        lessThan1Minute = 0,
+        lessThan2Minutes = 1,
+        lessThan15Minutes = 2,
+        equalOrGreater15Minutes = 3,
+    }
+    /// TS 103 831 StationaryVehicleContainer.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct StationaryVehicleContainer {
+        #[rasn(identifier = "stationarySince")]
+        #[serde(rename = "stationarySince")]
+        pub stationary_since: Option<StationarySince>,
+        #[rasn(identifier = "stationaryCause")]
+        #[serde(rename = "stationaryCause")]
+        pub stationary_cause: Option<CauseCodeV2>,
+        #[rasn(identifier = "carryingDangerousGoods")]
+        #[serde(rename = "carryingDangerousGoods")]
+        pub carrying_dangerous_goods: Option<DangerousGoodsExtended>,
+        #[rasn(identifier = "numberOfOccupants")]
+        #[serde(rename = "numberOfOccupants")]
+        pub number_of_occupants: Option<NumberOfOccupants>,
+        #[rasn(identifier = "vehicleIdentification")]
+        #[serde(rename = "vehicleIdentification")]
+        pub vehicle_identification: Option<VehicleIdentification>,
+        #[rasn(identifier = "energyStorageType")]
+        #[serde(rename = "energyStorageType")]
+        pub energy_storage_type: Option<EnergyStorageType>,
+    }
+    impl StationaryVehicleContainer {
+        pub fn new(
+            stationary_since: Option<StationarySince>,
+            stationary_cause: Option<CauseCodeV2>,
+            carrying_dangerous_goods: Option<DangerousGoodsExtended>,
+            number_of_occupants: Option<NumberOfOccupants>,
+            vehicle_identification: Option<VehicleIdentification>,
+            energy_storage_type: Option<EnergyStorageType>,
+        ) -> Self {
+            Self {
+                stationary_since,
+                stationary_cause,
+                carrying_dangerous_goods,
+                number_of_occupants,
+                vehicle_identification,
+                energy_storage_type,
+            }
+        }
+    }
+    /// 1 degree Celsius; the ends stand for what is beyond them. CDD Temperature.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("-60..=67"))]
+    pub struct Temperature(pub i8);
+    /// The originator takes the event back, or another station contradicts it. TS 103 831 Termination.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum Termination {
+        isCancellation = 0,
+        isNegation = 1,
+    }
+    /// CDD Traces.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=7"))]
+    pub struct Traces(pub SequenceOf<PathHistory>);
+    /// Whose way leads to the event. CDD TrafficDirection.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum TrafficDirection {
+        allTrafficDirections = 0,
+        #[rasn(identifier = "sameAsReferenceDirection-upstreamOfReferencePosition")]
+        #[serde(rename = "sameAsReferenceDirection-upstreamOfReferencePosition")]
+        sameAsReferenceDirection_upstreamOfReferencePosition = 1,
+        #[rasn(identifier = "sameAsReferenceDirection-downstreamOfReferencePosition")]
+        #[serde(rename = "sameAsReferenceDirection-downstreamOfReferencePosition")]
+        sameAsReferenceDirection_downstreamOfReferencePosition = 2,
+        oppositeToReferenceDirection = 3,
+    }
+    /// 0.4 m. CDD TurningRadius.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=255"))]
+    pub struct TurningRadius(pub u8);
+    /// Kind of vehicle. CDD VDS.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("6"))]
+    pub struct VDS(#[serde(with = "crate::asn1::view::ia5")] pub Ia5String);
+    /// The first two parts of a vehicle identification number. CDD VehicleIdentification.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    #[non_exhaustive]
+    pub struct VehicleIdentification {
+        #[rasn(identifier = "wMInumber")]
+        #[serde(rename = "wMInumber")]
+        pub w_minumber: Option<WMInumber>,
+        #[rasn(identifier = "vDS")]
+        #[serde(rename = "vDS")]
+        pub v_ds: Option<VDS>,
+    }
+    impl VehicleIdentification {
+        pub fn new(w_minumber: Option<WMInumber>, v_ds: Option<VDS>) -> Self {
+            Self { w_minumber, v_ds }
+        }
+    }
+    /// 0.1 t. CDD VehicleMass.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=1024"))]
+    pub struct VehicleMass(pub u16);
+    /// Manufacturer. CDD WMInumber.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, size("1..=3"))]
+    pub struct WMInumber(#[serde(with = "crate::asn1::view::ia5")] pub Ia5String);
+    /// 0.1 m. CDD WheelBaseVehicle.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=127"))]
+    pub struct WheelBaseVehicle(pub u8);
 }
 #[allow(
     non_camel_case_types,

@@ -1,5 +1,5 @@
-//! Serde views of types that rasn gives none: bit and octet strings as hexadecimal text, as in the JSON encoding
-//! rules (ITU-T X.697), and extensible integers as numbers.
+//! Serde views of types that rasn gives none: bit and octet strings as hexadecimal text, as in the JSON
+//! encoding rules (ITU-T X.697), character strings as text, and extensible integers as numbers.
 
 use std::fmt::Write as _;
 
@@ -148,4 +148,39 @@ pub(super) mod integer {
     ) -> Result<Integer, D::Error> {
         i64::deserialize(deserializer).map(Integer::from)
     }
+}
+
+/// Text of some characters only.
+macro_rules! text {
+    ($(#[$doc:meta])* $view:ident, $type:ident, $from_octets:ident, $octets:ident) => {
+        $(#[$doc])*
+        pub(super) mod $view {
+            use rasn::types::$type;
+            use serde::de::Error as _;
+            use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+            pub(in crate::asn1) fn serialize<S: Serializer>(
+                text: &$type,
+                serializer: S,
+            ) -> Result<S::Ok, S::Error> {
+                String::from_utf8_lossy(text.$octets()).serialize(serializer)
+            }
+
+            pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(
+                deserializer: D,
+            ) -> Result<$type, D::Error> {
+                let text = String::deserialize(deserializer)?;
+                $type::$from_octets(text.as_bytes()).map_err(D::Error::custom)
+            }
+        }
+    };
+}
+
+text! {
+    /// ASCII.
+    ia5, Ia5String, from_iso646_bytes, as_iso646_bytes
+}
+text! {
+    /// Digits and spaces.
+    numeric, NumericString, from_bytes, as_bytes
 }

@@ -125,6 +125,9 @@ pub enum Fault {
     /// More than 64 extension additions.
     #[error("it has more than 64 extension additions, which is not supported")]
     TooManyAdditions,
+    /// A character that the type of the string does not have, or octets that are no UTF-8.
+    #[error("it is not text of the characters of its type")]
+    Characters,
     /// Padding that is not zero.
     #[error("its padding is not zero")]
     Padding,

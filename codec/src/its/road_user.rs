@@ -95,8 +95,8 @@ fn heading_of(angle: &Wgs84AngleValue) -> Option<f64> {
 
 impl ItsMessage {
     /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
-    /// sender, unless it is a CPM or an RMCM, the people whom a RAM announces, and what a CPM perceives, at
-    /// most 255 objects.
+    /// sender, unless it is a CPM, a DENM or an RMCM, the people whom a RAM announces, and what a CPM
+    /// perceives, at most 255 objects.
     #[must_use]
     pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
         match self {
@@ -105,7 +105,7 @@ impl ItsMessage {
                 let cluster = cluster_around(ram, &robot);
                 std::iter::once(robot).chain(cluster).collect()
             }
-            Self::Rmcm(_) => Vec::new(),
+            Self::Rmcm(_) | Self::Denm(_) => Vec::new(),
             Self::Cam(cam) => vec![of_cam(cam, now)],
             Self::Vam(vam) => {
                 let parameters = &vam.vam.vam_parameters;

@@ -1,8 +1,8 @@
 //! The strict UPER decoder behind the `rasn::Decode` implementations of the generated types.
 //!
 //! It knows the part of X.691 that the modules of `asn1/*.asn` use: bounded integers, BOOLEAN, NULL,
-//! ENUMERATED, BIT STRING, OCTET STRING, SEQUENCE, SEQUENCE OF and CHOICE. Every other type is
-//! [`Fault::Unsupported`].
+//! ENUMERATED, BIT STRING, OCTET STRING, `IA5String`, `NumericString`, `UTF8String`, SEQUENCE, SEQUENCE
+//! OF and CHOICE. Every other type is [`Fault::Unsupported`].
 
 use rasn::types::constraints::{Bounded, Extensible, Size};
 use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
@@ -85,6 +85,13 @@ impl<'s, 'a> Decoder<'s, 'a> {
             }
             None => self.unsupported(),
         }
+    }
+
+    /// The characters of a string, each a number of so many bits (X.691 clause 30).
+    fn characters(&self, constraints: &Constraints, bits: u32) -> Result<Vec<u8>> {
+        let length = self.size(constraints.size())?;
+        let character = |_| self.source.bits(bits).map(|bits| bits.to_be_bytes()[7]);
+        (0..length).map(character).collect()
     }
 
     fn unsupported<T>(&self) -> Result<T> {
@@ -299,13 +306,10 @@ impl rasn::Decoder for Decoder<'_, '_> {
     unsupported! {
         decode_any() -> types::Any;
         decode_object_identifier() -> types::ObjectIdentifier;
-        decode_utf8_string(&Constraints) -> types::Utf8String;
         decode_visible_string(&Constraints) -> types::VisibleString;
         decode_general_string(&Constraints) -> types::GeneralString;
         decode_graphic_string(&Constraints) -> types::GraphicString;
-        decode_ia5_string(&Constraints) -> types::Ia5String;
         decode_printable_string(&Constraints) -> types::PrintableString;
-        decode_numeric_string(&Constraints) -> types::NumericString;
         decode_teletex_string(&Constraints) -> types::TeletexString;
         decode_bmp_string(&Constraints) -> types::BmpString;
         decode_utc_time() -> types::UtcTime;
@@ -327,6 +331,49 @@ impl rasn::Decoder for Decoder<'_, '_> {
             None => self.source.length()?,
         };
         self.source.octets(length).map(T::from)
+    }
+
+    fn decode_ia5_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::Ia5String> {
+        let start = self.source.position();
+        let characters = self.characters(constraints, 7)?;
+        types::Ia5String::from_iso646_bytes(&characters)
+            .map_err(|_| self.source.reject_at(start, Fault::Characters))
+    }
+
+    /// Eleven characters, of which each is its index in four bits.
+    fn decode_numeric_string(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<types::NumericString> {
+        let start = self.source.position();
+        let indices = self.characters(constraints, 4)?;
+        let characters = indices.into_iter();
+        let characters = characters.map(|index| b" 0123456789".get(usize::from(index)).copied());
+        let characters: Option<Vec<u8>> = characters.collect();
+        characters
+            .and_then(|characters| types::NumericString::from_bytes(&characters).ok())
+            .ok_or_else(|| self.source.reject_at(start, Fault::Characters))
+    }
+
+    /// As octets (X.691 clause 30.6); its size counts characters, and PER does not see it.
+    fn decode_utf8_string(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<types::Utf8String> {
+        let start = self.source.position();
+        let reject = |fault| self.source.reject_at(start, fault);
+        let octets = self.source.octets(self.source.length()?)?;
+        let text = String::from_utf8(octets).map_err(|_| reject(Fault::Characters))?;
+        let size = constraints.size().map(|size| &size.constraint);
+        let Some((Some(&min), Some(&max))) = size.map(|size| size.start_and_end()) else {
+            return Err(reject(Fault::Unsupported));
+        };
+        if !(min..=max).contains(&text.chars().count()) {
+            return Err(reject(Fault::Size { min, max }));
+        }
+        Ok(text)
     }
 
     fn decode_set_of<D: Decode + Eq + std::hash::Hash>(

@@ -130,6 +130,32 @@ fn the_messages_are_believed() {
     assert!(receiver.verify(GENERATED, None, &message).is_ok());
 }
 
+#[test]
+fn every_flipped_bit_and_every_truncation_is_rejected() {
+    let before = Time64(GENERATED.0 - 600_000);
+    let introduction = sender().seal(before, CAM, &octets(PAYLOAD)).unwrap();
+    for envelope in [s1(), s2(), message(S3_TAIL)] {
+        let own = Ticket::new(other_ticket(), key(ROOT_KEY)).unwrap();
+        let mut receiver =
+            Station::new(trust(), vec![own], Tolerances::default(), GENERATED).unwrap();
+        let mut hear = |octets: &[u8]| {
+            let message = SignedMessage::decode(octets)?;
+            receiver.verify(GENERATED, None, &message).map(drop)
+        };
+        // The receiver knows the sender's certificate.
+        assert_eq!(hear(&introduction), Ok(()));
+        for bit in 0..envelope.len() * 8 {
+            let mut flipped = envelope.clone();
+            flipped[bit / 8] ^= 0x80 >> (bit % 8);
+            assert!(hear(&flipped).is_err(), "bit {bit}");
+        }
+        for length in 0..envelope.len() {
+            assert!(hear(&envelope[..length]).is_err(), "{length} octets");
+        }
+        assert_eq!(hear(&envelope), Ok(()));
+    }
+}
+
 /// The ticket of a receiver.
 fn other_ticket() -> Certificate {
     let terms = Terms {

@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::ram::RAM;
 use crossguard_codec::asn1::rmcm::RMCM;
 use crossguard_codec::asn1::vam::VAM;
@@ -41,14 +42,21 @@ impl Reference for RMCM {
     }
 }
 
-impl Reference for VAM {
-    type Message = Self;
+/// Messages that the endpoint has as rasn has them.
+macro_rules! by_rasn {
+    ($($message:ty),*) => {$(
+        impl Reference for $message {
+            type Message = Self;
 
-    fn to_message(&self) -> Result<Self, EncodeError> {
-        Ok(self.clone())
-    }
+            fn to_message(&self) -> Result<Self, EncodeError> {
+                Ok(self.clone())
+            }
 
-    fn of(message: &Self) -> Self {
-        message.clone()
-    }
+            fn of(message: &Self) -> Self {
+                message.clone()
+            }
+        }
+    )*};
 }
+
+by_rasn!(DENM, VAM);

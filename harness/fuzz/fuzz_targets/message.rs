@@ -1,4 +1,5 @@
-//! RAM, RMCM, CAM, VAM and CPM on both dictionaries: what is accepted is the encoding of its value.
+//! RAM, RMCM, CAM, DENM, VAM and CPM on both dictionaries: what is accepted is the encoding of its
+//! value.
 #![no_main]
 
 use crossguard_codec::its::ItsMessage;
@@ -17,5 +18,6 @@ fuzz_target!(|octets: &[u8]| {
         let encoded = received.message.encode(&identifiers).unwrap();
         assert!(encoded == octets || received.extended > 0);
         let _ = received.message.road_users(694_694_401_000);
+        let _ = received.message.event().map(|event| event.to_string());
     }
 });

@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Read, Write};
 use std::path::PathBuf;
 
 use crossguard_codec::geonet::{BasicHeader, Headers};
-use crossguard_codec::its::ItsMessage;
+use crossguard_codec::its::{Event, ItsMessage};
 use crossguard_codec::{Dictionary, Identifiers};
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use super::{Failure, print, print_json};
 
 #[derive(clap::Subcommand)]
 pub(super) enum Command {
-    /// Print a message (RAM, RMCM, CAM, VAM, CPM) or a `GeoNetworking` packet with one as JSON.
+    /// Print a message (RAM, RMCM, CAM, DENM, VAM, CPM) or a `GeoNetworking` packet with one as JSON.
     #[command(after_help = EXAMPLES)]
     Decode {
         /// Read the message from this file; from standard input by default.
@@ -78,6 +78,9 @@ struct Decoded {
     /// The headers of the packet, if it was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     packet: Option<Headers>,
+    /// What a DENM tells, in SI units and with the names of its causes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    event: Option<Event>,
     message: ItsMessage,
 }
 
@@ -124,6 +127,7 @@ fn decode(identifiers: &Identifiers, octets: &[u8]) -> Result<(), Failure> {
         extended: received.extended,
         standard: received.message.standard(),
         packet,
+        event: received.message.event(),
         message: received.message,
     })
 }

@@ -1,0 +1,247 @@
+//! DENM: what the golden vector says, additions of release 2, what is refused, and its strings.
+
+mod support;
+
+use crossguard_codec::asn1::cam::CauseCodeV2;
+use crossguard_codec::asn1::denm::{
+    CompanyName, DENM, PhoneNumber, StationaryVehicleContainer, Termination,
+};
+use crossguard_codec::its::ItsMessage;
+use crossguard_codec::{DecodeError, EncodeError, Fault, Identifiers, Received, decode, encode};
+use rasn::types::NumericString;
+use serde_json::json;
+use support::{arbitrary, from_bits, from_hex, to_bits};
+
+/// The extension bit of the management container, behind the header and three presence bits.
+const MANAGEMENT_MARKER: usize = 48 + 3;
+/// The end of its root: extension bit, presence bits, action, two times, position, station type.
+const MANAGEMENT_END: usize = MANAGEMENT_MARKER + 1 + 5 + 48 + 42 + 42 + (31 + 32 + 36 + 24) + 8;
+/// The cause, behind extension and presence bits, quality, and the extension bit of the cause.
+const CAUSE: usize = MANAGEMENT_END + 1 + 2 + 3 + 1;
+
+fn d1() -> Vec<u8> {
+    let mut lines = include_str!("golden/its.txt").lines();
+    let hex = lines.find_map(|line| line.strip_prefix("D1: "));
+    from_hex(hex.expect("the golden DENM"))
+}
+
+fn read(octets: &[u8]) -> Result<Received<DENM>, DecodeError> {
+    decode(&Identifiers::default(), octets)
+}
+
+fn denm() -> DENM {
+    read(&d1()).unwrap().message
+}
+
+fn write(denm: &DENM) -> Result<Vec<u8>, EncodeError> {
+    encode(&Identifiers::default(), denm)
+}
+
+/// The field and fault of what is refused.
+fn refused(octets: &[u8]) -> (String, Fault) {
+    match read(octets) {
+        Err(DecodeError::Malformed { field, fault, .. }) => (field.to_string(), fault),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_denm_has_the_values_that_it_was_made_of() {
+    let denm = denm();
+    let management = &denm.denm.management;
+    assert_eq!(management.action_id.originating_station_id.0, 123_456_789);
+    assert_eq!(management.action_id.sequence_number.0, 1);
+    assert_eq!(management.detection_time.0, 694_694_401_000);
+    assert_eq!(management.reference_time.0, 694_694_401_000);
+    assert_eq!(management.event_position.latitude.0, 487_654_321);
+    assert_eq!(management.validity_duration.0, 600); // by default
+    assert_eq!(management.station_type.0, 5);
+    let situation = denm.denm.situation.as_ref().unwrap();
+    assert_eq!(situation.information_quality.0, 3);
+    assert_eq!(situation.event_type, CauseCodeV2::new(97, 4));
+    let traces = &denm.denm.location.as_ref().unwrap();
+    let traces = &traces.detection_zones_to_event_position.0;
+    assert_eq!((traces.len(), traces[0].0.len()), (1, 1));
+    let point = &traces[0].0[0].path_position;
+    assert_eq!(
+        (point.delta_latitude.0, point.delta_longitude.0),
+        (-100, 200)
+    );
+    assert!(denm.denm.alacarte.is_none());
+}
+
+#[test]
+fn an_event_is_told_to_people_by_its_names() {
+    let mut denm = denm();
+    let told = |denm: &DENM| ItsMessage::Denm(Box::new(denm.clone())).event().unwrap();
+    let event = told(&denm);
+    assert_eq!(
+        event.to_string(),
+        "collisionRisk (vulnerableRoadUser), 48.765432 9.123457, event 1 of station 123456789, \
+         for 600 s"
+    );
+    let expected = json!({
+        "code": 97, "name": "collisionRisk", "subCode": 4, "subName": "vulnerableRoadUser",
+    });
+    assert_eq!(serde_json::to_value(event).unwrap()["cause"], expected);
+    denm.denm.management.termination = Some(Termination::isCancellation);
+    denm.denm.situation = None;
+    assert_eq!(
+        told(&denm).to_string(),
+        "cancelled: 48.765432 9.123457, event 1 of station 123456789"
+    );
+}
+
+#[test]
+fn what_release_2_adds_is_skipped_and_counted() {
+    let bits = to_bits(&d1());
+    // Two groups of which the second is present, with two octets.
+    let additions = "0000001 01 00000010 10100000 00000001";
+    let extended = format!(
+        "{}1{}{additions}{}",
+        &bits[..MANAGEMENT_MARKER],
+        &bits[MANAGEMENT_MARKER + 1..MANAGEMENT_END],
+        // It ends with its last octet.
+        &bits[MANAGEMENT_END..],
+    );
+    let received = read(&from_bits(&extended)).unwrap();
+    assert_eq!((received.message, received.extended), (denm(), 1));
+}
+
+#[test]
+fn a_cause_beyond_those_of_release_2_is_refused() {
+    let bits = to_bits(&d1());
+    assert_eq!(&bits[CAUSE..CAUSE + 8], format!("{:08b}", 97));
+    let with_cause = |cause: u8| {
+        from_bits(&format!(
+            "{}{cause:08b}{}",
+            &bits[..CAUSE],
+            &bits[CAUSE + 8..]
+        ))
+    };
+    assert!(read(&with_cause(128)).is_ok());
+    let (field, fault) = refused(&with_cause(129));
+    assert_eq!(field, "denm.situation.event_type.cause_code");
+    let (number, min, max) = (129, 0, 128);
+    assert_eq!(fault, Fault::Value { number, min, max });
+}
+
+#[test]
+fn more_items_than_the_root_of_a_list_has_are_not_sent() {
+    let mut denm = (0..10_000)
+        .map(arbitrary::any::<DENM>)
+        .find(|denm| {
+            let works = denm
+                .denm
+                .alacarte
+                .as_ref()
+                .and_then(|c| c.road_works.as_ref());
+            works.is_some_and(|works| works.reference_denms.is_some())
+        })
+        .unwrap();
+    denm.header = self::denm().header;
+    denm.denm.location = None;
+    let works = denm.denm.alacarte.as_mut().unwrap().road_works.as_mut();
+    let denms = works.unwrap().reference_denms.as_mut().unwrap();
+    let one = denms.0[0].clone();
+    denms.0 = vec![one; 9];
+    let EncodeError::Malformed { field, fault } = write(&denm).unwrap_err() else {
+        panic!("another cause");
+    };
+    assert_eq!(
+        (field.to_string().as_str(), fault),
+        (
+            "denm.alacarte.road_works.reference_denms",
+            Fault::BeyondRoot
+        )
+    );
+}
+
+/// A vehicle with dangerous goods.
+fn with_goods() -> DENM {
+    let vehicle = (0..10_000)
+        .map(arbitrary::any::<StationaryVehicleContainer>)
+        .find(|vehicle| {
+            let goods = vehicle.carrying_dangerous_goods.as_ref();
+            goods.is_some_and(|goods| goods.phone_number.is_some() && goods.company_name.is_some())
+        });
+    let mut denm = (0..10_000)
+        .map(arbitrary::any::<DENM>)
+        .find(|denm| denm.denm.alacarte.is_some())
+        .unwrap();
+    denm.header = self::denm().header;
+    denm.denm.location = None;
+    let alacarte = denm.denm.alacarte.as_mut().unwrap();
+    alacarte.road_works = None;
+    alacarte.stationary_vehicle = vehicle;
+    denm
+}
+
+fn company(name: &str) -> DENM {
+    let mut denm = with_goods();
+    let vehicle = denm
+        .denm
+        .alacarte
+        .as_mut()
+        .unwrap()
+        .stationary_vehicle
+        .as_mut();
+    let goods = vehicle.unwrap().carrying_dangerous_goods.as_mut().unwrap();
+    goods.company_name = Some(CompanyName(name.to_owned()));
+    goods.phone_number = Some(PhoneNumber(
+        NumericString::from_bytes(b"0123 456789").unwrap(),
+    ));
+    denm
+}
+
+#[test]
+fn strings_come_back_and_are_text_in_json() {
+    let denm = company("Gefahrgut Söhne 🚧");
+    assert_eq!(read(&write(&denm).unwrap()).unwrap().message, denm);
+    let value = serde_json::to_value(&denm).unwrap();
+    let vehicle = &value["denm"]["alacarte"]["stationaryVehicle"];
+    let goods = &vehicle["carryingDangerousGoods"];
+    assert_eq!(goods["companyName"], "Gefahrgut Söhne 🚧");
+    assert_eq!(goods["phoneNumber"], "0123 456789");
+    let again: DENM = serde_json::from_value(value.clone()).unwrap();
+    assert_eq!(again, denm);
+    let mut wrong = value;
+    wrong["denm"]["alacarte"]["stationaryVehicle"]["carryingDangerousGoods"]["phoneNumber"] =
+        "+49".into();
+    assert!(serde_json::from_value::<DENM>(wrong).is_err());
+}
+
+#[test]
+fn a_name_has_1_to_24_characters_of_utf_8() {
+    let field = "denm.alacarte.stationary_vehicle.carrying_dangerous_goods.company_name";
+    // Characters count, not octets.
+    assert!(write(&company(&"🚧".repeat(24))).is_ok());
+    let EncodeError::Malformed {
+        field: found,
+        fault,
+    } = write(&company(&"x".repeat(25))).unwrap_err()
+    else {
+        panic!("another cause");
+    };
+    let (min, max) = (1, 24);
+    assert_eq!(
+        (found.to_string().as_str(), fault),
+        (field, Fault::Size { min, max })
+    );
+    let bits = to_bits(&write(&company("é~")).unwrap());
+    let [good, bad] = ["110000111010100101111110", "110000110010100101111110"];
+    assert_eq!(bits.matches(good).count(), 1);
+    let octets = from_bits(&bits.replace(good, bad));
+    assert_eq!(refused(&octets), (field.to_owned(), Fault::Characters));
+}
+
+#[test]
+fn a_phone_number_has_digits_and_spaces() {
+    let bits = to_bits(&write(&company("x")).unwrap());
+    // "0123 456789" as indices into " 0123456789".
+    let digits = "00010010001101000000010101100111100010011010";
+    assert_eq!(bits.matches(digits).count(), 1);
+    let octets = from_bits(&bits.replace(digits, &format!("1011{}", &digits[4..])));
+    let field = "denm.alacarte.stationary_vehicle.carrying_dangerous_goods.phone_number";
+    assert_eq!(refused(&octets), (field.to_owned(), Fault::Characters));
+}
