@@ -13,8 +13,8 @@ use crossguard_harness::transport::{Delay, Faults};
 use crossguard_harness::validate;
 use crossguard_model_check::check::Options;
 use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::timed::{Model, check};
-use crossguard_protocol::Config;
+use crossguard_model_check::timed::{Limits, Model, check};
+use crossguard_protocol::{Config, Millis};
 use support::*;
 
 fn log_of(seed: u64) -> Vec<u8> {
@@ -95,23 +95,20 @@ fn the_longest_times_stay_within_those_that_the_timed_model_computes() {
     let model = Model::new(scenario).unwrap();
     let report = check(&model, &Options::default(), &mut |_| ());
     let observed = [
-        ("from a request to roles or to giving up", worst.roles_ms),
+        ("from a request to roles or to giving up", worst.roles),
         (
             "from the leader's crash to the follower stopped",
-            worst.stopped_ms,
+            worst.stopped,
         ),
-        (
-            "from the leader's crash to the follower idle",
-            worst.left_ms,
-        ),
+        ("from the leader's crash to the follower idle", worst.left),
         (
             "from a follower's own failure to the corridor closed",
-            worst.corridor_closed_ms,
+            worst.corridor_closed,
         ),
     ];
     for (name, observed) in observed {
         let figure = report.figures.iter().find(|figure| figure.name == name);
-        let (figure, observed) = (figure.unwrap(), observed.unwrap());
+        let (figure, observed) = (figure.unwrap(), observed.unwrap().ms);
         assert!(
             observed <= figure.bound_ms,
             "{name}: {observed} ms, {figure:?}"
@@ -121,6 +118,41 @@ fn the_longest_times_stay_within_those_that_the_timed_model_computes() {
             observed * 3 > figure.bound_ms,
             "{name}: {observed} ms, {figure:?}"
         );
+    }
+}
+
+type Bound = fn(&Limits) -> Millis;
+
+#[test]
+fn the_longest_times_of_drawn_streets_stay_within_the_bounds_of_the_timed_model() {
+    let faults = "loss=0.1,burst=0.1x4,delay=1..50";
+    let command = [
+        "fuzz", "--seeds", "300", "--robots", "4", "--json", "--faults", faults,
+    ];
+    let output = support::run(&command);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let worst = &json(&output)["worst"];
+    // The model's bounds for the two sets of timers that streets are drawn with.
+    let delay = Millis(faults.parse::<Faults>().unwrap().delay_max_ms());
+    let limits =
+        Swarm::timers().map(|settings| Limits::new(&Config::new(settings).unwrap(), delay));
+    let measures: [(&str, Bound); 4] = [
+        ("roles", |limits| limits.roles),
+        ("stopped", |limits| limits.stopped),
+        ("left", |limits| limits.left),
+        ("corridor_closed", |limits| limits.corridor_closed),
+    ];
+    for (measure, bound) in measures {
+        let time = |name: &str| worst[measure][name].as_u64().unwrap();
+        let bounds = limits.each_ref().map(|limits| u64::from(bound(limits).0));
+        let (observed, held_against) = (time("ms"), time("bound_ms"));
+        assert!(
+            bounds.contains(&held_against),
+            "{measure}: {worst} {bounds:?}"
+        );
+        assert!(observed <= held_against, "{measure}: {worst}");
+        // And it was a real try: at least half of what is possible was seen.
+        assert!(observed * 2 > held_against, "{measure}: {worst}");
     }
 }
 

@@ -29,5 +29,5 @@ pub use fuzz::{Failure, Fuzz, Totals};
 pub use report::{Files, write_failure, write_failure_with};
 pub use script::{Deed, Happening};
 pub use swarm::{RobotDraw, Swarm};
-pub use times::{Measure, Worst};
+pub use times::{Longest, Measure, Worst};
 pub use world::{Finding, Outcome, Watch, run, run_with};

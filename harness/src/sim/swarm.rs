@@ -5,7 +5,7 @@
 //! everything would do neither.
 
 use crossguard_protocol::{
-    Availability, Config, Heartbeat, RequestId, Settings, StationId, TaskSet, TaskType,
+    Availability, Config, Heartbeat, Millis, RequestId, Settings, StationId, TaskSet, TaskType,
     Unavailability, Urgency,
 };
 use rand::seq::IndexedRandom;
@@ -64,6 +64,21 @@ pub struct RobotDraw {
 }
 
 impl Swarm {
+    /// The timers that runs are drawn with: those in use, and shorter ones, so that more happens.
+    #[must_use]
+    pub fn timers() -> [Settings; 2] {
+        let short = Settings {
+            t_safety: Millis(1_000),
+            t_lease: Millis(900),
+            t_leave: Millis(1_500),
+            t_ack: Millis(250),
+            t_offer: Millis(1_500),
+            t_help: Millis(4_000),
+            ..Settings::default()
+        };
+        [Settings::default(), short]
+    }
+
     /// Draws a run of 2 to `robots` robots. With `faults`, every way has these instead of its own.
     #[must_use]
     pub fn draw(seed: u64, robots: usize, faults: Option<&Faults>) -> Self {
@@ -118,15 +133,12 @@ impl Draws {
 
     /// Timers, the same for all robots.
     fn settings(&mut self) -> Settings {
-        let mut settings = Settings::default();
-        if self.0.random_bool(0.3) {
-            settings.t_safety.0 = 1_000;
-            settings.t_lease.0 = 900;
-            settings.t_leave.0 = 1_500;
-            settings.t_ack.0 = 250;
-            settings.t_offer.0 = 1_500;
-            settings.t_help.0 = 4_000;
-        }
+        let [in_use, short] = Swarm::timers();
+        let mut settings = if self.0.random_bool(0.3) {
+            short
+        } else {
+            in_use
+        };
         settings.t_exec[usize::from(TaskType::INITIAL_POS.value())].0 = 20_000;
         settings.n_ack = self.0.random_range(1..=4);
         settings

@@ -19,17 +19,27 @@ pub enum Measure {
     CorridorClosed,
 }
 
-/// The longest times that were observed, in milliseconds; `None` where nothing was to be measured.
+/// The longest time that was observed, with what it is held against.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+pub struct Longest {
+    /// In milliseconds.
+    pub ms: u32,
+    /// What the timers allow in the run in which it was observed, as the timed model has it: see
+    /// [`Limits`]. It depends on the longest delay of the run's messages.
+    pub bound_ms: u32,
+}
+
+/// The longest times that were observed; `None` where nothing was to be measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct Worst {
     /// Of [`Measure::Roles`].
-    pub roles_ms: Option<u32>,
+    pub roles: Option<Longest>,
     /// Of [`Measure::Stopped`].
-    pub stopped_ms: Option<u32>,
+    pub stopped: Option<Longest>,
     /// Of [`Measure::Left`].
-    pub left_ms: Option<u32>,
+    pub left: Option<Longest>,
     /// Of [`Measure::CorridorClosed`].
-    pub corridor_closed_ms: Option<u32>,
+    pub corridor_closed: Option<Longest>,
 }
 
 impl Measure {
@@ -67,19 +77,26 @@ impl Measure {
 }
 
 impl Worst {
-    fn slot(&mut self, measure: Measure) -> &mut Option<u32> {
+    fn slot(&mut self, measure: Measure) -> &mut Option<Longest> {
         match measure {
-            Measure::Roles => &mut self.roles_ms,
-            Measure::Stopped => &mut self.stopped_ms,
-            Measure::Left => &mut self.left_ms,
-            Measure::CorridorClosed => &mut self.corridor_closed_ms,
+            Measure::Roles => &mut self.roles,
+            Measure::Stopped => &mut self.stopped,
+            Measure::Left => &mut self.left,
+            Measure::CorridorClosed => &mut self.corridor_closed,
         }
     }
 
-    fn note(&mut self, measure: Measure, us: u64) {
+    fn note(&mut self, measure: Measure, limits: &Limits, us: u64) {
         let ms = u32::try_from(us.div_ceil(1_000)).unwrap_or(u32::MAX);
+        let bound_ms = measure.limit(limits).0;
+        self.note_longest(measure, Longest { ms, bound_ms });
+    }
+
+    fn note_longest(&mut self, measure: Measure, observed: Longest) {
         let slot = self.slot(measure);
-        *slot = Some(slot.map_or(ms, |known| known.max(ms)));
+        if slot.is_none_or(|known| known.ms < observed.ms) {
+            *slot = Some(observed);
+        }
     }
 
     /// Takes in what another run has observed.
@@ -90,8 +107,8 @@ impl Worst {
             Measure::Left,
             Measure::CorridorClosed,
         ] {
-            if let Some(ms) = *other.slot(measure) {
-                self.note(measure, u64::from(ms) * 1_000);
+            if let Some(observed) = *other.slot(measure) {
+                self.note_longest(measure, observed);
             }
         }
     }
@@ -202,7 +219,7 @@ impl Times {
             };
             let took_us = now_us - running.since_us;
             if is_over {
-                worst.note(running.measure, took_us);
+                worst.note(running.measure, limits, took_us);
             }
             if took_us > u64::from(running.measure.limit(limits).0) * 1_000 {
                 late = late.or(Some(running.measure));
@@ -225,7 +242,7 @@ impl Times {
             (Some(number), Some((known, _))) if number == known => {}
             (Some(number), None) => *request = Some((number, now_us)),
             (asks_for, Some(_)) => {
-                self.worst.note(Measure::Roles, took_us);
+                self.worst.note(Measure::Roles, &self.limits, took_us);
                 *request = asks_for.map(|number| (number, now_us));
             }
             (None, None) => {}
