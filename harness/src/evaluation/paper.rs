@@ -7,10 +7,11 @@ use super::plot::{BarChart, Series, Stated};
 use super::statistics::Estimate;
 
 /// Coverage at 15 m and 100 people, in percent: one robot, nine robots.
-pub const COVERAGE_PERCENT: [(usize, [f64; 2]); 2] = [(1, [5.0, 6.0]), (9, [17.0, 18.0])];
+pub const COVERAGE_PERCENT: [(usize, [f64; 2], &str); 2] =
+    [(1, [5.0, 6.0], "5 to 6 %"), (9, [17.0, 18.0], "17 to 18 %")];
 /// Reduction of the mean channel busy ratio with nine robots at 15 m and 100 people, in percent:
 /// about 16.
-pub const REDUCTION_PERCENT: (usize, [f64; 2]) = (9, [15.5, 16.5]);
+pub const REDUCTION_PERCENT: (usize, [f64; 2], &str) = (9, [15.5, 16.5], "about 16 %");
 /// The cell that the text speaks of: people, radius.
 const CELL: (usize, f64) = (100, 15.0);
 
@@ -88,7 +89,7 @@ fn figure(
     [title, assumptions]: [&str; 2],
     y_axis: &str,
     bars: &[(Key, Estimate)],
-    stated: &[(usize, [f64; 2])],
+    stated: &[(usize, [f64; 2], &'static str)],
 ) -> BarChart {
     // Without robots there is one value, whatever the radius.
     let without = |key: &Key| if key.0 == 0 { (0, key.1, 0.0) } else { *key };
@@ -111,12 +112,13 @@ fn figure(
         color: color(&kinds, kind),
         bars: people.iter().map(|&people| bar(kind, people)).collect(),
     });
-    let stated = stated.iter().filter_map(|(robots, range)| {
+    let stated = stated.iter().filter_map(|(robots, range, words)| {
         let is_kind = |kind: &(usize, f64)| kind.0 == *robots && kind.1.total_cmp(&CELL.1).is_eq();
         Some(Stated {
             group: people.iter().position(|it| *it == CELL.0)?,
             series: kinds.iter().position(is_kind)?,
             range: *range,
+            words,
         })
     });
     BarChart {

@@ -32,6 +32,8 @@ pub struct Stated {
     pub series: usize,
     /// From this to that.
     pub range: [f64; 2],
+    /// The same as the paper says it.
+    pub words: &'static str,
 }
 
 /// A bar chart.
@@ -191,17 +193,23 @@ impl BarChart {
                 middle - 3.0
             );
         }
-        let stated = self.stated.iter();
-        let marks = stated.filter(|it| (it.group, it.series) == (group, series));
-        let above = marks.map(|it| self.y(it.range[1])).fold(high, f64::min);
-        text(
-            svg,
-            middle,
-            above - 5.0,
-            "middle",
-            10,
-            &format!("{:.1}", bar.mean),
-        );
+        let number = format!("{:.1}", bar.mean);
+        let y = if bar.mean < 0.0 {
+            low + 13.0
+        } else {
+            self.above_marks(group, series, high - 5.0)
+        };
+        text(svg, middle, y, "middle", 10, &number);
+    }
+
+    /// Where words over a bar stand at this height, or higher if the paper's range is there.
+    fn above_marks(&self, group: usize, series: usize, y: f64) -> f64 {
+        let here = self.stated.iter();
+        let here = here.filter(|it| (it.group, it.series) == (group, series));
+        here.map(|it| it.range.map(|value| self.y(value)))
+            .filter(|[bottom, top]| y > top - 2.0 && y - 10.0 < bottom + 2.0)
+            .map(|[_, top]| top - 5.0)
+            .fold(y, f64::min)
     }
 
     fn mark(&self, svg: &mut String, stated: &Stated) {
@@ -242,9 +250,8 @@ impl BarChart {
             y - 10.0,
         );
         let words = self.stated.iter().map(|it| {
-            let [low, high] = it.range;
             let (series, group) = (&self.series[it.series].name, &self.groups[it.group]);
-            format!("{low} to {high} % ({series}, {group} {})", self.x_axis)
+            format!("{} ({series}, {group} {})", it.words, self.x_axis)
         });
         let words = words.collect::<Vec<_>>().join("; ");
         let words = format!("stated in the paper: {words}");
@@ -291,6 +298,7 @@ mod tests {
                 group: 1,
                 series: 0,
                 range: [17.0, 18.0],
+                words: "17 to 18 %",
             }],
         }
     }

@@ -264,7 +264,8 @@ impl Parameters {
                 VamRule::Periodic(interval_ms) => format!(", a VAM every {interval_ms} ms"),
             });
         let (seeds, vam) = (self.seeds, vam.unwrap_or_default());
-        format!("preset {preset}, {seeds} seeds{vam}")
+        let plural = if seeds == 1 { "" } else { "s" };
+        format!("preset {preset}, {seeds} seed{plural}{vam}")
     }
 }
 
