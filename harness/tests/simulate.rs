@@ -155,6 +155,8 @@ fn bad_usage_says_what_to_do() {
     assert!(refusal(&["obs", "--traces", "nowhere.json.gz"]).contains("nowhere.json.gz"));
     assert!(refusal(&["cbr", "--vam", "often"]).contains("etsi"));
     assert!(refusal(&["cbr", "--v2x-share", "2"]).contains("--v2x-share"));
+    // The traces that come along have their own vehicles.
+    assert!(refusal(&["obs", "--vehicles", "50"]).contains("--sumo"));
     assert!(refusal(&["record"]).contains("pip install eclipse-sumo"));
     assert!(refusal(&["obs", "--sumo", "nowhere"]).contains("pip install eclipse-sumo"));
 }

@@ -29,10 +29,10 @@ pub(super) struct Streets {
     #[arg(long, value_name = "N", requires = "sumo")]
     grid_size: Option<u32>,
     /// Vehicles, for --sumo.
-    #[arg(long, value_name = "N", default_value_t = 20)]
+    #[arg(long, value_name = "N", default_value_t = 20, requires = "sumo")]
     vehicles: usize,
     /// Length of a run in seconds, for --sumo.
-    #[arg(long, value_name = "SECONDS", default_value_t = 200)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 200, requires = "sumo")]
     duration: u32,
 }
 
@@ -105,7 +105,7 @@ pub(super) struct Matrix {
     #[arg(long, default_value_t = 10, value_name = "N")]
     pub(super) seeds: usize,
     /// The first seed of fresh runs, for --sumo.
-    #[arg(long, default_value_t = 1_001, value_name = "SEED")]
+    #[arg(long, default_value_t = 1_001, value_name = "SEED", requires = "sumo")]
     first_seed: u64,
     /// Threads; as many as there are processors by default.
     #[arg(long, value_name = "N")]
