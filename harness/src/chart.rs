@@ -1,7 +1,7 @@
 //! A sequence chart, line by line as things happen.
 //!
-//! Each robot has a column. Messages are drawn when they arrive; of the RAM that repeat what is known
-//! only the first is drawn.
+//! Each robot has a column. Messages are drawn when they arrive at whom they are for; of the RAM that
+//! repeat what is known only the first is drawn.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -17,7 +17,7 @@ use crate::wire::{Heard, MessageKind, overhear};
 /// Where the first column begins, and how far apart columns are, of two robots and of more.
 const LEFT: usize = 10;
 const SPACING: usize = 50;
-const SPACING_OF_MANY: usize = 36;
+const SPACING_OF_MANY: usize = 45;
 
 /// A chart in the making.
 #[derive(Debug, Default)]
@@ -242,6 +242,12 @@ impl Chart {
         let Ok(heard) = overhear(&self.lanes[to].identifiers, octets) else {
             return Vec::new();
         };
+        // Everybody hears a command, and one is meant.
+        let own = self.lanes[to].station;
+        let is_meant = |input: &Input| addressee(input).is_none_or(|station| station == own);
+        if !heard.inputs.iter().any(is_meant) {
+            return Vec::new();
+        }
         let from = self.lane_of(heard.from).filter(|from| *from != to);
         let arrow = from.and_then(|from| self.message(from, to, &heard, is_lost));
         arrow.into_iter().collect()

@@ -67,3 +67,31 @@ fn a_program_that_does_not_take_the_log_does_not_stop_the_robot() {
         "{complaint}"
     );
 }
+
+#[test]
+fn who_asks_for_all_details_and_does_not_read_them_does_not_stop_the_robot() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = two_free_ports();
+    let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
+    let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
+    let mut dog = start(&go2);
+    let mut humanoid = crossguard(&["-vvv", "run", "--config", &ari, "--json"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Long enough that more is told than a pipe holds.
+    type_to(&mut humanoid, "wait 4\ndetect\n");
+    type_to(
+        &mut dog,
+        "until maneuver-executing 30\nuntil idle 30\nquit\n",
+    );
+    assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
+    let dog = log_of(&go2);
+    assert!(dog.contains("sessionEnded") && !dog.contains("fallBack"));
+    signal(&humanoid, "-TERM");
+    let output = humanoid.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.len() > 65_536, "{}", output.stderr.len());
+}

@@ -2,6 +2,7 @@
 
 use std::io::{IsTerminal, Write};
 use std::net::{Ipv4Addr, SocketAddr};
+use std::sync::mpsc::sync_channel;
 use std::time::Duration;
 
 use clap::ValueEnum;
@@ -136,8 +137,16 @@ impl Watch {
 }
 
 impl Drop for Watch {
-    /// Takes the status line away.
+    /// Takes the status line away, but does not wait for whoever holds standard output or error up: a
+    /// line above the status line may be on its way to one who does not read.
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        let (tell, is_done) = sync_channel(1);
+        let bar = self.bar.clone();
+        std::thread::spawn(move || {
+            bar.finish_and_clear();
+            // Nobody may wait any more.
+            let _ = tell.send(());
+        });
+        let _ = is_done.recv_timeout(REDRAW);
     }
 }
