@@ -141,7 +141,6 @@ impl Name {
         Some(Self { octets, length })
     }
 
-    #[cfg_attr(not(feature = "trace"), expect(dead_code))]
     pub(crate) fn as_str(&self) -> &str {
         core::str::from_utf8(&self.octets[..self.length]).unwrap_or_default()
     }
