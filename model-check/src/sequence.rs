@@ -213,6 +213,8 @@ struct Drawing {
 impl Drawing {
     const LANE: usize = 420;
     const LINE: usize = 17;
+    /// How wide a character is, about.
+    const CHARACTER: usize = 6;
     /// For the picture alone, also where it is part of a page; dark where that is wanted.
     const STYLE: &'static str = ".sequence{--ink:#222;--paper:#fff;--faint:#888;--lane:#bbb;--lost:#c00;\
         --delayed:#b60;--late:#06c;--output:#074}\
@@ -263,9 +265,16 @@ impl Drawing {
 
     fn note(&mut self, class: &str, robot: usize, text: &str) {
         let (x, y) = (Self::x(robot), self.y);
+        // The numbers of lines stand on the left, and the picture ends on the right.
+        let room = Self::LANE - 56;
+        let squeeze = if text.chars().count() * Self::CHARACTER > room {
+            format!(" textLength='{room}' lengthAdjust='spacingAndGlyphs'")
+        } else {
+            String::new()
+        };
         let _ = write!(
             self.rows,
-            "<text class='{class}' x='{x}' y='{y}' text-anchor='middle'>{}</text>",
+            "<text class='{class}' x='{x}' y='{y}' text-anchor='middle'{squeeze}>{}</text>",
             markup(text)
         );
     }
@@ -386,5 +395,25 @@ mod tests {
         assert!(svg.contains("RAM &lt;none>; &amp; so on (late)"));
         assert_eq!(svg.matches("class='turn'").count(), 1);
         assert_eq!(svg.matches("class='message lost'").count(), 2);
+    }
+
+    #[test]
+    fn in_svg_a_long_note_stays_within_the_picture() {
+        let svg = |text: String| {
+            let step = ChartStep {
+                place: Place::At(0),
+                action: text,
+                outputs: Vec::new(),
+            };
+            let chart = Chart {
+                title: "",
+                robots: &["ARI".to_owned()],
+                steps: &[step],
+                repeats_after: None,
+            };
+            chart.svg()
+        };
+        assert!(svg("long ".repeat(20)).contains("textLength='364'"));
+        assert!(!svg("short".to_owned()).contains("textLength"));
     }
 }
