@@ -76,6 +76,11 @@ proptest! {
     }
 
     #[test]
+    fn what_is_ahead_decides(octets: [u8; 12], before in 0_usize..100, count: u32) {
+        laws::what_is_ahead_decides(&octets, before, count);
+    }
+
+    #[test]
     fn integers_keep_their_bounds(min: i32, largest: u32, shift in 0_u32..32, bits: u32) {
         let min = i64::from(min);
         laws::integers_keep_their_bounds(min, min + i64::from(largest >> shift), bits);

@@ -41,7 +41,7 @@ macro_rules! harnesses {
         $(
             #[unwind($unwind:literal)]
             #[solver($solver:ident)]
-            $(#[stub($($stub:tt)*)])?
+            $(#[stub($($stub:tt)*)])*
         )?
         $(#[random_only($reason:literal)])?
         fn $name:ident() $body:block
@@ -52,7 +52,7 @@ macro_rules! harnesses {
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::proof)]
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::unwind($unwind))]
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::solver($solver))]
-                $(#[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::stub($($stub)*))])?
+                $(#[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::stub($($stub)*))])*
             )?
             $(
                 #[doc = concat!("\nOnly with random values: ", $reason)]

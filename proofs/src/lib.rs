@@ -39,7 +39,8 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         protocol::requesting::HARNESSES,
         protocol::offering::HARNESSES,
         protocol::following::HARNESSES,
-        protocol::leading::HARNESSES,
+        protocol::leading::validity::HARNESSES,
+        protocol::leading::conduct::HARNESSES,
         protocol::timers::running::HARNESSES,
         protocol::timers::firing::HARNESSES,
         protocol::timers::settling::HARNESSES,
@@ -52,6 +53,7 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         codec::core::common::HARNESSES,
         codec::core::ram::HARNESSES,
         codec::core::rmcm::HARNESSES,
+        codec::core::whole::HARNESSES,
     ]
     .into_iter()
     .flatten()

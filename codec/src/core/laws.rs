@@ -54,13 +54,26 @@ use super::{Fault, First, Reader, Uper, Writer, decode, encode, max_octets, widt
 /// Whatever the octets are, decoding them ends with a value or an error, and a value has been read
 /// from bits that are there, no more of them than its type has or extension additions explain.
 pub fn decode_is_total<T: Uper>(octets: &[u8]) {
+    decode_stays_inside::<T>(octets);
+    if let Ok((_, reader)) = T::decode(Reader::new(octets)) {
+        assert!(reader.extended() > 0 || reader.position() <= T::MAX_BITS as usize);
+    }
+}
+
+/// The part of [`decode_is_total`] that holds whatever skips extension additions. Tells whether there is
+/// a value.
+pub fn decode_stays_inside<T: Uper>(octets: &[u8]) -> bool {
     let bits = octets.len() * 8;
-    match T::decode(Reader::new(octets)) {
-        Ok((_, reader)) => {
+    let mut value = T::LOWEST;
+    match value.read(Reader::<First>::new(octets)).result() {
+        Ok(reader) => {
             assert!(reader.position() + reader.left() == bits);
-            assert!(reader.extended() > 0 || reader.position() <= T::MAX_BITS as usize);
+            true
         }
-        Err(error) => assert!(error.bit <= bits),
+        Err(error) => {
+            assert!(error.bit <= bits);
+            false
+        }
     }
 }
 
@@ -182,6 +195,33 @@ pub fn reading_stops_at_the_end(octets: &[u8], position: usize, count: u32) {
             assert!(error.fault == Fault::Truncated && error.bit == bits);
         }
     }
+}
+
+/// What is read depends on the bits ahead alone, not on where they are: `count` bits, modulo 33, behind
+/// `before` bits are those that stand first when everything is moved up by so many. Tells whether so many
+/// bits are there.
+pub fn what_is_ahead_decides<const N: usize>(octets: &[u8; N], before: usize, count: u32) -> bool {
+    let count = count % 33;
+    if before + count as usize > N * 8 {
+        return false;
+    }
+    let mut moved = [0; N];
+    let mut index = 0;
+    while index + before / 8 < N {
+        let high = octets[index + before / 8];
+        let low = match octets.get(index + before / 8 + 1) {
+            Some(low) => *low,
+            None => 0,
+        };
+        let both = u16::from_be_bytes([high, low]) << (before % 8);
+        moved[index] = both.to_be_bytes()[0];
+        index += 1;
+    }
+    let (there, behind) = Reader::<First>::new(octets).skip(before).bits(count);
+    let (here, first) = Reader::<First>::new(&moved).bits(count);
+    assert!(there == here && !behind.has_failed() && !first.has_failed());
+    assert!(behind.position() - before == first.position());
+    true
 }
 
 /// An integer from `min` to `max` takes as few bits as that, is read as it was written, and one beyond

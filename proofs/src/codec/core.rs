@@ -8,9 +8,10 @@ pub mod cdd;
 pub mod common;
 pub mod ram;
 pub mod rmcm;
+pub mod whole;
 
 #[cfg(all(kani, not(feature = "stand-in")))]
-use crossguard_codec::core::{Faults, Reader};
+use crossguard_codec::core::{Faults, Read, Reader};
 use crossguard_codec::core::{Uper, laws};
 
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
@@ -91,4 +92,25 @@ where
     'a: 'a,
 {
     panic!("an extension bit was written")
+}
+
+/// In the place of [`Reader::bits`]: any number of so many bits, whatever the octets are.
+#[cfg(all(kani, not(feature = "stand-in")))]
+fn any_bits<'a, F: Faults>(reader: Reader<'a, F>, count: u32) -> Read<'a, u32, F>
+where
+    'a: 'a,
+{
+    assert!(count <= 32);
+    let number = kani::any();
+    kani::assume(u64::from(number) >> count == 0);
+    (number, reader.skip(count as usize))
+}
+
+/// In the place of [`Reader::skip_additions`]: skips any number of bits, or more than there are.
+#[cfg(all(kani, not(feature = "stand-in")))]
+fn any_skip<'a, F: Faults>(reader: Reader<'a, F>) -> Reader<'a, F>
+where
+    'a: 'a,
+{
+    reader.skip(usize::from(kani::any::<u16>()))
 }

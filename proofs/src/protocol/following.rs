@@ -2,13 +2,14 @@
 
 use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
+use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{From, becomes, steps};
 
 const FROM: From = From::stage(Stage::Following);
 
-steps! { FROM;
+steps! { FROM, all;
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
         "is not listed any more": becomes(step, Role::None),

@@ -2,13 +2,14 @@
 
 use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
+use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{From, becomes, steps};
 
 const FROM: From = From::stage(Stage::Idle);
 
-steps! { FROM;
+steps! { FROM, all;
     /// A RAM that asks for help.
     hears_a_request(Kind::RamNeedHelp) |step| {
         "offers": becomes(step, Role::Helper),

@@ -1,10 +1,12 @@
-//! Stages 3 and 4: a leader, with one or two followers.
+//! Stages 3 and 4: a leader, with one or two followers. The laws of its steps are proved in two parts, each of
+//! which takes less than half as long as both.
 
-use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Countdown, Happening, Kind, Stage};
-use crossguard_protocol::laws::watch::Sort;
+pub mod conduct;
+pub mod validity;
 
-use super::stage::{From, becomes, steps};
+use crossguard_protocol::laws::arbitrary::Stage;
+
+use super::stage::From;
 
 /// How many followers the leader has, at most: one that a message is about, and another.
 const FOLLOWERS: usize = 2;
@@ -15,145 +17,3 @@ const FROM: From = From {
     farewells: false,
     ..From::stage(Stage::Leading)
 };
-
-steps! { FROM;
-    /// A RAM of a follower.
-    #[random_only("Kani was stopped unfinished, after two to seven minutes on a busy machine.")]
-    hears_a_follower(Kind::RamFollower) |step| {
-        "joins": step.said.has(Sort::FollowerJoined),
-        "grants a lease": step.said.has(Sort::LeaseGranted),
-        "counts as acknowledged": step.said.has(Sort::CommandAcknowledged),
-        "counts as completed": step.said.has(Sort::ManeuverCompleted),
-        "closes the corridor": step.said.has(Sort::CorridorClosed),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM of a robot without a part in a session.
-    hears_a_farewell(Kind::RamNone) |step| {
-        "the last follower left": becomes(step, Role::None),
-        "a follower left": step.said.has(Sort::FollowerGone) && becomes(step, Role::Leader),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM that asks for help.
-    hears_a_request(Kind::RamNeedHelp) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM that offers help.
-    hears_an_offer(Kind::RamOfferHelp) |step| {
-        "names a session as over": step.said.has(Sort::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM of a leader.
-    hears_a_leader(Kind::RamLeader) |step| {
-        "names a session as over": step.said.has(Sort::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A command.
-    hears_a_command(Kind::Command) |step| {
-        "says farewell": step.said.has(Sort::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
-    /// An answer.
-    hears_an_answer(Kind::Answer) |step| {
-        "acknowledged": step.said.has(Sort::CommandAcknowledged),
-        "rejected": step.said.has(Sort::CommandRejected),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A pedestrian.
-    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application commands a maneuver.
-    commands(Kind::Local(Happening::CommandManeuver)) |step| {
-        "commands": step.said.has(Sort::Command),
-        "renews the session": step.said.has(Sort::Renewed),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application opens or closes the corridor.
-    #[random_only("Kani was stopped unfinished, after two to seven minutes on a busy machine.")]
-    moves_the_corridor(Kind::Local(Happening::Corridor)) |step| {
-        "opens": step.said.has(Sort::CorridorOpened),
-        "closes": step.said.has(Sort::CorridorClosed),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A maneuver that ended.
-    ends_a_maneuver(Kind::Local(Happening::ManeuverEnded)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The task is completed, or the robot is to leave.
-    ends_a_session(Kind::Local(Happening::SessionEnded)) |step| {
-        "ends its session": becomes(step, Role::None),
-    }
-
-    /// The robot becomes available or unavailable.
-    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
-        "ends its session": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The robot has another pseudonym.
-    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The end of a lease.
-    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
-    loses_a_lease(Kind::Fires(Countdown::Lease)) |step| {
-        "a lease ran out": step.said.has(Sort::LeaseExpired),
-        "closes the corridor": step.said.has(Sort::CorridorClosed),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A follower without a lease for too long.
-    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
-    gives_up_a_follower(Kind::Fires(Countdown::Lost)) |step| {
-        "drops a follower": step.said.has(Sort::FollowerGone),
-        "ends its session": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
-    }
-
-    /// `T_exec`.
-    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
-    limits_an_execution(Kind::Fires(Countdown::Execution)) |step| {
-        "the execution limit ran out": step.said.has(Sort::ManeuverFailed),
-        "ignored": step.is_ignored(),
-    }
-
-    /// `T_ack`.
-    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
-    misses_an_acknowledgement(Kind::Fires(Countdown::Acknowledgement)) |step| {
-        "repeats a command": step.said.has(Sort::Command),
-        "drops a follower": step.said.has(Sort::FollowerGone),
-        "ends its session": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
-    }
-
-    /// `T_lock`.
-    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
-    must_unlock(Kind::Fires(Countdown::IdentityLock)) |step| {
-        "ends its session": becomes(step, Role::None),
-    }
-
-    /// The next RAM.
-    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
-    repeats_itself(Kind::Fires(Countdown::Ram)) |step| {
-        "sends": step.said.has(Sort::SendRam),
-    }
-
-    /// The end of a farewell.
-    #[random_only("Kani was stopped at one after five minutes; `timers::firing` proves that the state stays consistent.")]
-    ends_a_farewell(Kind::Fires(Countdown::Farewell)) |step| {
-        "ends it": !step.is_ignored(),
-        "ignored": step.is_ignored(),
-    }
-}

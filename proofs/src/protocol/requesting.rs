@@ -2,6 +2,7 @@
 
 use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Countdown, Happening, Kind, Stage};
+use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{From, becomes, steps};
@@ -15,7 +16,7 @@ const FROM: From = From {
     ..From::stage(Stage::Requesting)
 };
 
-steps! { FROM;
+steps! { FROM, all;
     /// A RAM that asks for help as well.
     hears_a_request(Kind::RamNeedHelp) |step| {
         "helps the one that goes before": becomes(step, Role::Helper),

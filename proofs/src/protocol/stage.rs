@@ -1,7 +1,7 @@
 //! What the harnesses of all stages have in common: one step from any valid state.
 
 use crossguard_protocol::laws::arbitrary::{self, Kind, Stage};
-use crossguard_protocol::laws::steps::{Taken, all};
+use crossguard_protocol::laws::steps::Taken;
 use crossguard_protocol::{Config, Robot, Role};
 
 use crate::{Symbolic, kani};
@@ -42,15 +42,15 @@ impl From {
         }
     }
 
-    /// Any input of this kind in any such state, with the default configuration: all laws of one
-    /// step hold.
-    pub(super) fn any_step(self, kind: Kind) -> Taken {
+    /// Any input of this kind in any such state, with the default configuration: the laws of one step
+    /// hold.
+    pub(super) fn any_step(self, kind: Kind, laws: fn(&Config, &Taken)) -> Taken {
         let config = Config::default();
         let robot = any_valid(&config, self.stage, self.peers);
         let farewells = self.farewells || kind == Kind::RamNone;
         let input = arbitrary::input(&mut Symbolic, kind, farewells);
         let step = Taken::new(&config, robot, input);
-        all(&config, &step);
+        laws(&config, &step);
         step
     }
 }
@@ -60,10 +60,10 @@ pub(super) fn becomes(step: &Taken, role: Role) -> bool {
     step.after.role() == role
 }
 
-/// Declares the harnesses of a stage: one step from any valid state of it, with any input of one kind
-/// (to a proof each is a case of its own), and what must be able to come of it.
+/// Declares the harnesses of a stage: the laws of one step from any valid state of it, with any input of
+/// one kind (to a proof each is a case of its own), and what must be able to come of it.
 macro_rules! steps {
-    ($from:expr; $(
+    ($from:expr, $laws:expr; $(
         $(#[doc = $doc:literal])*
         $(#[random_only($reason:literal)])?
         $name:ident($kind:expr) |$step:ident| { $($mark:literal: $came:expr),+ $(,)? }
@@ -74,7 +74,7 @@ macro_rules! steps {
             #[solver(cadical)]
             $(#[random_only($reason)])?
             fn $name() {
-                let $step = &$from.any_step($kind);
+                let $step = &$from.any_step($kind, $laws);
                 // No branch in a mark: each branch of it would be a mark of its own to Kani.
                 $(
                     let came: bool = $came;

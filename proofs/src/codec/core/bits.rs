@@ -31,6 +31,16 @@ harnesses! {
         kani::cover!(position + count as usize > length * 8, "behind the end");
     }
 
+    /// Any octets, up to twelve bits in front, any count of bits up to 32.
+    #[unwind(10)]
+    #[solver(cadical)]
+    fn what_is_ahead_decides() {
+        let octets: [u8; 9] = kani::any();
+        let before = usize::from(kani::any::<u8>()) % 13;
+        let is_there = laws::what_is_ahead_decides(&octets, before, kani::any());
+        kani::cover!(is_there && before == 12, "in the second octet");
+    }
+
     /// All bounds of at most 32 bits, and all bits.
     #[unwind(2)]
     #[solver(cadical)]
