@@ -73,6 +73,8 @@ enum Where {
     ThereOrNext,
     /// There or at the next line of that robot, or where another robot hears what was not sent.
     AsHeard,
+    /// At the latest where that robot first has a part in a session, whose number has the boot counter in it.
+    AtItsPart,
     /// Where that robot stops and says what it has counted.
     AtTheEnd,
 }
@@ -132,7 +134,7 @@ const ALTERATIONS: [Alteration; 18] = [
         name: "another boot counter",
         line: |line| is(line, "started"),
         alter: |lines, at| lines[at]["boot"] = 7.into(),
-        refused: Where::ThereOrNext,
+        refused: Where::AtItsPart,
         reason: "went into a state that the protocol does not lead to",
     },
     Alteration {
@@ -299,6 +301,13 @@ fn every_kind_of_alteration_is_refused_with_position_and_reason() {
             Where::ThereOrNext => (there..=next).contains(&found),
             Where::AsHeard => {
                 (there..=next).contains(&found) || found > there && is(&lines[found - 1], "heard")
+            }
+            Where::AtItsPart => {
+                let is_part = |line: &&Value| {
+                    line["robot"] == lines[at]["robot"] && line["state"]["phase"].is_object()
+                };
+                let first = lines.iter().position(|line| is_part(&line)).unwrap();
+                (there..=first + 1).contains(&found)
             }
             Where::AtTheEnd => is(&lines[found - 1], "stopped"),
         };
