@@ -97,17 +97,17 @@ pub struct Headers {
     pub port_info: u16,
 }
 
-/// The lifetime of a packet, a multiple of its base.
+/// The lifetime of a packet, a multiple of its base: 50 ms to 6300 s (EN 302 636-4-1, basic header).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Lifetime {
-    /// 0..63.
+    /// How many times the base, 0..63.
     pub multiplier: u8,
     /// What is multiplied.
     pub base: LifetimeBase,
 }
 
-/// The base of a [`Lifetime`].
+/// What a [`Lifetime`] counts (EN 302 636-4-1, basic header).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum LifetimeBase {

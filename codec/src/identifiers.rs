@@ -41,13 +41,13 @@ pub enum Dictionary {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MessageIdentifiers {
-    /// `protocolVersion` of the header: the version of the message's format.
+    /// `protocolVersion` of the header: the version of the message's format; 1 by default.
     pub protocol_version: u8,
-    /// `messageId` of the header.
+    /// `messageId` of the header, above 21; 240 for RAM and 241 for RMCM by default.
     pub message_id: u8,
-    /// Destination port of BTP.
+    /// Destination port of BTP-B, above 2026; 2998 for RAM and 2999 for RMCM by default.
     pub btp_port: u16,
-    /// ITS-AID (PSID) that its certificates are for.
+    /// ITS-AID (PSID) that its certificates are for; 16480 for RAM and 16481 for RMCM by default.
     pub its_aid: u32,
 }
 

@@ -27,10 +27,6 @@
 //! - `security` (with the feature of that name) signs and verifies packets by TS 103 097.
 //! - [`Identifiers`] holds what no standard has assigned.
 //!
-//! Without the feature `std`, which is on by default, the crate is `no_std` and needs no heap. RAM,
-//! RMCM, their mapping and [`geonet`] remain; `asn1`, `its`, `encode` and what else needs a vector do
-//! not.
-//!
 //! ```
 //! use crossguard_codec::{
 //!     Identifiers, Message, Position, RobotState, decode, distance, encode, ram_from, state_of,
@@ -57,8 +53,16 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! # Features
+//!
+//! - `std`, on by default. Without it the crate is `no_std` and needs no heap: RAM, RMCM, their mapping
+//!   and [`geonet`] remain; `asn1`, `its`, `encode` and what else needs a vector do not.
+//! - `security` brings signatures, and with them elliptic curves; it needs `std`.
+//! - `laws` and `golden` are for proofs and tests; no part of the stable interface.
 
 #![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(feature = "std")]
 pub mod asn1;
@@ -67,6 +71,9 @@ pub mod core;
 mod distance;
 mod error;
 pub mod geonet;
+#[cfg(feature = "golden")]
+#[doc(hidden)]
+pub mod golden;
 mod identifiers;
 #[cfg(feature = "std")]
 pub mod its;
@@ -108,3 +115,8 @@ pub use view::{
     ram_from, rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of, view_of_ram,
     views_of_rmcm,
 };
+
+/// The Rust in the README compiles.
+#[cfg(all(doctest, feature = "std"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

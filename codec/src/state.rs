@@ -42,7 +42,7 @@ pub struct RobotState {
     /// How far it is with its task. In the RAM of a follower that has accepted a command, the
     /// progress of the command stands here instead.
     pub task_progression: TaskProgression,
-    /// Its battery.
+    /// Its battery's charge, and whether it is being charged.
     pub battery: Battery,
     /// Who or what steers it.
     pub control_mode: ControlMode,
@@ -75,7 +75,7 @@ impl RobotState {
 /// A quantity and the half width of its 95 % interval, in the same unit.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Measurement {
-    /// The quantity.
+    /// The quantity, in the unit of the field that it stands in.
     pub value: f64,
     /// Half width of its 95 % interval; infinite where a RAM says that it is out of range, and then
     /// the quantity is not to be relied on.
@@ -136,11 +136,11 @@ pub struct ConfidenceEllipse {
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Dimensions {
-    /// Along its body.
+    /// Along its body, in metres.
     pub length: Option<f64>,
-    /// Across its body.
+    /// Across its body, in metres.
     pub width: Option<f64>,
-    /// Above ground.
+    /// Above ground, in metres.
     pub height: Option<f64>,
 }
 

@@ -6,7 +6,7 @@
 use std::hint::black_box;
 
 use crossguard_codec::geonet::EgoPosition;
-use crossguard_codec::{Identifiers, Service};
+use crossguard_codec::{Identifiers, Service, golden};
 use crossguard_harness::application::Application;
 use crossguard_harness::body::{Body, Build};
 use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
@@ -16,8 +16,6 @@ use crossguard_harness::site::{Place, Site};
 use crossguard_harness::station::Station;
 use crossguard_harness::wire::Wire;
 use crossguard_protocol::{Config, Event, Robot, StationId};
-
-const ITS: &str = include_str!("../../codec/tests/golden/its.txt");
 
 /// How many vehicles are heard at a time, and how many different ones in an hour.
 const VEHICLES: u32 = 300;
@@ -36,8 +34,7 @@ fn machine(station: u32, plan: Option<Plan>) -> Machine {
 
 /// A CAM, to be given a station id of its own.
 fn cam() -> Vec<u8> {
-    let vector = ITS.lines().find_map(|line| line.strip_prefix("C2: "));
-    hex::decode(vector.expect("a vector")).expect("hexadecimal digits")
+    hex::decode(golden::vector(golden::ITS, "C2")).expect("hexadecimal digits")
 }
 
 fn packet_of(vehicle: u32, cam: &mut [u8]) -> Vec<u8> {

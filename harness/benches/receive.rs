@@ -5,14 +5,11 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use crossguard_codec::geonet::EgoPosition;
-use crossguard_codec::{Identifiers, RobotState, Service};
+use crossguard_codec::{Identifiers, RobotState, Service, golden};
 use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_harness::station::Station;
 use crossguard_harness::wire::Wire;
 use crossguard_protocol::{Config, Robot, StationId};
-
-const ITS: &str = include_str!("../../codec/tests/golden/its.txt");
-const VAM: &str = include_str!("../../codec/tests/golden/vam.txt");
 
 fn moment(now_ms: u64) -> Moment {
     Moment {
@@ -37,12 +34,8 @@ fn ram() -> Vec<u8> {
     packet.expect("a RAM is due")
 }
 
-fn golden(service: Service, vectors: &str, name: &str) -> Vec<u8> {
-    let digits = vectors
-        .lines()
-        .find_map(|line| line.strip_prefix(name)?.strip_prefix(": "))
-        .expect("a vector of this name");
-    let octets = hex::decode(digits).expect("hexadecimal digits");
+fn packet(service: Service, vectors: &'static str, name: &str) -> Vec<u8> {
+    let octets = hex::decode(golden::vector(vectors, name)).expect("hexadecimal digits");
     Station::new(&Identifiers::default(), StationId(9))
         .send(&EgoPosition::default(), service, &octets)
         .expect("it fits")
@@ -53,13 +46,13 @@ fn receive(c: &mut Criterion) {
     group.throughput(Throughput::Elements(1));
     for (name, packet) in [
         ("RAM", ram()),
-        ("CAM", golden(Service::Cam, ITS, "C2")),
-        ("DENM", golden(Service::Denm, ITS, "D1")),
-        ("VAM", golden(Service::Vam, VAM, "V11")),
-        ("CPM", golden(Service::Cpm, ITS, "P2")),
+        ("CAM", packet(Service::Cam, golden::ITS, "C2")),
+        ("DENM", packet(Service::Denm, golden::ITS, "D1")),
+        ("VAM", packet(Service::Vam, golden::VAM, "V11")),
+        ("CPM", packet(Service::Cpm, golden::ITS, "P2")),
         ("garbage", vec![0xA5; 200]),
         ("unknown port", {
-            let mut packet = golden(Service::Cam, ITS, "C2");
+            let mut packet = packet(Service::Cam, golden::ITS, "C2");
             packet[41] = 0xD3;
             packet
         }),

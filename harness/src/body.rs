@@ -93,7 +93,7 @@ struct Motion {
 }
 
 impl Body {
-    /// A body that stands at `place`.
+    /// A body that stands at `place` and moves `time_scale` times as fast as real; `seed` is that of its gait.
     #[must_use]
     pub fn new(build: Build, site: Site, place: Place, time_scale: f64, seed: u64) -> Self {
         Self {

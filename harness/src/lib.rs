@@ -12,6 +12,15 @@
 //!   packets ◄── transport ◄── station ◄── wire ◄── ras ◄───────┘──► trace (log)
 //! ```
 //!
+//! ```
+//! use crossguard_harness::sim::Fuzz;
+//!
+//! // Three streets of up to four robots, with whatever goes wrong on them.
+//! let streets = Fuzz { first: 1, seeds: 3, robots: 4, faults: None, threads: 1, failures_max: 1 };
+//! let totals = streets.run(&|_| true);
+//! assert_eq!((totals.seeds, totals.violations), (3, 0));
+//! ```
+//!
 //! - [`endpoint::Endpoint`] joins them without doing any input or output of its own: datagrams,
 //!   events and the time go in, datagrams and outputs come out. A robot stack with its own loop
 //!   embeds this.
@@ -39,6 +48,8 @@
 //! - [`drive`] drives endpoints along a run of the model checker, and compares the two.
 //! - [`robot_file`] and [`operator`] are what `crossguard run` reads: a configuration, and what a
 //!   person types.
+//!
+//! There are no features.
 
 pub mod application;
 pub mod body;
@@ -78,5 +89,5 @@ pub mod wire;
 
 /// The Rust in the README compiles.
 #[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;

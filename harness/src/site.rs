@@ -51,9 +51,9 @@ impl Place {
 /// Where the origin of a site is, in degrees.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Site {
-    /// Latitude of the origin.
+    /// Latitude of the origin, in degrees, north positive.
     pub latitude: f64,
-    /// Longitude of the origin.
+    /// Longitude of the origin, in degrees, east positive.
     pub longitude: f64,
 }
 

@@ -7,6 +7,7 @@ use std::net::TcpStream;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
+use crossguard_codec::golden;
 use serde_json::Value;
 use support::*;
 
@@ -312,16 +313,6 @@ fn the_state_diagram_has_the_papers_states_in_every_format() {
     assert!(starts, "{transitions}");
 }
 
-#[test]
-fn the_readmes_state_diagram_is_the_one_that_the_code_makes() {
-    let readme = include_str!("../../README.md");
-    let diagram = stdout(&run(&["fsm"]));
-    assert!(
-        readme.contains(diagram.trim()),
-        "put this into README.md:\n{diagram}"
-    );
-}
-
 /// A message as the demo sends it.
 fn a_message() -> String {
     let folder = tempfile::tempdir().unwrap();
@@ -360,36 +351,23 @@ fn a_message_of_the_demo_survives_decoding_and_encoding() {
     assert_eq!(again.stdout, decoded.stdout);
 }
 
-/// The golden vectors of the codec's file, by name.
-fn golden(file: &str, name: &str) -> String {
-    let path = format!(
-        "{}/../codec/tests/golden/{file}",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    let text = std::fs::read_to_string(path).unwrap();
-    let line = text
-        .lines()
-        .find_map(|line| line.strip_prefix(&format!("{name}: ")));
-    line.unwrap().to_owned()
-}
-
 #[test]
 fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() {
     for (file, name, kind, standard) in [
-        ("its.txt", "C4", "cam", "TS 103 900 v2.3.1"),
-        ("its.txt", "P2", "cpm", "TS 103 324 v2.1.1"),
+        (golden::ITS, "C4", "cam", "TS 103 900 v2.3.1"),
+        (golden::ITS, "P2", "cpm", "TS 103 324 v2.1.1"),
         (
-            "its.txt",
+            golden::ITS,
             "D1",
             "denm",
             "EN 302 637-3 v1.3.1 and TS 103 831",
         ),
-        ("vam.txt", "V11", "vam", "TS 103 300-3 v2.3.1"),
-        ("packets.txt", "G1", "cam", "EN 302 637-2 v1.4.1"),
-        ("packets.txt", "G2", "denm", "EN 302 637-3 v1.3.1"),
+        (golden::VAM, "V11", "vam", "TS 103 300-3 v2.3.1"),
+        (golden::PACKETS, "G1", "cam", "EN 302 637-2 v1.4.1"),
+        (golden::PACKETS, "G2", "denm", "EN 302 637-3 v1.3.1"),
     ] {
-        let digits = golden(file, name);
-        let decoded = run(&["codec", "decode", "--hex", &digits]);
+        let digits = golden::vector(file, name);
+        let decoded = run(&["codec", "decode", "--hex", digits]);
         assert_eq!(decoded.status.code(), Some(0), "{}", stderr(&decoded));
         let value = json(&decoded);
         assert!(value["message"][kind].is_object(), "{value}");
@@ -399,8 +377,8 @@ fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() 
         let encoded = run_with(&["codec", "encode"], &decoded.stdout);
         assert_eq!(stdout(&encoded).trim(), digits, "{}", stderr(&encoded));
     }
-    let older = golden("its.txt", "W2");
-    let decoded = run(&["codec", "decode", "--dictionary", "2.1.1", "--hex", &older]);
+    let older = golden::vector(golden::ITS, "W2");
+    let decoded = run(&["codec", "decode", "--dictionary", "2.1.1", "--hex", older]);
     assert!(json(&decoded)["message"]["vam211"].is_object());
 }
 

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use crossguard_codec::geonet::EgoPosition;
-use crossguard_codec::{Identifiers, Service};
+use crossguard_codec::{Identifiers, Service, golden};
 use crossguard_harness::station::Station;
 use crossguard_protocol::StationId;
 use support::*;
@@ -16,19 +16,14 @@ use support::*;
 const RATE: u32 = 1_000;
 
 /// A message of the codec's golden vectors, from another station each time.
-fn message(vectors: &str, name: &str, station: u32) -> Vec<u8> {
-    let digits = vectors
-        .lines()
-        .find_map(|line| line.strip_prefix(name)?.strip_prefix(": "));
-    let mut octets = hex::decode(digits.unwrap()).unwrap();
+fn message(vectors: &'static str, name: &str, station: u32) -> Vec<u8> {
+    let mut octets = hex::decode(golden::vector(vectors, name)).unwrap();
     octets[2..6].copy_from_slice(&station.to_be_bytes());
     octets
 }
 
 /// The packet number `n` of the flood.
 fn packet(n: u32) -> Vec<u8> {
-    const ITS: &str = include_str!("../../codec/tests/golden/its.txt");
-    const VAM: &str = include_str!("../../codec/tests/golden/vam.txt");
     let station = 1_000 + n % 500;
     let mut sender = Station::new(&Identifiers::default(), StationId(station));
     let mut send = |service, message: &[u8]| {
@@ -37,12 +32,12 @@ fn packet(n: u32) -> Vec<u8> {
             .unwrap()
     };
     match n % 5 {
-        0 => send(Service::Cam, &message(ITS, "C2", station)),
-        1 => send(Service::Denm, &message(ITS, "D1", station)),
-        2 => send(Service::Vam, &message(VAM, "V11", station)),
-        3 => send(Service::Cpm, &message(ITS, "P2", station)),
+        0 => send(Service::Cam, &message(golden::ITS, "C2", station)),
+        1 => send(Service::Denm, &message(golden::ITS, "D1", station)),
+        2 => send(Service::Vam, &message(golden::VAM, "V11", station)),
+        3 => send(Service::Cpm, &message(golden::ITS, "P2", station)),
         // Garbage: a CAM that says to be a RAM, and is cut off.
-        _ => send(Service::Ram, &message(ITS, "C1", station)[..20]),
+        _ => send(Service::Ram, &message(golden::ITS, "C1", station)[..20]),
     }
 }
 

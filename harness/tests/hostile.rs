@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use crossguard_codec::geonet::EgoPosition;
-use crossguard_codec::{Identifiers, MessageIdentifiers, RobotState, Service};
+use crossguard_codec::{Identifiers, MessageIdentifiers, RobotState, Service, golden};
 use crossguard_harness::station::Station;
 use crossguard_harness::wire::Wire;
 use crossguard_protocol::{Availability, Robot, StationId};
@@ -55,9 +55,7 @@ fn hostile_datagrams() -> Vec<Vec<u8>> {
     cut_short.truncate(50);
     let mut secured = a_ram(&good);
     secured[0] = 0x12;
-    let mut golden = include_str!("../../codec/tests/golden/its.txt").lines();
-    let denm = golden.find_map(|line| line.strip_prefix("D1: "));
-    let denm = hex::decode(denm.unwrap()).unwrap();
+    let denm = hex::decode(golden::vector(golden::ITS, "D1")).unwrap();
     vec![
         Vec::new(),
         vec![1],

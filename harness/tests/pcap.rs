@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crossguard_codec::Identifiers;
+use crossguard_codec::{Identifiers, golden};
 use crossguard_harness::sniffer::Sniffer;
 use serde_json::Value;
 use support::*;
@@ -126,9 +126,7 @@ fn wireshark_understands(path: &Path, packets: usize) {
 
 #[test]
 fn a_denm_is_a_line_that_names_its_cause_and_place() {
-    let mut golden = include_str!("../../codec/tests/golden/packets.txt").lines();
-    let packet = golden.find_map(|line| line.strip_prefix("G2: "));
-    let packet = hex::decode(packet.unwrap()).unwrap();
+    let packet = hex::decode(golden::vector(golden::PACKETS, "G2")).unwrap();
     let seen = Sniffer::new(Identifiers::default()).see(&packet, 5_000, 694_694_401_000);
     assert_eq!(
         seen.to_string(),

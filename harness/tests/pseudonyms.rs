@@ -1,5 +1,5 @@
 //! Pseudonyms change as a whole, and never while a session knows the robot by the old one
-//! (design section 4, *Identity*; property I18).
+//! (property I18).
 
 use std::collections::BTreeSet;
 

@@ -2,7 +2,7 @@
 //! fuzz target `receive` in `harness/fuzz`.
 
 use crossguard_codec::geonet::EgoPosition;
-use crossguard_codec::{Identifiers, RobotState, Service};
+use crossguard_codec::{Identifiers, RobotState, Service, golden};
 use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_harness::station::Station;
 use crossguard_harness::wire::Wire;
@@ -13,19 +13,11 @@ use rand_chacha::ChaCha8Rng;
 /// How many packets are tried.
 const PACKETS: u64 = 20_000;
 
-fn golden() -> Vec<Vec<u8>> {
-    let files = [
-        (include_str!("../../codec/tests/golden/its.txt"), 2..3),
-        (include_str!("../../codec/tests/golden/vam.txt"), 2..3),
-        (include_str!("../../codec/tests/golden/packets.txt"), 0..0),
-    ];
+fn packets() -> Vec<Vec<u8>> {
     let mut sender = Station::new(&Identifiers::default(), StationId(77));
     let mut packets = Vec::new();
-    for (text, _) in files {
-        for line in text.lines().filter(|line| !line.starts_with('#')) {
-            let Some((_, digits)) = line.split_once(": ") else {
-                continue;
-            };
+    for file in [golden::ITS, golden::VAM, golden::PACKETS] {
+        for (_, digits) in golden::vectors(file) {
             let octets = hex::decode(digits).unwrap();
             if octets[0] == 0x11 {
                 packets.push(octets);
@@ -78,7 +70,7 @@ fn moment(now_ms: u64) -> Moment {
 #[test]
 fn any_packet_is_taken_or_dropped_under_a_cause() {
     let mut noise = ChaCha8Rng::seed_from_u64(4);
-    let mut seeds = golden();
+    let mut seeds = packets();
     seeds.extend(of_a_robot());
     assert!(seeds.len() > 100);
     let mut endpoint = endpoint(StationId(1));

@@ -1,4 +1,4 @@
-/* The properties, under the ids of design section 5.
+/* The properties, under the ids of ../doc/verification.md.
  *
  * One that fails prints "violated I8", a premise that is met prints "premise I8", each once. Compiled
  * with -DUNTIL_VIOLATED=bits, the verifier stops as soon as all of these are violated.

@@ -16,6 +16,29 @@
 //! anything they may, timers that expire at any moment, crashes. Scenarios bound how often some of
 //! this happens, and each verdict says under which bounds it was found.
 //!
+//! ```
+//! use crossguard_model_check::check::{Options, check};
+//! use crossguard_model_check::model::Model;
+//! use crossguard_model_check::scenario::Scenario;
+//!
+//! let scenario = Scenario::load("stable").unwrap();
+//! let report = check(&Model::new(scenario), &Options::default(), &mut |_| ());
+//! assert!(report.exhaustive);
+//! assert_eq!(report.violated().count(), 0);
+//! ```
+//!
+//! - [`scenario`] reads what is to be explored, [`model`] says what may happen in it, with the robots of
+//!   [`node`], the channel of [`network`] and what must be remembered of the past in [`history`].
+//! - [`properties`] are the rules, [`check`] and [`report`] say what came of them, [`fair`] decides
+//!   leads-to, [`timed`] is the view in which time passes in ticks.
+//! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
+//!   states to other tools.
+//! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
+//!   robot against everything, and the diagram of that.
+//! - [`paper`] is the paper's text word for word, which fails.
+//!
+//! There are no features.
+//!
 //! States that differ in names alone count as one in every scenario, and in those that name symmetric
 //! robots so do states that differ in which of these is which; [`symmetry`] says why that is exact.
 
@@ -53,3 +76,13 @@ pub fn count_states(model: &model::Model) -> usize {
     let limits = check::Options::default().limits();
     graph::Graph::build(model, &limits, &mut |_| false).states()
 }
+
+/// The Rust in the README compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+/// The Rust on the page for verifiers compiles, and holds.
+#[cfg(doctest)]
+#[doc = include_str!("../doc/verifying.md")]
+struct Verifying;

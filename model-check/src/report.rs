@@ -22,7 +22,7 @@ pub struct ScenarioReport {
     pub transitions: usize,
     /// Steps from the initial state to the farthest state.
     pub depth: usize,
-    /// Time that all of it took.
+    /// Seconds that all of it took, by the clock.
     pub seconds: f64,
     /// What it cost.
     #[serde(flatten)]

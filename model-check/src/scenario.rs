@@ -83,7 +83,8 @@ pub struct RobotSetup {
     pub detects: bool,
 }
 
-/// How often each kind of event may happen in one run, over all robots together.
+/// How often each kind of event may happen in one run, over all robots together; never where a file
+/// says nothing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bounds {

@@ -1,9 +1,12 @@
-//! The verification page says what the scenario files say.
+//! The verification page says what the scenario files say, and the scenario on the page for verifiers is one.
 
+use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::scenario::Scenario;
 
 const PAGE: &str = include_str!("../doc/verification.md");
+const GUIDE: &str = include_str!("../doc/verifying.md");
 
 /// `1234567` as `1,234,567`.
 fn grouped(number: usize) -> String {
@@ -104,4 +107,13 @@ fn every_property_has_a_weakening_that_breaks_it_and_says_what_else_fails() {
             }
         }
     }
+}
+
+#[test]
+fn the_scenario_of_the_guide_can_be_checked_and_holds() {
+    let (_, text) = GUIDE.split_once("```toml\n").expect("a scenario");
+    let (text, _) = text.split_once("```").expect("it ends");
+    let scenario = Scenario::parse("my.toml", text).unwrap();
+    let report = check(&Model::new(scenario), &Options::default(), &mut |_| ());
+    assert!(report.exhaustive && !report.failed(), "{report:#?}");
 }

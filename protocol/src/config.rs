@@ -9,49 +9,57 @@ use crate::time::Millis;
 
 /// The values that a robot is configured with. [`Config::new`] checks them.
 ///
-/// The defaults are those of design section 4; `t_ack` covers the paper's measured negotiation
-/// times (74 ms ± 15 ms and 129 ms ± 102 ms) with four deviations to spare.
+/// Times are from 1 ms to one day; all robots of a team have the same. What holds between them is in
+/// [`Inequality`].
+///
+/// The paper gives no timers. `t_ack` covers the negotiation times that it measures (74 ms ± 15 ms and
+/// 129 ms ± 102 ms) with four deviations to spare.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Settings {
-    /// Interval of RAM in a session; a leader bumps its heartbeat at the same pace.
+    /// Interval of RAM in a session; a leader bumps its heartbeat at the same pace. 100 ms by default,
+    /// the shortest interval of CAM (EN 302 637-2, clause 6.1.3).
     pub ram_period: Millis,
-    /// How long a requester gathers offers, counted from the first, before it selects.
+    /// How long a requester gathers offers, counted from the first, before it selects; 300 ms by default.
     pub t_select: Millis,
-    /// How long a helper reserves itself for one requester.
+    /// How long a helper reserves itself for one requester; 3 s by default.
     pub t_offer: Millis,
-    /// How long a request for help stands.
+    /// How long a request for help stands; 10 s by default.
     pub t_help: Millis,
-    /// How long a leader waits for an acknowledgement before it repeats the command.
+    /// How long a leader waits for an acknowledgement before it repeats the command; 600 ms by default.
     pub t_ack: Millis,
-    /// How often a leader repeats a command.
+    /// How often a leader repeats a command, 1..=15; 3 by default.
     pub n_ack: u8,
-    /// How long a follower goes on without a newer heartbeat or command.
+    /// How long a follower goes on without a newer heartbeat or command; 2 s by default.
     pub t_safety: Millis,
-    /// How long a leader's lease stands after it sent the newest echoed heartbeat.
+    /// How long a leader's lease stands after it sent the newest echoed heartbeat; 1.9 s by default.
     pub t_lease: Millis,
-    /// How long a follower stays in the session after `t_safety` ran out.
+    /// How long a follower stays in the session after `t_safety` ran out; 5 s by default.
     pub t_leave: Millis,
-    /// How long a robot names a session as over.
+    /// How long a robot names a session as over; 1 s by default.
     pub t_farewell: Millis,
-    /// How long the identity may stay locked, farewells included.
+    /// How long the identity may stay locked, farewells included; 5 minutes by default.
     pub t_lock: Millis,
-    /// `T_exec` by task type: how long a maneuver may run.
+    /// `T_exec` by task type: how long a maneuver may run; by default 5 s for `initialPos` and 60 s for
+    /// the others.
     pub t_exec: [Millis; TaskType::COUNT],
-    /// Largest error of a robot's clock rate, in parts per million.
+    /// Largest error of a robot's clock rate, in parts per million, below 100,000; 1000 by default.
     pub drift_ppm: u32,
-    /// Longest time by which the endpoint is late to tell the robot that time has passed.
+    /// Longest time by which the endpoint is late to tell the robot that time has passed, and by which a
+    /// message is old when it is told; 50 ms by default.
     pub delay_max: Millis,
-    /// The maneuvers that this robot can do.
+    /// The maneuvers that this robot can do; the three with names by default.
     pub capabilities: TaskSet,
-    /// The maneuvers under which a pedestrian may cross; the corridor opens only for these.
+    /// The maneuvers under which a pedestrian may cross; the corridor opens only for these. `move` and
+    /// `block` by default.
     pub guarding: TaskSet,
-    /// Fallback policy by task type.
+    /// Fallback policy by task type; by default to a safe position from `move`, hold until clear for
+    /// `block`, stop in place for the others.
     pub fallback: [FallbackPolicy; TaskType::COUNT],
-    /// First `requestID` of every follower in a session.
+    /// First `requestID` of every follower in a session; 0 by default.
     pub first_request: RequestId,
-    /// First heartbeat of a session.
+    /// First heartbeat of a session; 0 by default.
     pub first_heartbeat: Heartbeat,
 }
 
@@ -258,7 +266,7 @@ impl Config {
         Self(settings)
     }
 
-    /// The settings.
+    /// The settings that were checked.
     #[must_use]
     pub const fn settings(&self) -> &Settings {
         &self.0

@@ -1,5 +1,4 @@
-//! The corridor: whether the leader's application may let the pedestrian cross (design section 4,
-//! *Corridor*; property I11).
+//! The corridor: whether the leader's application may let the pedestrian cross (property I11).
 
 use crate::config::Config;
 use crate::message::Progress;

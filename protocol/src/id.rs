@@ -11,7 +11,7 @@ pub struct StationId(pub u32);
 /// A number that its station never gives out twice: boot counter and count since that boot.
 ///
 /// The boot counter is the only thing a robot persists. It is written before the robot takes part
-/// in anything, so a rebooted robot cannot repeat a number (design section 4, *Sessions*).
+/// in anything, so a rebooted robot cannot repeat a number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UniqueNumber {

@@ -1,5 +1,5 @@
 //! The identity lock: station id, certificate and link address stay the same from joining a session
-//! until its farewell is over (design section 4, *Identity*; property I18).
+//! until its farewell is over (property I18).
 
 use crate::output::{EndReason, Output, ReleaseReason, Sink};
 use crate::robot::Step;

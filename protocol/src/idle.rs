@@ -11,7 +11,7 @@ use crate::task::{Availability, HelpRequest, Unavailability};
 use crate::time::Countdown;
 
 impl Robot {
-    /// `PedestrianDetected` opens a session (design section 4, *Request and offer*).
+    /// `PedestrianDetected` opens a session.
     pub(crate) fn detect_pedestrian(
         &mut self,
         step: &mut Step<'_, impl Sink>,
@@ -61,7 +61,7 @@ impl Robot {
     }
 
     /// Availability withdraws an offer, ends the session of a leader, and makes a follower fail or
-    /// leave (design section 4, *Availability*).
+    /// leave.
     pub(crate) fn change_availability(
         &mut self,
         step: &mut Step<'_, impl Sink>,

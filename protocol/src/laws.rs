@@ -1,6 +1,6 @@
 //! The laws of the protocol, as functions that assert, and arbitrary values to call them with.
 //!
-//! One body, three callers (design section 9): the `proofs` crate calls each law with symbolic
+//! One body, three callers: the `proofs` crate calls each law with symbolic
 //! values under Kani, with random ones under proptest, and with all values where there are few. The
 //! values come from one description too, written over a [`Source`] of numbers.
 //!

@@ -7,9 +7,6 @@
 //! one transition function, [`Robot::step`], that the model checker, the proofs, the simulator and
 //! the live endpoint all call.
 //!
-//! The enums that tell stages, inputs and outputs apart are `repr(u8)`: their tag is a byte of its own
-//! instead of an unused value of some field, so that a proof about one stage is about no other.
-//!
 //! It is `no_std`, free of heap and of unsafe code, total, and reads no clock: time enters as an
 //! [`Input`]. What it decides comes out as [`Outputs`] for the endpoint to carry out in order.
 //!
@@ -37,7 +34,27 @@
 //! go2.step(&config, Input::Ram { ram: ari.ram(), distance });
 //! assert_eq!((ari.state(), go2.state()), (State::RoleEstablished, State::RoleEstablished));
 //! ```
+//!
+//! # What is where
+//!
+//! | | |
+//! |---|---|
+//! | the robot, and what it remembers | [`Robot`], [`Phase`] with [`Requesting`], [`Offering`], [`Leading`], [`Following`] |
+//! | what goes in | [`Input`]: [`Ram`], [`Rmcm`], elapsed [`Millis`], an [`Event`] of the application |
+//! | what comes out | [`Output`], in order; [`Notice`] tells the application, [`Ignored`] why nothing came of an input |
+//! | its settings, and what must hold between them | [`Config`], [`Settings`], [`Inequality`] |
+//! | names and numbers | [`StationId`], [`SessionId`], [`RequestId`], [`Heartbeat`], [`OfferNumber`] |
+//! | what is asked for and done | [`HelpRequest`], [`TaskType`], [`FallbackPolicy`], [`Availability`] |
+//!
+//! The enums that tell stages, inputs and outputs apart are `repr(u8)`: their tag is a byte of its own
+//! instead of an unused value of some field, so that a proof about one stage is about no other.
+//!
+//! # Features
+//!
+//! - `serde`: every public type is serialized and deserialized, for logs and bindings.
+//! - `laws`: what proofs and property tests call; no part of the stable interface.
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(any(test, doctest))]
 extern crate std;
@@ -103,3 +120,8 @@ pub const MAX_TIMERS: usize = 3 * MAX_FOLLOWERS + 3;
 
 /// How many outputs one step can have.
 pub const MAX_OUTPUTS: usize = 24;
+
+/// The Rust in the README compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -94,8 +94,7 @@ impl Robot {
         }
     }
 
-    /// `T_safety` ran out: the maneuver is stopped by its task's policy (design section 4,
-    /// *Fallback*).
+    /// `T_safety` ran out: the maneuver is stopped by its task's policy (I9).
     pub(crate) fn safety_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         let Phase::Following(following) = &mut self.phase else {
             return;

@@ -48,7 +48,7 @@ pub enum Identity {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct RoadUser {
-    /// Which one it is.
+    /// Which one it is: a station by its id, or an object that a station perceives.
     pub identity: Identity,
     /// What it is.
     pub kind: Kind,

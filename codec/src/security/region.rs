@@ -6,9 +6,9 @@ use crate::state::Position;
 /// A place, in units of 10^-7 degree.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Place {
-    /// North positive.
+    /// 10^-7 degree, north positive.
     pub latitude: i32,
-    /// East positive.
+    /// 10^-7 degree, east positive.
     pub longitude: i32,
 }
 

@@ -26,7 +26,7 @@ pub struct Validity {
 pub struct Duration {
     /// How many.
     pub number: u16,
-    /// Of what.
+    /// Seconds, hours or another unit of IEEE 1609.2.
     pub unit: Unit,
 }
 

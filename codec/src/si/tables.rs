@@ -190,19 +190,19 @@ pub const ACCELERATION_CONFIDENCE: Confidence<u8> = Confidence {
     unavailable: 102,
 };
 
-/// `AltitudeConfidence`: metres.
+/// `AltitudeConfidence`: metres; classes from 0.01 m to 200 m.
 pub const ALTITUDE_CONFIDENCE: Ladder = Ladder {
     limits: &[
         0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0,
     ],
 };
 
-/// `CurvatureConfidence`: 1/m.
+/// `CurvatureConfidence`: 1/m; classes from 0.00002 to 0.1.
 pub const CURVATURE_CONFIDENCE: Ladder = Ladder {
     limits: &[0.00002, 0.0001, 0.0005, 0.002, 0.01, 0.1],
 };
 
-/// `YawRateConfidence`: degrees/s.
+/// `YawRateConfidence`: degrees/s; classes from 0.01 to 100.
 pub const YAW_RATE_CONFIDENCE: Ladder = Ladder {
     limits: &[0.01, 0.05, 0.1, 1.0, 5.0, 10.0, 100.0],
 };

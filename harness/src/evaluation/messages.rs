@@ -145,6 +145,8 @@ fn state_of_a_pedestrian() -> RobotState {
 
 #[cfg(test)]
 mod tests {
+    use crossguard_codec::golden;
+
     use super::*;
 
     #[test]
@@ -161,12 +163,7 @@ mod tests {
     /// [`vam`](crate::ras::vam) makes.
     #[test]
     fn a_vam_has_the_size_of_the_golden_vectors() {
-        let vectors = include_str!("../../../codec/tests/golden/vam.txt");
-        let octets = |name: &str| {
-            let lines = vectors.lines().filter_map(|line| line.split_once(": "));
-            let mut found = lines.filter(|line| line.0 == name);
-            found.next().unwrap().1.len() / 2
-        };
+        let octets = |name| golden::vector(golden::VAM, name).len() / 2;
         let sizes = Sizes::measure(5).unwrap();
         assert_eq!(sizes.vam, [octets("V1"), octets("V2")]);
         // Whoever says that it left has the low-frequency container as well.

@@ -79,7 +79,7 @@ pub struct Settings {
     pub radius_m: f64,
     /// A member stays one until it is this much further away, in metres.
     pub hysteresis_m: f64,
-    /// Who is less certain does not become a member; a member stays one down to half of it.
+    /// Who is less certain, from 0 to 1, does not become a member; a member stays one down to half of it.
     pub confidence_min: f64,
     /// A member that is no longer perceived is forgotten after so long, in ms. The default is half of
     /// `timeClusterContinuity`.

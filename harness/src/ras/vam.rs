@@ -186,7 +186,7 @@ pub enum VamError {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_codec::{ConfidenceEllipse, Measurement, Position};
+    use crossguard_codec::{ConfidenceEllipse, Measurement, Position, golden};
 
     use super::super::area::Area;
     use super::super::clustering::VruClass;
@@ -227,10 +227,7 @@ mod tests {
     }
 
     fn vector(name: &str) -> &'static str {
-        let vectors = include_str!("../../../codec/tests/golden/vam.txt");
-        let lines = vectors.lines().filter_map(|line| line.split_once(": "));
-        let mut found = lines.filter(|line| line.0 == name);
-        found.next().unwrap().1
+        golden::vector(golden::VAM, name)
     }
 
     /// A device from being switched on until it has left a cluster: every VAM that it sends is one of

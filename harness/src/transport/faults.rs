@@ -191,7 +191,7 @@ impl Channel {
 }
 
 impl Faults {
-    /// Independent loss alone.
+    /// Independent loss alone, with this probability, 0 to 1.
     #[must_use]
     pub fn loss(loss: f64) -> Self {
         Self {

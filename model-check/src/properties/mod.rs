@@ -1,4 +1,5 @@
-//! The properties, one file each, under the ids of design section 5.
+//! The properties, one file each, under the ids of the table in
+//! `doc/verification.md`.
 //!
 //! A property counts only when its premise is reachable: a state rule or step rule says what must
 //! hold, and its premise says when the rule says anything at all.

@@ -7,7 +7,7 @@ use super::model::{Model, State};
 use super::watch::{Measure, Watch};
 use crate::node::Node;
 
-/// A property of the timed model, under its id in design section 5.
+/// A property of the timed model, under its id in the table of `doc/verification.md`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
 #[allow(missing_docs, reason = "the ids are those of the table in `statement`")]
 pub enum TimedProperty {

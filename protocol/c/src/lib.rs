@@ -16,6 +16,33 @@
 //!   [`CrossguardTurn`], with packets that are ready to be sent.
 //! - No panic crosses the boundary: it stops the process, or is the panic handler's without `std`.
 //!
+//! ```c
+//! CrossguardConfig config;
+//! crossguard_config_init(&config);
+//! config.station = 2;
+//! config.boot = boot;                       /* counted up, and on the disk before this */
+//! static CrossguardRobot robot;
+//! static CrossguardTurn turn;
+//! static uint8_t packets[CROSSGUARD_PACKETS_LEN];
+//! crossguard_turn_init(&turn, packets, sizeof packets, NULL, 0);
+//! if (crossguard_robot_init(&robot, sizeof robot, CROSSGUARD_ABI_VERSION, &config) != CROSSGUARD_STATUS_OK)
+//!     return 1;
+//! crossguard_elapse(&robot, elapsed_ms, &turn);   /* time first, then what happened in it */
+//! for (size_t i = 0; i < turn.outputs_length; i++)
+//!     carry_out(&turn.outputs[i], packets);
+//! ```
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | `abi` | the types and constants of the header |
+//! | `ffi` | the functions; the only `unsafe` |
+//! | `live` | a robot: state machine, codec stack, log |
+//! | `config`, `body`, `output`, `view`, `why`, `cause` | Rust's types as plain numbers, and back |
+//! | `trace` | lines of the log |
+//!
+//! Features: `std` (default) links the standard library for its panic handler and nothing else, `trace`
+//! (default) writes logs, `panic-handler` brings a panic handler where there is no `std`.
+//!
 //! `include/crossguard.h` is generated from this crate, `include/crossguard.hpp` is a thin layer of C++17
 //! over it. The README beside this crate says how to build and link it.
 #![no_std]

@@ -37,6 +37,30 @@ impl Language {
 /// The program that `source`, a path in this crate, compiles to. Where there is no compiler, says that
 /// `test` is skipped.
 pub fn compile(test: &str, language: Language, source: &str) -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    std::fs::create_dir_all(&folder).unwrap();
+    let program = folder.join(format!("{language:?}"));
+    let mut command = compiler(test, language)?;
+    command
+        .arg(crate_folder().join(source))
+        .arg("-o")
+        .arg(&program)
+        .arg(library())
+        .args(["-lpthread", "-ldl", "-lm"]);
+    succeed(&mut command);
+    Some(program)
+}
+
+/// Compiles `source`, and links nothing.
+pub fn compile_to_object(test: &str, language: Language, source: &Path) {
+    if let Some(mut command) = compiler(test, language) {
+        let object = source.with_extension("o");
+        succeed(command.arg("-c").arg(source).arg("-o").arg(object));
+    }
+}
+
+/// The compiler with its flags. Where there is none, says that `test` is skipped.
+fn compiler(test: &str, language: Language) -> Option<Command> {
     let [compiler, standard] = language.compiler();
     if Command::new(compiler).arg("--version").output().is_err() {
         // Not by eprintln!, which the test runner would capture.
@@ -46,25 +70,16 @@ pub fn compile(test: &str, language: Language, source: &str) -> Option<PathBuf> 
         );
         return None;
     }
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    std::fs::create_dir_all(&folder).unwrap();
-    let program = folder.join(format!("{language:?}"));
-    let here = crate_folder();
-    let output = Command::new(compiler)
-        .arg(standard)
-        .args(FLAGS)
-        .arg("-I")
-        .arg(here.join("include"))
-        .arg(here.join(source))
-        .arg("-o")
-        .arg(&program)
-        .arg(library())
-        .args(["-lpthread", "-ldl", "-lm"])
-        .output()
-        .unwrap();
+    let mut command = Command::new(compiler);
+    command.arg(standard).args(FLAGS);
+    command.arg("-I").arg(crate_folder().join("include"));
+    Some(command)
+}
+
+fn succeed(compiler: &mut Command) {
+    let output = compiler.output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{source}:\n{said}");
-    Some(program)
+    assert!(output.status.success(), "{compiler:?}:\n{said}");
 }
 
 /// The folder of this crate, also for tests of other crates.

@@ -1,0 +1,187 @@
+//! A robot stack that embeds the endpoint: it offers its help, and does what its leader commands, one crossing
+//! long. Its peer is another process:
+//!
+//! ```text
+//! crossguard run --config harness/examples/ari.toml
+//! ```
+//!
+//! ```text
+//! Usage: follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
+//! ```
+//!
+//! The body is a stand-in that takes three seconds for everything. Yours goes to the same places.
+
+use std::error::Error;
+use std::fs::File;
+use std::io::ErrorKind;
+use std::net::UdpSocket;
+use std::path::Path;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use crossguard_codec::{Position, RobotState, si};
+use crossguard_harness::boot;
+use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_harness::trace::{self, Entry, Record};
+use crossguard_harness::wire::Wire;
+use crossguard_protocol::{Config, Event, ManeuverId, Notice, Robot, StationId};
+
+/// Longer than any packet, so that a longer one is seen to be too long.
+const DATAGRAM_MAX: usize = 2_048;
+/// How long the stand-in takes for a maneuver.
+const MANEUVER: Duration = Duration::from_secs(3);
+
+struct Follower {
+    endpoint: Endpoint,
+    socket: UdpSocket,
+    peer: u16,
+    log: Option<File>,
+    began: Instant,
+    /// What the body does, and until when.
+    running: Option<(ManeuverId, Instant)>,
+    completed: usize,
+    is_released: bool,
+}
+
+impl Follower {
+    /// Tells the endpoint what happened, and carries out what it wants, in its order.
+    fn handle(&mut self, stimulus: Stimulus<'_>) -> Result<(), Box<dyn Error>> {
+        let now_ms = u64::try_from(self.began.elapsed().as_millis())?;
+        let moment = Moment {
+            now_ms,
+            timestamp_its: si::timestamp_its(unix_ms()),
+        };
+        // What the sensors know of the body; what they do not know stays unavailable.
+        let state = RobotState {
+            position: Position::at(48.765_41, 9.123_46),
+            speed: Some(if self.running.is_some() { 0.5 } else { 0.0 }.into()),
+            ..RobotState::default()
+        };
+        for effect in self.endpoint.handle(moment, &state, stimulus) {
+            let packet = match &effect {
+                Effect::Transmit { packet, .. } => Some(packet.clone()),
+                _ => None,
+            };
+            if let Effect::Act(act) = &effect {
+                self.act(act);
+            }
+            // What is sent is logged first: no receiver logs it before its sender.
+            if let Some(entry) = trace::recorded(effect) {
+                self.record(entry)?;
+            }
+            if let Some(packet) = packet {
+                // A message that cannot be sent is a message that is lost.
+                let _ = self.socket.send_to(&packet, ("127.0.0.1", self.peer));
+            }
+        }
+        Ok(())
+    }
+
+    /// The body, and the application.
+    fn act(&mut self, act: &Act) {
+        println!("{act:?}");
+        match act {
+            Act::Start(maneuver, _where_and_how) => {
+                self.running = Some((maneuver.id, Instant::now() + MANEUVER));
+            }
+            Act::Stop(..) | Act::FallBack(..) => self.running = None,
+            Act::Notice(Notice::Released(..)) => self.is_released = true,
+            _ => {}
+        }
+    }
+
+    /// Says so when the body has finished.
+    fn advance(&mut self) -> Result<(), Box<dyn Error>> {
+        match self.running {
+            Some((maneuver, until)) if Instant::now() >= until => {
+                self.running = None;
+                self.completed += 1;
+                self.handle(Stimulus::Event(Event::ManeuverCompleted(maneuver)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn record(&mut self, entry: Entry) -> Result<(), Box<dyn Error>> {
+        let record = Record {
+            at_us: u64::try_from(self.began.elapsed().as_micros())?,
+            robot: "follower".to_owned(),
+            entry,
+        };
+        if let Some(log) = &mut self.log {
+            trace::write(log, &record)?;
+        }
+        Ok(())
+    }
+
+    /// Until the leader has ended its session.
+    fn run(&mut self) -> Result<(), Box<dyn Error>> {
+        let robot = self.endpoint.robot();
+        let (station, boot) = (robot.station(), robot.boot());
+        self.record(Entry::Started {
+            station,
+            boot,
+            settings: Box::new(self.endpoint.config().settings().clone()),
+            identifiers: self.endpoint.wire().identifiers,
+            unix_ms: u64::try_from(unix_ms())?,
+        })?;
+        let mut packet = [0; DATAGRAM_MAX];
+        while !self.is_released {
+            // The socket waits for 10 ms at most, which is less than `delay_max`.
+            match self.socket.recv(&mut packet) {
+                Ok(length) => self.handle(Stimulus::Datagram(&packet[..length]))?,
+                Err(error) if is_nothing(&error) => self.handle(Stimulus::Time)?,
+                Err(error) => return Err(error.into()),
+            }
+            self.advance()?;
+        }
+        let counters = self.endpoint.counters().by_name().clone();
+        self.record(Entry::Stopped { counters })
+    }
+}
+
+/// Whether the socket only says that nothing came in time.
+fn is_nothing(error: &std::io::Error) -> bool {
+    use ErrorKind::{Interrupted, TimedOut, WouldBlock};
+    matches!(error.kind(), Interrupted | TimedOut | WouldBlock)
+}
+
+fn unix_ms() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| {
+        i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
+    })
+}
+
+/// Follows through one crossing; how many maneuvers were completed.
+///
+/// # Errors
+/// Wrong usage, or what a file or the socket says.
+pub(crate) fn follow(arguments: &[String]) -> Result<usize, Box<dyn Error>> {
+    let [station, port, peer, boot_file, rest @ ..] = arguments else {
+        return Err("usage: follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]".into());
+    };
+    // Counted up and on the disk before anything is sent; held until the end.
+    let boot = boot::take(Path::new(boot_file))?;
+    let robot = Robot::new(StationId(station.parse()?), boot.counter);
+    let socket = UdpSocket::bind(("127.0.0.1", port.parse()?))?;
+    socket.set_read_timeout(Some(Duration::from_millis(10)))?;
+    let mut follower = Follower {
+        endpoint: Endpoint::new(robot, Config::default(), Wire::default(), 0),
+        socket,
+        peer: peer.parse()?,
+        log: rest.first().map(File::create).transpose()?,
+        began: Instant::now(),
+        running: None,
+        completed: 0,
+        is_released: false,
+    };
+    follower.run()?;
+    Ok(follower.completed)
+}
+
+#[allow(dead_code, reason = "a test calls what is above")]
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    println!("{} maneuvers completed", follow(&arguments)?);
+    Ok(())
+}

@@ -1,0 +1,281 @@
+//! The pages of the repository: what they link, name and tell to type is there.
+
+mod support;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crossguard_harness::robot_file::RobotFile;
+use crossguard_model_check::scenario::Scenario;
+use indicatif::HumanCount;
+use support::*;
+
+fn repository() -> PathBuf {
+    let harness = Path::new(env!("CARGO_MANIFEST_DIR"));
+    harness.parent().expect("it is in a workspace").to_owned()
+}
+
+/// All files below a folder with this extension, but for what builds leave behind.
+fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
+    for entry in folder.read_dir().unwrap().flatten() {
+        let (path, name) = (entry.path(), entry.file_name());
+        let name = name.to_string_lossy();
+        if name.starts_with('.') || ["target", "node_modules", "build"].contains(&&*name) {
+            continue;
+        }
+        if entry.file_type().unwrap().is_dir() {
+            files(&path, extension, found);
+        } else if path.extension().is_some_and(|found| found == extension) {
+            found.push(path);
+        }
+    }
+}
+
+/// The pages with their texts.
+fn pages() -> BTreeMap<PathBuf, String> {
+    let mut paths = Vec::new();
+    files(&repository(), "md", &mut paths);
+    assert!(paths.len() > 10, "{paths:?}");
+    let read = |path: PathBuf| {
+        let text = std::fs::read_to_string(&path).unwrap();
+        (path, text)
+    };
+    paths.into_iter().map(read).collect()
+}
+
+/// The lines of a page outside of blocks of code, or those inside.
+fn lines(text: &str, code: bool) -> impl Iterator<Item = &str> {
+    let mut inside = false;
+    text.lines().filter(move |line| {
+        let is_fence = line.trim_start().starts_with("```");
+        inside ^= is_fence;
+        !is_fence && inside == code
+    })
+}
+
+/// What a page links, but for the web.
+fn links(text: &str) -> Vec<String> {
+    let prose: Vec<_> = lines(text, false).collect();
+    let prose = prose.join("\n");
+    let targets = prose.split("](").skip(1);
+    let targets = targets.filter_map(|rest| Some(rest.split_once(')')?.0.to_owned()));
+    targets
+        .filter(|target| !target.contains("://") && !target.starts_with("mailto:"))
+        .collect()
+}
+
+/// The anchors of a page: those that GitHub gives its headings.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let headings = lines(text, false).filter(|line| line.starts_with('#'));
+    let slug = |heading: &str| {
+        let words = heading.trim_start_matches('#').trim().to_lowercase();
+        let kept = words.chars().filter_map(|c| match c {
+            ' ' => Some('-'),
+            c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c),
+            _ => None,
+        });
+        kept.collect()
+    };
+    headings.map(slug).collect()
+}
+
+/// The page or other file that a link of this page leads to; of a folder, its README.
+fn target(page: &Path, link: &str) -> PathBuf {
+    let file = link.split('#').next().unwrap_or_default();
+    if file.is_empty() {
+        return page.to_owned();
+    }
+    let path = page.parent().unwrap().join(file);
+    let path = path.canonicalize();
+    let path = path.unwrap_or_else(|_| panic!("{}: no {link}", page.display()));
+    match path.join("README.md") {
+        readme if readme.is_file() => readme,
+        _ => path,
+    }
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let pages = pages();
+    for (page, text) in &pages {
+        for link in links(text) {
+            let target = target(page, &link);
+            if let Some((_, anchor)) = link.split_once('#') {
+                let there = anchors(&pages[&target]).contains(anchor);
+                assert!(there, "{}: no anchor {link}", page.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn every_page_can_be_found_from_the_readme() {
+    let pages = pages();
+    let mut open = vec![repository().join("README.md")];
+    let mut found = BTreeSet::new();
+    while let Some(page) = open.pop() {
+        if let Some(text) = pages.get(&page)
+            && found.insert(page.clone())
+        {
+            open.extend(links(text).iter().map(|link| target(&page, link)));
+        }
+    }
+    let lost: Vec<_> = pages.keys().filter(|page| !found.contains(*page)).collect();
+    assert!(lost.is_empty(), "no way leads to {lost:?}");
+}
+
+/// What stands between backticks in the prose of a page, in one line.
+fn quoted(text: &str) -> Vec<String> {
+    let prose: Vec<_> = lines(text, false).collect();
+    let prose = prose.join(" ");
+    let quoted = prose.split('`').skip(1).step_by(2);
+    quoted
+        .map(|words| words.split_whitespace().collect::<Vec<_>>().join(" "))
+        .collect()
+}
+
+fn is_rust(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|it| it == "rs")
+}
+
+#[test]
+fn the_files_that_pages_name_exist() {
+    let tops = ["codec/", "harness/", "model-check/", "proofs/", "protocol/"];
+    let mut named = 0;
+    for (page, text) in pages() {
+        let folder = page.parent().unwrap();
+        let is_name = |name: &String| {
+            let plain = |c: char| c.is_ascii_alphanumeric() || "/._-".contains(c);
+            let is_path = tops.iter().any(|top| name.starts_with(top));
+            name.chars().all(plain) && (is_path || name.contains('/') && is_rust(name))
+        };
+        for name in quoted(&text).into_iter().filter(is_name) {
+            named += 1;
+            // From the root, from the page, or from the crate that it is about.
+            let mut from = [repository(), folder.to_owned(), folder.join("..")].into_iter();
+            let exists = from.any(|from| from.join(&name).exists());
+            assert!(exists, "{}: no {name}", page.display());
+        }
+    }
+    assert!(named > 50, "{named}");
+}
+
+#[test]
+fn the_tests_that_pages_name_exist() {
+    let mut sources = Vec::new();
+    files(&repository(), "rs", &mut sources);
+    let read = |path: &PathBuf| std::fs::read_to_string(path).unwrap();
+    let sources: String = sources.iter().map(read).collect();
+    let is_name = |name: &String| {
+        let plain = |c: char| c.is_ascii_lowercase() || c == '_';
+        name.matches('_').count() >= 4 && name.chars().all(plain)
+    };
+    let mut named = 0;
+    for (page, text) in pages() {
+        for name in quoted(&text).into_iter().filter(is_name) {
+            named += 1;
+            assert!(sources.contains(&name), "{}: no {name}", page.display());
+        }
+    }
+    assert!(named > 20, "{named}");
+}
+
+/// The words of a command, as far as a shell would give them to one program; nothing where a part is
+/// left out.
+fn words(command: &str) -> Option<Vec<String>> {
+    let mut words = vec![String::new()];
+    let mut quote = None;
+    for c in command.chars() {
+        match (quote, c) {
+            (_, '…') => return None,
+            (None, '\'' | '"') => quote = Some(c),
+            (Some(open), close) if open == close => quote = None,
+            (None, '#' | '|' | '>' | '&' | ';') => break,
+            (None, ' ') => words.push(String::new()),
+            _ => words.last_mut().unwrap().push(c),
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    Some(words)
+}
+
+/// The arguments of every `crossguard` command on a page.
+fn commands(text: &str) -> Vec<Vec<String>> {
+    let code: Vec<_> = lines(text, true).map(str::trim).collect();
+    let code = code.join("\n").replace("\\\n", " ");
+    let prose = quoted(text);
+    let commands = code.lines().chain(prose.iter().map(String::as_str));
+    let arguments = commands.filter_map(|line| {
+        let starts = ["cargo run --release -- ", "crossguard "];
+        starts.iter().find_map(|start| line.strip_prefix(start))
+    });
+    arguments.filter_map(words).collect()
+}
+
+/// The command line takes them apart; what they do is the concern of other tests.
+#[test]
+fn the_commands_that_pages_tell_to_type_can_be_typed() {
+    let mut typed = 0;
+    for (page, text) in pages() {
+        for mut command in commands(&text) {
+            typed += 1;
+            command.push("--help".to_owned());
+            let arguments: Vec<_> = command.iter().map(String::as_str).collect();
+            let output = run(&arguments);
+            let (page, said) = (page.display(), stderr(&output));
+            assert_eq!(output.status.code(), Some(0), "{page}, {command:?}: {said}");
+        }
+    }
+    assert!(typed > 40, "{typed}");
+}
+
+/// The Rust in the README is that of a page which is compiled.
+#[test]
+fn the_readmes_example_is_the_one_of_the_state_machines_crate() {
+    let text = |path: &str| std::fs::read_to_string(repository().join(path)).unwrap();
+    let readme = text("README.md");
+    let (_, code) = readme.split_once("```rust\n").expect("a block of Rust");
+    let (code, rest) = code.split_once("```").expect("it ends");
+    assert!(text("protocol/README.md").contains(code));
+    assert!(!rest.contains("```rust"), "a second one is not compiled");
+}
+
+#[test]
+fn the_readmes_state_diagram_is_the_one_that_the_code_makes() {
+    let readme = include_str!("../../README.md");
+    let diagram = stdout(&run(&["fsm"]));
+    assert!(
+        readme.contains(diagram.trim()),
+        "put this into README.md:\n{diagram}"
+    );
+}
+
+/// What the README says has been explored is what the scenario files pin.
+#[test]
+fn the_readmes_sum_of_states_is_that_of_the_scenarios() {
+    let sizes = Scenario::shipped().map(|name| {
+        let scenario = Scenario::load(name).unwrap();
+        scenario.expected.expect("it is pinned").unique_states
+    });
+    let sizes: Vec<_> = sizes.collect();
+    let states = HumanCount(sizes.iter().sum::<usize>() as u64);
+    let said = format!("{} scenarios with {states} states", sizes.len());
+    assert!(include_str!("../../README.md").contains(&said), "{said}");
+}
+
+/// The identifiers that the page for ITS engineers shows can be a robot's, and others are refused.
+#[test]
+fn the_identifiers_on_the_its_page_can_be_configured() {
+    let page = std::fs::read_to_string(repository().join("codec/doc/its-engineer.md")).unwrap();
+    let (_, table) = page.split_once("```toml\n").expect("a table");
+    let (table, _) = table.split_once("```").expect("it ends");
+    let go2 = include_str!("../examples/go2.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("go2.toml");
+    let read = |table: &str| {
+        std::fs::write(&file, format!("{go2}\n{table}")).unwrap();
+        RobotFile::read(&file)
+    };
+    assert_eq!(read(table).unwrap().identifiers.ram.message_id, 250);
+    assert!(read(&table.replace("250", "16")).is_err());
+}

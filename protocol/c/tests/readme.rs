@@ -1,0 +1,51 @@
+//! The C++ in the README and the C on the front page of the documentation compile, with stand-ins for what a robot
+//! brings along.
+
+mod support;
+
+use std::path::Path;
+
+use support::{Language, compile_to_object};
+
+/// The first block of code in this language.
+fn block(page: &str, language: &str) -> String {
+    let start = format!("```{language}\n");
+    let (_, block) = page.split_once(&start).expect("a block of code");
+    block.split_once("```").expect("it ends").0.to_owned()
+}
+
+fn assert_compiles(test: &str, language: Language, file: &str, code: &str) {
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join(file);
+    std::fs::write(&source, code).unwrap();
+    compile_to_object(test, language, &source);
+}
+
+#[test]
+fn the_readmes_robot_compiles() {
+    let code = block(include_str!("../README.md"), "cpp");
+    let code = format!("{}\n{code}", include_str!("readme.hpp"));
+    assert_compiles(
+        "the_readmes_robot_compiles",
+        Language::Cpp,
+        "readme.cpp",
+        &code,
+    );
+}
+
+#[test]
+fn the_robot_of_the_front_page_compiles() {
+    let page = include_str!("../src/lib.rs").replace("\n//! ", "\n");
+    let code = format!(
+        "#include <crossguard.h>\n#include <stddef.h>\n\
+         void carry_out(const CrossguardOutput *output, const uint8_t *packets);\n\
+         int step(uint16_t boot, uint32_t elapsed_ms);\n\
+         int step(uint16_t boot, uint32_t elapsed_ms) {{\n{}return 0;\n}}\n",
+        block(&page, "c")
+    );
+    assert_compiles(
+        "the_robot_of_the_front_page_compiles",
+        Language::C,
+        "front_page.c",
+        &code,
+    );
+}
