@@ -1,9 +1,9 @@
-//! From a command to its acknowledgement between two running robots over UDP on the loopback interface:
-//! median and the tail, of several thousand commands.
+//! From a command to its acknowledgement between two running robots on the loopback interface: median and the
+//! tail, of several thousand commands, over UDP and, with the feature `zenoh`, over zenoh.
 //!
-//! `cargo bench -p crossguard-harness --bench latency [-- COMMANDS]`
+//! `cargo bench -p crossguard-harness --features zenoh --bench latency [-- COMMANDS]`
 
-use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
+use std::net::{TcpListener, UdpSocket};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
@@ -19,7 +19,9 @@ use crossguard_harness::runtime::{Clock, Order, Running, Setup};
 use crossguard_harness::site::{Place, Site};
 use crossguard_harness::station::Security;
 use crossguard_harness::trace::{Entry, Record};
-use crossguard_harness::transport::{Link, Transport};
+use crossguard_harness::transport::{
+    Halves, Link, LinkError, Transport, Zenoh, ZenohError, ZenohMode, ZenohRouter,
+};
 use crossguard_harness::wire::Wire;
 use crossguard_protocol::{Config, Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
 
@@ -32,15 +34,68 @@ struct Pair {
     records: Receiver<Arc<Record>>,
 }
 
-fn start() -> Pair {
-    // Ports that nobody has now; whoever takes them in between makes the benchmark fail.
+/// What two robots meet over.
+struct Street {
+    leader: Halves,
+    follower: Halves,
+    _router: Option<ZenohRouter>,
+}
+
+type Open = fn() -> Result<Street, LinkError>;
+
+/// Ports that nobody has now; whoever takes them in between makes the benchmark fail.
+fn udp() -> Result<Street, LinkError> {
     let free = || UdpSocket::bind("127.0.0.1:0").and_then(|socket| socket.local_addr());
     let (first, second) = (free().expect("a port"), free().expect("a port"));
+    let link = |address, peer| Link::Peers {
+        address,
+        peers: vec![peer],
+    };
+    Ok(Street {
+        leader: link(first, second).open()?,
+        follower: link(second, first).open()?,
+        _router: None,
+    })
+}
+
+/// An endpoint of zenoh whose port nobody has now.
+fn endpoint() -> Vec<String> {
+    let free = TcpListener::bind("127.0.0.1:0").and_then(|listener| listener.local_addr());
+    vec![format!("tcp/{}", free.expect("a port"))]
+}
+
+fn zenoh_peers() -> Result<Street, LinkError> {
+    let (listen, part) = (endpoint(), Zenoh::new(ZenohMode::Peer));
+    let (connect, other) = (listen.clone(), part.clone());
+    Ok(Street {
+        leader: Link::Zenoh(Zenoh { listen, ..part }).open()?,
+        follower: Link::Zenoh(Zenoh { connect, ..other }).open()?,
+        _router: None,
+    })
+}
+
+fn zenoh_router() -> Result<Street, LinkError> {
+    let listen = endpoint();
+    let client = Link::Zenoh(Zenoh {
+        connect: listen.clone(),
+        ..Zenoh::new(ZenohMode::Client)
+    });
+    let router = ZenohRouter::open(&Zenoh {
+        listen,
+        ..Zenoh::new(ZenohMode::Router)
+    })?;
+    Ok(Street {
+        leader: client.open()?,
+        follower: client.open()?,
+        _router: Some(router),
+    })
+}
+
+fn start(leader: Halves, follower: Halves) -> Pair {
     let mut journal = Journal::new();
     let records = journal.reader(65_536, WhenFull::End, Cause::LogFull);
     let clock = Clock::start();
-    let robot = |name: &str, station, address: SocketAddr, peer| {
-        let peers = vec![peer];
+    let robot = |name: &str, station, link| {
         let body = Body::new(
             Build::Quadruped,
             Site::default(),
@@ -57,18 +112,15 @@ fn start() -> Pair {
             security: Security::default(),
             awareness: Awareness::default(),
             application: Application::new(body, None),
-            link: Link::Peers { address, peers }
-                .open()
-                .expect("the sockets open"),
+            link,
             journal: journal.clone(),
             clock,
         }
         .start()
     };
-    assert!(first.ip() == Ipv4Addr::LOCALHOST);
     Pair {
-        leader: robot("leader", 1, first, second),
-        follower: robot("follower", 2, second, first),
+        leader: robot("leader", 1, leader),
+        follower: robot("follower", 2, follower),
         records,
     }
 }
@@ -130,17 +182,34 @@ impl Pair {
 
 fn main() {
     let wanted = std::env::args().skip(1).find_map(|word| word.parse().ok());
-    let pair = start();
-    let mut taken = pair.measure(wanted.unwrap_or(COMMANDS));
+    println!("| over | commands | median [µs] | 99 % [µs] | 99.9 % [µs] | longest [µs] |");
+    println!("|---|--:|--:|--:|--:|--:|");
+    let streets: [(&str, Open); 3] = [
+        ("UDP", udp),
+        ("zenoh, peers", zenoh_peers),
+        ("zenoh, through a router", zenoh_router),
+    ];
+    for (over, street) in streets {
+        match street() {
+            Ok(street) => measure(over, street, wanted.unwrap_or(COMMANDS)),
+            Err(LinkError::Zenoh(ZenohError::NotBuilt)) => {
+                println!("| {over} | takes `--features zenoh` | | | | |");
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
+fn measure(over: &str, street: Street, commands: usize) {
+    let pair = start(street.leader, street.follower);
+    let mut taken = pair.measure(commands);
     pair.leader.stop();
     pair.follower.stop();
     assert!(!taken.is_empty(), "no command was acknowledged");
     taken.sort_unstable();
     let quantile = |per_mille: usize| taken[(taken.len() - 1) * per_mille / 1_000];
-    println!("| commands | median [µs] | 99 % [µs] | 99.9 % [µs] | longest [µs] |");
-    println!("|--:|--:|--:|--:|--:|");
     println!(
-        "| {} | {} | {} | {} | {} |",
+        "| {over} | {} | {} | {} | {} | {} |",
         taken.len(),
         quantile(500),
         quantile(990),

@@ -19,6 +19,7 @@ mod simulate;
 mod sniff;
 mod validate;
 mod watch;
+mod zenoh;
 
 use std::fs::File;
 use std::io::{BufReader, ErrorKind, IsTerminal, Write};
@@ -73,6 +74,8 @@ enum Command {
     Simulate(Box<simulate::Arguments>),
     /// Print what is on the channel, one line per message, live or from a pcap file.
     Sniff(sniff::Arguments),
+    /// Route for robots that meet over zenoh and have no way to each other (--zenoh client).
+    Router(zenoh::RouterArguments),
     /// Convert messages between octets and JSON.
     #[command(subcommand)]
     Codec(codec::Command),
@@ -126,6 +129,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Sniff(arguments) => sniff::run(&arguments),
+        Command::Router(arguments) => zenoh::route(&arguments),
         Command::Codec(command) => codec::run(&command),
         Command::Pki(command) => pki::run(&command),
     };

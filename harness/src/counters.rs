@@ -34,6 +34,8 @@ pub enum Cause {
     NotSent,
     /// The operating system gave no datagrams any more.
     LinkFailed,
+    /// Datagrams came faster than they were taken off the link.
+    LinkFull,
     /// The log's reader was too slow; the log ended before this record.
     LogFull,
     /// A reader of records that need not have all was too slow.
@@ -58,6 +60,7 @@ impl Cause {
             Self::Simulated(how) => how.name().to_owned(),
             Self::NotSent => "not sent".to_owned(),
             Self::LinkFailed => "link failed".to_owned(),
+            Self::LinkFull => "link full".to_owned(),
             Self::LogFull => "log full".to_owned(),
             Self::OutputFull => "output full".to_owned(),
         }

@@ -1,15 +1,16 @@
 //! Demonstrations: robots with sockets of their own on the loopback interface help a pedestrian across.
 //!
 //! The paper's proof of concept is one of them; the others are its extensions to teams, and what
-//! happens when a robot dies. Fan-out to the peers stands for the radio's broadcast. Nothing leaves the
-//! machine.
+//! happens when a robot dies. Fan-out to the peers stands for the radio's broadcast, or zenoh does. Nothing
+//! leaves the machine.
 
+mod links;
 mod scenario;
 
+pub use links::Meeting;
 pub use scenario::{Participant, Scenario};
 
 use std::collections::BTreeMap;
-use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
@@ -29,7 +30,7 @@ use crate::site::Site;
 use crate::station::{Mode, Security};
 use crate::timing::{Summary, Timing};
 use crate::trace::{self, Entry, Record};
-use crate::transport::{Faults, Halves, Link, LinkError, Transport, WithFaults};
+use crate::transport::{Faults, LinkError, ZenohRouter};
 use crate::validate::{self, Validated};
 use crate::wire::Wire;
 use scenario::End;
@@ -53,8 +54,10 @@ pub struct Options {
     pub faults: Faults,
     /// Seed of faults and gait.
     pub seed: u64,
-    /// Port of the first robot; the others have the next ones.
+    /// Port of the first robot, or of the router; the others have the next ones.
     pub port: u16,
+    /// How they meet over zenoh, instead of by UDP.
+    pub zenoh: Option<Meeting>,
     /// How much security there is.
     pub security_mode: Mode,
     /// The security of each participant, in their order; off for those beyond the list.
@@ -96,6 +99,9 @@ pub struct Outcome {
     pub seed: u64,
     /// How much security there was.
     pub security: Mode,
+    /// How robots met over zenoh, if they did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub zenoh: Option<Meeting>,
     /// The state of each robot in the end.
     pub final_states: BTreeMap<String, String>,
     /// What came to nothing, by robot and cause.
@@ -134,6 +140,8 @@ struct Demo<'a> {
     has_struck: bool,
     /// People whom the robots' sensors have.
     perceived: Option<Feed>,
+    /// What the robots meet through.
+    _router: Option<ZenohRouter>,
     watch: &'a mut dyn FnMut(Seen<'_>),
 }
 
@@ -180,10 +188,10 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     let clock = Clock::start();
     let participants = options.scenario.participants();
     // All sockets are open before any robot says anything.
-    let links = open(options, participants.len())?;
+    let links = links::open(options, participants.len())?;
     let mut securities = options.security.iter().cloned();
     let mut robots = Vec::new();
-    for ((participant, link), nth) in participants.into_iter().zip(links).zip(1..) {
+    for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
         let (site, seed) = (Site::default(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Body::new(build, site, place, options.time_scale, seed);
@@ -217,26 +225,9 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         is_corridor_open: false,
         has_struck: false,
         perceived: options.perceived.clone(),
+        _router: links.router,
         watch,
     })
-}
-
-/// A socket for each robot, with the others as peers.
-fn open(options: &Options, robots: usize) -> Result<Vec<Halves>, LinkError> {
-    let address = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    let addresses: Vec<_> = (options.port..).take(robots).map(address).collect();
-    let open = |(&address, nth): (&SocketAddr, u64)| {
-        let peers = addresses.iter().filter(|&&peer| peer != address);
-        let peers = peers.copied().collect();
-        let seed = options.seed.wrapping_add(nth);
-        let link = Link::Peers { address, peers };
-        let halves = WithFaults::new(link, options.faults.clone(), seed).open()?;
-        Ok(match &options.capture {
-            Some(capture) => capture.of_sent(halves),
-            None => halves,
-        })
-    };
-    addresses.iter().zip(100..).map(open).collect()
 }
 
 impl Demo<'_> {
@@ -393,6 +384,7 @@ impl Demo<'_> {
             faults: options.faults.to_string(),
             seed: options.seed,
             security: options.security_mode,
+            zenoh: options.zenoh,
             final_states: self
                 .rest
                 .iter()

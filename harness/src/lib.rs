@@ -34,8 +34,8 @@
 //! - [`machine::Machine`] adds an [`application`] with a simulated [`body`] and a [`plan`], still without
 //!   input and output.
 //! - [`runtime`] is such a loop, with threads and a bounded inbox; [`journal`] is where its records go,
-//!   and waits for no reader. [`transport`] has UDP to peers, UDP
-//!   multicast, queues within a process, and a layer of seeded faults over any of them.
+//!   and waits for no reader. [`transport`] has UDP to peers, UDP multicast, Ethernet, zenoh, queues
+//!   within a process, and a layer of seeded faults over any of them.
 //! - [`sim`] runs many machines in virtual time under seeded faults, and judges every step.
 //! - [`trace`] is the log, one JSON object per line; [`validate`] tells whether logs of one or several
 //!   robots are of something that could have happened.

@@ -12,7 +12,7 @@ use crate::ras::clustering;
 use crate::ras::surroundings::Awareness;
 use crate::ras::vam::CLUSTER_INTERVAL_MS;
 use crate::site::{Place, Site};
-use crate::transport::Link;
+use crate::transport::{Link, Zenoh};
 
 /// A robot's configuration, checked.
 #[derive(Clone, Debug)]
@@ -89,6 +89,7 @@ struct LinkTable {
     multicast: Option<SocketAddrV4>,
     interface: Option<String>,
     ethernet: Option<String>,
+    zenoh: Option<Zenoh>,
 }
 
 /// Why a robot cannot be configured.
@@ -131,13 +132,14 @@ pub enum Impossibility {
     Identifiers(#[from] IdentifierClash),
     /// There is no link, or there are two.
     #[error(
-        "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', or 'ethernet'"
+        "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', or 'ethernet', or \
+         a table [link.zenoh] with a 'mode'"
     )]
     Link,
     /// A peer is not on the loopback interface.
     #[error(
         "[link] {0} is not a loopback address; to reach other machines, use 'multicast' and \
-         'interface'"
+         'interface', or [link.zenoh]"
     )]
     NotLoopback(SocketAddr),
     /// The body's time does not pass, or goes back.
@@ -198,7 +200,7 @@ impl Text {
             site,
             speed: self.speed,
             autopilot: self.autopilot,
-            link: self.link.check()?,
+            link: self.link.check(folder)?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,
             awareness: Awareness {
@@ -210,7 +212,7 @@ impl Text {
 }
 
 impl LinkTable {
-    fn check(self) -> Result<Link, Impossibility> {
+    fn check(self, folder: &Path) -> Result<Link, Impossibility> {
         match self {
             Self {
                 address: Some(address),
@@ -218,6 +220,7 @@ impl LinkTable {
                 multicast: None,
                 interface: None,
                 ethernet: None,
+                zenoh: None,
             } => {
                 let all = std::iter::once(&address).chain(&peers);
                 match all.copied().find(|address| !address.ip().is_loopback()) {
@@ -231,6 +234,7 @@ impl LinkTable {
                 multicast: Some(group),
                 interface: Some(interface),
                 ethernet: None,
+                zenoh: None,
             } if peers.is_empty() => Ok(Link::Multicast { group, interface }),
             Self {
                 address: None,
@@ -238,7 +242,19 @@ impl LinkTable {
                 multicast: None,
                 interface: None,
                 ethernet: Some(interface),
+                zenoh: None,
             } if peers.is_empty() => Ok(Link::Ethernet { interface }),
+            Self {
+                address: None,
+                peers,
+                multicast: None,
+                interface: None,
+                ethernet: None,
+                zenoh: Some(part),
+            } if peers.is_empty() => Ok(Link::Zenoh(Zenoh {
+                config: part.config.map(|file| folder.join(file)),
+                ..part
+            })),
             _ => Err(Impossibility::Link),
         }
     }

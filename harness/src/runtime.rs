@@ -372,6 +372,11 @@ impl Loop {
                 let detail = "by the fault layer".to_owned();
                 self.drop(Cause::Simulated(how), detail, octets);
             }
+            Delivery::Arrived(Arrival::Overflow(datagrams)) => {
+                for _ in 0..datagrams {
+                    self.machine.endpoint_mut().count(Cause::LinkFull);
+                }
+            }
             Delivery::LinkFailed(cause) => {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }

@@ -5,26 +5,34 @@
 //!                   └─► Receiver  (what comes in, one by one)
 //! ```
 //!
-//! [`Link`] is UDP, to the peers on the loopback interface or to a multicast group, or Ethernet. [`Air`] joins
-//! robots in one process. [`WithFaults`] lays seeded faults over either: what becomes of a datagram is
-//! drawn by a [`Channel`], the one place where faults are made; the simulator draws from it as well.
-//! [`Reopening`] opens one again that has failed.
+//! [`Link`] is UDP, to the peers on the loopback interface or to a multicast group, Ethernet, or a zenoh
+//! network ([`Zenoh`], with the feature `zenoh`). [`Air`] joins robots in one process. [`WithFaults`] lays
+//! seeded faults over any of them: what becomes of a datagram is drawn by a [`Channel`], the one place
+//! where faults are made; the simulator draws from it as well. [`Reopening`] opens one again that has
+//! failed.
 
 mod ethernet;
 mod faults;
 mod layer;
+mod link;
 mod memory;
 mod reopening;
 mod udp;
+mod zenoh;
 
 pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Loss, Outage};
 pub use layer::WithFaults;
+pub use link::{Link, LinkError};
 pub use memory::{Air, Port};
 pub use reopening::Reopening;
-pub use udp::{Link, LinkError};
+pub use zenoh::{Zenoh, ZenohError, ZenohMode, ZenohRouter};
 
+use std::io::ErrorKind;
 use std::net::SocketAddr;
 use std::time::Duration;
+
+/// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
+const DATAGRAM_MAX: usize = 2_048;
 
 /// A way to reach other robots.
 pub trait Transport {
@@ -64,6 +72,18 @@ pub struct NotSent {
     pub cause: std::io::Error,
 }
 
+impl NotSent {
+    /// Whether it passes without the transport being opened again: there is no room now, or the transport
+    /// is looking for whoever is at the other end by itself.
+    #[must_use]
+    pub fn is_passing(&self) -> bool {
+        matches!(
+            self.cause.kind(),
+            ErrorKind::WouldBlock | ErrorKind::NotConnected
+        )
+    }
+}
+
 /// Where datagrams come in.
 pub trait Receiver: Send {
     /// Waits for the next datagram, for so long at most. `None` when there was none.
@@ -82,6 +102,10 @@ pub enum Source {
     LinkLayer([u8; 6]),
     /// The port of the [`Air`] that it came from.
     Port(usize),
+    /// The zenoh id by which its sender goes.
+    Zenoh(u128),
+    /// Nobody that the transport could name.
+    Unknown,
 }
 
 /// What came in.
@@ -101,4 +125,6 @@ pub enum Arrival {
         /// What it held.
         octets: Vec<u8>,
     },
+    /// So many datagrams, at least one, found no place in the transport's own queue.
+    Overflow(u64),
 }

@@ -86,6 +86,23 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
     judge("mcap_judge.py", &[&log, &file], "");
 }
 
+#[cfg(feature = "zenoh")]
+#[test]
+#[ignore = "needs what harness/judges/run installs"]
+fn a_subscriber_to_zenoh_hears_packets_that_can_be_decoded() {
+    let port = support::free_tcp_ports(1);
+    let demo = ["demo", "--zenoh", "router", "--quiet", "--trials", "3"];
+    let mut demo = support::crossguard(&demo)
+        .args(["--port", &port.to_string()])
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_crossguard"));
+    let endpoint = format!("tcp/127.0.0.1:{port}");
+    judge("zenoh_judge.py", &[program, Path::new(&endpoint)], "");
+    assert!(wait_for(&mut demo, Duration::from_mins(2)).success());
+}
+
 #[test]
 #[ignore = "needs what harness/judges/run installs"]
 fn prometheus_reads_the_metrics_of_a_robot_that_leads() {

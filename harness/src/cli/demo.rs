@@ -6,7 +6,7 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use crossguard_codec::Identifiers;
 use crossguard_harness::chart::Chart;
-use crossguard_harness::demo::{self, Options, Outcome, Scenario, Seen};
+use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_harness::ras::surroundings::Awareness;
 use crossguard_harness::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_harness::station::Mode;
@@ -35,7 +35,11 @@ pub(super) struct Arguments {
     /// Seed of the faults and of the robots' gait.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Port of the first robot on 127.0.0.1; the others have the next ones.
+    /// Meet over zenoh: connected to each other, or through a router that runs beside them. Takes a
+    /// program that was built with --features zenoh.
+    #[arg(long, value_enum, value_name = "HOW")]
+    zenoh: Option<Meeting>,
+    /// Port of the first robot, or the router, on 127.0.0.1; the others have the next ones.
     #[arg(long, default_value_t = 47_401, value_parser = clap::value_parser!(u16).range(1_024..=65_500))]
     port: u16,
     #[command(flatten)]
@@ -107,6 +111,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
         seed: arguments.seed,
         port: arguments.port,
+        zenoh: arguments.zenoh,
         security_mode: arguments.security.mode(),
         security: arguments.security.of_robots(&names)?,
         capture: arguments
@@ -191,13 +196,16 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
         None => 26.0 / options.time_scale + 1.5,
         Some(_) => 4.0 / options.time_scale + 9.0,
     };
-    let last_port = usize::from(options.port) + robots - 1;
+    let (port, last_port) = (options.port, usize::from(options.port) + robots - 1);
+    let over = match options.zenoh {
+        None => format!("UDP on 127.0.0.1, ports {port} to {last_port}"),
+        Some(Meeting::Peer) => format!("zenoh on 127.0.0.1, ports {port} to {last_port}"),
+        Some(Meeting::Router) => format!("a zenoh router on 127.0.0.1, port {port}"),
+    };
     print(format_args!(
-        "A pedestrian wants to cross. {}\nThe robots coordinate over UDP on 127.0.0.1, ports {} to \
-         {last_port}, and move {} times as fast as real: about\n{seconds:.0} s per crossing. Packets \
-         {security}{pki}.\n",
+        "A pedestrian wants to cross. {}\nThe robots coordinate over {over}, and move {} times as fast as \
+         real: about\n{seconds:.0} s per crossing. Packets {security}{pki}.\n",
         options.scenario.summary(),
-        options.port,
         options.time_scale,
     ))
 }

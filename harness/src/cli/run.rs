@@ -52,15 +52,22 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE")]
     config: PathBuf,
     /// Send to and listen on this multicast group instead of the configured link.
-    #[arg(long, value_name = "GROUP:PORT", requires = "interface")]
+    #[arg(
+        long,
+        value_name = "GROUP:PORT",
+        requires = "interface",
+        group = "link"
+    )]
     multicast: Option<SocketAddrV4>,
     /// The interface of the multicast group.
     #[arg(long, value_name = "NAME", requires = "multicast")]
     interface: Option<String>,
     /// Send and listen in Ethernet frames on this interface instead of the configured link; takes
     /// the right to open raw sockets.
-    #[arg(long, value_name = "NAME", conflicts_with = "multicast")]
+    #[arg(long, value_name = "NAME", group = "link")]
     ethernet: Option<String>,
+    #[command(flatten)]
+    zenoh: super::zenoh::ZenohArguments,
     /// Probability with which the robot loses a datagram, from 0 to 1.
     #[arg(long, default_value_t = 0.0)]
     loss: f64,
@@ -194,7 +201,7 @@ fn open_link(arguments: &Arguments, file: &RobotFile) -> Result<(Halves, String)
         (_, _, Some(interface)) => Link::Ethernet {
             interface: interface.clone(),
         },
-        _ => file.link.clone(),
+        _ => arguments.zenoh.link().unwrap_or_else(|| file.link.clone()),
     };
     let faults = Faults {
         loss: arguments.faults.loss.max(arguments.loss),

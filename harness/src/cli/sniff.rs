@@ -21,25 +21,27 @@ const TICK: Duration = Duration::from_millis(50);
 #[command(after_help = AFTER_HELP)]
 pub(super) struct Arguments {
     /// Read this pcap file instead of listening.
-    #[arg(value_name = "FILE", group = "from")]
+    #[arg(value_name = "FILE", group = "link")]
     file: Option<PathBuf>,
     /// Listen on this UDP address; robots send there if it is one of their peers.
-    #[arg(long, value_name = "ADDRESS:PORT", group = "from")]
+    #[arg(long, value_name = "ADDRESS:PORT", group = "link")]
     address: Option<SocketAddr>,
     /// Listen to this multicast group.
     #[arg(
         long,
         value_name = "GROUP:PORT",
         requires = "interface",
-        group = "from"
+        group = "link"
     )]
     multicast: Option<SocketAddrV4>,
     /// The interface of the multicast group.
     #[arg(long, value_name = "NAME", requires = "multicast")]
     interface: Option<String>,
     /// Listen to Ethernet frames on this interface; takes the right to open raw sockets.
-    #[arg(long, value_name = "NAME", group = "from")]
+    #[arg(long, value_name = "NAME", group = "link")]
     ethernet: Option<String>,
+    #[command(flatten)]
+    zenoh: super::zenoh::ZenohArguments,
     /// Stop after so many packets.
     #[arg(long, value_name = "N")]
     count: Option<u64>,
@@ -81,7 +83,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(link)) => listen(arguments, &link, &mut watch)?,
         (None, None) => {
             return Err(Failure::Input(
-                "nothing to listen to: name a pcap file, --address, --multicast or --ethernet \
+                "nothing to listen to: name a pcap file, --address, --multicast, --ethernet or --zenoh \
                  (see --help)"
                     .to_owned(),
             ));
@@ -99,8 +101,10 @@ fn link(arguments: &Arguments) -> Option<Link> {
         let interface = interface.clone();
         return Some(Link::Multicast { group, interface });
     }
-    let interface = arguments.ethernet.clone()?;
-    Some(Link::Ethernet { interface })
+    if let Some(interface) = arguments.ethernet.clone() {
+        return Some(Link::Ethernet { interface });
+    }
+    arguments.zenoh.link()
 }
 
 fn listen(arguments: &Arguments, link: &Link, watch: &mut Watch) -> Result<(), Failure> {

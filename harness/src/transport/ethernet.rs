@@ -17,11 +17,8 @@ use nix::sys::socket::{
 };
 use nix::sys::time::TimeVal;
 
-use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Source};
+use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 use crate::station::link_layer_of;
-
-/// Longer than any frame that is understood.
-const FRAME_MAX: usize = 2_048;
 
 /// Opens a raw socket on an interface.
 ///
@@ -43,7 +40,7 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
     bind(socket.as_raw_fd(), &address).map_err(failed)?;
     let receiver = EthernetReceiver {
         socket: Arc::clone(&socket),
-        buffer: Box::new([0; FRAME_MAX]),
+        buffer: Box::new([0; DATAGRAM_MAX]),
         wait: Duration::ZERO,
     };
     Ok(Halves {
@@ -95,7 +92,7 @@ impl Sender for EthernetSender {
 
 struct EthernetReceiver {
     socket: Arc<OwnedFd>,
-    buffer: Box<[u8; FRAME_MAX]>,
+    buffer: Box<[u8; DATAGRAM_MAX]>,
     /// For how long the socket waits.
     wait: Duration,
 }

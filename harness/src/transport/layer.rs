@@ -150,7 +150,7 @@ impl Receiver for Faulty {
                 self.take(from, octets);
                 Ok(self.due())
             }
-            Some(lost) => Ok(Some(lost)),
+            Some(other) => Ok(Some(other)),
             None => Ok(self.due()),
         }
     }
@@ -182,7 +182,7 @@ mod tests {
             match receiver.receive(Duration::from_millis(5)).unwrap() {
                 Some(Arrival::Datagram { octets, .. }) => arrived.push(octets[0]),
                 Some(Arrival::Lost { .. }) => lost += 1,
-                None => {}
+                Some(Arrival::Overflow(_)) | None => {}
             }
         }
         (arrived, lost)

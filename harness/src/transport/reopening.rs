@@ -2,7 +2,8 @@
 //!
 //! An interface that disappears takes a group's membership and raw sockets with it, also when another
 //! of the same name takes its place. The sender notices, because robots send several times a second;
-//! it opens the transport anew and hands the receiving half over to the thread that receives.
+//! it opens the transport anew and hands the receiving half over to the thread that receives. A failure that
+//! is [passing](NotSent::is_passing) is left alone.
 
 use std::sync::mpsc::{Receiver as Coming, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
@@ -48,7 +49,8 @@ impl<T: Transport + Send> Sender for ReopeningSender<T> {
         let Err(failure) = self.sender.send(octets) else {
             return Ok(());
         };
-        if self.tried.is_some_and(|tried| tried.elapsed() < PERIOD) {
+        let is_too_early = self.tried.is_some_and(|tried| tried.elapsed() < PERIOD);
+        if failure.is_passing() || is_too_early {
             return Err(failure);
         }
         self.tried = Some(Instant::now());
@@ -73,5 +75,52 @@ impl Receiver for ReopeningReceiver {
             self.receiver = receiver;
         }
         self.receiver.receive(at_most)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Error, ErrorKind};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::super::Air;
+    use super::*;
+
+    /// A transport that never sends, and counts how often it is opened.
+    #[derive(Clone)]
+    struct Failing(ErrorKind, Arc<AtomicUsize>);
+
+    impl Transport for Failing {
+        fn open(&self) -> Result<Halves, LinkError> {
+            self.1.fetch_add(1, Ordering::Relaxed);
+            let halves = Air::new(1).port(0).open()?;
+            let sender = Box::new(self.clone());
+            Ok(Halves { sender, ..halves })
+        }
+    }
+
+    impl Sender for Failing {
+        fn send(&mut self, _: &[u8]) -> Result<(), NotSent> {
+            Err(NotSent {
+                failed: 1,
+                receivers: 1,
+                cause: Error::from(self.0),
+            })
+        }
+    }
+
+    #[test]
+    fn what_fails_is_opened_again_and_what_passes_by_itself_is_not() {
+        for (kind, expected) in [
+            (ErrorKind::NetworkUnreachable, 2),
+            (ErrorKind::NotConnected, 1),
+            (ErrorKind::WouldBlock, 1),
+        ] {
+            let failing = Failing(kind, Arc::default());
+            let mut sender = Reopening(failing.clone()).open().unwrap().sender;
+            assert_eq!(sender.send(b"hello").unwrap_err().cause.kind(), kind);
+            assert_eq!(failing.1.load(Ordering::Relaxed), expected, "{kind:?}");
+        }
     }
 }

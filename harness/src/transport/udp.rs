@@ -1,98 +1,14 @@
 //! UDP: fan-out to peers on the loopback interface, or a multicast group on a named interface.
 
-use std::fmt;
 use std::io::ErrorKind;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
+use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
 use std::time::Duration;
 
 use nix::sys::socket::MsgFlags;
 use socket2::{Domain, InterfaceIndexOrAddress, Protocol, SockRef, Socket, Type};
 
-use super::{Arrival, Halves, NotSent, Receiver, Sender, Source, Transport};
-
-/// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
-const DATAGRAM_MAX: usize = 2_048;
-
-/// A robot's link to others.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Link {
-    /// A socket of its own, and each peer's.
-    Peers {
-        /// The robot's own address.
-        address: SocketAddr,
-        /// Those of the others.
-        peers: Vec<SocketAddr>,
-    },
-    /// A group that everybody has joined.
-    Multicast {
-        /// The group and its port.
-        group: SocketAddrV4,
-        /// Name of the interface, like `eth0`.
-        interface: String,
-    },
-    /// Frames on an interface, without UDP and IP.
-    Ethernet {
-        /// Name of the interface, like `eth0`.
-        interface: String,
-    },
-}
-
-impl fmt::Display for Link {
-    /// Where the link listens.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Peers { address, .. } => address.fmt(f),
-            Self::Multicast { group, .. } => group.fmt(f),
-            Self::Ethernet { interface } => write!(f, "{interface}, ethertype 0x8947"),
-        }
-    }
-}
-
-/// Why a link cannot be opened.
-#[derive(Debug, thiserror::Error)]
-pub enum LinkError {
-    /// The address is taken.
-    #[error(
-        "{address} is in use; is another robot or demo running there? Choose another address or port"
-    )]
-    InUse {
-        /// The address.
-        address: SocketAddr,
-    },
-    /// The address cannot be used.
-    #[error("{address} cannot be used: {cause}")]
-    Unusable {
-        /// The address.
-        address: SocketAddr,
-        /// Why.
-        cause: std::io::Error,
-    },
-    /// The group is no multicast group.
-    #[error("{group} is not a multicast address; those go from 224.0.0.0 to 239.255.255.255")]
-    NotMulticast {
-        /// The address.
-        group: SocketAddrV4,
-    },
-    /// A raw socket cannot be opened.
-    #[error("raw socket on {interface}: {cause}; it takes the capability CAP_NET_RAW")]
-    Ethernet {
-        /// Name of the interface.
-        interface: String,
-        /// Why.
-        cause: std::io::Error,
-    },
-    /// There is no such interface.
-    #[error("no interface '{name}' that can be used so; there are: {known}")]
-    NoInterface {
-        /// The name.
-        name: String,
-        /// The names of those that there are.
-        known: String,
-    },
-    /// The port of an [`Air`](super::Air) is open already.
-    #[error("port {0} of the air is open already; each robot needs its own")]
-    PortInUse(usize),
-}
+use super::link::interface_of;
+use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
 /// The sending half of a link.
 #[derive(Debug)]
@@ -110,42 +26,20 @@ struct UdpReceiver {
     wait: Duration,
 }
 
-impl Transport for Link {
-    fn open(&self) -> Result<Halves, LinkError> {
-        let (socket, address, to) = match self {
-            Self::Peers { address, peers } => (bind(*address)?, *address, peers.clone()),
-            Self::Multicast { group, interface } => {
-                let address = SocketAddr::V4(*group);
-                (join(*group, interface)?, address, vec![address])
-            }
-            Self::Ethernet { interface } => return super::ethernet::open(interface),
-        };
-        let unusable = |cause| LinkError::Unusable { address, cause };
-        let receiver = UdpReceiver {
-            socket: socket.try_clone().map_err(unusable)?,
-            buffer: Box::new([0; DATAGRAM_MAX]),
-            wait: Duration::ZERO,
-        };
-        Ok(Halves {
-            sender: Box::new(UdpSender { socket, to }),
-            receiver: Box::new(receiver),
-        })
-    }
-}
-
-fn open_error(address: SocketAddr) -> impl Fn(std::io::Error) -> LinkError {
-    move |cause| match cause.kind() {
-        ErrorKind::AddrInUse => LinkError::InUse { address },
-        _ => LinkError::Unusable { address, cause },
-    }
-}
-
-fn bind(address: SocketAddr) -> Result<UdpSocket, LinkError> {
-    UdpSocket::bind(address).map_err(open_error(address))
+/// Opens a socket of this address, with these peers.
+///
+/// # Errors
+/// When the address is in use, or cannot be used.
+pub(super) fn open(address: SocketAddr, peers: Vec<SocketAddr>) -> Result<Halves, LinkError> {
+    let socket = UdpSocket::bind(address).map_err(open_error(address))?;
+    halves(socket, address, peers)
 }
 
 /// Joins a group so that several robots on one machine can be in it.
-fn join(group: SocketAddrV4, interface: &str) -> Result<UdpSocket, LinkError> {
+///
+/// # Errors
+/// When it is no group, there is no such interface, or the address cannot be used.
+pub(super) fn join(group: SocketAddrV4, interface: &str) -> Result<Halves, LinkError> {
     if !group.ip().is_multicast() {
         return Err(LinkError::NotMulticast { group });
     }
@@ -162,29 +56,31 @@ fn join(group: SocketAddrV4, interface: &str) -> Result<UdpSocket, LinkError> {
         socket.set_multicast_ttl_v4(1)?;
         Ok(socket.into())
     };
-    open().map_err(open_error(address))
+    halves(open().map_err(open_error(address))?, address, vec![address])
 }
 
-fn interface_of(name: &str) -> Result<(u32, Ipv4Addr), LinkError> {
-    let interfaces = if_addrs::get_if_addrs().unwrap_or_default();
-    let ipv4 = interfaces
-        .iter()
-        .filter_map(|interface| match interface.ip() {
-            IpAddr::V4(address) => Some((interface, address)),
-            IpAddr::V6(_) => None,
-        });
-    let found = ipv4.clone().find(|(interface, _)| interface.name == name);
-    let known = || {
-        ipv4.map(|(interface, _)| interface.name.clone())
-            .collect::<Vec<_>>()
-            .join(", ")
+/// Both halves of a link over a socket of this address.
+fn halves(
+    socket: UdpSocket,
+    address: SocketAddr,
+    to: Vec<SocketAddr>,
+) -> Result<Halves, LinkError> {
+    let unusable = |cause| LinkError::Unusable { address, cause };
+    let receiver = UdpReceiver {
+        socket: socket.try_clone().map_err(unusable)?,
+        buffer: Box::new([0; DATAGRAM_MAX]),
+        wait: Duration::ZERO,
     };
-    match found.and_then(|(interface, address)| Some((interface.index?, address))) {
-        Some(found) => Ok(found),
-        None => Err(LinkError::NoInterface {
-            name: name.to_owned(),
-            known: known(),
-        }),
+    Ok(Halves {
+        sender: Box::new(UdpSender { socket, to }),
+        receiver: Box::new(receiver),
+    })
+}
+
+fn open_error(address: SocketAddr) -> impl Fn(std::io::Error) -> LinkError {
+    move |cause| match cause.kind() {
+        ErrorKind::AddrInUse => LinkError::InUse { address },
+        _ => LinkError::Unusable { address, cause },
     }
 }
 
@@ -239,6 +135,9 @@ impl Receiver for UdpReceiver {
 
 #[cfg(test)]
 mod tests {
+    use std::net::Ipv4Addr;
+
+    use super::super::{Link, Transport};
     use super::*;
 
     fn any_port() -> SocketAddr {

@@ -3,7 +3,7 @@
 
 use std::fs::File;
 use std::io::Write;
-use std::net::UdpSocket;
+use std::net::{TcpListener, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -73,6 +73,18 @@ pub fn free_ports(ports: u16) -> u16 {
     }
 }
 
+/// The first of so many TCP ports on 127.0.0.1 that are free.
+pub fn free_tcp_ports(ports: u16) -> u16 {
+    loop {
+        let first = TcpListener::bind("127.0.0.1:0").unwrap();
+        let port = first.local_addr().unwrap().port();
+        let is_free = |next: u16| TcpListener::bind(("127.0.0.1", port + next)).is_ok();
+        if (1_024..65_000).contains(&port) && (1..ports).all(is_free) {
+            return port;
+        }
+    }
+}
+
 /// What a demo says as JSON, and what `attack` gives, which gets the first of its two ports and goes on
 /// until it is told to stop. The demo has to end well.
 pub fn demo_under_attack<T: Send>(attack: impl FnOnce(u16, &AtomicBool) -> T + Send) -> (Value, T) {
@@ -113,8 +125,14 @@ pub fn robot_file(folder: &Path, name: &str, station: u32, port: u16, peer: u16)
 
 /// Starts a robot whose log goes to a file beside its configuration, see [`log_of`].
 pub fn start(config: &str) -> Child {
+    start_with(config, &[])
+}
+
+/// The same, with more arguments.
+pub fn start_with(config: &str, arguments: &[&str]) -> Child {
     let log = File::create(Path::new(config).with_extension("log")).unwrap();
     crossguard(&["run", "--config", config, "--json"])
+        .args(arguments)
         .stdin(Stdio::piped())
         .stdout(log)
         .stderr(Stdio::piped())
