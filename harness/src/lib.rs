@@ -41,6 +41,7 @@
 //!   robots are of something that could have happened.
 //! - [`facts`] works out of logs where robots are and what they do; [`mcap_file`] writes that for Foxglove,
 //!   [`report`] for people.
+//! - [`readable`] has messages and packets as JSON.
 //! - [`observe`] tells `tracing` what a robot does; [`tally`] and [`metrics`] say how it is.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
 //! - [`demo`] is the paper's crossing and its extensions to teams, with simulated [`body`]s; [`timing`] is
@@ -72,6 +73,7 @@ pub mod perception;
 pub mod pki;
 pub mod plan;
 pub mod ras;
+pub mod readable;
 pub mod report;
 pub mod robot_file;
 pub mod runtime;

@@ -6,6 +6,8 @@
 //! visited everything and agree is a check exhaustive.
 
 use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
@@ -32,6 +34,23 @@ pub struct Options {
     pub time_max: Option<Duration>,
     /// Be content as soon as all of these are found to be broken; with none, find all that are.
     pub until_broken: Vec<PropertyId>,
+    /// Give up when somebody asks for it.
+    pub stop: Stop,
+}
+
+/// A request to give up, which whoever watches a check may make. Clones are the same request.
+#[derive(Clone, Debug, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Asks to give up.
+    pub fn request(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    pub(crate) fn is_requested(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
 }
 
 impl Default for Options {
@@ -42,6 +61,7 @@ impl Default for Options {
             states_max: None,
             time_max: None,
             until_broken: Vec::new(),
+            stop: Stop::default(),
         }
     }
 }
@@ -53,16 +73,18 @@ impl Options {
             states_max: self.states_max,
             time_max: self.time_max,
             start: Instant::now(),
+            stop: self.stop.clone(),
         }
     }
 }
 
 /// When an exploration has to stop.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Limits {
     states_max: Option<usize>,
     time_max: Option<Duration>,
     start: Instant,
+    stop: Stop,
 }
 
 impl Limits {
@@ -74,7 +96,8 @@ impl Limits {
     /// Why an exploration has to stop that has taken until now, if it has.
     pub(crate) fn time_reached(&self) -> Option<CutOff> {
         let reached = self.time_max.is_some_and(|max| self.start.elapsed() >= max);
-        reached.then_some(CutOff::TimeLimit)
+        let stopped = self.stop.is_requested().then_some(CutOff::Stopped);
+        stopped.or(reached.then_some(CutOff::TimeLimit))
     }
 }
 
@@ -154,7 +177,8 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
 }
 
 fn configure(model: &Model, options: &Options) -> stateright::CheckerBuilder<Model> {
-    let mut builder = model.clone().checker().threads(options.threads.get());
+    let model = model.clone().stopping_at(&options.stop);
+    let mut builder = model.checker().threads(options.threads.get());
     if let Some(states) = options.states_max {
         builder = builder.target_state_count(states);
     }
@@ -501,7 +525,10 @@ impl stateright::Model for Model {
     }
 
     fn actions(&self, state: &State, actions: &mut Vec<Action>) {
-        self.actions_in(state, actions);
+        // stateright has no other way to be stopped.
+        if !self.has_to_stop() {
+            self.actions_in(state, actions);
+        }
     }
 
     fn next_state(&self, state: &State, action: Action) -> Option<State> {

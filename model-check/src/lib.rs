@@ -64,6 +64,7 @@ pub mod report;
 pub mod scenario;
 pub mod sequence;
 mod steps;
+pub mod subject;
 pub mod symmetry;
 pub mod timed;
 pub mod transitions;

@@ -56,6 +56,8 @@ pub enum CutOff {
     StateLimit,
     /// The limit on time.
     TimeLimit,
+    /// Somebody asked to give up.
+    Stopped,
     /// All properties that were to be found broken were.
     FoundBroken,
     /// stateright and the kit's own exploration found different numbers of states.

@@ -86,6 +86,20 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
 }
 
 #[test]
+fn a_check_that_somebody_stops_is_incomplete_and_says_so() {
+    let model = Model::new(Scenario::load("team-of-four").unwrap());
+    let options = Options::default();
+    let mut told = 0;
+    let report = check(&model, &options, &mut |_| {
+        told += 1;
+        options.stop.request();
+    });
+    assert!(told > 0 && !report.exhaustive);
+    assert_eq!(report.cut_off, Some(CutOff::Stopped));
+    assert_eq!(report.verdict("I1"), Some(Verdict::Incomplete));
+}
+
+#[test]
 fn a_limit_that_is_as_large_as_the_state_space_cuts_nothing_off() {
     let model = Model::new(Scenario::load("stable").unwrap());
     let states = model.scenario().expected.unwrap().unique_states;

@@ -8,14 +8,15 @@ use std::time::Duration;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_model_check::check::{Options, Progress, check};
+use crossguard_model_check::check::{Options, Progress};
 use crossguard_model_check::cost::Cost;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
-use crossguard_model_check::scenario::{Scenario, ScenarioError};
-use crossguard_model_check::timed::{self, Figure};
+use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::subject::Subject;
+use crossguard_model_check::timed::Figure;
 use crossguard_model_check::transitions::Transitions;
 use crossguard_model_check::{export, universe};
 use indicatif::{HumanCount, HumanFloatCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -103,7 +104,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()
     } else if arguments.all {
-        Scenario::shipped().chain([paper::NAME]).collect()
+        Subject::shipped().collect()
     } else {
         Scenario::quick().collect()
     };
@@ -122,10 +123,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         fsm_coverage: None,
     };
     for subject in scenarios {
-        let checked = match subject {
-            Subject::Scenario(scenario) => check_one(arguments, *scenario),
-            Subject::PaperLiteral => paper::check(),
-        };
+        let checked = check_one(arguments, subject);
         if let Some(folder) = &arguments.charts {
             write_charts(&checked, folder)?;
         }
@@ -142,36 +140,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         summarize(&report)?;
     }
-    if report.scenarios.iter().any(is_wrong) {
+    if report.scenarios.iter().any(Subject::is_wrong) {
         Err(Failure::Wrong)
     } else if report.scenarios.iter().any(|scenario| !scenario.exhaustive) {
         Err(Failure::Incomplete)
     } else {
         Ok(())
-    }
-}
-
-/// What can be checked.
-enum Subject {
-    Scenario(Box<Scenario>),
-    PaperLiteral,
-}
-
-impl Subject {
-    fn load(name: &str) -> Result<Self, ScenarioError> {
-        if name == paper::NAME {
-            return Ok(Self::PaperLiteral);
-        }
-        Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
-    }
-}
-
-/// Whether something was found that should not be; the paper's text must fail, and in full.
-fn is_wrong(report: &ScenarioReport) -> bool {
-    if paper::made(report) {
-        !paper::fails_as_it_must(report)
-    } else {
-        report.failed()
     }
 }
 
@@ -195,13 +169,13 @@ fn options(arguments: &Arguments) -> Options {
     }
 }
 
-fn check_one(arguments: &Arguments, scenario: Scenario) -> ScenarioReport {
-    let bar = progress_bar(arguments.json, &scenario);
-    let mut watch = |progress| show(&bar, progress);
-    let report = match timed::Model::new(scenario.clone()) {
-        Some(model) => timed::check(&model, &options(arguments), &mut watch),
-        None => check(&Model::new(scenario), &options(arguments), &mut watch),
+fn check_one(arguments: &Arguments, subject: Subject) -> ScenarioReport {
+    let options = options(arguments);
+    let Subject::Scenario(scenario) = &subject else {
+        return subject.check(&options, &mut |_| ());
     };
+    let bar = progress_bar(arguments.json, scenario);
+    let report = subject.check(&options, &mut |progress| show(&bar, progress));
     bar.finish_and_clear();
     report
 }
@@ -428,7 +402,7 @@ fn summarize(report: &Report) -> Result<(), Failure> {
     let (literal, scenarios): (Vec<_>, Vec<_>) =
         report.scenarios.iter().partition(|r| paper::made(r));
     for literal in literal {
-        let how = if is_wrong(literal) {
+        let how = if Subject::is_wrong(literal) {
             "does not fail as it must"
         } else {
             "fails as it must"

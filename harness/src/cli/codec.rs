@@ -3,10 +3,8 @@
 use std::io::{IsTerminal, Read, Write};
 use std::path::PathBuf;
 
-use crossguard_codec::geonet::{BasicHeader, Headers};
-use crossguard_codec::its::{Event, ItsMessage};
 use crossguard_codec::{Dictionary, Identifiers};
-use serde::Serialize;
+use crossguard_harness::readable::{self, Decoded};
 
 use super::{Failure, print, print_json};
 
@@ -66,32 +64,6 @@ const EXAMPLES: &str = "Examples:\n  crossguard codec decode --hex 01f0...\n  \
     crossguard codec decode message.bin --binary\n  \
     crossguard codec decode < message.hex | crossguard codec encode";
 
-/// A message with what is known about its octets.
-#[derive(Serialize)]
-struct Decoded {
-    octets: usize,
-    /// How many parts had extension additions that this version does not know.
-    #[serde(skip_serializing_if = "is_zero")]
-    extended: usize,
-    /// The standard that the message is of.
-    standard: &'static str,
-    /// The headers of the packet, if it was one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    packet: Option<Headers>,
-    /// What a DENM tells, in SI units and with the names of its causes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    event: Option<Event>,
-    message: ItsMessage,
-}
-
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde calls it with a reference"
-)]
-const fn is_zero(n: &usize) -> bool {
-    *n == 0
-}
-
 pub(super) fn run(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Decode {
@@ -105,65 +77,19 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
                 None if *binary => read(file.as_ref())?,
                 None => from_hex(&read(file.as_ref())?)?,
             };
-            decode(&dictionary.identifiers(), &octets)
+            let decoded = Decoded::of(&dictionary.identifiers(), &octets);
+            print_json(&decoded.map_err(Failure::input)?)
         }
         Command::Encode { file, binary } => encode(&read(file.as_ref())?, *binary),
     }
 }
 
-fn decode(identifiers: &Identifiers, octets: &[u8]) -> Result<(), Failure> {
-    // No message has the protocolVersion that the first octet of a packet would be.
-    let (packet, message) = match BasicHeader::decode(octets) {
-        Ok(_) => {
-            let (headers, message) = Headers::decode(octets)
-                .map_err(|error| Failure::Input(format!("a GeoNetworking packet: {error}")))?;
-            (Some(headers), message)
-        }
-        Err(_) => (None, octets),
-    };
-    let received = ItsMessage::decode(identifiers, message).map_err(Failure::input)?;
-    print_json(&Decoded {
-        octets: octets.len(),
-        extended: received.extended,
-        standard: received.message.standard(),
-        packet,
-        event: received.message.event(),
-        message: received.message,
-    })
-}
-
 fn encode(json: &[u8], binary: bool) -> Result<(), Failure> {
-    let (packet, message) = message_of(json)?;
-    let message = message.encode(&Identifiers::default());
-    let mut octets = message.map_err(Failure::input)?;
-    if let Some(packet) = packet {
-        let headers = packet.encode(octets.len()).map_err(Failure::input)?;
-        octets.splice(..0, headers.as_ref().iter().copied());
-    }
+    let octets = readable::encode(json).map_err(Failure::input)?;
     if binary {
         return Ok(std::io::stdout().write_all(&octets)?);
     }
     print(hex::encode(octets))
-}
-
-/// The message in JSON, alone or as `decode` prints it, with the headers of its packet.
-fn message_of(json: &[u8]) -> Result<(Option<Headers>, ItsMessage), Failure> {
-    let value: serde_json::Value = serde_json::from_slice(json)
-        .map_err(|error| Failure::Input(format!("not JSON: {error}")))?;
-    let (packet, message) = match value {
-        serde_json::Value::Object(mut object) if object.contains_key("message") => {
-            let message = object.remove("message").unwrap_or_default();
-            (object.remove("packet"), message)
-        }
-        other => (None, other),
-    };
-    let packet = packet
-        .map(serde_json::from_value)
-        .transpose()
-        .map_err(|error| Failure::Input(format!("not the headers of a packet: {error}")))?;
-    let message = serde_json::from_value(message)
-        .map_err(|error| Failure::Input(format!("not a message: {error}")))?;
-    Ok((packet, message))
 }
 
 fn read(file: Option<&PathBuf>) -> Result<Vec<u8>, Failure> {

@@ -16,6 +16,7 @@ use crossguard_protocol::{
 use smallvec::SmallVec;
 
 use crate::canonical::{Ranks, Renamings};
+use crate::check::Stop;
 use crate::history::History;
 use crate::intern::Interner;
 use crate::network::{Message, Network, Transmission, concerns};
@@ -93,9 +94,9 @@ pub enum Delivery {
     LateAndAgain,
 }
 
-/// The model of one scenario. Clones share what has been found out.
+/// The model of one scenario. Clones share what has been found out. Somebody may ask to give up.
 #[derive(Clone)]
-pub struct Model(Arc<Shared>);
+pub struct Model(Arc<Shared>, Stop);
 
 struct Shared {
     scenario: Scenario,
@@ -146,7 +147,7 @@ impl Model {
     #[must_use]
     pub fn with_rules(scenario: Scenario, rules: impl Rules + 'static) -> Self {
         let renamings = Arc::new(Renamings::new(Ranks::rank));
-        Self(Arc::new(Shared {
+        let shared = Shared {
             symmetry: Symmetry::of(&scenario),
             scenario,
             steps: Steps::new(Box::new(rules), &renamings),
@@ -154,7 +155,18 @@ impl Model {
             networks: Interner::new(&renamings),
             renamings,
             premises_met: AtomicU32::new(0),
-        }))
+        };
+        Self(Arc::new(shared), Stop::default())
+    }
+
+    /// The same model, in which nothing happens any more once `stop` is requested.
+    pub(crate) fn stopping_at(self, stop: &Stop) -> Self {
+        Self(self.0, stop.clone())
+    }
+
+    /// Whether somebody asked to give up.
+    pub(crate) fn has_to_stop(&self) -> bool {
+        self.1.is_requested()
     }
 
     /// The scenario.

@@ -1,0 +1,187 @@
+"""What a robot is to do, in this order.
+
+`Robot.step` gives an `Output`: the state machine's own. `Endpoint` gives an `Effect`: the same with
+packets in place of `SendRam` and `SendRmcm`, and with what it understood and what came to nothing.
+"""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from . import messages, reasons
+from ._wire import Positional, Variant
+from .body import TaskParameters
+from .notices import Notice
+from .types import FallbackPolicy, Maneuver
+
+
+@dataclass(frozen=True, slots=True)
+class SendRam(Variant):
+    """Send a RAM now, with `Robot.ram` of the state after this step."""
+
+
+@dataclass(frozen=True, slots=True)
+class SendRmcm(Positional):
+    """Send this RMCM now."""
+
+    rmcm: messages.Rmcm
+
+
+@dataclass(frozen=True, slots=True)
+class StartManeuver(Positional):
+    """Start this maneuver. The acknowledgement stands before it in the list."""
+
+    maneuver: Maneuver
+    parameters: TaskParameters = TaskParameters()
+    """Where and how, by the command that an endpoint heard; the state machine itself knows nothing of
+    it."""
+
+
+@dataclass(frozen=True, slots=True)
+class StopManeuver(Positional):
+    """Stop this maneuver."""
+
+    maneuver: Maneuver
+    why: reasons.StopReason
+
+
+@dataclass(frozen=True, slots=True)
+class FallBack(Positional):
+    """Stop this maneuver because contact with the leader is lost, by the task's policy."""
+
+    maneuver: Maneuver
+    policy: FallbackPolicy
+
+
+@dataclass(frozen=True, slots=True)
+class CorridorOpened(Variant):
+    """The pedestrian may cross from now on."""
+
+
+@dataclass(frozen=True, slots=True)
+class CorridorClosed(Positional):
+    """The pedestrian may not cross from now on."""
+
+    why: reasons.CorridorClosure
+
+
+@dataclass(frozen=True, slots=True)
+class LockIdentity(Variant):
+    """Keep station id, certificate and link address from now on."""
+
+
+@dataclass(frozen=True, slots=True)
+class UnlockIdentity(Variant):
+    """Station id, certificate and link address may change again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Notify(Positional):
+    """Tell the application."""
+
+    notice: Notice
+
+
+@dataclass(frozen=True, slots=True)
+class Ignored(Positional):
+    """The input changed nothing, for this reason."""
+
+    why: reasons.Ignored
+
+
+Output: TypeAlias = (
+    SendRam
+    | SendRmcm
+    | StartManeuver
+    | StopManeuver
+    | FallBack
+    | CorridorOpened
+    | CorridorClosed
+    | LockIdentity
+    | UnlockIdentity
+    | Notify
+    | Ignored
+)
+"""An output of the state machine."""
+
+
+class Service(enum.Enum):
+    """The service that a message is of."""
+
+    RAM = "RAM"
+    RMCM = "RMCM"
+    CAM = "CAM"
+    DENM = "DENM"
+    VAM = "VAM"
+    CPM = "CPM"
+
+
+class Trigger(enum.Enum):
+    """Why a message goes out."""
+
+    PROTOCOL = "protocol"
+    FIRST = "first"
+    ROLE = "role"
+    HELP_STATUS = "helpStatus"
+    TASK = "task"
+    AVAILABILITY = "availability"
+    HEARTBEAT = "heartbeat"
+    INTERVAL = "interval"
+    POSITION = "position"
+    HEADING = "heading"
+    SPEED = "speed"
+
+
+@dataclass(frozen=True, slots=True)
+class Send(Variant):
+    """Send this packet."""
+
+    service: Service
+    """Which message is in it."""
+    trigger: Trigger
+    """Why it is sent."""
+    packet: bytes
+    """A whole GeoNetworking packet, unsecured: single-hop broadcast with BTP-B."""
+    message: bytes
+    """The message in it, for a station that makes packets itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Heard(Variant):
+    """A message of a robot was understood."""
+
+    service: Service
+    """Which message."""
+    station: int
+    """Who sent it."""
+    message: bytes
+    """Its octets, for `crossguard.decode`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dropped(Variant):
+    """A packet came to nothing, or a message could not be sent."""
+
+    cause: str
+    """The cause that it is counted under, see `Endpoint.counters`."""
+    detail: str
+    """What exactly."""
+
+
+Effect: TypeAlias = (
+    Send
+    | StartManeuver
+    | StopManeuver
+    | FallBack
+    | CorridorOpened
+    | CorridorClosed
+    | LockIdentity
+    | UnlockIdentity
+    | Notify
+    | Ignored
+    | Heard
+    | Dropped
+)
+"""An output of an endpoint."""

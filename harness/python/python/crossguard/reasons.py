@@ -1,0 +1,370 @@
+"""Why something is as it is.
+
+A reason that can be given in several places is one class: `SessionEnded` ends a follower's part as it
+closes a corridor. Which reasons can stand where is said by the unions at the end.
+"""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ._wire import Positional, Variant
+
+
+class Unavailability(enum.Enum):
+    """Why a robot takes no part in coordination."""
+
+    LOW_BATTERY = "lowBattery"
+    """The battery is below the robot's limit."""
+    TELEOPERATED = "teleoperated"
+    """A person steers the robot."""
+    EMERGENCY_STOP = "emergencyStop"
+    """The emergency stop is engaged."""
+    LOCAL_FAULT = "localFault"
+    """A fault of the robot."""
+    NOT_SAFE = "notSafe"
+    """The application holds it unsafe to act."""
+
+
+class GoneReason(enum.Enum):
+    """Why a leader has dropped a follower."""
+
+    LEFT = "left"
+    """It named the session as left."""
+    NO_ACKNOWLEDGEMENT = "noAcknowledgement"
+    """It did not acknowledge a command, however often it was repeated."""
+    NO_CONTACT = "noContact"
+    """It was without a lease for too long."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unavailable(Positional):
+    """The robot that it is about is unavailable."""
+
+    why: Unavailability
+
+
+@dataclass(frozen=True, slots=True)
+class Superseded(Variant):
+    """A newer command takes its place."""
+
+
+@dataclass(frozen=True, slots=True)
+class SessionEnded(Variant):
+    """The leader named the session as ended."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotListed(Variant):
+    """The leader does not list this robot."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReservationExpired(Variant):
+    """`T_offer` ran out."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactLost(Variant):
+    """`T_leave` ran out without contact."""
+
+
+@dataclass(frozen=True, slots=True)
+class LeaveRequested(Variant):
+    """The application asked to leave."""
+
+
+@dataclass(frozen=True, slots=True)
+class IdentityLockLimit(Variant):
+    """The identity must be unlocked before anything else."""
+
+
+ReleaseReason: TypeAlias = (
+    SessionEnded
+    | NotListed
+    | ReservationExpired
+    | ContactLost
+    | LeaveRequested
+    | Unavailable
+    | IdentityLockLimit
+)
+"""Why a helper or follower has no part in a session any more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Released(Positional):
+    """The follower has no part in the session any more."""
+
+    why: ReleaseReason
+
+
+StopReason: TypeAlias = Superseded | Released | Unavailable
+"""Why a maneuver is stopped."""
+
+
+@dataclass(frozen=True, slots=True)
+class TaskCompleted(Variant):
+    """The application said that the task is done."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoHelp(Variant):
+    """`T_help` ran out before enough helpers were found."""
+
+
+@dataclass(frozen=True, slots=True)
+class Withdrawn(Positional):
+    """The request of this station goes before."""
+
+    station: int
+
+
+@dataclass(frozen=True, slots=True)
+class NoFollowers(Variant):
+    """No follower is left."""
+
+
+@dataclass(frozen=True, slots=True)
+class Renewed(Variant):
+    """The request numbers are used up; a new session follows at once."""
+
+
+EndReason: TypeAlias = (
+    TaskCompleted
+    | NoHelp
+    | Withdrawn
+    | NoFollowers
+    | LeaveRequested
+    | Unavailable
+    | IdentityLockLimit
+    | Renewed
+)
+"""Why a session ended."""
+
+
+@dataclass(frozen=True, slots=True)
+class UnsupportedTask(Variant):
+    """The robot can do none of the tasks that are asked for."""
+
+
+Rejection: TypeAlias = UnsupportedTask | Unavailable
+"""Why a follower rejects a command."""
+
+
+@dataclass(frozen=True, slots=True)
+class Maneuver(Variant):
+    """The robot could not do the maneuver."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExecutionLimit(Variant):
+    """The leader's execution limit `T_exec` ran out."""
+
+
+Failure: TypeAlias = Maneuver | Unavailable | ExecutionLimit
+"""Why a maneuver ended without success."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoLease(Variant):
+    """The leader has no lease on the follower."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandOutstanding(Variant):
+    """The follower has a command that it has not acknowledged."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotExecuting(Variant):
+    """The robot executes no such maneuver, or has not reported that it does."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotGuarding(Variant):
+    """The follower's task does not guard a pedestrian."""
+
+
+@dataclass(frozen=True, slots=True)
+class Completed(Variant):
+    """It was finished."""
+
+
+@dataclass(frozen=True, slots=True)
+class Failed(Positional):
+    """It ended without success."""
+
+    why: Failure
+
+
+@dataclass(frozen=True, slots=True)
+class SafeIdle(Variant):
+    """It was stopped by the fallback policy because contact with the leader was lost."""
+
+
+Disengagement: TypeAlias = (
+    NoLease | CommandOutstanding | NotExecuting | NotGuarding | Completed | Failed | SafeIdle
+)
+"""Why a follower does not hold the corridor."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotEngaged(Positional):
+    """This follower does not hold the corridor."""
+
+    station: int
+    why: Disengagement
+
+
+@dataclass(frozen=True, slots=True)
+class FollowerMissing(Variant):
+    """Fewer followers are left than the task requires."""
+
+
+@dataclass(frozen=True, slots=True)
+class Application(Variant):
+    """The application asked for it."""
+
+
+CorridorClosure: TypeAlias = NotEngaged | FollowerMissing | SessionEnded | Application
+"""Why the corridor closed."""
+
+
+@dataclass(frozen=True, slots=True)
+class OwnStation(Variant):
+    """The message carries this robot's own station id."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotAddressed(Variant):
+    """The message is meant for another station."""
+
+
+@dataclass(frozen=True, slots=True)
+class OtherSession(Variant):
+    """The message names a session that this robot has no part in."""
+
+
+@dataclass(frozen=True, slots=True)
+class NothingNew(Variant):
+    """The message repeats what is known."""
+
+
+@dataclass(frozen=True, slots=True)
+class OldHeartbeat(Variant):
+    """The heartbeat is not newer than the newest one heard."""
+
+
+@dataclass(frozen=True, slots=True)
+class EchoFromFuture(Variant):
+    """The echo names a heartbeat that was never sent."""
+
+
+@dataclass(frozen=True, slots=True)
+class OldCommand(Variant):
+    """The command is older than the newest one of the session."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotAFollower(Variant):
+    """The sender is not a follower in this session."""
+
+
+@dataclass(frozen=True, slots=True)
+class RolesAlreadyAssigned(Variant):
+    """The followers are already confirmed."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotOutstanding(Variant):
+    """The answer is not for the outstanding command."""
+
+
+@dataclass(frozen=True, slots=True)
+class LowerPrecedence(Variant):
+    """The request does not go before this robot's own."""
+
+
+@dataclass(frozen=True, slots=True)
+class InSession(Variant):
+    """The robot has a part in a session already."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotLeading(Variant):
+    """The robot leads no session."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotInSession(Variant):
+    """The robot has no part in a session."""
+
+
+@dataclass(frozen=True, slots=True)
+class ImpossibleRequest(Variant):
+    """The number of followers is zero or above the limit, or no task is asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotJoined(Variant):
+    """The follower has not taken its role yet."""
+
+
+@dataclass(frozen=True, slots=True)
+class CorridorOpen(Variant):
+    """The corridor is open already."""
+
+
+@dataclass(frozen=True, slots=True)
+class CorridorClosed(Variant):
+    """The corridor is closed already."""
+
+
+@dataclass(frozen=True, slots=True)
+class IdentityLocked(Variant):
+    """The identity is locked."""
+
+
+@dataclass(frozen=True, slots=True)
+class NumbersExhausted(Variant):
+    """This boot's numbers for sessions and offers are used up; restart the robot."""
+
+
+@dataclass(frozen=True, slots=True)
+class TimerNotArmed(Variant):
+    """No such timer is armed."""
+
+
+Ignored: TypeAlias = (
+    OwnStation
+    | NotAddressed
+    | OtherSession
+    | NothingNew
+    | OldHeartbeat
+    | EchoFromFuture
+    | OldCommand
+    | NotAFollower
+    | RolesAlreadyAssigned
+    | NotOutstanding
+    | LowerPrecedence
+    | InSession
+    | NotLeading
+    | NotInSession
+    | NotExecuting
+    | Unavailable
+    | UnsupportedTask
+    | ImpossibleRequest
+    | NotJoined
+    | CommandOutstanding
+    | CorridorOpen
+    | CorridorClosed
+    | NotEngaged
+    | FollowerMissing
+    | IdentityLocked
+    | IdentityLockLimit
+    | NumbersExhausted
+    | TimerNotArmed
+)
+"""Why an input changed nothing."""

@@ -1,0 +1,57 @@
+//! What can be checked by name: scenarios, untimed and timed, and the paper's text.
+
+use crate::check::{Options, Progress, check};
+use crate::model::Model;
+use crate::paper;
+use crate::report::ScenarioReport;
+use crate::scenario::{Scenario, ScenarioError};
+use crate::timed;
+
+/// What can be checked.
+#[derive(Clone, Debug)]
+pub enum Subject {
+    /// A scenario.
+    Scenario(Box<Scenario>),
+    /// The paper's text word for word, which must fail.
+    PaperLiteral,
+}
+
+impl Subject {
+    /// The names of those that come along; quick scenarios first.
+    pub fn shipped() -> impl Iterator<Item = &'static str> {
+        Scenario::shipped().chain([paper::NAME])
+    }
+
+    /// The one of this name, or the scenario in the file of this name.
+    ///
+    /// # Errors
+    /// Every way in which there is no usable scenario of that name.
+    pub fn load(name: &str) -> Result<Self, ScenarioError> {
+        if name == paper::NAME {
+            return Ok(Self::PaperLiteral);
+        }
+        Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
+    }
+
+    /// Checks it. `watch` is told now and then how far it is; of the paper's text, which is small, never.
+    pub fn check(self, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+        match self {
+            Self::PaperLiteral => paper::check(),
+            Self::Scenario(scenario) => match timed::Model::new((*scenario).clone()) {
+                Some(model) => timed::check(&model, options, watch),
+                None => check(&Model::new(*scenario), options, watch),
+            },
+        }
+    }
+
+    /// Whether a report says that something was found that should not be; the paper's text must fail, and
+    /// in full.
+    #[must_use]
+    pub fn is_wrong(report: &ScenarioReport) -> bool {
+        if paper::made(report) {
+            !paper::fails_as_it_must(report)
+        } else {
+            report.failed()
+        }
+    }
+}
