@@ -88,22 +88,30 @@ pub enum PerceptionError {
 /// Why it is no observation.
 pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
     let text: Text = serde_json::from_str(line)?;
-    let [east, north] = text.position_m;
-    let [across, along] = text.velocity_mps;
-    let within = |name, value: f64, least: f64, most: f64, wanted| {
-        if (least..=most).contains(&value) {
-            Ok(())
-        } else {
-            Err(PerceptionError::Impossible {
-                name,
-                value,
-                wanted,
-            })
-        }
+    within("at_s", text.at_s.unwrap_or(0.0), 0.0, 1e6, "seconds")?;
+    let vru = PerceivedVru {
+        id: text.id,
+        position_m: text.position_m,
+        velocity_mps: text.velocity_mps,
+        class: text.class,
+        confidence: text.confidence,
     };
-    for metres in [east, north] {
+    check(&vru)?;
+    Ok(Observation {
+        vru,
+        at_s: text.at_s,
+    })
+}
+
+/// Checks that there can be somebody like that.
+///
+/// # Errors
+/// What is impossible.
+pub fn check(vru: &PerceivedVru) -> Result<(), PerceptionError> {
+    for metres in vru.position_m {
         within("position_m", metres, -1e5, 1e5, "metres on the site")?;
     }
+    let [across, along] = vru.velocity_mps;
     within(
         "velocity_mps",
         across.hypot(along),
@@ -111,18 +119,25 @@ pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
         163.8,
         "at most 163.8 m/s",
     )?;
-    within("confidence", text.confidence, 0.0, 1.0, "0 to 1")?;
-    within("at_s", text.at_s.unwrap_or(0.0), 0.0, 1e6, "seconds")?;
-    Ok(Observation {
-        vru: PerceivedVru {
-            id: text.id,
-            position_m: text.position_m,
-            velocity_mps: text.velocity_mps,
-            class: text.class,
-            confidence: text.confidence,
-        },
-        at_s: text.at_s,
-    })
+    within("confidence", vru.confidence, 0.0, 1.0, "0 to 1")
+}
+
+fn within(
+    name: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+    wanted: &'static str,
+) -> Result<(), PerceptionError> {
+    if (least..=most).contains(&value) {
+        Ok(())
+    } else {
+        Err(PerceptionError::Impossible {
+            name,
+            value,
+            wanted,
+        })
+    }
 }
 
 /// Somebody on the site, as a robot that is at `place` sees it.

@@ -416,6 +416,16 @@ pub fn read_credentials(folder: &Path) -> Result<Credentials, PkiError> {
     Ok(Credentials { trust, tickets })
 }
 
+/// What the robot of this name signs with, from its own folder or from that of a PKI.
+///
+/// # Errors
+/// Those of [`read_credentials`].
+pub fn credentials_of(folder: &Path, robot: &str) -> Result<Credentials, PkiError> {
+    let of_robot = robot_folder(folder, robot);
+    let is_pki = folder.join("robots").is_dir();
+    read_credentials(if is_pki { &of_robot } else { folder })
+}
+
 /// The certificates in a folder, by name.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 //! What commands that run robots have for security.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crossguard_codec::Identifiers;
 use crossguard_codec::security::Time64;
@@ -46,7 +46,9 @@ impl SecurityArguments {
                  pki init FOLDER' makes some"
                     .to_owned(),
             )),
-            (_, Some(folder)) => self.with(read(folder, name)?),
+            (_, Some(folder)) => {
+                self.with(pki::credentials_of(folder, name).map_err(Failure::input)?)
+            }
         }
     }
 
@@ -70,15 +72,4 @@ impl SecurityArguments {
         let now: Time64 = pki::now();
         Security::new(self.security, credentials, period_ms, now).map_err(Failure::input)
     }
-}
-
-/// From the folder of a robot, or that of a PKI.
-fn read(folder: &Path, name: &str) -> Result<Credentials, Failure> {
-    let of_robot = pki::robot_folder(folder, name);
-    let folder = if folder.join("robots").is_dir() {
-        &of_robot
-    } else {
-        folder
-    };
-    pki::read_credentials(folder).map_err(Failure::input)
 }

@@ -1,0 +1,355 @@
+//! What a message of the application tells the robot.
+
+use crossguard_codec::TaskParameters;
+use crossguard_harness::application::Wish;
+use crossguard_harness::perception::{self, PerceptionError};
+use crossguard_harness::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_harness::runtime::Order;
+use crossguard_harness::site::{Place, Site};
+use crossguard_protocol::{
+    Availability, Event, HelpRequest, MAX_FOLLOWERS, ManeuverId, NoSuchTask, RequestId, SessionId,
+    SessionNumber, StationId, TaskSet, TaskType, Unavailability, UniqueNumber, Urgency,
+};
+
+use crate::msgs::{Command, Person, Session, Status, Task};
+use crate::standard::Point;
+
+/// Why a message tells nothing.
+#[derive(Debug, thiserror::Error)]
+pub enum Refused {
+    /// There is no such command.
+    #[error("kind {0} is no command")]
+    Kind(u8),
+    /// So many followers cannot be had.
+    #[error("{0} followers: 1 to {MAX_FOLLOWERS} are possible")]
+    Followers(u8),
+    /// There is no such urgency.
+    #[error("urgency {0}: 0 to 3 are possible")]
+    Urgency(u8),
+    /// There is no such task.
+    #[error("{0}")]
+    Task(NoSuchTask),
+    /// There is no such reason.
+    #[error("availability {0}: 0 to 5 are possible")]
+    Availability(u8),
+    /// No place on the site.
+    #[error("({x}, {y}) is no place: metres on the site are wanted")]
+    Target {
+        /// To the east.
+        x: f64,
+        /// To the north.
+        y: f64,
+    },
+    /// No speed.
+    #[error("{0} is no speed: m/s, or 0 for the follower's own limit, are wanted")]
+    Speed(f64),
+    /// There is no such kind of people.
+    #[error("kind {0} of people: 0 to 3 are possible")]
+    People(u8),
+    /// Nobody can be like that.
+    #[error(transparent)]
+    Person(#[from] PerceptionError),
+    /// There is no robot to tell it.
+    #[error("the node is {0}; it takes commands when it is active")]
+    NotActive(&'static str),
+}
+
+impl Refused {
+    /// The cause that it is counted under.
+    #[must_use]
+    pub const fn cause(&self) -> &'static str {
+        match self {
+            Self::NotActive(_) => "ros: not active",
+            Self::People(_) | Self::Person(_) => "ros: impossible person",
+            _ => "ros: impossible command",
+        }
+    }
+}
+
+/// What a command orders. Places in it are on `site`.
+///
+/// # Errors
+/// Why it orders nothing.
+pub fn order(command: &Command, site: &Site) -> Result<Order, Refused> {
+    let event = match command.kind {
+        Command::DETECT => Event::PedestrianDetected(request(command)?),
+        Command::ORDER => {
+            return Ok(Order::Wish(Wish::Order {
+                follower: StationId(command.follower),
+                task: task(command.task)?,
+                parameters: parameters(command, site)?,
+            }));
+        }
+        Command::DONE => Event::ManeuverCompleted(maneuver(command)),
+        Command::FAIL => Event::ManeuverFailed(maneuver(command)),
+        Command::OPEN_CORRIDOR => Event::OpenCorridor,
+        Command::CLOSE_CORRIDOR => Event::CloseCorridor,
+        Command::TASK_COMPLETED => Event::TaskCompleted,
+        Command::LEAVE => Event::LeaveRequested,
+        Command::SET_AVAILABILITY => Event::AvailabilityChanged(availability(command)?),
+        other => return Err(Refused::Kind(other)),
+    };
+    Ok(Order::Wish(Wish::Tell(event)))
+}
+
+fn request(command: &Command) -> Result<HelpRequest, Refused> {
+    let followers = command.followers;
+    if !(1..=MAX_FOLLOWERS).contains(&usize::from(followers)) {
+        return Err(Refused::Followers(followers));
+    }
+    let urgency = match command.urgency {
+        Command::URGENCY_LOW => Urgency::Low,
+        Command::URGENCY_MEDIUM => Urgency::Medium,
+        Command::URGENCY_HIGH => Urgency::High,
+        Command::URGENCY_EMERGENCY => Urgency::Emergency,
+        other => return Err(Refused::Urgency(other)),
+    };
+    let tasks: Vec<_> = command
+        .tasks
+        .iter()
+        .copied()
+        .map(task)
+        .collect::<Result<_, _>>()?;
+    let tasks = match tasks.as_slice() {
+        [] => TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]),
+        tasks => TaskSet::of(tasks),
+    };
+    Ok(HelpRequest {
+        urgency,
+        followers,
+        tasks,
+    })
+}
+
+fn task(task: Task) -> Result<TaskType, Refused> {
+    TaskType::try_from(task.r#type).map_err(Refused::Task)
+}
+
+fn parameters(command: &Command, site: &Site) -> Result<TaskParameters, Refused> {
+    let Point { x, y, .. } = command.target;
+    // As far as a person can be whom the sensors have.
+    let is_place = |metres: f64| (-1e5..=1e5).contains(&metres);
+    if command.has_target && !(is_place(x) && is_place(y)) {
+        return Err(Refused::Target { x, y });
+    }
+    let speed = command.maximum_speed;
+    if !speed.is_finite() || speed < 0.0 {
+        return Err(Refused::Speed(speed));
+    }
+    Ok(TaskParameters {
+        target: command.has_target.then(|| site.target(Place::new(x, y))),
+        maximum_speed: (speed > 0.0).then_some(speed),
+        ..TaskParameters::default()
+    })
+}
+
+fn maneuver(command: &Command) -> ManeuverId {
+    ManeuverId {
+        session: session_id(command.session),
+        request: RequestId(command.request),
+    }
+}
+
+/// The session that a message names.
+#[must_use]
+pub const fn session_id(session: Session) -> SessionId {
+    SessionId {
+        leader: StationId(session.leader),
+        number: SessionNumber(UniqueNumber {
+            boot: session.boot,
+            count: session.count,
+        }),
+    }
+}
+
+fn availability(command: &Command) -> Result<Availability, Refused> {
+    Ok(Availability::Unavailable(match command.availability {
+        Status::AVAILABLE => return Ok(Availability::Available),
+        Status::LOW_BATTERY => Unavailability::LowBattery,
+        Status::TELEOPERATED => Unavailability::Teleoperated,
+        Status::EMERGENCY_STOP => Unavailability::EmergencyStop,
+        Status::LOCAL_FAULT => Unavailability::LocalFault,
+        Status::NOT_SAFE => Unavailability::NotSafe,
+        other => return Err(Refused::Availability(other)),
+    }))
+}
+
+/// Whom a message says that the sensors have.
+///
+/// # Errors
+/// Why there cannot be anybody like that.
+pub fn person(person: &Person) -> Result<Order, Refused> {
+    let class = match person.kind {
+        Person::PEDESTRIAN => VruClass::Pedestrian,
+        Person::BICYCLIST => VruClass::Bicyclist,
+        Person::MOTORCYCLIST => VruClass::Motorcyclist,
+        Person::ANIMAL => VruClass::Animal,
+        other => return Err(Refused::People(other)),
+    };
+    let vru = PerceivedVru {
+        id: person.id,
+        position_m: [person.position.x, person.position.y],
+        velocity_mps: [person.velocity.x, person.velocity.y],
+        class,
+        confidence: person.confidence.into(),
+    };
+    perception::check(&vru)?;
+    Ok(Order::Perceived(vru))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(command: &Command) -> Result<Event, String> {
+        match order(command, &Site::default()) {
+            Ok(Order::Wish(Wish::Tell(event))) => Ok(event),
+            Ok(other) => panic!("{other:?}"),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+
+    fn of(kind: u8) -> Command {
+        Command {
+            kind,
+            ..Command::default()
+        }
+    }
+
+    #[test]
+    fn a_detection_says_how_many_how_urgent_and_what_for() {
+        let detect = Command {
+            followers: 2,
+            urgency: Command::URGENCY_HIGH,
+            tasks: vec![Task {
+                r#type: Task::BLOCK,
+            }],
+            ..of(Command::DETECT)
+        };
+        let Ok(Event::PedestrianDetected(request)) = told(&detect) else {
+            panic!()
+        };
+        assert_eq!((request.followers, request.urgency), (2, Urgency::High));
+        assert_eq!(request.tasks, TaskSet::of(&[TaskType::BLOCK]));
+        let plain = Command {
+            followers: 1,
+            ..of(Command::DETECT)
+        };
+        let Ok(Event::PedestrianDetected(request)) = told(&plain) else {
+            panic!()
+        };
+        let tasks = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]);
+        assert_eq!(request.tasks, tasks);
+    }
+
+    #[test]
+    fn the_end_of_a_maneuver_names_it() {
+        let session = Session {
+            leader: 1,
+            boot: 2,
+            count: 3,
+        };
+        let done = Command {
+            session,
+            request: 4,
+            ..of(Command::DONE)
+        };
+        let id = ManeuverId {
+            session: session_id(session),
+            request: RequestId(4),
+        };
+        assert_eq!(told(&done), Ok(Event::ManeuverCompleted(id)));
+        let fail = Command {
+            kind: Command::FAIL,
+            ..done
+        };
+        assert_eq!(told(&fail), Ok(Event::ManeuverFailed(id)));
+    }
+
+    #[test]
+    fn an_order_may_lead_somewhere_at_some_speed() {
+        let command = Command {
+            follower: 2,
+            task: Task { r#type: Task::MOVE },
+            has_target: true,
+            target: Point {
+                x: 1.0,
+                y: 8.0,
+                z: 0.0,
+            },
+            maximum_speed: 0.4,
+            ..of(Command::ORDER)
+        };
+        let site = Site::default();
+        let Ok(Order::Wish(Wish::Order {
+            follower,
+            task,
+            parameters,
+        })) = order(&command, &site)
+        else {
+            panic!()
+        };
+        assert_eq!((follower, task), (StationId(2), TaskType::MOVE));
+        assert_eq!(parameters.target, Some(site.target(Place::new(1.0, 8.0))));
+        assert_eq!(parameters.maximum_speed, Some(0.4));
+    }
+
+    #[test]
+    fn what_is_impossible_is_refused_with_what_would_be_possible() {
+        let order_of = Command {
+            task: Task { r#type: 1 },
+            has_target: true,
+            ..of(Command::ORDER)
+        };
+        for (command, answer) in [
+            (of(0), "kind 0 is no command"),
+            (of(Command::DETECT), "0 followers: 1 to 4 are possible"),
+            (
+                Command {
+                    followers: 1,
+                    urgency: 4,
+                    ..of(Command::DETECT)
+                },
+                "urgency 4: 0 to 3 are possible",
+            ),
+            (
+                of(Command::ORDER),
+                "task type 255 does not exist, the largest is 15",
+            ),
+            (
+                Command {
+                    target: Point {
+                        x: f64::NAN,
+                        y: 0.0,
+                        z: 0.0,
+                    },
+                    ..order_of.clone()
+                },
+                "(NaN, 0) is no place: metres on the site are wanted",
+            ),
+            (
+                Command {
+                    maximum_speed: -1.0,
+                    ..order_of
+                },
+                "-1 is no speed: m/s, or 0 for the follower's own limit, are wanted",
+            ),
+            (
+                Command {
+                    availability: 6,
+                    ..of(Command::SET_AVAILABILITY)
+                },
+                "availability 6: 0 to 5 are possible",
+            ),
+        ] {
+            assert_eq!(told(&command), Err(answer.to_owned()));
+        }
+        let ghost = Person {
+            confidence: f32::NAN,
+            ..Person::default()
+        };
+        assert!(person(&ghost).is_err());
+        assert!(person(&Person { kind: 9, ..ghost }).is_err());
+        assert!(person(&Person::default()).is_ok());
+    }
+}

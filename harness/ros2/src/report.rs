@@ -1,0 +1,569 @@
+//! From the records of a robot to messages of ROS: status, corridor, events, diagnostics.
+
+use std::time::Duration;
+
+use crossguard_codec::{RobotState, Target, TaskParameters};
+use crossguard_harness::site::Site;
+use crossguard_harness::tally::{Tally, Way};
+use crossguard_harness::trace::{Entry, Record};
+use crossguard_harness::wire::{MessageKind, Wire};
+use crossguard_protocol::{
+    Availability, CorridorClosure, FallbackPolicy, Input, Leading, ManeuverId, Member, Notice,
+    Output, Phase, Progress, Robot, Role, SessionId, State, StationId, TaskType, Unavailability,
+};
+
+use crate::msgs::{Corridor, Event, Follower, Session, Status, Task};
+use crate::standard::{self, DiagnosticStatus, Header, KeyValue, Point, Time};
+
+/// The frame of places on the site.
+pub const SITE_FRAME: &str = "site";
+
+/// What is told of a robot.
+#[derive(Debug)]
+pub(crate) struct Reporter {
+    station: StationId,
+    site: Site,
+    wire: Wire,
+    tally: Tally,
+    /// Parameters of the newest command to this robot.
+    parameters: Option<TaskParameters>,
+    /// Why the corridor was closed last, while that is news.
+    closure: Option<CorridorClosure>,
+    /// How much had come to nothing, but for what was ignored, when diagnostics were told last.
+    dropped_before: u64,
+}
+
+impl Reporter {
+    pub(crate) fn new(name: &str, station: StationId, site: Site, wire: Wire) -> Self {
+        Self {
+            station,
+            site,
+            wire,
+            tally: Tally {
+                robot: name.to_owned(),
+                ..Tally::default()
+            },
+            parameters: None,
+            closure: None,
+            dropped_before: 0,
+        }
+    }
+
+    /// Takes a record in. The events that it tells of.
+    pub(crate) fn take(&mut self, record: &Record) -> Vec<Event> {
+        self.tally.record(record);
+        match &record.entry {
+            Entry::Heard {
+                message: MessageKind::Rmcm,
+                octets,
+                ..
+            } => {
+                let state = RobotState::default();
+                if let Ok(heard) = self.wire.hear(self.station, &state, octets) {
+                    self.parameters = heard.parameters.or(self.parameters);
+                }
+                Vec::new()
+            }
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => {
+                if !matches!(state.phase(), Phase::Leading(_)) {
+                    self.closure = None;
+                }
+                let told = outputs.iter();
+                told.filter_map(|output| self.event(input, output))
+                    .collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn event(&mut self, input: &Input, output: &Output) -> Option<Event> {
+        let event = match output {
+            Output::StartManeuver(maneuver) => {
+                self.started(about(Event::START_MANEUVER, maneuver.id, maneuver.task))
+            }
+            Output::StopManeuver(maneuver, _) => {
+                about(Event::STOP_MANEUVER, maneuver.id, maneuver.task)
+            }
+            Output::FallBack(maneuver, policy) => Event {
+                policy: match policy {
+                    FallbackPolicy::StopInPlace => Event::POLICY_STOP_IN_PLACE,
+                    FallbackPolicy::GoToSafePosition => Event::POLICY_GO_TO_SAFE_POSITION,
+                    FallbackPolicy::HoldUntilClear => Event::POLICY_HOLD_UNTIL_CLEAR,
+                },
+                ..about(Event::FALL_BACK, maneuver.id, maneuver.task)
+            },
+            Output::LockIdentity => of(Event::LOCK_IDENTITY),
+            Output::UnlockIdentity => of(Event::UNLOCK_IDENTITY),
+            Output::Notify(notice) => news(*notice),
+            Output::CorridorOpened => {
+                self.closure = None;
+                return None;
+            }
+            Output::CorridorClosed(why) => {
+                self.closure = Some(*why);
+                return None;
+            }
+            Output::Ignored(why) => {
+                let Input::Local(event) = input else {
+                    return None;
+                };
+                return Some(Event {
+                    text: format!("{event}: {why}"),
+                    ..of(Event::COMMAND_IGNORED)
+                });
+            }
+            Output::SendRam | Output::SendRmcm(_) => return None,
+        };
+        Some(Event {
+            text: output.to_string(),
+            ..event
+        })
+    }
+
+    /// A maneuver that begins, with where and how.
+    fn started(&self, event: Event) -> Event {
+        let parameters = self.parameters.unwrap_or_default();
+        let target = match parameters.target {
+            Some(Target::Position {
+                latitude,
+                longitude,
+                ..
+            }) => Some(self.site.place(latitude, longitude)),
+            _ => None,
+        };
+        Event {
+            has_target: target.is_some(),
+            target: target.map_or_else(Point::default, |place| Point {
+                x: place.east,
+                y: place.north,
+                z: 0.0,
+            }),
+            maximum_speed: parameters.maximum_speed.unwrap_or_default(),
+            ..event
+        }
+    }
+
+    /// When it was as it is known, in µs on the clock of the robot.
+    pub(crate) const fn known_us(&self) -> u64 {
+        self.tally.at_us
+    }
+
+    /// How the robot is.
+    pub(crate) fn status(&self, header: Header) -> Status {
+        let Some(robot) = &self.tally.state else {
+            return Status {
+                header,
+                robot: self.tally.robot.clone(),
+                station: self.station.0,
+                ..Status::default()
+            };
+        };
+        let executes = match robot.phase() {
+            Phase::Following(following) => following.executing().map(|it| it.task),
+            _ => None,
+        };
+        let leading = leading(robot);
+        let followers = leading.into_iter().flat_map(|it| it.members.iter());
+        Status {
+            header,
+            robot: self.tally.robot.clone(),
+            station: robot.station().0,
+            boot: robot.boot(),
+            state: match robot.state() {
+                State::Idle => Status::STATE_IDLE,
+                State::HelpRequested => Status::STATE_HELP_REQUESTED,
+                State::RoleEstablished => Status::STATE_ROLE_ESTABLISHED,
+                State::ManeuverExecuting => Status::STATE_MANEUVER_EXECUTING,
+            },
+            role: match robot.role() {
+                Role::None => Status::ROLE_NONE,
+                Role::Requester => Status::ROLE_REQUESTER,
+                Role::Helper => Status::ROLE_HELPER,
+                Role::Leader => Status::ROLE_LEADER,
+                Role::Follower => Status::ROLE_FOLLOWER,
+            },
+            availability: availability(robot.availability()),
+            in_session: robot.session().is_some(),
+            session: robot.session().map_or_else(Session::default, session),
+            followers: followers.map(follower).collect(),
+            executes: executes.map_or_else(Task::default, task),
+            corridor_open: self.tally.corridor_open(),
+        }
+    }
+
+    /// Whether the pedestrian may cross. Of a robot of which nothing was heard for too long, nobody
+    /// knows that.
+    pub(crate) fn corridor(&self, header: Header, valid_for: Duration, is_fresh: bool) -> Corridor {
+        let robot = self.tally.state.as_ref();
+        let leading = robot.filter(|robot| leading(robot).is_some());
+        let (reason, follower, text) = match (self.tally.corridor_open(), is_fresh, self.closure) {
+            (true, true, _) => (Corridor::REASON_NONE, 0, String::new()),
+            (true, false, _) => (
+                Corridor::REASON_STALE,
+                0,
+                "nothing was heard of the robot for too long".to_owned(),
+            ),
+            (false, _, Some(why)) => {
+                let (reason, follower) = closed(why);
+                (reason, follower, why.to_string())
+            }
+            (false, _, None) if leading.is_some() => (
+                Corridor::REASON_NOT_OPENED,
+                0,
+                "not opened in this session yet".to_owned(),
+            ),
+            (false, _, None) => (
+                Corridor::REASON_NOT_LEADING,
+                0,
+                "the robot leads no session".to_owned(),
+            ),
+        };
+        let session_led = leading.and_then(Robot::session);
+        Corridor {
+            header,
+            station: self.station.0,
+            open: reason == Corridor::REASON_NONE,
+            valid_for: duration(valid_for),
+            reason,
+            follower,
+            in_session: session_led.is_some(),
+            session: session_led.map_or_else(Session::default, session),
+            text,
+        }
+    }
+
+    /// What came to nothing, by cause, with what else tells how the robot is.
+    pub(crate) fn diagnostic(&mut self, name: String, is_fresh: bool) -> DiagnosticStatus {
+        let causes = &self.tally.causes;
+        let is_drop = |(cause, _): &(&String, &u64)| !cause.starts_with("ignored: ");
+        let dropped = causes.iter().filter(is_drop).map(|(_, count)| count).sum();
+        let news = dropped - self.dropped_before.min(dropped);
+        self.dropped_before = dropped;
+        let (level, message) = match (is_fresh, news) {
+            (false, _) => (
+                STALE,
+                "nothing was heard of the robot for too long".to_owned(),
+            ),
+            (true, 0) => (OK, self.tally.line()),
+            (true, _) => (
+                WARN,
+                format!("{news} came to nothing since the last report"),
+            ),
+        };
+        let sent = ("messages sent".to_owned(), self.tally.messages(Way::Sent));
+        let heard = ("messages heard".to_owned(), self.tally.messages(Way::Heard));
+        let causes = causes.iter().map(|(cause, count)| (cause.clone(), *count));
+        DiagnosticStatus {
+            level,
+            name,
+            message,
+            hardware_id: self.tally.robot.clone(),
+            values: [sent, heard].into_iter().chain(causes).map(value).collect(),
+        }
+    }
+}
+
+/// Levels of `diagnostic_msgs/msg/DiagnosticStatus`.
+pub(crate) const OK: u8 = 0;
+pub(crate) const WARN: u8 = 1;
+pub(crate) const STALE: u8 = 3;
+
+/// A number of a diagnostic.
+pub(crate) fn value((key, number): (String, u64)) -> KeyValue {
+    KeyValue {
+        key,
+        value: number.to_string(),
+    }
+}
+
+/// A header of this moment, by nanoseconds since 1970.
+pub(crate) fn header(now_ns: i64, frame: &str) -> Header {
+    let (seconds, nanoseconds) = (
+        now_ns.div_euclid(1_000_000_000),
+        now_ns.rem_euclid(1_000_000_000),
+    );
+    Header {
+        stamp: Time {
+            // Until 2038, as in all of ROS 2.
+            sec: i32::try_from(seconds).unwrap_or(i32::MAX),
+            nanosec: u32::try_from(nanoseconds).unwrap_or_default(),
+        },
+        frame_id: frame.to_owned(),
+    }
+}
+
+pub(crate) fn duration(time: Duration) -> standard::Duration {
+    standard::Duration {
+        sec: i32::try_from(time.as_secs()).unwrap_or(i32::MAX),
+        nanosec: time.subsec_nanos(),
+    }
+}
+
+const fn leading(robot: &Robot) -> Option<&Leading> {
+    match robot.phase() {
+        Phase::Leading(leading) => Some(leading),
+        _ => None,
+    }
+}
+
+const fn session(session: SessionId) -> Session {
+    Session {
+        leader: session.leader.0,
+        boot: session.number.0.boot,
+        count: session.number.0.count,
+    }
+}
+
+const fn task(task: TaskType) -> Task {
+    Task {
+        r#type: task.value(),
+    }
+}
+
+fn follower(member: &Member) -> Follower {
+    Follower {
+        station: member.station.0,
+        has_joined: member.has_joined(),
+        task: member.order.map_or_else(Task::default, |it| task(it.task)),
+        progress: match member.order.and_then(|it| it.progress) {
+            None => Follower::PROGRESS_NONE,
+            Some(Progress::Executing) => Follower::PROGRESS_EXECUTING,
+            Some(Progress::Completed) => Follower::PROGRESS_COMPLETED,
+            Some(Progress::Failed(_)) => Follower::PROGRESS_FAILED,
+            Some(Progress::SafeIdle) => Follower::PROGRESS_SAFE_IDLE,
+        },
+        has_lease: member.lease.stands(),
+    }
+}
+
+const fn availability(availability: Availability) -> u8 {
+    match availability {
+        Availability::Available => Status::AVAILABLE,
+        Availability::Unavailable(Unavailability::LowBattery) => Status::LOW_BATTERY,
+        Availability::Unavailable(Unavailability::Teleoperated) => Status::TELEOPERATED,
+        Availability::Unavailable(Unavailability::EmergencyStop) => Status::EMERGENCY_STOP,
+        Availability::Unavailable(Unavailability::LocalFault) => Status::LOCAL_FAULT,
+        Availability::Unavailable(Unavailability::NotSafe) => Status::NOT_SAFE,
+    }
+}
+
+const fn closed(why: CorridorClosure) -> (u8, u32) {
+    match why {
+        CorridorClosure::NotEngaged(follower, _) => (Corridor::REASON_NOT_ENGAGED, follower.0),
+        CorridorClosure::FollowerMissing => (Corridor::REASON_FOLLOWER_MISSING, 0),
+        CorridorClosure::SessionEnded => (Corridor::REASON_SESSION_ENDED, 0),
+        CorridorClosure::Application => (Corridor::REASON_APPLICATION, 0),
+    }
+}
+
+pub(crate) fn of(kind: u8) -> Event {
+    Event {
+        kind,
+        ..Event::default()
+    }
+}
+
+fn in_session(kind: u8, id: SessionId) -> Event {
+    Event {
+        in_session: true,
+        session: session(id),
+        ..of(kind)
+    }
+}
+
+fn with(kind: u8, station: StationId) -> Event {
+    Event {
+        station: station.0,
+        ..of(kind)
+    }
+}
+
+/// About a command to this robot.
+fn about(kind: u8, id: ManeuverId, of_kind: TaskType) -> Event {
+    Event {
+        station: id.session.leader.0,
+        request: id.request.0,
+        task: task(of_kind),
+        ..in_session(kind, id.session)
+    }
+}
+
+/// About a command to a follower.
+fn to_follower(kind: u8, station: StationId, id: ManeuverId) -> Event {
+    Event {
+        station: station.0,
+        request: id.request.0,
+        ..in_session(kind, id.session)
+    }
+}
+
+fn news(notice: Notice) -> Event {
+    match notice {
+        Notice::RolesEstablished(session) => in_session(Event::ROLES_ESTABLISHED, session),
+        Notice::FollowerJoined(follower) => with(Event::FOLLOWER_JOINED, follower),
+        Notice::FollowerGone(follower, _) => with(Event::FOLLOWER_GONE, follower),
+        Notice::LeaseGranted(follower) => with(Event::LEASE_GRANTED, follower),
+        Notice::LeaseExpired(follower) => with(Event::LEASE_EXPIRED, follower),
+        Notice::CommandAcknowledged(follower, id) => {
+            to_follower(Event::COMMAND_ACKNOWLEDGED, follower, id)
+        }
+        Notice::CommandRejected(follower, id, _) => {
+            to_follower(Event::COMMAND_REJECTED, follower, id)
+        }
+        Notice::ManeuverReported(follower, id) => {
+            to_follower(Event::MANEUVER_REPORTED, follower, id)
+        }
+        Notice::ManeuverCompleted(follower, id) => {
+            to_follower(Event::MANEUVER_COMPLETED, follower, id)
+        }
+        Notice::ManeuverFailed(follower, id, _) => {
+            to_follower(Event::MANEUVER_FAILED, follower, id)
+        }
+        Notice::FollowerSafeIdle(follower, id) => {
+            to_follower(Event::FOLLOWER_SAFE_IDLE, follower, id)
+        }
+        Notice::SessionEnded(session, _) => in_session(Event::SESSION_ENDED, session),
+        Notice::Offering(session) => in_session(Event::OFFERING, session),
+        Notice::Joined(session) => in_session(Event::JOINED, session),
+        Notice::Released(session, _) => in_session(Event::RELEASED, session),
+        Notice::ContactLost(session) => in_session(Event::CONTACT_LOST, session),
+        Notice::ContactRegained(session) => in_session(Event::CONTACT_REGAINED, session),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_protocol::{
+        Config, Decimetres, Event as Local, HelpRequest, Millis, Outputs, Settings, TaskSet,
+        Urgency,
+    };
+
+    use super::*;
+
+    /// A leader and its follower, who hear each other.
+    struct Team {
+        config: Config,
+        robots: [Robot; 2],
+        told: Vec<(Input, Outputs, Robot)>,
+    }
+
+    impl Team {
+        /// One robot takes something in; the other hears what it says to that.
+        fn step(&mut self, who: usize, input: Input) {
+            let outputs = self.robots[who].step(&self.config, input);
+            if who == 0 {
+                self.told.push((input, outputs, self.robots[0].clone()));
+            }
+            for output in outputs.iter() {
+                match output {
+                    Output::SendRam => {
+                        let ram = self.robots[who].ram();
+                        let distance = Decimetres(10);
+                        self.step(1 - who, Input::Ram { ram, distance });
+                    }
+                    Output::SendRmcm(rmcm) => self.step(1 - who, Input::Rmcm(*rmcm)),
+                    _ => {}
+                }
+            }
+        }
+
+        fn let_pass(&mut self, periods: usize) {
+            for _ in 0..periods {
+                for who in 0..2 {
+                    self.step(who, Input::Elapsed(Millis(100)));
+                }
+            }
+        }
+    }
+
+    /// The records of a leader from detection to an open corridor.
+    fn opening() -> Vec<Record> {
+        let mut team = Team {
+            config: Config::new(Settings::default()).unwrap(),
+            robots: [1, 2].map(|station| Robot::new(StationId(station), 1)),
+            told: Vec::new(),
+        };
+        let request = HelpRequest {
+            urgency: Urgency::Medium,
+            followers: 1,
+            tasks: TaskSet::of(&[TaskType::MOVE]),
+        };
+        team.step(0, Input::Local(Local::PedestrianDetected(request)));
+        team.let_pass(10);
+        let command = Local::CommandManeuver {
+            follower: StationId(2),
+            task: TaskType::MOVE,
+        };
+        team.step(0, Input::Local(command));
+        team.let_pass(5);
+        team.step(0, Input::Local(Local::OpenCorridor));
+        let of_step =
+            |(number, (input, outputs, state)): (usize, (Input, Outputs, Robot))| Record {
+                at_us: number as u64,
+                robot: "ARI".to_owned(),
+                entry: Entry::Step {
+                    input,
+                    outputs: Box::new(outputs),
+                    state: Box::new(state),
+                },
+            };
+        team.told.into_iter().enumerate().map(of_step).collect()
+    }
+
+    fn reporter() -> Reporter {
+        Reporter::new("ARI", StationId(1), Site::default(), Wire::default())
+    }
+
+    #[test]
+    fn a_corridor_is_open_while_the_robot_says_so_and_is_heard_of() {
+        let mut reporter = reporter();
+        let corridor = |reporter: &Reporter, is_fresh| {
+            let told = reporter.corridor(Header::default(), Duration::from_millis(300), is_fresh);
+            (told.open, told.reason)
+        };
+        let first = corridor(&reporter, true);
+        assert_eq!(first, (false, Corridor::REASON_NOT_LEADING));
+        let mut reasons = Vec::new();
+        for record in opening() {
+            let _ = reporter.take(&record);
+            reasons.push(corridor(&reporter, true).1);
+        }
+        reasons.dedup();
+        let expected = [
+            Corridor::REASON_NOT_LEADING,
+            Corridor::REASON_NOT_OPENED,
+            Corridor::REASON_NONE,
+        ];
+        assert_eq!(reasons, expected);
+        assert_eq!(corridor(&reporter, true), (true, Corridor::REASON_NONE));
+        // It still says so, but nobody knows how long ago.
+        assert_eq!(corridor(&reporter, false), (false, Corridor::REASON_STALE));
+        assert_eq!(reporter.diagnostic(String::new(), false).level, STALE);
+    }
+
+    #[test]
+    fn the_news_of_a_leader_are_events_with_the_follower_and_the_session() {
+        let mut reporter = reporter();
+        let events: Vec<_> = opening().iter().flat_map(|it| reporter.take(it)).collect();
+        let of_kind = |kind| events.iter().find(|it| it.kind == kind).unwrap();
+        assert_eq!(of_kind(Event::FOLLOWER_JOINED).station, 2);
+        let session = of_kind(Event::ROLES_ESTABLISHED).session;
+        let told = of_kind(Event::MANEUVER_REPORTED);
+        assert_eq!((told.station, told.session), (2, session));
+        assert!(!told.text.is_empty());
+        let status = reporter.status(Header::default());
+        assert_eq!(
+            (status.role, status.session),
+            (Status::ROLE_LEADER, session)
+        );
+        let [follower] = status.followers.as_slice() else {
+            panic!("{status:?}")
+        };
+        assert_eq!(follower.progress, Follower::PROGRESS_EXECUTING);
+        assert!(follower.has_lease && follower.has_joined && status.corridor_open);
+    }
+}

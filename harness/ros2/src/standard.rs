@@ -1,0 +1,284 @@
+//! The standard messages and services that the node uses: their fields, and the same as Rust structs.
+//!
+//! Fields and ids are those of ROS 2 Jazzy; comments and constants, which do not change a hash, are not
+//! repeated here.
+
+use serde::{Deserialize, Serialize};
+
+use crate::message::{Message, Service};
+
+/// The fields of the standard messages, by their names.
+pub(crate) const MESSAGES: [(&str, &str); 14] = [
+    ("builtin_interfaces/msg/Time", "int32 sec\nuint32 nanosec"),
+    (
+        "builtin_interfaces/msg/Duration",
+        "int32 sec\nuint32 nanosec",
+    ),
+    (
+        "std_msgs/msg/Header",
+        "builtin_interfaces/Time stamp\nstring frame_id",
+    ),
+    ("std_msgs/msg/String", "string data"),
+    ("geometry_msgs/msg/Point", "float64 x\nfloat64 y\nfloat64 z"),
+    (
+        "geometry_msgs/msg/Vector3",
+        "float64 x\nfloat64 y\nfloat64 z",
+    ),
+    ("diagnostic_msgs/msg/KeyValue", "string key\nstring value"),
+    (
+        "diagnostic_msgs/msg/DiagnosticStatus",
+        "byte level\nstring name\nstring message\nstring hardware_id\nKeyValue[] values",
+    ),
+    (
+        "diagnostic_msgs/msg/DiagnosticArray",
+        "std_msgs/Header header\nDiagnosticStatus[] status",
+    ),
+    ("lifecycle_msgs/msg/State", "uint8 id\nstring label"),
+    ("lifecycle_msgs/msg/Transition", "uint8 id\nstring label"),
+    (
+        "lifecycle_msgs/msg/TransitionDescription",
+        "Transition transition\nState start_state\nState goal_state",
+    ),
+    (
+        "lifecycle_msgs/msg/TransitionEvent",
+        "uint64 timestamp\nTransition transition\nState start_state\nState goal_state",
+    ),
+    (
+        "service_msgs/msg/ServiceEventInfo",
+        "uint8 event_type\nbuiltin_interfaces/Time stamp\nchar[16] client_gid\nint64 sequence_number",
+    ),
+];
+
+/// The fields of the standard services, by their names.
+pub(crate) const SERVICES: [(&str, &str); 4] = [
+    (
+        "lifecycle_msgs/srv/ChangeState",
+        "lifecycle_msgs/Transition transition\n---\nbool success",
+    ),
+    (
+        "lifecycle_msgs/srv/GetState",
+        "---\nlifecycle_msgs/State current_state",
+    ),
+    (
+        "lifecycle_msgs/srv/GetAvailableStates",
+        "---\nlifecycle_msgs/State[] available_states",
+    ),
+    (
+        "lifecycle_msgs/srv/GetAvailableTransitions",
+        "---\nlifecycle_msgs/TransitionDescription[] available_transitions",
+    ),
+];
+
+/// A point in time: seconds since 1970 (UTC).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct Time {
+    /// Seconds.
+    pub sec: i32,
+    /// And nanoseconds.
+    pub nanosec: u32,
+}
+
+/// A span of time.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct Duration {
+    /// Seconds.
+    pub sec: i32,
+    /// And nanoseconds.
+    pub nanosec: u32,
+}
+
+/// When something was so, and in which frame.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct Header {
+    /// When.
+    pub stamp: Time,
+    /// In which frame; empty without one.
+    pub frame_id: String,
+}
+
+/// A text.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename = "String")]
+pub struct Text {
+    /// It.
+    pub data: String,
+}
+
+/// A point, in metres.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Point {
+    /// To the east, in the site's frame.
+    pub x: f64,
+    /// To the north.
+    pub y: f64,
+    /// Up.
+    pub z: f64,
+}
+
+/// A vector.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Vector3 {
+    /// To the east, in the site's frame.
+    pub x: f64,
+    /// To the north.
+    pub y: f64,
+    /// Up.
+    pub z: f64,
+}
+
+/// A value of a diagnostic, by its name.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct KeyValue {
+    /// What it is of.
+    pub key: String,
+    /// The value.
+    pub value: String,
+}
+
+/// How one component is.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct DiagnosticStatus {
+    /// 0 well, 1 warning, 2 error, 3 stale.
+    pub level: u8,
+    /// The component.
+    pub name: String,
+    /// How it is.
+    pub message: String,
+    /// The hardware.
+    pub hardware_id: String,
+    /// Values.
+    pub values: Vec<KeyValue>,
+}
+
+/// How several components are.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct DiagnosticArray {
+    /// When.
+    pub header: Header,
+    /// They.
+    pub status: Vec<DiagnosticStatus>,
+}
+
+/// A state of a lifecycle.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct State {
+    /// Its number.
+    pub id: u8,
+    /// Its name.
+    pub label: String,
+}
+
+/// A transition of a lifecycle.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct Transition {
+    /// Its number.
+    pub id: u8,
+    /// Its name; where it has one, the number is not looked at.
+    pub label: String,
+}
+
+/// A transition that is possible.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct TransitionDescription {
+    /// It.
+    pub transition: Transition,
+    /// From where.
+    pub start_state: State,
+    /// Where to.
+    pub goal_state: State,
+}
+
+/// A transition that happened.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct TransitionEvent {
+    /// When, in nanoseconds since 1970 (UTC).
+    pub timestamp: u64,
+    /// It.
+    pub transition: Transition,
+    /// From where.
+    pub start_state: State,
+    /// Where to.
+    pub goal_state: State,
+}
+
+/// What a request without fields carries.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct Empty {
+    /// Nothing.
+    pub structure_needs_at_least_one_member: u8,
+}
+
+/// To change the state of a lifecycle.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct ChangeStateRequest {
+    /// By which transition.
+    pub transition: Transition,
+}
+
+/// What came of it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct ChangeStateResponse {
+    /// Whether the state was changed.
+    pub success: bool,
+}
+
+/// The state of a lifecycle.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct GetStateResponse {
+    /// It.
+    pub current_state: State,
+}
+
+/// All states of a lifecycle.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct GetAvailableStatesResponse {
+    /// They.
+    pub available_states: Vec<State>,
+}
+
+/// Transitions of a lifecycle.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct GetAvailableTransitionsResponse {
+    /// They.
+    pub available_transitions: Vec<TransitionDescription>,
+}
+
+macro_rules! messages {
+    ($($kind:ty => $name:literal;)*) => {
+        $(impl Message for $kind {
+            const NAME: &'static str = $name;
+        })*
+    };
+}
+
+messages! {
+    Text => "std_msgs/msg/String";
+    DiagnosticArray => "diagnostic_msgs/msg/DiagnosticArray";
+    TransitionEvent => "lifecycle_msgs/msg/TransitionEvent";
+}
+
+macro_rules! services {
+    ($($(#[$about:meta])* $kind:ident => $name:literal, $request:ty, $response:ty;)*) => {
+        $($(#[$about])*
+        #[derive(Clone, Copy, Debug)]
+        pub enum $kind {}
+
+        impl Service for $kind {
+            const NAME: &'static str = $name;
+            type Request = $request;
+            type Response = $response;
+        })*
+    };
+}
+
+services! {
+    /// Changes the state of a lifecycle.
+    ChangeState => "lifecycle_msgs/srv/ChangeState", ChangeStateRequest, ChangeStateResponse;
+    /// Tells the state of a lifecycle.
+    GetState => "lifecycle_msgs/srv/GetState", Empty, GetStateResponse;
+    /// Tells all states of a lifecycle.
+    GetAvailableStates => "lifecycle_msgs/srv/GetAvailableStates", Empty, GetAvailableStatesResponse;
+    /// Tells transitions of a lifecycle.
+    GetAvailableTransitions => "lifecycle_msgs/srv/GetAvailableTransitions", Empty,
+        GetAvailableTransitionsResponse;
+}
