@@ -61,6 +61,10 @@ def expected(path):
                 topics[topic + "/message"].append((at_ns, "lost", record["octets"]))
         elif entry == "stopped":
             topics[topic + "/stopped"] = record["counters"]
+    # Robots that share a log write it from threads of their own, and one may be a moment late.
+    for messages in topics.values():
+        if isinstance(messages, list):
+            messages.sort(key=lambda message: message[0])
     for robot, counts in counters.items():
         topics[f"/{token(robot)}/counted"] = counts
     return topics
@@ -91,7 +95,7 @@ class Found:
         self.topics = collections.defaultdict(list)
         self.names = {}
         validators = {}
-        before_ns = {}
+        before_ns = 0
         reader = make_reader(open(path, "rb"), validate_crcs=True)
         for schema, channel, message in reader.iter_messages(log_time_order=False):
             assert (schema.encoding, channel.message_encoding) == ("jsonschema", "json"), channel
@@ -106,10 +110,8 @@ class Found:
             assert not missing, (channel.topic, missing)
             if schema.name.startswith("foxglove."):
                 json_format.ParseDict(as_protobuf(value), foxglove_type(schema.name)())
-            # Robots have a clock each; in topics of all of them a few microseconds may go back.
-            own = channel.topic if channel.topic.count("/") == 2 else None
-            assert own is None or message.log_time >= before_ns.get(own, 0), "the times go back"
-            before_ns[own] = message.log_time
+            assert message.log_time >= before_ns, "the times go back"
+            before_ns = message.log_time
             self.names[channel.topic] = schema.name
             self.topics[channel.topic].append((message.log_time, value))
         statistics = reader.get_summary().statistics

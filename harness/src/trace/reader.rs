@@ -1,8 +1,12 @@
 //! Reading logs: record by record, and those of several robots as one.
 
+use std::collections::BTreeMap;
 use std::io::BufRead;
 
 use super::{Entry, Record};
+
+/// How long a record is held back for one that is late in its log, in µs.
+const HELD_US: u64 = 1_000_000;
 
 /// A log to be read.
 pub struct Log<'a> {
@@ -121,8 +125,15 @@ impl<'a> Records<'a> {
 ///
 /// Clocks of different machines are not corrected: where they are apart, a message may be heard before
 /// it is sent. [`validate`](crate::validate) orders by cause and effect instead.
+///
+/// Robots that share a log write it from threads of their own, so that a record may be a moment late in it:
+/// for that each is held back for a second of the logs' time.
 pub struct Merged<'a> {
     sources: Vec<Source<'a>>,
+    /// What is held back, by time, and by the order in which it was read.
+    held: BTreeMap<(u64, u64), Record>,
+    read: u64,
+    newest_us: u64,
 }
 
 struct Source<'a> {
@@ -159,7 +170,12 @@ impl<'a> Merged<'a> {
             source.advance()?;
             sources.push(source);
         }
-        Ok(Self { sources })
+        Ok(Self {
+            sources,
+            held: BTreeMap::new(),
+            read: 0,
+            newest_us: 0,
+        })
     }
 
     /// Takes the next record and its time, in microseconds since 1970; `None` at the end of all.
@@ -167,6 +183,22 @@ impl<'a> Merged<'a> {
     /// # Errors
     /// Which log cannot be read on, in which line, and why.
     pub fn take(&mut self) -> Result<Option<(u64, Record)>, LogError> {
+        while let Some((at_us, record)) = self.read()? {
+            self.newest_us = self.newest_us.max(at_us);
+            self.held.insert((at_us, self.read), record);
+            self.read += 1;
+            let first = self.held.first_entry();
+            let due = first.filter(|first| first.key().0.saturating_add(HELD_US) <= self.newest_us);
+            if let Some(due) = due {
+                return Ok(Some((due.key().0, due.remove())));
+            }
+        }
+        let first = self.held.pop_first();
+        Ok(first.map(|((at_us, _), record)| (at_us, record)))
+    }
+
+    /// Reads the next record of the log whose next is the earliest.
+    fn read(&mut self) -> Result<Option<(u64, Record)>, LogError> {
         let with_head = self
             .sources
             .iter_mut()
@@ -256,6 +288,18 @@ mod tests {
             .map(|(at_us, _)| at_us)
             .collect();
         assert_eq!(times, [1_000_000, 1_000_390, 1_000_490, 9_000_000]);
+    }
+
+    #[test]
+    fn a_record_that_is_late_in_its_log_is_put_where_it_belongs() {
+        let log = log(&[
+            started("ARI", 0, 1_000),
+            started("Go2", 30, 1_000),
+            stopped("ARI", 20),
+            stopped("Go2", 3_000_000),
+        ]);
+        let names: Vec<_> = times(vec![log]).into_iter().map(|(_, name)| name).collect();
+        assert_eq!(names, ["ARI", "ARI", "Go2", "Go2"]);
     }
 
     #[test]
