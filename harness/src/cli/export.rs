@@ -48,6 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     while let Some((_, record)) = logs.take().map_err(Failure::input)? {
         steps.extend(sequence.steps(&record));
     }
+    sequence.end(&mut steps);
     sequence.draw("Crossguard", &steps, |chart| {
         let pictures = [
             (&arguments.svg, chart.svg()),
