@@ -3,6 +3,8 @@
 
 mod support;
 
+use std::process::Output;
+
 use serde_json::Value;
 use support::*;
 
@@ -171,6 +173,60 @@ fn a_person_sees_every_robot_in_the_chart_and_packets_in_the_capture() {
     for expected in ["needHelp 1#", "leader 1#1.0 of 2, 3", "follower 1#1.0"] {
         assert!(seen.contains(expected), "'{expected}' is not in:\n{seen}");
     }
+}
+
+#[test]
+fn a_picture_shows_where_a_robot_lost_power() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (log, picture, port) = (path("log"), path("picture"), free_ports(2).to_string());
+    let demo = ["demo", "--scenario", "follower-dies", "--speed", "5"];
+    let output = run(&[&demo[..], &["--port", &port, "--log", &log, "--json"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    run(&["export", &log, "--mermaid", &picture]);
+    let picture = std::fs::read_to_string(picture).unwrap();
+    let line = |part: &str| picture.lines().position(|line| line.contains(part));
+    let end = "its records end here";
+    assert_eq!(picture.matches(end).count(), 1, "{picture}");
+    assert!(line("corridor opened") < line(end), "{picture}");
+    assert!(line(end) < line("corridor closed"), "{picture}");
+}
+
+#[test]
+fn a_team_is_told_how_all_of_it_gets_certificates() {
+    let folder = tempfile::tempdir().unwrap();
+    let pki = folder.path().join("pki");
+    let pki = pki.to_str().unwrap();
+    let port = free_ports(3).to_string();
+    let demo = |scenario| {
+        let demo = ["demo", "--scenario", scenario, "--speed", "40", "--port"];
+        let security = ["--security", "enforce", "--pki", pki, "--json"];
+        run(&[&demo[..], &[&port], &security[..]].concat())
+    };
+    // What is told is done, to the letter.
+    let follow = |output: &Output| {
+        let told = stderr(output);
+        let commands = told.split("crossguard pki ").skip(1);
+        let mut followed = 0;
+        for command in commands
+            .map(str::lines)
+            .filter_map(|mut lines| lines.next())
+        {
+            let words: Vec<_> = command.split_whitespace().collect();
+            let output = run(&[&["pki"], &words[..]].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            followed += 1;
+        }
+        followed
+    };
+    let refused = demo("crossing");
+    assert_refused(&refused, "--robot ARI --robot Go2");
+    assert_eq!(follow(&refused), 1);
+    let refused = demo("team");
+    assert_refused(&refused, "has nothing for ARI-2, ARI-3, who take part");
+    assert_eq!(follow(&refused), 2);
+    let output = demo("trio");
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What commands that run robots have for security.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crossguard_codec::Identifiers;
 use crossguard_codec::security::Time64;
@@ -54,6 +54,9 @@ impl SecurityArguments {
 
     /// The security of several robots; without a folder they get a PKI that nobody else knows.
     pub(super) fn of_robots(&self, names: &[&str]) -> Result<Vec<Security>, Failure> {
+        if let (Mode::Sign | Mode::Enforce, Some(folder)) = (self.security, &self.pki) {
+            check(folder, names)?;
+        }
         if self.security == Mode::Off || self.pki.is_some() {
             return names.iter().map(|name| self.of_robot(name)).collect();
         }
@@ -72,4 +75,29 @@ impl SecurityArguments {
         let now: Time64 = pki::now();
         Security::new(self.security, credentials, period_ms, now).map_err(Failure::input)
     }
+}
+
+/// Whether a folder has something for each of these robots; if not, how it gets it.
+fn check(folder: &Path, names: &[&str]) -> Result<(), Failure> {
+    let shown = folder.display();
+    if !folder.exists() {
+        let robots = names.iter().map(|name| format!(" --robot {name}"));
+        let robots = robots.collect::<String>();
+        return Err(Failure::Input(format!(
+            "{shown} is not there; make it with: crossguard pki init {shown}{robots}"
+        )));
+    }
+    let is_missing = |name: &&&str| !pki::robot_folder(folder, name).is_dir();
+    let missing: Vec<_> = names.iter().filter(is_missing).copied().collect();
+    if missing.is_empty() || !folder.join("robots").is_dir() {
+        return Ok(());
+    }
+    let commands = missing
+        .iter()
+        .map(|name| format!("\n  crossguard pki tickets {shown} --robot {name}"));
+    let commands = commands.collect::<String>();
+    Err(Failure::Input(format!(
+        "the PKI in {shown} has nothing for {}, who take part; give them something with:{commands}",
+        missing.join(", ")
+    )))
 }
