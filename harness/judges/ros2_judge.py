@@ -2,11 +2,11 @@
 
     python ros2_judge.py BINARY
 
-starts two robots with BINARY (crossguard-ros2) in a ROS domain of their own and meets them with
-zenoh-ros2-sdk, which knows them by what is on the wire only: it finds nodes, topics and services by their
-liveliness tokens, computes the hashes of their types from .msg files by its own code (those of ROS by the
-definitions of Jazzy that rosbags has), takes them through their lifecycle by services, has them help a
-pedestrian across by a message, and decodes what they tell by the CDR of rosbags. What it saw is held
+starts two robots with BINARY (crossguard-ros2) in a ROS domain of their own, at a zenoh router as ROS 2 has
+one, and meets them with zenoh-ros2-sdk, which knows them by what is on the wire only: it finds topics and
+services by their liveliness tokens, computes the hashes of their types from .msg files by its own code (those
+of ROS by the definitions of Jazzy that rosbags has), takes them through their lifecycle by services, has them
+help a pedestrian across by a message, and decodes what they tell by the CDR of rosbags. What it saw is held
 against the robots' logs. Ends with exit code 0 when it agrees.
 
     zenoh-ros2-sdk (Apache-2.0), eclipse-zenoh (EPL-2.0 or Apache-2.0), rosbags (Apache-2.0)
@@ -23,6 +23,7 @@ import tempfile
 import threading
 import time
 
+import zenoh
 from rosbags.typesys import Stores, get_typestore
 from zenoh_ros2_sdk import ROS2Publisher, ROS2ServiceClient, ROS2Subscriber, discovery, message_registry
 from zenoh_ros2_sdk.attachment import Attachment
@@ -74,6 +75,15 @@ def definitions(folder):
     return texts
 
 
+def soon(what, ask):
+    """The first answer that is one: peers that find each other come and go in the graph."""
+    deadline = time.monotonic() + PATIENCE_S
+    while not (answer := ask()):
+        assert time.monotonic() < deadline, f"waited in vain for {what}"
+        time.sleep(0.1)
+    return answer
+
+
 class Topic:
     """What comes on a topic, in order."""
 
@@ -118,6 +128,17 @@ class Lifecycle:
 
 
 @contextlib.contextmanager
+def router(port):
+    """What all nodes of rmw_zenoh meet at."""
+    config = zenoh.Config()
+    for key, value in (("mode", "router"), ("listen/endpoints", [f"tcp/127.0.0.1:{port}"]),
+                       ("scouting/multicast/enabled", False)):
+        config.insert_json5(key, json.dumps(value))
+    with zenoh.open(config):
+        yield
+
+
+@contextlib.contextmanager
 def robots(binary, folder, port):
     """Two nodes, which end in order."""
     links = [free_port(socket.SOCK_DGRAM) for _ in range(2)]
@@ -126,12 +147,9 @@ def robots(binary, folder, port):
         config = folder / f"{name}.toml"
         own, peer = links if station == 1 else reversed(links)
         config.write_text(ROBOT.format(name=name, station=station, build=build, port=own, peer=peer))
-        meeting = ["--no-connect", "--zenoh-listen", f"tcp/127.0.0.1:{port}"]
-        if station == 2:
-            meeting = ["--zenoh-connect", f"tcp/127.0.0.1:{port}", "--zenoh-listen", "tcp/127.0.0.1:0"]
         child = subprocess.Popen(
             [binary, "--config", config, "--domain", str(DOMAIN), "--namespace", f"/{name.lower()}",
-             "--log", folder / f"{name}.jsonl", *meeting], stdout=subprocess.PIPE, text=True)
+             "--log", folder / f"{name}.jsonl", "--zenoh-connect", f"tcp/127.0.0.1:{port}"], stdout=subprocess.PIPE, text=True)
         children.append(child)
         assert "The node is there" in child.stdout.readline()
     try:
@@ -158,15 +176,13 @@ def judge_graph(port):
             "transition_event": "lifecycle_msgs/msg/TransitionEvent",
         }.items()},
     }
-    deadline = time.monotonic() + PATIENCE_S
-    while True:
-        found = dict(discovery.get_topic_names_and_types(DOMAIN, router_port=port, timeout=2.0))
-        if found == {name: [kind] for name, kind in expected.items()}:
-            break
-        assert time.monotonic() < deadline, found
+    listed = {name: [kind] for name, kind in expected.items()}
+    soon("all topics", lambda: listed == dict(
+        discovery.get_topic_names_and_types(DOMAIN, router_port=port, timeout=2.0)))
     registry = message_registry.get_registry()
     for name, kind in expected.items():
-        info = discovery.get_topic_info(name, DOMAIN, router_port=port, timeout=2.0, verbose=True)
+        info = soon(name, lambda: discovery.get_topic_info(
+            name, DOMAIN, router_port=port, timeout=2.0, verbose=True))
         text = registry.get_msg_file_path(kind).read_text()
         own = get_type_hash(kind, text, load_dependencies_recursive(kind, text, registry))
         for end in info.publishers + info.subscribers:
@@ -175,8 +191,9 @@ def judge_graph(port):
     for service in ("change_state", "get_state", "get_available_states",
                     "get_available_transitions", "get_transition_graph"):
         name = f"/ari/crossguard/{service}"
-        info = discovery.get_service_info(name, DOMAIN, router_port=port, timeout=2.0)
-        assert info and info.server_count == 1, name
+        info = soon(name, lambda: discovery.get_service_info(
+            name, DOMAIN, router_port=port, timeout=2.0))
+        assert info.server_count == 1, info
     return len(expected)
 
 
@@ -276,7 +293,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         definitions(folder / "messages")
-        with robots(binary, folder, port):
+        with router(port), robots(binary, folder, port):
             session = ZenohSession.get_instance("127.0.0.1", port)
             for name in ("lifecycle_msgs/msg/State", "lifecycle_msgs/msg/Transition"):
                 assert message_registry.get_registry().load_message_type(name)
