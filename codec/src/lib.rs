@@ -21,7 +21,7 @@
 //! - [`its`] has the messages of other stations: CAM, DENM, VAM and CPM.
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
-//!   map to and from the protocol's view; [`view`] has its laws.
+//!   map to and from the protocol's view; [`view`] has its laws. [`Heard`] is all that a message says.
 //! - [`geonet`] has what is under a message, `GeoNetworking` and BTP-B: headers, whole packets and
 //!   the [`Stack`](geonet::Stack) that makes and takes them; [`Service`] says how each message goes.
 //! - `security` (with the feature of that name) signs and verifies packets by TS 103 097.
@@ -74,6 +74,7 @@ pub mod geonet;
 #[cfg(feature = "golden")]
 #[doc(hidden)]
 pub mod golden;
+mod heard;
 mod identifiers;
 #[cfg(feature = "std")]
 pub mod its;
@@ -97,6 +98,7 @@ pub use crate::core::cdd::{PATH_HISTORY_MAX, PATH_PREDICTION_MAX};
 pub use containers::position_of;
 pub use distance::distance;
 pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
+pub use heard::{Heard, Unheard};
 pub use identifiers::{Dictionary, IdentifierClash, Identifiers, MessageIdentifiers};
 #[cfg(feature = "std")]
 pub use message::encode;

@@ -255,7 +255,7 @@ impl Chart {
 
     /// A message from column to column, unless it repeats what was drawn.
     fn message(&mut self, from: usize, to: usize, heard: &Heard, is_lost: bool) -> Option<Mark> {
-        if heard.kind == MessageKind::Ram && !self.is_news(from, to, heard, is_lost) {
+        if heard.service == MessageKind::Ram && !self.is_news(from, to, heard, is_lost) {
             return None;
         }
         let text: Vec<_> = heard.inputs.iter().map(text_of).collect();
@@ -269,7 +269,7 @@ impl Chart {
 
     /// Whether a RAM says something that was not drawn before.
     fn is_news(&mut self, from: usize, to: usize, heard: &Heard, is_lost: bool) -> bool {
-        let Some(Input::Ram { ram, .. }) = heard.inputs.first() else {
+        let Some(Input::Ram { ram, .. }) = heard.inputs.iter().next() else {
             return false;
         };
         let essence = essence(*ram);

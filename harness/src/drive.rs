@@ -240,11 +240,15 @@ impl<'a> Street<'a> {
             let (station, detail) = (self.robots[from].station, unheard.to_string());
             Disagreement::Dropped { station, detail }
         })?;
-        let messages = heard.inputs.into_iter().filter_map(|input| match input {
-            Input::Ram { ram, .. } => Some(Message::Ram(ram)),
-            Input::Rmcm(rmcm) => Some(Message::Rmcm(rmcm)),
-            _ => None,
-        });
+        let messages = heard
+            .inputs
+            .iter()
+            .copied()
+            .filter_map(|input| match input {
+                Input::Ram { ram, .. } => Some(Message::Ram(ram)),
+                Input::Rmcm(rmcm) => Some(Message::Rmcm(rmcm)),
+                _ => None,
+            });
         for message in messages {
             for (to, robot) in self.robots.iter().enumerate().filter(|(to, _)| *to != from) {
                 let is_heard = robot

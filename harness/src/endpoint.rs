@@ -316,20 +316,17 @@ impl Endpoint {
         let dropped = match service {
             Service::Ram | Service::Rmcm => {
                 match self.wire.hear(self.robot.station(), &turn.state, octets) {
-                    Ok(heard) if heard.kind == service => {
+                    Ok(heard) if heard.service == service => {
                         let sender = (indication.signer, indication.permits);
                         let now_ms = turn.moment.now_ms;
-                        match self
-                            .station
-                            .check_entitled(sender, heard.from, &heard.inputs, now_ms)
-                        {
-                            Ok(()) => return self.heed(turn, octets, heard),
+                        match self.station.check_entitled(sender, &heard, now_ms) {
+                            Ok(()) => return self.heed(turn, octets, &heard),
                             Err(why) => (Cause::Rejected(why.cause()), why.to_string()),
                         }
                     }
                     Ok(heard) => (
                         Cause::Discarded("message of another port"),
-                        format!("{} at the port of {}", heard.kind.name(), service.name()),
+                        format!("{} at the port of {}", heard.service.name(), service.name()),
                     ),
                     Err(unheard) => ((&unheard).into(), unheard.to_string()),
                 }
@@ -350,9 +347,9 @@ impl Endpoint {
     }
 
     /// What a robot's message means to the transition function.
-    fn heed(&mut self, turn: &mut Turn, octets: &[u8], heard: Heard) {
+    fn heed(&mut self, turn: &mut Turn, octets: &[u8], heard: &Heard) {
         turn.effects.push(Effect::Heard {
-            kind: heard.kind,
+            kind: heard.service,
             from: heard.from,
             octets: octets.to_vec(),
         });
@@ -367,8 +364,8 @@ impl Endpoint {
                 self.surroundings.hear(now_ms, own, from, cluster.as_ref());
             }
         }
-        for input in heard.inputs {
-            self.step(turn, input, heard.parameters);
+        for input in heard.inputs.iter() {
+            self.step(turn, *input, heard.parameters);
         }
     }
 

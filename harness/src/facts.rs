@@ -321,7 +321,7 @@ impl Observer {
         let texts: Vec<_> = heard.inputs.iter().map(text_of).collect();
         let message = Message {
             direction,
-            kind: heard.kind.name(),
+            kind: heard.service.name(),
             from: heard.from,
             text: texts.join("; "),
             why,

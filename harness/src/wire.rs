@@ -1,12 +1,10 @@
 //! Messages of one robot: from what the protocol and the application say to octets, and back.
 
-use crossguard_codec::core::cdd::VruClusterInformation;
 use crossguard_codec::{
-    EncodeError, ExecutionStatus, Identifiers, Message, RobotState, TaskParameters,
-    availability_of, distance, encode, ram_from, rmcm_from_answer, rmcm_from_commands, state_of,
-    task_parameters_of, view_of_ram, views_of_rmcm,
+    EncodeError, ExecutionStatus, Identifiers, RobotState, TaskParameters, encode, ram_from,
+    rmcm_from_answer, rmcm_from_commands,
 };
-use crossguard_protocol::{Answer, Availability, Command, Input, Ram, Rmcm, StationId};
+use crossguard_protocol::{Answer, Availability, Command, Ram, StationId};
 
 use crate::counters::Cause;
 use crate::ras::clustering::Cluster;
@@ -14,27 +12,11 @@ use crate::ras::containers;
 use crate::ras::motion::Plane;
 use crate::station::message_of;
 
+/// What a received message says, or why it says nothing.
+pub use crossguard_codec::{Heard, Unheard};
+
 /// Which message octets are: that of which service.
 pub use crossguard_codec::Service as MessageKind;
-
-/// What a received message says.
-#[derive(Clone, Debug)]
-pub struct Heard {
-    /// Which message it is.
-    pub kind: MessageKind,
-    /// The station that sent it.
-    pub from: StationId,
-    /// What the transition function takes in, in order.
-    pub inputs: Vec<Input>,
-    /// Parameters of the command to this robot, if there is one.
-    pub parameters: Option<TaskParameters>,
-    /// The sender's state, from a RAM.
-    pub state: Option<RobotState>,
-    /// The sender's availability, from a RAM.
-    pub availability: Option<Availability>,
-    /// The people around the sender, from a RAM.
-    pub cluster: Option<VruClusterInformation>,
-}
 
 /// Encodes and decodes for one robot.
 #[derive(Clone, Debug, Default)]
@@ -114,54 +96,8 @@ impl Wire {
     /// # Errors
     /// Why they say nothing.
     pub fn hear(&self, me: StationId, state: &RobotState, octets: &[u8]) -> Result<Heard, Unheard> {
-        match Message::decode(&self.identifiers, octets)?.message {
-            Message::Ram(ram) => {
-                let view = view_of_ram(&ram)?;
-                let sender = state_of(&ram);
-                let distance = distance(&state.position, &sender.position);
-                let cluster = ram.ram.ram_parameters.vru_cluster_information_container;
-                Ok(Heard {
-                    kind: MessageKind::Ram,
-                    from: view.station,
-                    inputs: vec![Input::Ram {
-                        ram: view,
-                        distance,
-                    }],
-                    parameters: None,
-                    availability: Some(availability_of(&ram)),
-                    cluster: cluster.map(|it| it.vru_cluster_information),
-                    state: Some(sender),
-                })
-            }
-            Message::Rmcm(rmcm) => {
-                let views = views_of_rmcm(&rmcm)?;
-                let from = views.iter().next().map_or(StationId(0), |view| match view {
-                    Rmcm::Command(command) => command.session.leader,
-                    Rmcm::Answer(answer) => answer.from,
-                });
-                Ok(Heard {
-                    kind: MessageKind::Rmcm,
-                    from,
-                    inputs: views.iter().copied().map(Input::Rmcm).collect(),
-                    parameters: task_parameters_of(&rmcm, me),
-                    state: None,
-                    availability: None,
-                    cluster: None,
-                })
-            }
-        }
+        Heard::of(&self.identifiers, me, &state.position, octets)
     }
-}
-
-/// Why octets say nothing.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum Unheard {
-    /// They are not a message.
-    #[error(transparent)]
-    Undecodable(#[from] crossguard_codec::DecodeError),
-    /// The message contradicts itself.
-    #[error(transparent)]
-    Contradictory(#[from] crossguard_codec::ViewError),
 }
 
 impl From<&Unheard> for Cause {

@@ -59,7 +59,7 @@ impl Areas {
     ) -> Option<Vec<Area>> {
         let leader = heard.from;
         let mut is_new = false;
-        for input in &heard.inputs {
+        for input in heard.inputs.iter() {
             let &Input::Rmcm(Rmcm::Command(command)) = input else {
                 continue;
             };

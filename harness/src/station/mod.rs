@@ -30,6 +30,7 @@ use namesakes::Namesakes;
 pub use security::{Credentials, Mode, Security, station_id};
 
 use crate::counters::Cause;
+use crate::wire::Heard;
 
 /// One robot's ITS station.
 #[derive(Clone, Debug)]
@@ -117,18 +118,17 @@ impl Station {
         Some(station)
     }
 
-    /// Whether a message may say what it says, in the name of `from`, at `now_ms`.
+    /// Whether a message may say what it says, in the name of its sender, at `now_ms`.
     ///
     /// # Errors
     /// Why not.
     pub fn check_entitled(
         &mut self,
         (signer, permits): (Option<Signer>, Permits),
-        from: StationId,
-        inputs: &[Input],
+        heard: &Heard,
         now_ms: u64,
     ) -> Result<(), NotEntitled> {
-        for input in inputs {
+        for input in heard.inputs.iter() {
             let parts: Vec<_> = match input {
                 Input::Ram { ram, .. } => Part::of_ram(ram).collect(),
                 Input::Rmcm(rmcm) => vec![Part::of_rmcm(rmcm)],
@@ -139,8 +139,8 @@ impl Station {
             }
         }
         match signer {
-            Some(signer) if !self.namesakes.admit(from, signer, now_ms) => {
-                Err(NotEntitled::Namesake(from))
+            Some(signer) if !self.namesakes.admit(heard.from, signer, now_ms) => {
+                Err(NotEntitled::Namesake(heard.from))
             }
             _ => Ok(()),
         }

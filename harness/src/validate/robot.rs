@@ -185,10 +185,10 @@ impl Follow {
             };
         }
         let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
-        if message.kind != kind {
+        if message.service != kind {
             return Err(Fault::OtherOctets(kind.name().to_owned()));
         }
-        let Some(&found) = message.inputs.first() else {
+        let Some(&found) = message.inputs.iter().next() else {
             return Err(Fault::OtherOctets(kind.name().to_owned()));
         };
         let ram = Input::Ram {
@@ -221,11 +221,11 @@ impl Follow {
         self.settle_hearing()?;
         self.settle_sending()?;
         let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
-        if (message.kind, message.from) != (kind, from) {
+        if (message.service, message.from) != (kind, from) {
             let says = format!("{} of station {from}", kind.name());
             return Err(Fault::OtherOctets(says));
         }
-        self.heard = message.inputs.into();
+        self.heard = message.inputs.iter().copied().collect();
         Ok(())
     }
 

@@ -258,7 +258,10 @@ impl Street {
             return !self.silent.contains(&link);
         }
         let heard = overhear(&Wire::default().identifiers, octets).unwrap();
-        let is_command = matches!(heard.inputs[..], [Input::Rmcm(Rmcm::Command(_)), ..]);
+        let is_command = matches!(
+            heard.inputs.iter().next(),
+            Some(Input::Rmcm(Rmcm::Command(_)))
+        );
         let message = if is_command {
             Message::Command(link)
         } else {

@@ -1,11 +1,13 @@
 //! The body of a robot: plain numbers to the codec's state and back.
 
 use crossguard_codec::{
-    Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, JobRole, Measurement,
+    Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, Heard, JobRole, Measurement,
     Position, RobotCategory, RobotState, SlowState,
 };
+use crossguard_protocol::{Availability, Decimetres, Input};
 
-use crate::abi::{CrossguardBody, CrossguardHeard};
+use crate::abi::{CrossguardBody, CrossguardHeard, CrossguardMessage};
+use crate::why::unavailability;
 
 /// A quantity, if it is known.
 pub(crate) fn known(quantity: f64) -> Option<f64> {
@@ -29,6 +31,38 @@ pub(crate) const NOBODY: CrossguardHeard = CrossguardHeard {
     unavailability: 0,
     reserved: [0; 2],
 };
+
+impl CrossguardHeard {
+    /// Who was heard in a message.
+    pub(crate) fn of(heard: &Heard) -> Self {
+        let Some(sender) = &heard.state else {
+            return Self {
+                station: heard.from.0,
+                message: CrossguardMessage::Rmcm as u8,
+                ..NOBODY
+            };
+        };
+        let value = |quantity: Option<Measurement>| or_nan(quantity.map(|it| it.value));
+        let distance = heard.inputs.iter().find_map(|input| match input {
+            Input::Ram { distance, .. } if *distance != Decimetres::UNKNOWN => Some(distance),
+            _ => None,
+        });
+        Self {
+            latitude_deg: or_nan(sender.position.latitude),
+            longitude_deg: or_nan(sender.position.longitude),
+            heading_deg: value(sender.heading),
+            speed_mps: value(sender.speed),
+            distance_m: or_nan(distance.map(|distance| f64::from(distance.0) / 10.0)),
+            station: heard.from.0,
+            message: CrossguardMessage::Ram as u8,
+            unavailability: unavailability(match heard.availability {
+                Some(Availability::Unavailable(why)) => Some(why),
+                Some(Availability::Available) | None => None,
+            }),
+            reserved: [0; 2],
+        }
+    }
+}
 
 impl CrossguardBody {
     /// A body that knows nothing of itself, and steers itself.

@@ -2,8 +2,8 @@
 
 use core::fmt::{self, Display, Formatter, Write};
 
-use crossguard_codec::Service;
 use crossguard_codec::geonet::Discarded;
+use crossguard_codec::{Service, Unheard};
 use crossguard_protocol::{Disengagement, Ignored, StationId};
 
 /// Why something came to nothing.
@@ -46,6 +46,15 @@ impl From<Discarded> for Cause {
                 Self::Rejected(discarded.cause())
             }
             _ => Self::Discarded(discarded.cause()),
+        }
+    }
+}
+
+impl From<&Unheard> for Cause {
+    fn from(unheard: &Unheard) -> Self {
+        match unheard {
+            Unheard::Undecodable(error) => Self::Undecodable(error.cause()),
+            Unheard::Contradictory(error) => Self::Contradictory(error.cause()),
         }
     }
 }

@@ -12,24 +12,21 @@ use core::fmt::Display;
 use crossguard_codec::geonet::{Address, EgoPosition, Envelope, PACKET_LEN_MAX, Stack};
 use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{
-    ExecutionStatus, Identifiers, Message, RAM_LEN_MAX, RMCM_LEN_MAX, RobotState, Service,
-    TaskParameters, availability_of, distance, encode_into, ram_from, rmcm_from_answer,
-    rmcm_from_commands, state_of, task_parameters_of, view_of_ram, views_of_rmcm,
+    ExecutionStatus, Heard, Identifiers, RAM_LEN_MAX, RMCM_LEN_MAX, RobotState, Service,
+    TaskParameters, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Availability, Config, Decimetres, Event, Input, List, MAX_FOLLOWERS, MAX_OUTPUTS, Millis,
-    Output, Outputs, Phase, Rmcm, Robot, StationId,
+    Config, Event, Input, MAX_FOLLOWERS, MAX_OUTPUTS, Millis, Output, Outputs, Phase, Rmcm, Robot,
+    StationId,
 };
 
 use crate::abi::{
     CROSSGUARD_FOLLOWERS_MAX, CROSSGUARD_OUTPUTS_MAX, CROSSGUARD_PACKETS_LEN, CrossguardHeard,
     CrossguardMessage, CrossguardOutput, CrossguardOutputKind, CrossguardTurn,
 };
-use crate::body::or_nan;
 use crate::cause::{Cause, Counters, Text};
 use crate::config::{Checked, Name};
 use crate::trace::{Entry, Lines};
-use crate::why::unavailability;
 
 /// Milliseconds between two low-frequency containers of a RAM.
 const LOW_FREQUENCY_MS: u64 = 500;
@@ -201,59 +198,26 @@ impl Live {
 
     /// Takes a message in, which came by `service` if that is known.
     pub(crate) fn hear(&mut self, octets: &[u8], service: Option<Service>, turn: &mut Turn<'_>) {
-        let message = match Message::decode(&self.identifiers, octets) {
-            Ok(received) => received.message,
-            Err(error) => {
-                return self.drop(turn, Cause::Undecodable(error.cause()), &error, octets);
-            }
+        let me = self.robot.station();
+        let heard = match Heard::of(&self.identifiers, me, &turn.state.position, octets) {
+            Ok(heard) => heard,
+            Err(unheard) => return self.drop(turn, (&unheard).into(), &unheard, octets),
         };
-        let found = match message {
-            Message::Ram(_) => Service::Ram,
-            Message::Rmcm(_) => Service::Rmcm,
-        };
-        if service.is_some_and(|service| service != found) {
+        if service.is_some_and(|service| service != heard.service) {
             let cause = Cause::Discarded("message of another port");
-            return self.drop(turn, cause, &found.name(), octets);
+            return self.drop(turn, cause, &heard.service.name(), octets);
         }
-        let heard = match &message {
-            Message::Ram(ram) => view_of_ram(ram).map(|view| {
-                let sender = state_of(ram);
-                let distance = distance(&turn.state.position, &sender.position);
-                let availability = availability_of(ram);
-                turn.plain.heard = heard_ram(view.station, &sender, availability, distance);
-                let input = Input::Ram {
-                    ram: view,
-                    distance,
-                };
-                (view.station, List::from_iter([input]), None)
-            }),
-            Message::Rmcm(rmcm) => views_of_rmcm(rmcm).map(|views| {
-                let from = views.iter().next().map_or(StationId(0), sender_of);
-                turn.plain.heard = CrossguardHeard {
-                    station: from.0,
-                    message: CrossguardMessage::Rmcm as u8,
-                    ..crate::body::NOBODY
-                };
-                let parameters = task_parameters_of(rmcm, self.robot.station());
-                let inputs = views.iter().copied().map(Input::Rmcm);
-                (from, inputs.collect::<List<_, MAX_FOLLOWERS>>(), parameters)
-            }),
-        };
-        match heard {
-            Ok((from, inputs, parameters)) => {
-                self.write(
-                    turn,
-                    &Entry::Heard {
-                        message: found,
-                        from,
-                        octets,
-                    },
-                );
-                for input in inputs.iter() {
-                    self.step(turn, *input, parameters);
-                }
-            }
-            Err(error) => self.drop(turn, Cause::Contradictory(error.cause()), &error, octets),
+        turn.plain.heard = CrossguardHeard::of(&heard);
+        self.write(
+            turn,
+            &Entry::Heard {
+                message: heard.service,
+                from: heard.from,
+                octets,
+            },
+        );
+        for input in heard.inputs.iter() {
+            self.step(turn, *input, heard.parameters);
         }
     }
 
@@ -444,41 +408,6 @@ const fn trigger(input: &Input) -> &'static str {
     match input {
         Input::Elapsed(_) | Input::Expired(_) => "heartbeat",
         _ => "role",
-    }
-}
-
-fn sender_of(rmcm: &Rmcm) -> StationId {
-    match rmcm {
-        Rmcm::Command(command) => command.session.leader,
-        Rmcm::Answer(answer) => answer.from,
-    }
-}
-
-fn heard_ram(
-    station: StationId,
-    sender: &RobotState,
-    availability: Availability,
-    distance: Decimetres,
-) -> CrossguardHeard {
-    let value = |quantity: Option<crossguard_codec::Measurement>| {
-        quantity.map_or(f64::NAN, |quantity| quantity.value)
-    };
-    CrossguardHeard {
-        latitude_deg: or_nan(sender.position.latitude),
-        longitude_deg: or_nan(sender.position.longitude),
-        heading_deg: value(sender.heading),
-        speed_mps: value(sender.speed),
-        distance_m: match distance {
-            Decimetres::UNKNOWN => f64::NAN,
-            Decimetres(distance) => f64::from(distance) / 10.0,
-        },
-        station: station.0,
-        message: CrossguardMessage::Ram as u8,
-        unavailability: unavailability(match availability {
-            Availability::Available => None,
-            Availability::Unavailable(why) => Some(why),
-        }),
-        reserved: [0; 2],
     }
 }
 

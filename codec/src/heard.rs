@@ -1,0 +1,94 @@
+//! What a message of a robot says to one that hears it: everything that its mapping has, at once.
+
+use crossguard_protocol::{Availability, Input, List, MAX_FOLLOWERS, Rmcm, StationId};
+
+use crate::core::cdd::VruClusterInformation;
+use crate::distance::distance;
+use crate::error::{DecodeError, ViewError};
+use crate::identifiers::Identifiers;
+use crate::message::{Message, Received};
+use crate::service::Service;
+use crate::state::{Position, RobotState};
+use crate::view::{
+    TaskParameters, availability_of, state_of, task_parameters_of, view_of_ram, views_of_rmcm,
+};
+
+/// What a received message says.
+#[derive(Clone, Debug)]
+pub struct Heard {
+    /// The service that it is of: robot awareness, or maneuver coordination.
+    pub service: Service,
+    /// The station that sent it.
+    pub from: StationId,
+    /// What the transition function takes in, in order.
+    pub inputs: List<Input, MAX_FOLLOWERS>,
+    /// Parameters of the command to the robot that hears it, if there is one.
+    pub parameters: Option<TaskParameters>,
+    /// The sender's state, from a RAM.
+    pub state: Option<RobotState>,
+    /// The sender's availability, from a RAM.
+    pub availability: Option<Availability>,
+    /// The people around the sender, from a RAM.
+    pub cluster: Option<VruClusterInformation>,
+}
+
+/// Why octets say nothing.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Unheard {
+    /// They are not a message.
+    #[error(transparent)]
+    Undecodable(#[from] DecodeError),
+    /// The message contradicts itself.
+    #[error(transparent)]
+    Contradictory(#[from] ViewError),
+}
+
+impl Heard {
+    /// What the message `octets` says to the robot `me` at this `position`.
+    ///
+    /// # Errors
+    /// Why it says nothing.
+    pub fn of(
+        identifiers: &Identifiers,
+        me: StationId,
+        position: &Position,
+        octets: &[u8],
+    ) -> Result<Self, Unheard> {
+        let Received { message, .. } = Message::decode(identifiers, octets)?;
+        Ok(match message {
+            Message::Ram(ram) => {
+                let (view, state) = (view_of_ram(&ram)?, state_of(&ram));
+                let input = Input::Ram {
+                    ram: view,
+                    distance: distance(position, &state.position),
+                };
+                let cluster = ram.ram.ram_parameters.vru_cluster_information_container;
+                Self {
+                    service: Service::Ram,
+                    from: view.station,
+                    inputs: [input].into_iter().collect(),
+                    parameters: None,
+                    state: Some(state),
+                    availability: Some(availability_of(&ram)),
+                    cluster: cluster.map(|container| container.vru_cluster_information),
+                }
+            }
+            Message::Rmcm(rmcm) => {
+                let views = views_of_rmcm(&rmcm)?;
+                let sender = |view: &Rmcm| match view {
+                    Rmcm::Command(command) => command.session.leader,
+                    Rmcm::Answer(answer) => answer.from,
+                };
+                Self {
+                    service: Service::Rmcm,
+                    from: views.iter().next().map_or(StationId(0), sender),
+                    inputs: views.iter().copied().map(Input::Rmcm).collect(),
+                    parameters: task_parameters_of(&rmcm, me),
+                    state: None,
+                    availability: None,
+                    cluster: None,
+                }
+            }
+        })
+    }
+}

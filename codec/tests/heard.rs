@@ -1,0 +1,103 @@
+//! What a robot hears in a message is what the mapping has of it, for this robot and its place.
+
+use crossguard_codec::{
+    Heard, Identifiers, Position, RobotState, Service, Target, TaskParameters, Unheard, encode,
+    ram_from, rmcm_from_commands,
+};
+use crossguard_protocol::{
+    Availability, Command, Coordination, Decimetres, Heartbeat, Input, Ram, RequestId, Rmcm, Robot,
+    SessionId, SessionNumber, StationId, TaskType, Unavailability, UniqueNumber,
+};
+
+const ME: StationId = StationId(2);
+
+fn state() -> RobotState {
+    RobotState {
+        position: Position::at(48.765_432_1, 9.123_456_7),
+        ..RobotState::default()
+    }
+}
+
+fn hear(octets: &[u8]) -> Result<Heard, Unheard> {
+    let here = Position::at(48.765_432_1, 9.123_500_0);
+    Heard::of(&Identifiers::default(), ME, &here, octets)
+}
+
+fn ram(view: &Ram) -> Vec<u8> {
+    let ids = Identifiers::default();
+    let unavailable = Availability::Unavailable(Unavailability::LowBattery);
+    let ram = ram_from(&ids, &state(), view, unavailable, 0, false).unwrap();
+    encode(&ids, &ram).unwrap()
+}
+
+#[test]
+fn a_ram_says_who_and_where_its_sender_is() {
+    let view = Robot::new(StationId(7), 1).ram();
+    let heard = hear(&ram(&view)).unwrap();
+    assert_eq!((heard.service, heard.from), (Service::Ram, StationId(7)));
+    let distance = Decimetres(32);
+    assert!(heard.inputs.iter().eq(&[Input::Ram {
+        ram: view,
+        distance
+    }]));
+    assert_eq!(heard.state.unwrap().position.latitude, Some(48.765_432_1));
+    let unavailable = Availability::Unavailable(Unavailability::LowBattery);
+    assert_eq!(heard.availability, Some(unavailable));
+    assert_eq!((heard.parameters, heard.cluster), (None, None));
+}
+
+#[test]
+fn an_rmcm_says_what_its_leader_wants_of_each_and_where_this_robot_is_to_go() {
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let command = |to, lane| {
+        let session = SessionId { leader, number };
+        let command = Command {
+            session,
+            to: StationId(to),
+            request: RequestId(3),
+            task: TaskType::BLOCK,
+        };
+        let target = Some(Target::Lane(lane));
+        let parameters = TaskParameters {
+            target,
+            ..TaskParameters::default()
+        };
+        (command, parameters)
+    };
+    let commands = [command(5, 1), command(ME.0, 2)];
+    let ids = Identifiers::default();
+    let rmcm = rmcm_from_commands(&ids, &state().position, None, &commands, 0).unwrap();
+    let heard = hear(&encode(&ids, &rmcm).unwrap()).unwrap();
+    assert_eq!((heard.service, heard.from), (Service::Rmcm, leader));
+    let inputs = commands.map(|(command, _)| Input::Rmcm(Rmcm::Command(command)));
+    assert!(heard.inputs.iter().eq(&inputs));
+    assert_eq!(heard.parameters, Some(commands[1].1));
+    assert!(heard.state.is_none() && heard.availability.is_none());
+}
+
+#[test]
+fn what_says_nothing_says_why() {
+    let view = Robot::new(StationId(7), 1).ram();
+    let mut octets = ram(&view);
+    octets.push(0);
+    assert!(matches!(hear(&octets), Err(Unheard::Undecodable(_))));
+    assert!(matches!(hear(&[]), Err(Unheard::Undecodable(_))));
+    // A follower in a session of its own.
+    let ids = Identifiers::default();
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let follower = Ram {
+        coordination: Coordination::Follower {
+            session: SessionId { leader, number },
+            echo: Heartbeat(0),
+            last: None,
+        },
+        ..view
+    };
+    let available = Availability::Available;
+    let mut ram = ram_from(&ids, &state(), &follower, available, 0, false).unwrap();
+    ram.header.station_id.0 = leader.0;
+    let contradictory = hear(&encode(&ids, &ram).unwrap());
+    assert!(matches!(contradictory, Err(Unheard::Contradictory(_))));
+}
