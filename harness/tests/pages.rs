@@ -206,7 +206,12 @@ fn commands(text: &str) -> Vec<Vec<String>> {
     let prose = quoted(text);
     let commands = code.lines().chain(prose.iter().map(String::as_str));
     let arguments = commands.filter_map(|line| {
-        let starts = ["cargo run --release -- ", "crossguard "];
+        let starts = [
+            "cargo run --release -- ",
+            "cargo run --release --features zenoh -- ",
+            "target/release/crossguard ",
+            "crossguard ",
+        ];
         starts.iter().find_map(|start| line.strip_prefix(start))
     });
     arguments.filter_map(words).collect()
