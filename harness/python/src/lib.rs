@@ -12,7 +12,7 @@
 //! ```
 //!
 //! It holds no rule of the protocol, and no type of Python's but handles: values cross as the JSON that
-//! serde makes of them, and the classes of the package mirror the Rust types by name; [`shapes`] is what a
+//! serde makes of them, and the classes of the package mirror the Rust types by name; `shapes` is what a
 //! test holds them against. Long work releases the interpreter. A panic becomes Python's `PanicException`.
 
 use pyo3::prelude::*;
