@@ -172,6 +172,7 @@ def judge_graph(port):
             "corridor": "crossguard_msgs/msg/Corridor",
             "event": "crossguard_msgs/msg/Event",
             "perceived": "crossguard_msgs/msg/Person",
+            "pose": "geometry_msgs/msg/PoseStamped",
             "status": "crossguard_msgs/msg/Status",
             "transition_event": "lifecycle_msgs/msg/TransitionEvent",
         }.items()},

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use crossguard_codec::{RobotState, TaskParameters};
 use crossguard_protocol::{Event, Notice, StationId, TaskType};
 
-use crate::body::Body;
+use crate::body::{Body, Pose};
 use crate::endpoint::Act;
 use crate::plan::{Leg, Plan};
 
@@ -118,6 +118,11 @@ impl Application {
     /// Ends the motion of the body, whatever it is.
     pub fn stop(&mut self) {
         self.body.stop();
+    }
+
+    /// Others say where the body is.
+    pub fn moved(&mut self, pose: Pose) {
+        self.body.moved(pose);
     }
 
     /// Carries the body back to where it began.

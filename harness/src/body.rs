@@ -1,11 +1,12 @@
-//! A simulated robot body: it walks to targets with limited speed and acceleration.
+//! A simulated robot body: it walks to targets with limited speed and acceleration. Or the place of a real
+//! one, which others move and which says where it is.
 //!
 //! Its time may run faster than the protocol's, so that a demonstration need not take as long as a
 //! real crossing. How far a step really carries varies a little from maneuver to maneuver.
 
 use crossguard_codec::{
-    Battery, Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, RobotCategory,
-    RobotState, SlowState, Target, TaskParameters,
+    Battery, Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, Position,
+    RobotCategory, RobotState, SlowState, Target, TaskParameters,
 };
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, TaskType};
 use rand::{Rng, SeedableRng};
@@ -66,7 +67,21 @@ const ACCELERATION: f64 = 1.2;
 /// By how much the speed of a maneuver may differ from the one that was meant.
 const GAIT_VARIATION: f64 = 0.03;
 
-/// A simulated body.
+/// For how long a body is where it was said to be, in seconds.
+const POSE_LASTS_S: f64 = 1.0;
+
+/// Where a real body is, as whoever moves it says.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Pose {
+    /// Where it is.
+    pub place: Place,
+    /// Where it faces, in degrees clockwise from north.
+    pub heading_deg: f64,
+    /// How fast it moves, in m/s.
+    pub speed_mps: f64,
+}
+
+/// A simulated body, or one that others move.
 #[derive(Clone, Debug)]
 pub struct Body {
     build: Build,
@@ -81,6 +96,8 @@ pub struct Body {
     /// How many seconds of the body's time pass in one second.
     time_scale: f64,
     gait: ChaCha8Rng,
+    /// Of a body that others move: for how many seconds it is known yet where it is.
+    known_s: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -107,7 +124,34 @@ impl Body {
             motion: None,
             time_scale,
             gait: ChaCha8Rng::seed_from_u64(seed),
+            known_s: None,
         }
+    }
+
+    /// The same body, moved by others: it goes nowhere by itself and finishes nothing, and where it is
+    /// is known for a second after it was [told](Self::moved).
+    #[must_use]
+    pub fn moved_by_others(self) -> Self {
+        Self {
+            known_s: Some(0.0),
+            time_scale: 1.0,
+            ..self
+        }
+    }
+
+    /// Others say where it is. One that moves by itself knows better.
+    pub fn moved(&mut self, pose: Pose) {
+        if let Some(known_s) = &mut self.known_s {
+            *known_s = POSE_LASTS_S;
+            self.place = pose.place;
+            self.heading_deg = pose.heading_deg;
+            self.speed_mps = pose.speed_mps;
+        }
+    }
+
+    /// Sets out, if it moves by itself.
+    fn set_out(&mut self, motion: Motion) {
+        self.motion = self.known_s.is_none().then_some(motion);
     }
 
     /// Where the body is.
@@ -130,7 +174,7 @@ impl Body {
 
     /// Goes somewhere of its own accord.
     pub fn walk_to(&mut self, place: Place) {
-        self.motion = Some(Motion {
+        self.set_out(Motion {
             to: place,
             speed_mps: self.build.speed_max(),
             maneuver: None,
@@ -153,7 +197,7 @@ impl Body {
             .unwrap_or(f64::INFINITY)
             .min(self.build.speed_max());
         let gait = 1.0 + self.gait.random_range(-GAIT_VARIATION..GAIT_VARIATION);
-        self.motion = Some(Motion {
+        self.set_out(Motion {
             to,
             speed_mps: limit * gait,
             maneuver: (maneuver.task != TaskType::BLOCK).then_some(maneuver.id),
@@ -175,12 +219,17 @@ impl Body {
 
     fn stand_still(&mut self) {
         self.motion = None;
-        self.speed_mps = 0.0;
-        self.acceleration_mps2 = 0.0;
+        if self.known_s.is_none() {
+            self.speed_mps = 0.0;
+            self.acceleration_mps2 = 0.0;
+        }
     }
 
     /// Lets `seconds` pass. Returns the maneuver that was finished meanwhile.
     pub fn advance(&mut self, seconds: f64) -> Option<ManeuverId> {
+        if let Some(known_s) = &mut self.known_s {
+            *known_s = (*known_s - seconds).max(0.0);
+        }
         let mut left = seconds * self.time_scale;
         // Short enough that speed and place change smoothly.
         while left > 0.0 && self.motion.is_some() {
@@ -217,10 +266,15 @@ impl Body {
     /// What the body's sensors say.
     #[must_use]
     pub fn state(&self) -> RobotState {
+        let is_known = self.known_s.is_none_or(|left| left > 0.0);
         RobotState {
-            position: self.site.position(self.place),
-            heading: Some(self.heading_deg.into()),
-            speed: Some(self.speed_mps.into()),
+            position: if is_known {
+                self.site.position(self.place)
+            } else {
+                Position::default()
+            },
+            heading: is_known.then(|| self.heading_deg.into()),
+            speed: is_known.then(|| self.speed_mps.into()),
             drive_direction: DriveDirection::Forward,
             longitudinal_acceleration: Some(self.acceleration_mps2.into()),
             dimensions: self.build.dimensions(),
@@ -312,6 +366,33 @@ mod tests {
             let speed = body.state().speed.unwrap().value;
             assert!(speed <= 0.5 * (1.0 + GAIT_VARIATION), "{speed}");
         }
+    }
+
+    #[test]
+    fn a_body_that_others_move_is_where_they_say_and_finishes_nothing() {
+        let site = Site::default();
+        let body = Body::new(Build::Quadruped, site, Place::default(), 9.0, 7);
+        let mut body = body.moved_by_others();
+        body.start(maneuver(), TaskParameters::default());
+        assert_eq!(body.state().position.latitude, None, "nobody has said it");
+        let pose = Pose {
+            place: Place::new(1.0, 2.0),
+            heading_deg: 90.0,
+            speed_mps: 0.5,
+        };
+        body.moved(pose);
+        body.stop();
+        let state = body.state();
+        assert_eq!(state.position, site.position(pose.place));
+        assert_eq!(state.speed.map(|speed| speed.value), Some(0.5));
+        assert_eq!(body.advance(0.9), None);
+        assert!(body.state().position.latitude.is_some());
+        assert_eq!(body.advance(0.2), None);
+        assert_eq!(body.state().position.latitude, None, "that was long ago");
+        // One that moves by itself is not carried away.
+        let mut own = walking(1.0);
+        own.moved(pose);
+        assert_eq!(own.place(), Place::default());
     }
 
     #[test]

@@ -30,6 +30,7 @@ use crossguard_codec::si::timestamp_its;
 use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
 use crate::application::{Application, Wish};
+use crate::body::Pose;
 use crate::counters::Cause;
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crate::journal::Journal;
@@ -110,6 +111,8 @@ pub enum Order {
     },
     /// The sensors have this person, at this place on the site.
     Perceived(PerceivedVru),
+    /// The body, which others move, is here.
+    Moved(Pose),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -404,6 +407,7 @@ impl Loop {
                 let place = self.machine.application().body().place();
                 self.handle(Stimulus::Perceived(&[seen_from(place, vru)]));
             }
+            Order::Moved(pose) => self.machine.application_mut().moved(pose),
             Order::Reset => self.machine.application_mut().reset(),
             Order::Stop => self.begin_to_stop(),
             Order::Die => self.is_dead = true,

@@ -2,6 +2,7 @@
 
 use crossguard_codec::TaskParameters;
 use crossguard_harness::application::Wish;
+use crossguard_harness::body::Pose;
 use crossguard_harness::perception::{self, PerceptionError};
 use crossguard_harness::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_harness::runtime::Order;
@@ -12,7 +13,8 @@ use crossguard_protocol::{
 };
 
 use crate::msgs::{Command, Person, Session, Status, Task};
-use crate::standard::Point;
+use crate::report::SITE_FRAME;
+use crate::standard::{Point, PoseStamped, Quaternion, Time};
 
 /// Why a message tells nothing.
 #[derive(Debug, thiserror::Error)]
@@ -49,6 +51,15 @@ pub enum Refused {
     /// Nobody can be like that.
     #[error(transparent)]
     Person(#[from] PerceptionError),
+    /// A pose in a frame that is not known here.
+    #[error("a pose in the frame '{0}': '{SITE_FRAME}' is wanted")]
+    Frame(String),
+    /// An orientation that is none.
+    #[error("the orientation of the pose is no quaternion")]
+    Orientation,
+    /// The body is a simulated one.
+    #[error("the body is simulated; --body external takes poses")]
+    Simulated,
     /// There is no robot to tell it.
     #[error("the node is {0}; it takes commands when it is active")]
     NotActive(&'static str),
@@ -60,6 +71,7 @@ impl Refused {
     pub const fn cause(&self) -> &'static str {
         match self {
             Self::NotActive(_) => "ros: not active",
+            Self::Frame(_) | Self::Orientation | Self::Simulated => "ros: impossible pose",
             Self::People(_) | Self::Person(_) => "ros: impossible person",
             _ => "ros: impossible command",
         }
@@ -126,21 +138,66 @@ fn task(task: Task) -> Result<TaskType, Refused> {
 }
 
 fn parameters(command: &Command, site: &Site) -> Result<TaskParameters, Refused> {
-    let Point { x, y, .. } = command.target;
-    // As far as a person can be whom the sensors have.
-    let is_place = |metres: f64| (-1e5..=1e5).contains(&metres);
-    if command.has_target && !(is_place(x) && is_place(y)) {
-        return Err(Refused::Target { x, y });
-    }
+    let target = command.has_target.then(|| place(command.target));
+    let target = target.transpose()?;
     let speed = command.maximum_speed;
     if !speed.is_finite() || speed < 0.0 {
         return Err(Refused::Speed(speed));
     }
     Ok(TaskParameters {
-        target: command.has_target.then(|| site.target(Place::new(x, y))),
+        target: target.map(|place| site.target(place)),
         maximum_speed: (speed > 0.0).then_some(speed),
         ..TaskParameters::default()
     })
+}
+
+/// The speed that a pose may have, in m/s: as much as a RAM can tell.
+const SPEED_MAX_MPS: f64 = 163.8;
+
+/// For how long a pose tells how fast the next one was reached, in seconds.
+const POSE_PERIOD_MAX_S: f64 = 2.0;
+
+/// Where a message says that the body is, and how fast it came there from the one before.
+///
+/// # Errors
+/// Why it can be nowhere like that.
+pub fn pose(message: &PoseStamped, before: Option<&PoseStamped>) -> Result<Pose, Refused> {
+    let frame = &message.header.frame_id;
+    if !frame.is_empty() && frame != SITE_FRAME {
+        return Err(Refused::Frame(frame.clone()));
+    }
+    let place = place(message.pose.position)?;
+    let Quaternion { x, y, z, w } = message.pose.orientation;
+    let (sine, cosine) = (2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
+    // None has a norm of 0, and NaN is smaller than nothing.
+    if !(sine.hypot(cosine) > 0.0 && sine.is_finite() && cosine.is_finite()) {
+        return Err(Refused::Orientation);
+    }
+    let speed = before.and_then(|before| {
+        let seconds = seconds(message.header.stamp) - seconds(before.header.stamp);
+        let way = self::place(before.pose.position).ok()?.distance(place);
+        (seconds > 0.0 && seconds <= POSE_PERIOD_MAX_S).then(|| way / seconds)
+    });
+    Ok(Pose {
+        place,
+        heading_deg: (90.0 - sine.atan2(cosine).to_degrees()).rem_euclid(360.0),
+        speed_mps: speed.unwrap_or(0.0).min(SPEED_MAX_MPS),
+    })
+}
+
+fn seconds(time: Time) -> f64 {
+    f64::from(time.sec) + f64::from(time.nanosec) * 1e-9
+}
+
+fn place(point: Point) -> Result<Place, Refused> {
+    let Point { x, y, .. } = point;
+    // As far as a person can be whom the sensors have.
+    let is_place = |metres: f64| (-1e5..=1e5).contains(&metres);
+    if is_place(x) && is_place(y) {
+        Ok(Place::new(x, y))
+    } else {
+        Err(Refused::Target { x, y })
+    }
 }
 
 fn maneuver(command: &Command) -> ManeuverId {
@@ -292,6 +349,40 @@ mod tests {
         assert_eq!((follower, task), (StationId(2), TaskType::MOVE));
         assert_eq!(parameters.target, Some(site.target(Place::new(1.0, 8.0))));
         assert_eq!(parameters.maximum_speed, Some(0.4));
+    }
+
+    fn facing(degrees: f64, place: [f64; 2], at_s: i32) -> PoseStamped {
+        let half = degrees.to_radians() / 2.0;
+        let mut pose = PoseStamped::default();
+        pose.header.stamp.sec = at_s;
+        pose.pose.position.x = place[0];
+        pose.pose.position.y = place[1];
+        (pose.pose.orientation.z, pose.pose.orientation.w) = half.sin_cos();
+        pose
+    }
+
+    #[test]
+    fn a_pose_says_where_the_body_is_where_it_faces_and_how_fast_it_came() {
+        for (degrees, heading) in [(0.0, 90.0), (90.0, 0.0), (180.0, 270.0), (-90.0, 180.0)] {
+            let told = pose(&facing(degrees, [1.0, 2.0], 5), None).unwrap();
+            assert!((told.heading_deg - heading).abs() < 1e-9, "{told:?}");
+            assert_eq!((told.place, told.speed_mps), (Place::new(1.0, 2.0), 0.0));
+        }
+        let (first, next) = (facing(0.0, [0.0, 0.0], 5), facing(0.0, [0.6, 0.8], 6));
+        let speed = |to, from| pose(to, Some(from)).unwrap().speed_mps;
+        assert!((speed(&next, &first) - 1.0).abs() < 1e-9);
+        // What came later was before it.
+        assert!(speed(&first, &next) < 1e-9);
+        let mut other = first.clone();
+        other.header.frame_id = "map".to_owned();
+        assert!(matches!(pose(&other, None), Err(Refused::Frame(_))));
+        let nowhere = facing(0.0, [f64::NAN, 0.0], 5);
+        assert!(matches!(pose(&nowhere, None), Err(Refused::Target { .. })));
+        for orientation in [f64::NAN, 0.0] {
+            let mut twisted = first.clone();
+            twisted.pose.orientation.w = orientation;
+            assert!(matches!(pose(&twisted, None), Err(Refused::Orientation)));
+        }
     }
 
     #[test]

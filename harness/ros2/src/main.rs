@@ -12,7 +12,7 @@ use crossguard_harness::station::Mode;
 use crossguard_ros2::entity::NodeName;
 use crossguard_ros2::graph::Meeting;
 use crossguard_ros2::node::{self, NotStarted, Options};
-use crossguard_ros2::robot::Robot;
+use crossguard_ros2::robot::{BodyKind, Robot};
 use tracing_appender::non_blocking::WorkerGuard;
 
 /// A Crossguard robot as a lifecycle node of ROS 2, for systems whose RMW is that of zenoh.
@@ -52,6 +52,9 @@ struct Arguments {
     /// Write the robot's log to this file, one JSON object per line; every activation begins it anew.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
+    /// Who moves the body: nobody, it is simulated, or other nodes, by ~/event, ~/pose and ~/command.
+    #[arg(long, value_enum, default_value_t = BodyKind::Simulated)]
+    body: BodyKind,
     /// Seed of the gait of the simulated body.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -63,8 +66,8 @@ const VERBOSE: &str =
     "Tell on standard error what happens: -v for a little, -vv and -vvv for more; or by RUST_LOG";
 
 const AFTER_HELP: &str = "\
-Topics ~/status, ~/corridor, ~/event, ~/transition_event and /diagnostics; ~/command and ~/perceived are
-listened to. Without --autostart, the lifecycle is up to you:
+Topics ~/status, ~/corridor, ~/event, ~/transition_event and /diagnostics; ~/command,
+~/perceived and ~/pose are listened to. Without --autostart, the lifecycle is up to you:
   ros2 lifecycle set /NAMESPACE/crossguard configure
   ros2 lifecycle set /NAMESPACE/crossguard activate
 Messages are in the package crossguard_msgs, which comes along. Ctrl-C or SIGTERM makes the robot leave
@@ -129,6 +132,7 @@ fn options(arguments: Arguments) -> Result<Options, String> {
             log: arguments.log,
             security: arguments.security,
             pki: arguments.pki,
+            body: arguments.body,
             seed: arguments.seed,
         },
         autostart: arguments.autostart,

@@ -32,10 +32,10 @@ use crate::lifecycle::{Lifecycle, NotNow, State, Verb};
 use crate::message::Service;
 use crate::msgs::{Command, Corridor, Event, Person, Status};
 use crate::report::{Reporter, of};
-use crate::robot::{Active, NoRobot, Robot};
+use crate::robot::{Active, BodyKind, NoRobot, Robot};
 use crate::standard::{
     ChangeState, ChangeStateResponse, GetAvailableStatesResponse, GetAvailableTransitionsResponse,
-    GetStateResponse,
+    GetStateResponse, PoseStamped,
 };
 use door::{Delivery, Door, Ears, Told};
 
@@ -142,6 +142,8 @@ struct Turn {
     file: Option<RobotFile>,
     active: Option<Active>,
     reporter: Option<Reporter>,
+    /// Where the body was said to be.
+    pose_before: Option<PoseStamped>,
     /// Who asked for the transition that is under way.
     waiting: Option<Call<ChangeState>>,
     /// What came to nothing here, by cause.
@@ -177,6 +179,7 @@ impl Turn {
             file: None,
             active: None,
             reporter: None,
+            pose_before: None,
             waiting: None,
             causes: BTreeMap::new(),
             status_due: now,
@@ -232,6 +235,7 @@ impl Turn {
         match delivery {
             Delivery::Command(message) => self.command(&message),
             Delivery::Person(message) => self.person(&message),
+            Delivery::Pose(message) => self.pose(message),
             Delivery::ChangeState(call) => self.change_state(call),
             Delivery::GetState(call) => {
                 let current_state = self.lifecycle.state().message();
@@ -300,6 +304,21 @@ impl Turn {
         });
         if let Err(refused) = done {
             self.count(refused.cause(), &refused.to_string());
+        }
+    }
+
+    fn pose(&mut self, message: PoseStamped) {
+        let before = self.pose_before.take();
+        let done = self.commanded().and_then(|(active, _)| {
+            if self.robot.body == BodyKind::Simulated {
+                return Err(command::Refused::Simulated);
+            }
+            active.order(Order::Moved(command::pose(&message, before.as_ref())?));
+            Ok(())
+        });
+        match done {
+            Ok(()) => self.pose_before = Some(message),
+            Err(refused) => self.count(refused.cause(), &refused.to_string()),
         }
     }
 

@@ -40,8 +40,21 @@ pub struct Robot {
     pub security: Mode,
     /// The folder of the PKI or the robot's own, for packets that are signed.
     pub pki: Option<PathBuf>,
+    /// Who moves its body.
+    pub body: BodyKind,
     /// Seed of the gait of the simulated body.
     pub seed: u64,
+}
+
+/// Who moves a body.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
+pub enum BodyKind {
+    /// It is simulated here: it walks where maneuvers lead and finishes them.
+    #[default]
+    Simulated,
+    /// Others move it, by what `~/event` says, and tell where it is on `~/pose` and when a maneuver ends on
+    /// `~/command`.
+    External,
 }
 
 /// Why there is no robot.
@@ -104,6 +117,10 @@ impl Active {
         // The counter is taken last, when nothing else can go wrong, and before anything is sent.
         let boot = boot::take(&file.boot_file)?;
         let body = Body::new(file.build, file.site, file.place, file.speed, robot.seed);
+        let body = match robot.body {
+            BodyKind::Simulated => body,
+            BodyKind::External => body.moved_by_others(),
+        };
         let plan = file.autopilot.then(|| Plan::crossing(file.site));
         let clock = Clock::start();
         let running = Setup {

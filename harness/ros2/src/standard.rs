@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::message::{Message, Service};
 
 /// The fields of the standard messages, by their names.
-pub(crate) const MESSAGES: [(&str, &str); 14] = [
+pub(crate) const MESSAGES: [(&str, &str); 17] = [
     ("builtin_interfaces/msg/Time", "int32 sec\nuint32 nanosec"),
     (
         "builtin_interfaces/msg/Duration",
@@ -23,6 +23,18 @@ pub(crate) const MESSAGES: [(&str, &str); 14] = [
     (
         "geometry_msgs/msg/Vector3",
         "float64 x\nfloat64 y\nfloat64 z",
+    ),
+    (
+        "geometry_msgs/msg/Quaternion",
+        "float64 x\nfloat64 y\nfloat64 z\nfloat64 w",
+    ),
+    (
+        "geometry_msgs/msg/Pose",
+        "Point position\nQuaternion orientation",
+    ),
+    (
+        "geometry_msgs/msg/PoseStamped",
+        "std_msgs/Header header\nPose pose",
     ),
     ("diagnostic_msgs/msg/KeyValue", "string key\nstring value"),
     (
@@ -124,6 +136,37 @@ pub struct Vector3 {
     pub y: f64,
     /// Up.
     pub z: f64,
+}
+
+/// An orientation.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Quaternion {
+    /// About the axis to the east, times the sine of half the angle.
+    pub x: f64,
+    /// The same, to the north.
+    pub y: f64,
+    /// The same, up.
+    pub z: f64,
+    /// The cosine of half the angle.
+    pub w: f64,
+}
+
+/// A place and an orientation.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Pose {
+    /// The place.
+    pub position: Point,
+    /// The orientation; none is to the east.
+    pub orientation: Quaternion,
+}
+
+/// A pose, with when and in which frame.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct PoseStamped {
+    /// When, and in which frame.
+    pub header: Header,
+    /// It.
+    pub pose: Pose,
 }
 
 /// A value of a diagnostic, by its name.
@@ -253,6 +296,7 @@ macro_rules! messages {
 
 messages! {
     Text => "std_msgs/msg/String";
+    PoseStamped => "geometry_msgs/msg/PoseStamped";
     DiagnosticArray => "diagnostic_msgs/msg/DiagnosticArray";
     TransitionEvent => "lifecycle_msgs/msg/TransitionEvent";
 }

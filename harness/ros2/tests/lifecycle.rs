@@ -165,7 +165,10 @@ fn the_graph_has_the_node_with_all_its_parts_until_it_ends() {
     let mut published: Vec<String> = own(&["corridor", "event", "status", "transition_event"]);
     published.push("/diagnostics".to_owned());
     assert_eq!(names("MP"), published);
-    assert_eq!(names("MS"), own(&["command", "perceived"]) as Vec<String>);
+    assert_eq!(
+        names("MS"),
+        own(&["command", "perceived", "pose"]) as Vec<String>
+    );
     let services = [
         "change_state",
         "get_available_states",

@@ -10,7 +10,7 @@ use serde_reflection::{ContainerFormat, Format, Named, Samples, Tracer, TracerCo
 
 /// Hashes that others have published: the design document of `rmw_zenoh` for the first two, `natnet_zenoh`
 /// for the third (its `char` is an octet), and ROS 2 Jazzy by its `rosbags` 0.11 for the others.
-const PUBLISHED: [(&str, &str); 14] = [
+const PUBLISHED: [(&str, &str); 15] = [
     (
         "std_msgs/msg/String",
         "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18",
@@ -38,6 +38,10 @@ const PUBLISHED: [(&str, &str); 14] = [
     (
         "geometry_msgs/msg/Vector3",
         "cc12fe83e4c02719f1ce8070bfd14aecd40f75a96696a67a2a1f37f7dbb0765d",
+    ),
+    (
+        "geometry_msgs/msg/PoseStamped",
+        "10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8",
     ),
     (
         "diagnostic_msgs/msg/KeyValue",
@@ -164,6 +168,7 @@ fn structs_and_definitions_say_the_same() {
     compare::<msgs::Status>("crossguard_msgs/msg/Status");
     compare::<msgs::Task>("crossguard_msgs/msg/Task");
     compare::<standard::Text>("std_msgs/msg/String");
+    compare::<standard::PoseStamped>("geometry_msgs/msg/PoseStamped");
     compare::<standard::DiagnosticArray>("diagnostic_msgs/msg/DiagnosticArray");
     compare::<standard::TransitionEvent>("lifecycle_msgs/msg/TransitionEvent");
     compare::<standard::ChangeStateRequest>("lifecycle_msgs/srv/ChangeState_Request");

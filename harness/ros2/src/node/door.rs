@@ -13,13 +13,14 @@ use crate::msgs::{Command, Corridor, Event, Person, Status};
 use crate::qos::Qos;
 use crate::standard::{
     ChangeState, DiagnosticArray, GetAvailableStates, GetAvailableTransitions, GetState,
-    TransitionEvent,
+    PoseStamped, TransitionEvent,
 };
 
 /// What comes in.
 pub(super) enum Delivery {
     Command(Command),
     Person(Person),
+    Pose(PoseStamped),
     ChangeState(Call<ChangeState>),
     GetState(Call<GetState>),
     GetStates(Call<GetAvailableStates>),
@@ -59,7 +60,7 @@ impl Told {
 
 /// What a node listens to and answers; kept for as long as it does.
 pub(super) struct Ears {
-    _subscriptions: [Subscription; 2],
+    _subscriptions: [Subscription; 3],
     _servers: [Server; 5],
 }
 
@@ -110,8 +111,9 @@ impl Door {
     pub(super) fn open(&self, node: &Node) -> Result<Ears, RosError> {
         let commands = self.topic(node, "~/command", Delivery::Command)?;
         let people = self.topic(node, "~/perceived", Delivery::Person)?;
+        let poses = self.topic(node, "~/pose", Delivery::Pose)?;
         Ok(Ears {
-            _subscriptions: [commands, people],
+            _subscriptions: [commands, people, poses],
             _servers: [
                 self.service(node, "~/change_state", Delivery::ChangeState)?,
                 self.service(node, "~/get_state", Delivery::GetState)?,

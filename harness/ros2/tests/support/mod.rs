@@ -13,7 +13,7 @@ use crossguard_ros2::message::Message;
 use crossguard_ros2::msgs::Command;
 use crossguard_ros2::node::{Options, Running, start};
 use crossguard_ros2::qos::Qos;
-use crossguard_ros2::robot::Robot;
+use crossguard_ros2::robot::{BodyKind, Robot};
 use crossguard_ros2::standard::{ChangeState, ChangeStateRequest, Empty, GetState, Transition};
 
 pub const PATIENCE: Duration = Duration::from_secs(30);
@@ -49,6 +49,7 @@ pub fn robot(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> R
         log: Some(folder.join(format!("{name}.jsonl"))),
         security: Mode::Off,
         pki: None,
+        body: BodyKind::Simulated,
         seed: 1,
     }
 }
