@@ -108,3 +108,22 @@ fn robots_on_ethernet_cross_again_when_their_interface_is_back() {
         "robots_on_ethernet_cross_again_when_their_interface_is_back",
     );
 }
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn peers_that_scout_on_an_interface_cross_again_when_it_is_back() {
+    cross_twice_by(
+        "--zenoh peer --zenoh-scout",
+        "peers_that_scout_on_an_interface_cross_again_when_it_is_back",
+    );
+}
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn peers_that_are_told_of_each_other_cross_again_when_their_interface_is_back() {
+    cross_twice_by(
+        "--zenoh peer --zenoh-listen tcp/0.0.0.0:7447 --zenoh-connect tcp/10.0.0.1:7447 \
+         --zenoh-connect tcp/10.0.0.2:7447 --zenoh-scout",
+        "peers_that_are_told_of_each_other_cross_again_when_their_interface_is_back",
+    );
+}

@@ -107,3 +107,12 @@ fn two_robots_in_two_network_namespaces_do_the_crossing_in_ethernet_frames() {
         "two_robots_in_two_network_namespaces_do_the_crossing_in_ethernet_frames",
     );
 }
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn two_robots_in_two_network_namespaces_find_each_other_by_the_scouting_of_zenoh() {
+    the_crossing_by(
+        "--zenoh peer --zenoh-scout",
+        "two_robots_in_two_network_namespaces_find_each_other_by_the_scouting_of_zenoh",
+    );
+}

@@ -57,9 +57,10 @@ impl<T: Transport + Send> Sender for ReopeningSender<T> {
         let Ok(Halves { sender, receiver }) = self.transport.open() else {
             return Err(failure);
         };
+        // What a transport does when both halves of it are gone is up to the thread that receives.
+        self.sender = sender;
         // One that has not been taken yet is as good as this one was a moment ago.
         let _ = self.hand_over.try_send(receiver);
-        self.sender = sender;
         self.sender.send(octets)
     }
 }

@@ -16,8 +16,8 @@
 //! current-thread flavour; a program that has one opens and drops such links elsewhere.
 //!
 //! TCP and TLS deliver late what they could not deliver in time. Where packets get lost on the way, UDP
-//! endpoints (`udp/…`) are closer to the radio that the protocol is made for. Either way a link that is
-//! silent for two seconds is taken for dead.
+//! endpoints (`udp/…`) are closer to the radio that the protocol is made for. Either way a link to a robot
+//! that is silent for two seconds is taken for dead.
 
 #[cfg_attr(not(feature = "zenoh"), path = "zenoh/unbuilt.rs")]
 mod session;

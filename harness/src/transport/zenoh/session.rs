@@ -16,8 +16,10 @@ use ::zenoh::qos::{CongestionControl, Priority};
 use ::zenoh::sample::{Locality, Sample, SampleKind};
 use ::zenoh::session::ZenohId;
 use ::zenoh::{Config, Wait};
+use nix::net::if_::if_nametoindex;
 use serde_json::{Value, json};
 
+use super::super::link::interface_of;
 use super::super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 use super::{Zenoh, ZenohError, ZenohMode};
 
@@ -36,6 +38,12 @@ const FRAGMENTED_MAX: usize = 65_536;
 
 /// Enters the network, and takes part in the key.
 pub(super) fn open(part: &Zenoh) -> Result<Halves, LinkError> {
+    // Who listens on a port that is always the same cannot be opened anew beside itself; it is found there.
+    let is_fixed = !part.listen.is_empty() || part.config.is_some();
+    let is_fixed = is_fixed || part.mode == ZenohMode::Router;
+    let scout = part.scouts_on().filter(|_| !is_fixed);
+    let scout = scout.map(|name| interface_of(&name).map(|(index, _)| (name, index)));
+    let scout = scout.transpose()?;
     let (session, is_connecting) = enter(part)?;
     let key = |chunk: &str| {
         let key = part.key.clone();
@@ -69,6 +77,7 @@ pub(super) fn open(part: &Zenoh) -> Result<Halves, LinkError> {
         sender: Box::new(ZenohSender {
             publisher,
             is_connecting,
+            scout,
             session: session.clone(),
         }),
         receiver: Box::new(ZenohReceiver {
@@ -90,7 +99,10 @@ pub(super) fn enter(part: &Zenoh) -> Result<(Session, bool), LinkError> {
     let opened = ::zenoh::open(config).wait();
     let session = opened.map_err(|error| match part.mode {
         ZenohMode::Client if part.listen.is_empty() => ZenohError::Unreachable {
-            endpoints: part.connect.join(", "),
+            endpoints: match &part.config {
+                Some(path) if part.connect.is_empty() => format!("what {} names", path.display()),
+                _ => part.connect.join(", "),
+            },
         },
         // Whom a peer or a router connects to may come later.
         _ => ZenohError::Unavailable {
@@ -110,13 +122,17 @@ fn config(part: &Zenoh) -> Result<Config, ZenohError> {
             cause: in_words(&*error),
         })?,
     };
-    let scout = part.scouts_on();
+    // zenoh remembers which interfaces there were when it was asked first.
+    let scout = part.scouts_on().and_then(|name| interface_of(&name).ok());
     let retry = json!({
         "period_init_ms": RETRY_MS, "period_max_ms": RETRY_MS, "period_increase_factor": 1
     });
     let mut settings = vec![
         ("mode", json!(part.mode)),
         ("connect/retry", retry),
+        // Robots begin to talk before others are found, and again when an interface is back.
+        ("open/return_conditions/connect_scouted", json!(false)),
+        ("scouting/delay", json!(0)),
         // Sending waits for nobody.
         (
             "transport/link/tx/queue/congestion_control/drop/wait_before_drop",
@@ -136,9 +152,9 @@ fn config(part: &Zenoh) -> Result<Config, ZenohError> {
     if !part.connect.is_empty() {
         settings.push(("connect/endpoints", json!(part.connect)));
     }
-    if let Some(interface) = scout {
+    if let Some((_, address)) = scout {
         settings.push(("scouting/multicast/enabled", json!(true)));
-        settings.push(("scouting/multicast/interface", json!(interface)));
+        settings.push(("scouting/multicast/interface", json!(address)));
     }
     for (setting, value) in settings {
         let value = value.to_string();
@@ -216,10 +232,31 @@ struct ZenohSender {
     publisher: Publisher<'static>,
     /// Whether it was told whom to connect to, so that being connected to nobody is a failure.
     is_connecting: bool,
+    /// The interface on which it looks for others, where it can be opened anew, and its index then: another
+    /// of that name is not it.
+    scout: Option<(String, u32)>,
     session: Session,
 }
 
 impl ZenohSender {
+    /// Why it reaches nobody, if it does not.
+    fn cut_off(&self) -> Option<Error> {
+        let is_there = |(name, index): &&(String, u32)| {
+            if_nametoindex(name.as_str()).is_ok_and(|now| now == *index)
+        };
+        if self.session.is_closed() {
+            let why = "the zenoh session is closed";
+            return Some(Error::new(ErrorKind::BrokenPipe, why));
+        }
+        if let Some((name, _)) = self.scout.as_ref().filter(|scout| !is_there(scout)) {
+            let why = format!("{name}, on which zenoh looks for others, is gone");
+            return Some(Error::new(ErrorKind::NetworkDown, why));
+        }
+        let why = "zenoh is connected to nobody, and goes on trying";
+        (self.is_connecting && !self.is_connected())
+            .then(|| Error::new(ErrorKind::NotConnected, why))
+    }
+
     fn is_connected(&self) -> bool {
         let info = self.session.info();
         info.routers_zid().wait().next().is_some() || info.peers_zid().wait().next().is_some()
@@ -228,16 +265,12 @@ impl ZenohSender {
 
 impl Sender for ZenohSender {
     fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
-        let cause = if self.session.is_closed() {
-            Error::new(ErrorKind::BrokenPipe, "the zenoh session is closed")
-        } else if self.is_connecting && !self.is_connected() {
-            let why = "zenoh is connected to nobody, and goes on trying";
-            Error::new(ErrorKind::NotConnected, why)
-        } else {
-            match self.publisher.put(octets).wait() {
+        let cause = match self.cut_off() {
+            Some(cause) => cause,
+            None => match self.publisher.put(octets).wait() {
                 Ok(()) => return Ok(()),
                 Err(error) => Error::other(in_words(&*error)),
-            }
+            },
         };
         Err(NotSent {
             failed: 1,
