@@ -20,6 +20,13 @@ const BROADCAST_ELLIPSE: u8 = 0x42;
 const MOBILE: u8 = 0x80;
 /// Octets of BTP-B, which the payload length counts.
 const BTP_LEN: usize = 4;
+const ADDRESS_LEN: usize = 8;
+const POSITION_VECTOR_LEN: usize = 24;
+const MEDIA_LEN: usize = 4;
+/// Octets of a sequence number and what is reserved behind it.
+const SEQUENCE_LEN: usize = 4;
+/// Octets of an area and what is reserved behind it.
+const AREA_LEN: usize = 16;
 
 /// The octets of headers.
 #[derive(Clone, Copy, Debug)]
@@ -89,19 +96,27 @@ fn fitting(field: Field, value: u16, bits: u32) -> Result<u16, GeonetError> {
     }
 }
 
-/// Octets that are being written. The longest headers fit.
-struct Writer(Encoded);
+/// Octets that are being written. What is written fits. Values are checked before they come here, so
+/// that where something is written is a constant to a proof.
+struct Writer<const N: usize> {
+    octets: [u8; N],
+    length: usize,
+}
 
-impl Writer {
-    fn put<const N: usize>(&mut self, octets: [u8; N]) {
-        let Encoded {
-            octets: all,
-            length,
-        } = &mut self.0;
-        if let Some(to) = all.get_mut(*length..*length + N) {
-            to.copy_from_slice(&octets);
-            *length += N;
+impl<const N: usize> Writer<N> {
+    const fn new() -> Self {
+        Self {
+            octets: [0; N],
+            length: 0,
         }
+    }
+
+    fn put<const K: usize>(mut self, octets: [u8; K]) -> Self {
+        if let Some(to) = self.octets.get_mut(self.length..self.length + K) {
+            to.copy_from_slice(&octets);
+            self.length += K;
+        }
+        self
     }
 }
 
@@ -161,9 +176,9 @@ impl Headers {
     /// What is wrong with which field. [`GeonetError::Secured`] where a security envelope follows the
     /// basic header; then there is [`BasicHeader::decode`] and [`decode_behind`](Self::decode_behind).
     pub fn decode(packet: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
-        let (basic, rest) = BasicHeader::decode(packet)?;
+        let (basic, _) = BasicHeader::decode(packet)?;
         match basic.next {
-            NextHeader::Common => Self::decode_behind(basic, rest),
+            NextHeader::Common => Self::decode_behind(basic, &packet[BASIC_LEN..]),
             NextHeader::Secured => Err(GeonetError::Secured),
         }
     }
@@ -191,7 +206,9 @@ impl Headers {
         let maximum_hop_limit = reader.u8(Field::MaximumHopLimit)?;
         hops_are_possible(remaining_hop_limit, maximum_hop_limit)?;
         reader.zero_u8(Field::CommonReserved)?;
-        let (source, transport) = decode_transport(reader, shape)?;
+        let (source, transport) = decode_transport(Reader(reader.0), shape)?;
+        // What follows is where the shape says, which is a constant to a proof.
+        reader.0 = &reader.0[transport_len(shape)..];
         let present = reader.0.len();
         let port = reader.u16(Field::Port)?;
         let port_info = reader.u16(Field::PortInfo)?;
@@ -223,53 +240,58 @@ impl Headers {
             announced: u16::MAX,
             present: payload_length,
         })?;
-        let mut writer = Writer(Encoded {
-            octets: [0; HEADERS_LEN_MAX],
-            length: 0,
-        });
         let header_type = match self.transport {
             Transport::SingleHop { .. } => SINGLE_HOP,
             Transport::GeoBroadcast { area, .. } => area.shape.header_type(),
         };
-        writer.put(self.basic(NextHeader::Common).encode()?);
         let flags = if self.is_mobile { MOBILE } else { 0 };
-        writer.put([BTP_B, header_type, self.traffic_class.octet()?, flags]);
-        writer.put(announced.to_be_bytes());
-        writer.put([self.maximum_hop_limit, 0]);
-        match self.transport {
-            Transport::SingleHop { media } => {
-                self.source.encode(&mut writer)?;
-                writer.put(media);
-            }
+        let basic = self.basic(NextHeader::Common).encode()?;
+        let traffic_class = self.traffic_class.octet()?;
+        let source = self.source.octets()?;
+        let writer = Writer::new()
+            .put(basic)
+            .put([BTP_B, header_type, traffic_class, flags])
+            .put(announced.to_be_bytes())
+            .put([self.maximum_hop_limit, 0]);
+        let writer = match self.transport {
+            Transport::SingleHop { media } => writer.put(source).put(media),
             Transport::GeoBroadcast {
                 sequence_number,
                 area,
-            } => {
-                writer.put(sequence_number.to_be_bytes());
-                writer.put([0; 2]);
-                self.source.encode(&mut writer)?;
-                area.encode(&mut writer);
-            }
-        }
-        writer.put(self.port.to_be_bytes());
-        writer.put(self.port_info.to_be_bytes());
-        Ok(writer.0)
+            } => writer
+                .put(sequence_number.to_be_bytes())
+                .put([0; 2])
+                .put(source)
+                .put(area.octets()),
+        };
+        let Writer { octets, length } = writer
+            .put(self.port.to_be_bytes())
+            .put(self.port_info.to_be_bytes());
+        Ok(Encoded { octets, length })
+    }
+}
+
+/// Octets of the headers between common header and BTP.
+const fn transport_len(shape: Option<Shape>) -> usize {
+    match shape {
+        None => POSITION_VECTOR_LEN + MEDIA_LEN,
+        Some(_) => SEQUENCE_LEN + POSITION_VECTOR_LEN + AREA_LEN,
     }
 }
 
 fn decode_transport(
-    reader: &mut Reader,
+    mut reader: Reader,
     shape: Option<Shape>,
 ) -> Result<(LongPositionVector, Transport), GeonetError> {
     let Some(shape) = shape else {
-        let source = LongPositionVector::decode(reader)?;
+        let source = LongPositionVector::decode(&mut reader)?;
         let media = reader.array(Field::Media)?;
         return Ok((source, Transport::SingleHop { media }));
     };
     let sequence_number = reader.u16(Field::SequenceNumber)?;
     reader.zero_u16(Field::SequenceReserved)?;
-    let source = LongPositionVector::decode(reader)?;
-    let area = Area::decode(reader, shape)?;
+    let source = LongPositionVector::decode(&mut reader)?;
+    let area = Area::decode(&mut reader, shape)?;
     let transport = Transport::GeoBroadcast {
         sequence_number,
         area,
@@ -364,13 +386,14 @@ impl Address {
         })
     }
 
-    fn encode(self, writer: &mut Writer) -> Result<(), GeonetError> {
+    fn octets(self) -> Result<[u8; ADDRESS_LEN], GeonetError> {
         let station_type = fitting(Field::Address, self.station_type.into(), 5)?;
         let country_code = fitting(Field::Address, self.country_code, 10)?;
         let bits = u16::from(self.is_manual) << 15 | station_type << 10 | country_code;
-        writer.put(bits.to_be_bytes());
-        writer.put(self.link_layer);
-        Ok(())
+        Ok(Writer::new()
+            .put(bits.to_be_bytes())
+            .put(self.link_layer)
+            .octets)
     }
 }
 
@@ -393,11 +416,7 @@ impl LongPositionVector {
         })
     }
 
-    fn encode(&self, writer: &mut Writer) -> Result<(), GeonetError> {
-        self.address.encode(writer)?;
-        writer.put(self.timestamp.to_be_bytes());
-        writer.put(self.latitude.to_be_bytes());
-        writer.put(self.longitude.to_be_bytes());
+    fn octets(&self) -> Result<[u8; POSITION_VECTOR_LEN], GeonetError> {
         if !(-0x4000..0x4000).contains(&self.speed) {
             return Err(GeonetError::Value {
                 field: Field::Speed,
@@ -405,9 +424,14 @@ impl LongPositionVector {
             });
         }
         let speed = self.speed.cast_unsigned() & 0x7FFF;
-        writer.put((u16::from(self.is_accurate) << 15 | speed).to_be_bytes());
-        writer.put(self.heading.to_be_bytes());
-        Ok(())
+        Ok(Writer::new()
+            .put(self.address.octets()?)
+            .put(self.timestamp.to_be_bytes())
+            .put(self.latitude.to_be_bytes())
+            .put(self.longitude.to_be_bytes())
+            .put((u16::from(self.is_accurate) << 15 | speed).to_be_bytes())
+            .put(self.heading.to_be_bytes())
+            .octets)
     }
 }
 
@@ -425,12 +449,14 @@ impl Area {
         Ok(area)
     }
 
-    fn encode(&self, writer: &mut Writer) {
-        writer.put(self.latitude.to_be_bytes());
-        writer.put(self.longitude.to_be_bytes());
-        writer.put(self.distance_a.to_be_bytes());
-        writer.put(self.distance_b.to_be_bytes());
-        writer.put(self.angle.to_be_bytes());
-        writer.put([0; 2]);
+    fn octets(&self) -> [u8; AREA_LEN] {
+        Writer::new()
+            .put(self.latitude.to_be_bytes())
+            .put(self.longitude.to_be_bytes())
+            .put(self.distance_a.to_be_bytes())
+            .put(self.distance_b.to_be_bytes())
+            .put(self.angle.to_be_bytes())
+            .put([0; 2])
+            .octets
     }
 }

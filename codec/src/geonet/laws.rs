@@ -2,40 +2,82 @@
 //!
 //! Functions that assert, for the `proofs` crate to call. Not part of the stable interface.
 
-use super::{Field, GeonetError, HEADERS_LEN_MAX, Headers};
+use super::{Field, GeonetError, HEADERS_LEN_MAX, Headers, Transport};
 
-/// No octets make the decoder panic, and what it accepts it gives back: the headers encode to the
-/// octets that they were read from. An error names a field that there is.
-pub fn what_is_accepted_is_canonical(packet: &[u8]) {
-    match Headers::decode(packet) {
-        Ok((headers, payload)) => {
-            let encoded = headers.encode(payload.len());
-            let length = packet.len() - payload.len();
-            assert!(length <= HEADERS_LEN_MAX);
-            assert!(encoded.is_ok_and(|encoded| same(encoded.as_ref(), &packet[..length])));
-        }
+/// Octets of the headers of single-hop broadcast.
+const SINGLE_HOP_LEN: usize = 44;
+
+/// No octets make the decoder panic, and it reads nothing behind them. An error names what is wrong.
+///
+/// Gives what was decoded.
+pub fn decoding_is_total(packet: &[u8]) -> Result<(Headers, &[u8]), GeonetError> {
+    let decoded = Headers::decode(packet);
+    match &decoded {
+        Ok((headers, payload)) => assert!(payload.len() + length_of(headers) == packet.len()),
         Err(GeonetError::Truncated { .. }) => assert!(packet.len() < HEADERS_LEN_MAX),
         Err(GeonetError::PayloadLength { announced, present }) => {
-            assert!(usize::from(announced) != present && present <= packet.len());
+            assert!(usize::from(*announced) != *present && *present <= packet.len());
         }
         Err(GeonetError::Secured) => assert!(packet[0] == 0x12),
         Err(GeonetError::Value { .. }) => {}
     }
+    decoded
+}
+
+/// What the decoder accepts it gives back: the headers encode to the octets that they were read from.
+///
+/// Gives whether it was accepted.
+#[must_use]
+pub fn what_is_accepted_is_canonical(packet: &[u8]) -> bool {
+    let Ok((headers, payload)) = decoding_is_total(packet) else {
+        return false;
+    };
+    let encoded = headers.encode(payload.len());
+    assert!(encoded.is_ok_and(|encoded| begins_with(packet, encoded.as_ref())));
+    true
 }
 
 /// What encodes decodes to itself, and what does not encode has a value that does not fit.
-pub fn what_is_encoded_is_accepted(headers: &Headers, payload: &[u8; 2]) {
-    match headers.encode(payload.len()) {
-        Ok(encoded) => {
-            let mut packet = [0; HEADERS_LEN_MAX + 2];
-            let length = encoded.as_ref().len();
-            packet[..length].copy_from_slice(encoded.as_ref());
-            packet[length..length + 2].copy_from_slice(payload);
-            let decoded = Headers::decode(&packet[..length + 2]);
-            assert!(decoded.is_ok_and(|(again, rest)| again == *headers && same(rest, payload)));
+///
+/// Gives whether it encodes.
+#[must_use]
+pub fn what_is_encoded_is_accepted(headers: &Headers, payload: [u8; 2]) -> bool {
+    let encoded = match headers.encode(payload.len()) {
+        Ok(encoded) => encoded,
+        Err(error) => {
+            assert!(is_broken(headers, error));
+            return false;
         }
-        Err(error) => assert!(is_broken(headers, error)),
+    };
+    let length = length_of(headers);
+    let octets = encoded.as_ref();
+    assert!(octets.len() == length);
+    let mut packet = [0; HEADERS_LEN_MAX + 2];
+    for (at, octet) in packet.iter_mut().enumerate().take(length) {
+        *octet = octets[at];
     }
+    [packet[length], packet[length + 1]] = payload;
+    let decoded = Headers::decode(&packet[..length + 2]);
+    assert!(decoded.is_ok_and(|(again, rest)| again == *headers && rest == payload));
+    true
+}
+
+/// How many octets the headers have.
+fn length_of(headers: &Headers) -> usize {
+    match headers.transport {
+        Transport::SingleHop { .. } => SINGLE_HOP_LEN,
+        Transport::GeoBroadcast { .. } => HEADERS_LEN_MAX,
+    }
+}
+
+/// Whether the packet begins with these octets, none of which is behind the longest headers. Octet by
+/// octet, which is easier to prove than the equality of slices.
+fn begins_with(packet: &[u8], octets: &[u8]) -> bool {
+    (0..HEADERS_LEN_MAX).all(|at| {
+        octets
+            .get(at)
+            .is_none_or(|octet| packet.get(at) == Some(octet))
+    })
 }
 
 /// Whether the headers have the fault that the error names.
@@ -52,9 +94,4 @@ fn is_broken(headers: &Headers, error: GeonetError) -> bool {
         Field::Speed => !(-16_384..=16_383).contains(&source.speed),
         _ => false,
     }
-}
-
-/// Equality octet by octet, which is easier to prove than that of slices.
-fn same(a: &[u8], b: &[u8]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b)
 }

@@ -6,7 +6,7 @@ use crossguard_codec::geonet::{Address, EgoPosition, Envelope, Stack, ethernet, 
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|octets: &[u8]| {
-    laws::what_is_accepted_is_canonical(octets);
+    let _is_accepted = laws::what_is_accepted_is_canonical(octets);
     let _ = ethernet::packet(octets);
     let address = Address::of_station(1, 12);
     let mut stack = Stack::new(Identifiers::default(), address, Envelope::Off);
