@@ -61,18 +61,33 @@ steps! { FROM, all;
         "ignored": step.is_ignored(),
     }
 
-    /// The application opens or closes the corridor.
-    moves_the_corridor(Kind::Local(Happening::Corridor)) |step| {
+    /// The application opens the corridor.
+    opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
-    /// A maneuver that ended.
-    ends_a_maneuver(Kind::Local(Happening::ManeuverEnded)) |step| {
+    /// The application closes the corridor.
+    closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
-    /// The task is completed, or the robot is to leave.
-    ends_a_session(Kind::Local(Happening::SessionEnded)) |step| {
+    /// The body has completed a maneuver.
+    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The body has failed at a maneuver.
+    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The task is completed.
+    completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The robot is to leave.
+    leaves(Kind::Local(Happening::LeaveRequested)) |step| {
         "ignored": step.is_ignored(),
     }
 

@@ -38,8 +38,9 @@ impl Clocks {
 /// While the lease stands, and for as long as the endpoint may be late to say that it does not, the
 /// follower's `T_safety` has not run out, whatever the two clocks do.
 ///
-/// The premise is [`Inequality::LeaseWithinSafety`].
-pub fn the_lease_ends_before_safety(settings: &Settings, clocks: Clocks) {
+/// The premise is [`Inequality::LeaseWithinSafety`]. Gives whether it holds and the lease stands.
+#[must_use]
+pub fn the_lease_ends_before_safety(settings: &Settings, clocks: Clocks) -> bool {
     let premise = [
         Inequality::TimerInRange,
         Inequality::DriftInRange,
@@ -47,13 +48,11 @@ pub fn the_lease_ends_before_safety(settings: &Settings, clocks: Clocks) {
     ]
     .iter()
     .all(|inequality| inequality.holds(settings));
-    if !premise || !clocks.are_within(settings.drift_ppm) {
-        return;
-    }
     let lease_ends = settings.t_lease.saturating_add(settings.delay_max);
-    if Millis(clocks.leader) <= lease_ends {
-        assert!(Millis(clocks.follower) < settings.t_safety);
-    }
+    let stands =
+        premise && clocks.are_within(settings.drift_ppm) && Millis(clocks.leader) <= lease_ends;
+    assert!(!stands || Millis(clocks.follower) < settings.t_safety);
+    stands
 }
 
 /// The age of a heartbeat grows exactly as time passes, also when the RAM of several periods are

@@ -68,20 +68,35 @@ steps! { FROM, all_but_validity;
         "ignored": step.is_ignored(),
     }
 
-    /// The application opens or closes the corridor.
-    moves_the_corridor(Kind::Local(Happening::Corridor)) |step| {
+    /// The application opens the corridor.
+    opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| {
         "opens": step.said.has(Sort::CorridorOpened),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The application closes the corridor.
+    closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| {
         "closes": step.said.has(Sort::CorridorClosed),
         "ignored": step.is_ignored(),
     }
 
-    /// A maneuver that ended.
-    ends_a_maneuver(Kind::Local(Happening::ManeuverEnded)) |step| {
+    /// The body has completed a maneuver.
+    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| {
         "ignored": step.is_ignored(),
     }
 
-    /// The task is completed, or the robot is to leave.
-    ends_a_session(Kind::Local(Happening::SessionEnded)) |step| {
+    /// The body has failed at a maneuver.
+    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The task is completed.
+    completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| {
+        "ends its session": becomes(step, Role::None),
+    }
+
+    /// The robot is to leave.
+    leaves(Kind::Local(Happening::LeaveRequested)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
@@ -104,7 +119,6 @@ steps! { FROM, all_but_validity;
     }
 
     /// A follower without a lease for too long.
-    #[random_only("Kani was stopped unfinished, after four minutes of a busy machine.")]
     gives_up_a_follower(Kind::Fires(Countdown::Lost)) |step| {
         "drops a follower": step.said.has(Sort::FollowerGone),
         "ends its session": becomes(step, Role::None),
@@ -131,7 +145,6 @@ steps! { FROM, all_but_validity;
     }
 
     /// The next RAM.
-    #[random_only("Kani was stopped unfinished, after four minutes of a busy machine.")]
     repeats_itself(Kind::Fires(Countdown::Ram)) |step| {
         "sends": step.said.has(Sort::SendRam),
     }

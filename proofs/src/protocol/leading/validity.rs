@@ -42,13 +42,18 @@ validity! {
     detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected))
     /// The application commands a maneuver.
     commands(Kind::Local(Happening::CommandManeuver))
-    /// The application opens or closes the corridor.
-    #[random_only("Kani was stopped unfinished, after four minutes of a busy machine.")]
-    moves_the_corridor(Kind::Local(Happening::Corridor))
-    /// A maneuver that ended.
-    ends_a_maneuver(Kind::Local(Happening::ManeuverEnded))
-    /// The task is completed, or the robot is to leave.
-    ends_a_session(Kind::Local(Happening::SessionEnded))
+    /// The application opens the corridor.
+    opens_the_corridor(Kind::Local(Happening::OpenCorridor))
+    /// The application closes the corridor.
+    closes_the_corridor(Kind::Local(Happening::CloseCorridor))
+    /// The body has completed a maneuver.
+    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted))
+    /// The body has failed at a maneuver.
+    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed))
+    /// The task is completed.
+    completes_the_task(Kind::Local(Happening::TaskCompleted))
+    /// The robot is to leave.
+    leaves(Kind::Local(Happening::LeaveRequested))
     /// The robot becomes available or unavailable.
     changes_its_availability(Kind::Local(Happening::AvailabilityChanged))
     /// The robot has another pseudonym.

@@ -42,14 +42,20 @@ pub enum Happening {
     PedestrianDetected,
     /// [`Event::CommandManeuver`].
     CommandManeuver,
-    /// [`Event::ManeuverCompleted`] or [`Event::ManeuverFailed`].
-    ManeuverEnded,
-    /// [`Event::TaskCompleted`] or [`Event::LeaveRequested`].
-    SessionEnded,
+    /// [`Event::ManeuverCompleted`].
+    ManeuverCompleted,
+    /// [`Event::ManeuverFailed`].
+    ManeuverFailed,
+    /// [`Event::TaskCompleted`].
+    TaskCompleted,
+    /// [`Event::LeaveRequested`].
+    LeaveRequested,
     /// [`Event::AvailabilityChanged`].
     AvailabilityChanged,
-    /// [`Event::OpenCorridor`] or [`Event::CloseCorridor`].
-    Corridor,
+    /// [`Event::OpenCorridor`].
+    OpenCorridor,
+    /// [`Event::CloseCorridor`].
+    CloseCorridor,
     /// [`Event::IdentityChanged`].
     IdentityChanged,
 }
@@ -110,13 +116,16 @@ impl Countdown {
 
 impl Kind {
     /// All events.
-    pub const EVENTS: [Self; 7] = [
+    pub const EVENTS: [Self; 10] = [
         Self::Local(Happening::PedestrianDetected),
         Self::Local(Happening::CommandManeuver),
-        Self::Local(Happening::ManeuverEnded),
-        Self::Local(Happening::SessionEnded),
+        Self::Local(Happening::ManeuverCompleted),
+        Self::Local(Happening::ManeuverFailed),
+        Self::Local(Happening::TaskCompleted),
+        Self::Local(Happening::LeaveRequested),
         Self::Local(Happening::AvailabilityChanged),
-        Self::Local(Happening::Corridor),
+        Self::Local(Happening::OpenCorridor),
+        Self::Local(Happening::CloseCorridor),
         Self::Local(Happening::IdentityChanged),
     ];
 }
@@ -150,28 +159,13 @@ pub fn event(source: &mut impl Source, happening: Happening) -> Event {
             follower: station(source, PEER),
             task: task(source),
         },
-        Happening::ManeuverEnded => {
-            if source.flag() {
-                Event::ManeuverFailed(maneuver_id(source))
-            } else {
-                Event::ManeuverCompleted(maneuver_id(source))
-            }
-        }
-        Happening::SessionEnded => {
-            if source.flag() {
-                Event::LeaveRequested
-            } else {
-                Event::TaskCompleted
-            }
-        }
+        Happening::ManeuverCompleted => Event::ManeuverCompleted(maneuver_id(source)),
+        Happening::ManeuverFailed => Event::ManeuverFailed(maneuver_id(source)),
+        Happening::TaskCompleted => Event::TaskCompleted,
+        Happening::LeaveRequested => Event::LeaveRequested,
         Happening::AvailabilityChanged => Event::AvailabilityChanged(availability(source)),
-        Happening::Corridor => {
-            if source.flag() {
-                Event::CloseCorridor
-            } else {
-                Event::OpenCorridor
-            }
-        }
+        Happening::OpenCorridor => Event::OpenCorridor,
+        Happening::CloseCorridor => Event::CloseCorridor,
         Happening::IdentityChanged => Event::IdentityChanged(station(source, ME)),
     }
 }
