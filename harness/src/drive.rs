@@ -13,7 +13,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use crossguard_codec::{Position, RobotState, TaskParameters};
+use crossguard_codec::{Position, RobotState};
 use crossguard_model_check::model::{Action, Delivery, Model, State};
 use crossguard_model_check::network::{Message, Transmission, concerns};
 use crossguard_model_check::replay::{Followed, Replay};
@@ -193,11 +193,6 @@ impl<'a> Street<'a> {
             _ => None,
         };
         let stimulus = match event {
-            Event::CommandManeuver { follower, task } => Stimulus::Order {
-                follower,
-                task,
-                parameters: TaskParameters::default(),
-            },
             Event::ManeuverCompleted(id) => {
                 Stimulus::Event(Event::ManeuverCompleted(executing().unwrap_or(id)))
             }

@@ -46,9 +46,9 @@ pub struct Moment {
 pub enum Stimulus<'a> {
     /// A datagram was received: a `GeoNetworking` packet.
     Datagram(&'a [u8]),
-    /// The application tells an event.
+    /// The application tells an event. A maneuver is commanded without parameters.
     Event(Event),
-    /// The application commands a maneuver.
+    /// The application commands a maneuver, with parameters.
     Order {
         /// Who is to do it.
         follower: StationId,
@@ -248,6 +248,9 @@ impl Endpoint {
         self.renew_pseudonym(&mut turn);
         match stimulus {
             Stimulus::Datagram(octets) => self.hear(&mut turn, octets),
+            Stimulus::Event(Event::CommandManeuver { follower, task }) => {
+                self.order(&mut turn, follower, task, TaskParameters::default());
+            }
             Stimulus::Event(event) => self.tell(&mut turn, event),
             Stimulus::Order {
                 follower,

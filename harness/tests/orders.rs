@@ -1,0 +1,100 @@
+//! A command has the parameters that it was given with, and not those of the one before.
+
+use crossguard_codec::TaskParameters;
+use crossguard_harness::application::Application;
+use crossguard_harness::body::{Body, Build};
+use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_harness::machine::Machine;
+use crossguard_harness::plan::Plan;
+use crossguard_harness::site::{Place, Site};
+use crossguard_harness::wire::Wire;
+use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
+
+const FOLLOWER: StationId = StationId(2);
+const TICK_MS: u64 = 10;
+
+fn machine(station: StationId) -> Machine {
+    let endpoint = Endpoint::new(
+        Robot::new(station, 1),
+        Config::default(),
+        Wire::default(),
+        0,
+    );
+    let place = Place::new(f64::from(station.0), 0.0);
+    let body = Body::new(Build::Quadruped, Site::default(), place, 30.0, 1);
+    Machine::new(endpoint, Application::new(body, None))
+}
+
+struct Street {
+    robots: [Machine; 2],
+    now_ms: u32,
+    /// What the follower was to start, in order.
+    started: Vec<(TaskType, TaskParameters)>,
+}
+
+impl Street {
+    /// Tells a robot something, and both what comes of it.
+    fn tell(&mut self, robot: usize, stimulus: Stimulus<'_>) {
+        let moment = Moment {
+            now_ms: self.now_ms.into(),
+            timestamp_its: 694_694_401_000 + u64::from(self.now_ms),
+        };
+        let now_s = f64::from(self.now_ms) / 1e3;
+        for effect in self.robots[robot].handle(moment, now_s, stimulus) {
+            match effect {
+                Effect::Transmit { packet, .. } => {
+                    self.tell(1 - robot, Stimulus::Datagram(&packet));
+                }
+                Effect::Act(Act::Start(maneuver, parameters)) => {
+                    self.started.push((maneuver.task, parameters));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn pass(&mut self, seconds: u32) {
+        for _ in 0..u64::from(seconds) * 1_000 / TICK_MS {
+            self.now_ms += u32::try_from(TICK_MS).expect("a few");
+            for robot in 0..2 {
+                self.tell(robot, Stimulus::Time);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_command_without_parameters_has_none_though_the_one_before_had() {
+    let mut street = Street {
+        robots: [machine(StationId(1)), machine(FOLLOWER)],
+        now_ms: 0,
+        started: Vec::new(),
+    };
+    let request = Plan::crossing(Site::default()).request();
+    street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
+    street.pass(1);
+    let slowly = TaskParameters {
+        maximum_speed: Some(0.5),
+        ..TaskParameters::default()
+    };
+    street.tell(
+        0,
+        Stimulus::Order {
+            follower: FOLLOWER,
+            task: TaskType::INITIAL_POS,
+            parameters: slowly,
+        },
+    );
+    street.pass(3);
+    let again = Event::CommandManeuver {
+        follower: FOLLOWER,
+        task: TaskType::MOVE,
+    };
+    street.tell(0, Stimulus::Event(again));
+    street.pass(1);
+    let expected = [
+        (TaskType::INITIAL_POS, slowly),
+        (TaskType::MOVE, TaskParameters::default()),
+    ];
+    assert_eq!(street.started, expected);
+}
