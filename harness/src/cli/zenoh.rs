@@ -73,11 +73,11 @@ pub(super) fn route(arguments: &RouterArguments) -> Result<(), Failure> {
         ..Zenoh::new(ZenohMode::Router)
     };
     let interrupted = interrupts();
-    let router = ZenohRouter::open(&part).map_err(Failure::input)?;
+    // It routes until the end of this function.
+    let _router = ZenohRouter::open(&part).map_err(Failure::input)?;
     print(format_args!("Routing, {}. Ctrl-C stops.", part.places()))?;
     while !interrupted.load(Ordering::Relaxed) {
         std::thread::sleep(TICK);
     }
-    drop(router);
     Ok(())
 }
