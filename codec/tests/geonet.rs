@@ -111,6 +111,31 @@ fn a_packet_that_ends_early_names_the_field_in_which_it_ends() {
 }
 
 #[test]
+fn each_shape_has_its_header_type_and_no_other_is_accepted() {
+    let shapes = [
+        (0x40, Shape::Circle),
+        (0x41, Shape::Rectangle),
+        (0x42, Shape::Ellipse),
+    ];
+    let mut packet = octets(GBC, 51);
+    for header_type in 0..=255 {
+        packet[5] = header_type;
+        let decoded = Headers::decode(&packet);
+        let Some((_, shape)) = shapes.iter().find(|(of, _)| *of == header_type) else {
+            assert!(decoded.is_err(), "{header_type:#x}");
+            continue;
+        };
+        let (headers, payload) = decoded.unwrap();
+        let Transport::GeoBroadcast { area, .. } = headers.transport else {
+            panic!("{header_type:#x} is no geo-broadcast")
+        };
+        assert_eq!(area.shape, *shape);
+        let encoded = headers.encode(payload.len()).unwrap();
+        assert_eq!(encoded.as_ref(), &packet[..HEADERS_LEN_MAX]);
+    }
+}
+
+#[test]
 fn a_wrong_octet_names_its_field() {
     let cases = [
         (0, 0x21, Field::BasicNextHeader),
