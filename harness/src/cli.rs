@@ -28,9 +28,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use crossguard_harness::capture::Capture;
+use crossguard_harness::observe::to_standard_error;
 use crossguard_harness::perception::Feed;
 use crossguard_harness::trace::Log;
-use tracing_appender::non_blocking::WorkerGuard;
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -116,7 +116,7 @@ impl From<std::io::Error> for Failure {
 
 pub(crate) fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let _written = observe(arguments.verbose);
+    let _written = to_standard_error(arguments.verbose, &["crossguard_harness"]);
     let done = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
@@ -143,31 +143,6 @@ pub(crate) fn main() -> ExitCode {
         }
         Err(Failure::Incomplete) => ExitCode::from(3),
     }
-}
-
-/// Has what is observed written to standard error, if that is wanted, by a thread of its own: a robot
-/// does not wait for whoever reads it, and lines that are not read in time are lost. What is left is
-/// written when the guard is dropped.
-fn observe(verbose: u8) -> WorkerGuard {
-    let level = match verbose {
-        0 => "off",
-        1 => "info",
-        2 => "debug",
-        _ => "trace",
-    };
-    let filter = match (verbose, std::env::var("RUST_LOG")) {
-        (0, Ok(filter)) => filter,
-        _ => format!("crossguard_harness={level}"),
-    };
-    let (stderr, guard) = tracing_appender::non_blocking(std::io::stderr());
-    let subscriber = tracing_subscriber::fmt()
-        .with_env_filter(tracing_subscriber::EnvFilter::new(filter))
-        .with_writer(stderr)
-        .with_target(false)
-        .with_ansi(std::io::stderr().is_terminal());
-    // It can only fail when there is a subscriber already, and there is none.
-    let _ = subscriber.try_init();
-    guard
 }
 
 /// Prints a line to standard output.

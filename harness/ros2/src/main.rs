@@ -2,18 +2,18 @@
 //!
 //! Exit codes: 0 it was told to end and did, 2 bad usage or input, 3 it could not end in order.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::mpsc::sync_channel;
 
 use clap::Parser;
+use crossguard_harness::observe::to_standard_error;
 use crossguard_harness::station::Mode;
 use crossguard_ros2::entity::NodeName;
 use crossguard_ros2::graph::Meeting;
 use crossguard_ros2::node::{self, NotStarted, Options};
 use crossguard_ros2::robot::{BodyKind, Robot};
-use tracing_appender::non_blocking::WorkerGuard;
 
 /// A Crossguard robot as a lifecycle node of ROS 2, for systems whose RMW is that of zenoh.
 #[derive(Parser)]
@@ -77,7 +77,8 @@ Exit codes: 0 it was told to end and did, 2 bad usage or input, 3 it could not e
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let _written = observe(arguments.verbose);
+    let targets = ["crossguard_harness", "crossguard_ros2"];
+    let _written = to_standard_error(arguments.verbose, &targets);
     let (stop, stopped) = sync_channel(1);
     let interrupted = move || {
         // A second Ctrl-C should still end a process that does not stop by itself.
@@ -142,28 +143,4 @@ fn options(arguments: Arguments) -> Result<Options, String> {
 /// If standard error is gone, there is nobody to tell.
 fn complain(what: &str) {
     let _ = writeln!(std::io::stderr(), "crossguard-ros2: {what}");
-}
-
-/// Has what happens written to standard error, if that is wanted, by a thread of its own: the robot does
-/// not wait for whoever reads it.
-fn observe(verbose: u8) -> WorkerGuard {
-    let level = match verbose {
-        0 => "off",
-        1 => "info",
-        2 => "debug",
-        _ => "trace",
-    };
-    let filter = match (verbose, std::env::var("RUST_LOG")) {
-        (0, Ok(filter)) => filter,
-        _ => format!("crossguard_harness={level},crossguard_ros2={level}"),
-    };
-    let (stderr, guard) = tracing_appender::non_blocking(std::io::stderr());
-    let subscriber = tracing_subscriber::fmt()
-        .with_env_filter(tracing_subscriber::EnvFilter::new(filter))
-        .with_writer(stderr)
-        .with_target(false)
-        .with_ansi(std::io::stderr().is_terminal());
-    // It can only fail when there is a subscriber already, and there is none.
-    let _ = subscriber.try_init();
-    guard
 }
