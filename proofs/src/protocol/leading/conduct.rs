@@ -145,6 +145,7 @@ steps! { FROM, all_but_validity;
     }
 
     /// The next RAM.
+    #[random_only("Kani succeeded in 187 s; it is left out so that the whole set stays within its time.")]
     repeats_itself(Kind::Fires(Countdown::Ram)) |step| {
         "sends": step.said.has(Sort::SendRam),
     }
