@@ -2,7 +2,7 @@
 
 use ::core::fmt;
 
-use crossguard_protocol::{MAX_FOLLOWERS, SessionId, StationId};
+use crossguard_protocol::{MAX_FOLLOWERS, Millis, SessionId, StationId};
 use thiserror::Error;
 
 use crate::core::ram::HelpStatus;
@@ -252,6 +252,13 @@ pub enum ViewError {
     /// A number of followers that cannot be asked for.
     #[error("{0} followers are asked for, and 1 to {MAX_FOLLOWERS} can be")]
     FollowerCount(u8),
+    /// A `t_safety` that no offer can tell.
+    #[error("an offer tells a safety timeout of {0}, and from 1 ms to one day can be told")]
+    SafetyTimeout(Millis),
+    /// The crossing is named as 0:0, which is how the protocol holds an unknown one. A message that
+    /// does not know the crossing leaves it out.
+    #[error("the crossing is 0:0 instead of absent")]
+    UnknownCrossing,
     /// A leader without followers.
     #[error("a leader names no follower")]
     NoFollowers,
@@ -289,6 +296,7 @@ impl ViewError {
             Self::TaskProgression { .. } => "taskProgression does not fit the report",
             Self::NamedTwice(_) | Self::OwnFollower(_) => "impossible followers",
             Self::FarewellToPresent(_) => "farewell to the present session",
+            Self::UnknownCrossing => "crossing 0:0",
             _ => "other",
         }
     }

@@ -89,7 +89,7 @@ pub struct Headers {
     pub is_mobile: bool,
     /// Where its source is.
     pub source: LongPositionVector,
-    /// To whom it goes.
+    /// Its destination.
     pub transport: Transport,
     /// BTP-B destination port; see TS 103 248 for those that are assigned.
     pub port: u16,
@@ -167,7 +167,7 @@ pub struct LongPositionVector {
     pub heading: u16,
 }
 
-/// To whom a packet goes.
+/// Destination of a packet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Transport {

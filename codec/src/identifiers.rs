@@ -3,8 +3,8 @@
 //! RAM and RMCM have no messageId, BTP port or ITS-AID of their own, and the common data dictionary
 //! has no station type for robots. The defaults are experimental: message identifiers without a name
 //! in TS 102 894-2 v2.4.1, ports that TS 103 248 v2.4.1 does not assign, ITS-AIDs from the testing
-//! range of TS 102 965. Whoever shares a channel agrees on them; whoever changes them changes this
-//! one value.
+//! range of TS 102 965. All stations of a channel have to agree on them, and this one value
+//! changes them.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -97,8 +97,8 @@ pub enum IdentifierClash {
 }
 
 impl Identifiers {
-    /// Checks that RAM and RMCM can be told from each other and from the messages of ETSI. Whoever
-    /// reads a configuration calls it once.
+    /// Checks that RAM and RMCM can be told from each other and from the messages of ETSI. Call it
+    /// once for a configuration that was read.
     ///
     /// # Errors
     /// The first clash.

@@ -49,8 +49,8 @@ impl Part {
             Coordination::OfferHelp { .. } | Coordination::Follower { .. } => Some(Self::Help),
         };
         let farewell = ram.farewell.map(|farewell| match farewell {
-            Farewell::Ended(_) => Self::Lead,
-            Farewell::Left(_) => Self::Help,
+            Farewell::Ended(..) => Self::Lead,
+            Farewell::Left(..) => Self::Help,
         });
         role.into_iter().chain(farewell)
     }

@@ -259,8 +259,10 @@ wire_enum! {
         /// It has none.
         #[default]
         Idle,
-        /// It is at it.
+        /// It is at it, and on the way.
         Executing,
+        /// It is at it, and holds the place from which it guards.
+        InPosition,
         /// It has finished it.
         Completed,
         /// It could not do it.

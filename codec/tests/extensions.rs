@@ -22,11 +22,11 @@ const THIRD_OF_THREE: &str = "0000010 001 00000001 11111111";
 fn bits() -> String {
     let ram = samples::typical_ram(&Identifiers::default());
     let bits = to_bits(&encode(&Identifiers::default(), &ram).unwrap());
-    // The last component is a report; its last bits are "executing", 0 and 00.
+    // The last component is a report; its last bits are "executing", 0 and 000.
     let end = bits
-        .rfind(&format!("{:08b}000", 3))
+        .rfind(&format!("{:08b}0000", 3))
         .expect("the report on command 3")
-        + 11;
+        + 12;
     bits[..end].to_owned()
 }
 
@@ -137,7 +137,7 @@ fn more_additions_than_a_decoder_can_hold_are_refused() {
 #[test]
 fn an_extended_message_must_be_canonical_otherwise() {
     let bits = bits();
-    let extended = extend(&bits, PARAMETERS_MARKER, bits.len(), ONE);
+    let extended = extend(&bits, PARAMETERS_MARKER, bits.len(), THIRD_OF_THREE);
     let mut octets = from_bits(&extended);
     octets.push(0);
     let error = decode::<RAM>(&Identifiers::default(), &octets).unwrap_err();

@@ -15,6 +15,7 @@ const IDLE: Ram = Ram {
     station: StationId(7),
     coordination: Coordination::None,
     farewell: None,
+    on_duty: false,
 };
 
 fn over_the_air(state: &RobotState) -> RobotState {

@@ -5,7 +5,8 @@ mod support;
 use crossguard_codec::asn1;
 use crossguard_codec::core::common::{self, UnavailabilityReason};
 use crossguard_codec::core::ram::{
-    CommandProgress, ConfirmedFollowers, FailureReason, HelpStatus, LeaderRole, RAM, SessionRole,
+    CommandProgress, ConfirmedFollowers, CrossingNumber, CrossingReference, FailureReason,
+    HelpStatus, LeaderRole, RAM, SessionRole,
 };
 use crossguard_codec::core::rmcm::{ManeuverCommands, ManeuverContainer, RMCM};
 use crossguard_codec::{
@@ -14,8 +15,8 @@ use crossguard_codec::{
     rmcm_from_answer, rmcm_from_commands, task_parameters_of, view_of_ram, views_of_rmcm,
 };
 use crossguard_protocol::{
-    Availability, Command, Coordination, Failure, Farewell, Progress, Ram, RequestId, Rmcm,
-    SessionId, StationId,
+    Availability, Command, Coordination, Failure, Farewell, Heartbeat, Millis, OfferNumber, Place,
+    Progress, Ram, RequestId, Rmcm, SessionId, StationId,
 };
 use proptest::option;
 use proptest::prelude::*;
@@ -37,6 +38,16 @@ fn over_the_air<M: crossguard_codec::Pdu>(message: &M) -> M {
 fn ram(view: &Ram) -> Result<RAM, ViewError> {
     let available = Availability::Available;
     ram_from(&identifiers(), &samples::state(), view, available, 0, false)
+}
+
+/// What a robot says with this part in a session.
+fn says(station: StationId, coordination: Coordination) -> Ram {
+    Ram {
+        station,
+        coordination,
+        farewell: None,
+        on_duty: false,
+    }
 }
 
 fn leader_role(ram: &mut RAM) -> &mut LeaderRole {
@@ -261,12 +272,8 @@ fn the_leaders_execution_limit_is_nothing_a_follower_can_report() {
 fn a_leader_names_every_follower_once_and_not_itself() {
     let view = view_of_ram(&samples::largest_ram(&identifiers())).unwrap();
     let with_followers = |stations: &[u32]| {
-        let Coordination::Leader {
-            number,
-            heartbeat,
-            followers,
-        } = view.coordination
-        else {
+        let mut coordination = view.coordination;
+        let Coordination::Leader { followers, .. } = &mut coordination else {
             panic!("not a leader");
         };
         let offer = followers.iter().next().unwrap().offer;
@@ -274,12 +281,7 @@ fn a_leader_names_every_follower_once_and_not_itself() {
             station: StationId(id),
             offer,
         };
-        let followers = stations.iter().map(confirm).collect();
-        let coordination = Coordination::Leader {
-            number,
-            heartbeat,
-            followers,
-        };
+        *followers = stations.iter().map(confirm).collect();
         ram(&Ram {
             coordination,
             ..view
@@ -336,8 +338,9 @@ fn a_leader_with_more_followers_than_a_session_has_is_refused() {
 
 #[test]
 fn nobody_says_farewell_to_the_session_that_it_takes_part_in() {
+    let offer = OfferNumber(samples::number(9, 4));
     let farewell = |session| Ram {
-        farewell: Some(Farewell::Left(session)),
+        farewell: Some(Farewell::Left(session, offer)),
         ..samples::follower_view()
     };
     let present = samples::session();
@@ -366,15 +369,103 @@ fn a_request_is_for_1_to_4_followers() {
         urgency: crossguard_protocol::Urgency::High,
         followers: 5,
         tasks: crossguard_protocol::TaskSet(7),
+        place: Place::UNKNOWN,
     };
-    let number = samples::session().number;
-    let coordination = Coordination::NeedHelp { number, request };
+    let coordination = Coordination::NeedHelp {
+        number: samples::session().number,
+        heartbeat: Heartbeat(0),
+        request,
+    };
+    assert_eq!(
+        ram(&says(samples::LEADER, coordination)),
+        Err(ViewError::FollowerCount(5))
+    );
+}
+
+#[test]
+fn a_safety_timeout_is_from_1_ms_to_one_day() {
+    let offers = |t_safety| {
+        let coordination = Coordination::OfferHelp {
+            session: samples::session(),
+            offer: OfferNumber(samples::number(9, 4)),
+            capabilities: crossguard_protocol::TaskSet(7),
+            echo: Heartbeat(u16::MAX),
+            t_safety,
+        };
+        let view = says(samples::FOLLOWER, coordination);
+        ram(&view).map(|ram| assert_eq!(view_of_ram(&over_the_air(&ram)), Ok(view)))
+    };
+    for told in [Millis(1), Millis(2_000), Millis::MAX_TIMER] {
+        assert_eq!(offers(told), Ok(()));
+    }
+    for untold in [Millis(0), Millis(Millis::MAX_TIMER.0 + 1)] {
+        assert_eq!(offers(untold), Err(ViewError::SafetyTimeout(untold)));
+    }
+}
+
+#[test]
+fn an_unknown_crossing_is_absent_and_never_spelled_out() {
+    let at = |place| {
+        let mut view = view_of_ram(&samples::largest_ram(&identifiers())).unwrap();
+        let Coordination::Leader { place: of_view, .. } = &mut view.coordination else {
+            panic!("not a leader");
+        };
+        *of_view = place;
+        let said = over_the_air(&ram(&view).unwrap());
+        assert_eq!(view_of_ram(&said), Ok(view));
+        said
+    };
+    let crossing = |regulator, intersection| {
+        Some(CrossingReference {
+            regulator: CrossingNumber(regulator),
+            intersection: CrossingNumber(intersection),
+        })
+    };
+    assert_eq!(
+        leader_role(&mut at(Place(1 << 16))).crossing,
+        crossing(1, 0)
+    );
+    assert_eq!(
+        leader_role(&mut at(Place(0xfffe))).crossing,
+        crossing(0, 0xfffe)
+    );
+    let mut forged = at(Place::UNKNOWN);
+    assert_eq!(leader_role(&mut forged).crossing, None);
+    // On the wire it can be spelled out, and that is refused.
+    leader_role(&mut forged).crossing = crossing(0, 0);
+    let error = view_of_ram(&over_the_air(&forged)).unwrap_err();
+    assert_eq!(
+        (error, error.cause()),
+        (ViewError::UnknownCrossing, "crossing 0:0")
+    );
+}
+
+#[test]
+fn a_duty_is_told_without_a_part_in_a_session() {
     let view = Ram {
-        station: samples::LEADER,
-        coordination,
-        farewell: None,
+        on_duty: true,
+        ..says(samples::FOLLOWER, Coordination::None)
     };
-    assert_eq!(ram(&view), Err(ViewError::FollowerCount(5)));
+    let said = over_the_air(&ram(&view).unwrap());
+    let parameters = &said.ram.ram_parameters;
+    assert_eq!(parameters.robot_leader_follower_operation_container, None);
+    assert_eq!(view_of_ram(&said), Ok(view));
+}
+
+#[test]
+fn in_position_stands_in_report_and_status() {
+    let view = samples::progress_view(Progress::InPosition);
+    let mut said = ram(&view).unwrap();
+    let status = &said.ram.ram_parameters.robot_status_container;
+    assert_eq!(status.task_progression, common::TaskProgression::InPosition);
+    assert_eq!(view_of_ram(&over_the_air(&said)), Ok(view));
+
+    samples::set_progress(&mut said, CommandProgress::Executing(()));
+    let (found, expected) = (TaskProgression::InPosition, TaskProgression::Executing);
+    assert_eq!(
+        view_of_ram(&said),
+        Err(ViewError::TaskProgression { found, expected })
+    );
 }
 
 #[test]

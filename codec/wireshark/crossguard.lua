@@ -257,11 +257,12 @@ types.CartesianCoordinate = { k = "int", min = -32768, max = 32767, names = { [-
 types.CartesianCoordinateSmall = { k = "int", min = -3094, max = 1001, names = { [-3094] = "negativeOutOfRange", [1001] = "positiveOutOfRange" } }
 types.CartesianPosition3d = { k = "seq", { "xCoordinate", "CartesianCoordinate" }, { "yCoordinate", "CartesianCoordinate" }, { "zCoordinate", "CartesianCoordinate", opt = true } }
 types.CircularShape = { k = "seq", { "shapeReferencePoint", "CartesianPosition3d", opt = true }, { "radius", "StandardLength12b" }, { "height", "StandardLength12b", opt = true } }
-types.CommandProgress = { k = "choice", root = { { "executing", { k = "null" } }, { "completed", { k = "null" } }, { "failed", "FailureReason" }, { "safeIdle", { k = "null" } } }, ext = true, adds = {  } }
+types.CommandProgress = { k = "choice", root = { { "executing", { k = "null" } }, { "inPosition", { k = "null" } }, { "completed", { k = "null" } }, { "failed", "FailureReason" }, { "safeIdle", { k = "null" } } }, ext = true, adds = {  } }
 types.CommandReport = { k = "seq", { "requestID", "RequestId" }, { "progress", "CommandProgress" } }
 types.ConfirmedFollower = { k = "seq", { "stationID", "StationId" }, { "offerNumber", "OfferNumber" } }
 types.ControlMode = { k = "enum", root = { "autonomous", "teleoperated", "emergencyStop", "fault", "unavailable" }, ext = true }
 types.CoordinationSession = { k = "seq", { "leaderStationID", "StationId" }, { "sessionNumber", "SessionNumber" } }
+types.CrossingReference = { k = "seq", { "regulator", { k = "int", min = 0, max = 65535 } }, { "intersection", { k = "int", min = 0, max = 65535 } } }
 types.Curvature = { k = "seq", { "curvatureValue", "CurvatureValue" }, { "curvatureConfidence", "CurvatureConfidence" } }
 types.CurvatureConfidence = { k = "enum", root = { "onePerMeter-0-00002", "onePerMeter-0-0001", "onePerMeter-0-0005", "onePerMeter-0-002", "onePerMeter-0-01", "onePerMeter-0-1", "outOfRange", "unavailable" } }
 types.CurvatureValue = { k = "int", min = -1023, max = 1023, names = { [-1023] = "outOfRangeNegative", [0] = "straight", [1022] = "outOfRangePositive", [1023] = "unavailable" } }
@@ -274,6 +275,7 @@ types.DeltaTimeTenSeconds = { k = "int", min = 0, max = 127 }
 types.DeltaTimeTenthOfSecond = { k = "int", min = 0, max = 127, names = { [127] = "unavailable" } }
 types.DriveDirection = { k = "enum", root = { "forward", "backward", "unavailable" } }
 types.EllipticalShape = { k = "seq", { "shapeReferencePoint", "CartesianPosition3d", opt = true }, { "semiMajorAxisLength", "StandardLength12b" }, { "semiMinorAxisLength", "StandardLength12b" }, { "orientation", "CartesianAngleValue", opt = true }, { "height", "StandardLength12b", opt = true } }
+types.EndedSession = { k = "seq", { "sessionNumber", "SessionNumber" }, { "ending", "SessionEnding" } }
 types.ExteriorLights = { k = "bits", min = 8, max = 8, names = { [0] = "lowBeamHeadlightsOn", [1] = "highBeamHeadlightsOn", [2] = "leftTurnSignalOn", [3] = "rightTurnSignalOn", [4] = "daytimeRunningLightsOn", [5] = "reverseLightOn", [6] = "fogLightOn", [7] = "parkingLightsOn" } }
 types.FailureReason = { k = "choice", root = { { "maneuver", { k = "null" } }, { "unavailable", "UnavailabilityReason" } }, ext = true, adds = {  } }
 types.FollowerManeuverContainer = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "jobAdviceID", "RequestId" }, { "response", "ManeuverResponse" }, { "executionStatus", "TaskProgression" }, { "estimatedTimeToCompletion", "ManeuverDuration", opt = true } }
@@ -284,7 +286,7 @@ types.HeadingChangeIndication = { k = "seq", ext = true, { "direction", "Turning
 types.HeadingValue = { k = "int", min = 0, max = 3601, names = { [0] = "wgs84North", [900] = "wgs84East", [1800] = "wgs84South", [2700] = "wgs84West", [3600] = "doNotUse", [3601] = "unavailable" } }
 types.Heartbeat = { k = "int", min = 0, max = 65535 }
 types.HelpStatus = { k = "enum", root = { "none", "needHelp", "offerHelp", "roleConfirmed" }, ext = true }
-types.HelperRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "offerNumber", "OfferNumber" }, { "capabilities", "TaskSet" } }
+types.HelperRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "offerNumber", "OfferNumber" }, { "capabilities", "TaskSet" }, { "heartbeatEcho", "Heartbeat" }, { "safetyTimeout", "SafetyTimeout" } }
 types.Identifier1B = { k = "int", min = 0, max = 255 }
 types.Identifier2B = { k = "int", min = 0, max = 65535 }
 types.IntersectionReferenceId = { k = "seq", { "region", "Identifier2B", opt = true }, { "id", "Identifier2B" } }
@@ -292,7 +294,8 @@ types.ItsPduHeader = { k = "seq", { "protocolVersion", "OrdinalNumber1B" }, { "m
 types.LanePosition = { k = "int", min = -1, max = 14, names = { [-1] = "offTheRoad", [0] = "innerHardShoulder", [14] = "outerHardShoulder" } }
 types.Latitude = { k = "int", min = -900000000, max = 900000001, names = { [900000001] = "unavailable" } }
 types.LeaderManeuverContainer = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "mapReference", "MapReference", opt = true }, { "commands", { k = "list", min = 1, max = 4, of = "ManeuverCommand" } } }
-types.LeaderRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "heartbeat", "Heartbeat" }, { "followers", { k = "list", min = 1, max = 4, of = "ConfirmedFollower" } } }
+types.LeaderRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "heartbeat", "Heartbeat" }, { "urgency", "RequestUrgency" }, { "crossing", "CrossingReference", opt = true }, { "yields", { k = "bool" } }, { "followers", { k = "list", min = 1, max = 4, of = "ConfirmedFollower" } } }
+types.LeftSession = { k = "seq", { "session", "CoordinationSession" }, { "offerNumber", "OfferNumber" } }
 types.Longitude = { k = "int", min = -1800000000, max = 1800000001, names = { [-1800000000] = "valueNotUsed", [1800000001] = "unavailable" } }
 types.ManeuverCommand = { k = "seq", ext = true, { "requestID", "RequestId" }, { "targetFollowerStationID", "StationId" }, { "taskType", "TaskType" }, { "target", "ManeuverTarget", opt = true }, { "targetHeading", "Wgs84AngleValue", opt = true }, { "constraints", "ManeuverConstraints", opt = true }, { "validityDuration", "ManeuverDuration", opt = true } }
 types.ManeuverConstraints = { k = "seq", ext = true, { "maximumSpeed", "SpeedValue", opt = true }, { "minimumPedestrianDistance", "StandardLength9b", opt = true } }
@@ -325,10 +328,10 @@ types.RadialShapesList = { k = "list", min = 1, max = 16, of = "RadialShapeDetai
 types.RamParameters = { k = "seq", ext = true, { "basicContainer", "BasicContainer" }, { "robotHighFrequencyContainer", "RobotHighFrequencyContainer" }, { "robotLowFrequencyContainer", "RobotLowFrequencyContainer", opt = true }, { "robotStatusContainer", "RobotStatusContainer" }, { "robotLeaderFollowerOperationContainer", "RobotLeaderFollowerOperationContainer", opt = true }, { "vruClusterInformationContainer", "VruClusterInformationContainer", opt = true }, { "vruMotionPredictionContainer", "VruMotionPredictionContainer", opt = true } }
 types.RectangularShape = { k = "seq", { "shapeReferencePoint", "CartesianPosition3d", opt = true }, { "semiLength", "StandardLength12b" }, { "semiBreadth", "StandardLength12b" }, { "orientation", "CartesianAngleValue", opt = true }, { "height", "StandardLength12b", opt = true } }
 types.ReferencePositionWithConfidence = { k = "seq", { "latitude", "Latitude" }, { "longitude", "Longitude" }, { "positionConfidenceEllipse", "PositionConfidenceEllipse" }, { "altitude", "Altitude" } }
-types.RejectionReason = { k = "choice", root = { { "unsupportedTask", { k = "null" } }, { "unavailable", "UnavailabilityReason" } }, ext = true, adds = {  } }
+types.RejectionReason = { k = "choice", root = { { "unsupportedTask", { k = "null" } }, { "unavailable", "UnavailabilityReason" }, { "onDuty", { k = "null" } } }, ext = true, adds = {  } }
 types.RequestId = { k = "int", min = 0, max = 255 }
 types.RequestUrgency = { k = "enum", root = { "low", "medium", "high", "emergency" } }
-types.RequesterRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "urgency", "RequestUrgency" }, { "followerCount", { k = "int", min = 1, max = 4 } }, { "requestedTasks", "TaskSet" } }
+types.RequesterRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "heartbeat", "Heartbeat" }, { "urgency", "RequestUrgency" }, { "crossing", "CrossingReference", opt = true }, { "followerCount", { k = "int", min = 1, max = 4 } }, { "requestedTasks", "TaskSet" } }
 types.RmcmParameters = { k = "seq", ext = true, { "basicContainer", "BasicContainer" }, { "maneuverContainer", "ManeuverContainer" } }
 types.RoadSegmentReferenceId = { k = "seq", { "region", "Identifier2B", opt = true }, { "id", "Identifier2B" } }
 types.RobotAwareness = { k = "seq", { "generationDeltaTime", "GenerationDeltaTime" }, { "ramParameters", "RamParameters" } }
@@ -339,13 +342,15 @@ types.RobotHighFrequencyContainer = { k = "seq", ext = true, { "heading", "Wgs84
 types.RobotLeaderFollowerOperationContainer = { k = "seq", ext = true, { "role", "SessionRole", opt = true }, { "farewell", "SessionFarewell", opt = true } }
 types.RobotLowFrequencyContainer = { k = "seq", ext = true, { "capabilities", "RobotCapabilities" }, { "supportedTasks", "TaskSet" }, { "pathHistory", { k = "list", min = 0, max = 23, of = "PathPoint" } }, { "exteriorLights", "ExteriorLights", opt = true }, { "signalsShown", "SignalsShown", opt = true } }
 types.RobotManeuverCoordination = { k = "seq", { "generationDeltaTime", "GenerationDeltaTime" }, { "rmcmParameters", "RmcmParameters" } }
-types.RobotStatusContainer = { k = "seq", ext = true, { "robotCategory", "RobotCategory" }, { "operationalJobRole", "OperationalJobRole" }, { "taskProgression", "TaskProgression" }, { "batteryStatus", "BatteryStatus" }, { "controlMode", "ControlMode" }, { "helpStatus", "HelpStatus" }, { "unavailability", "UnavailabilityReason", opt = true } }
+types.RobotStatusContainer = { k = "seq", ext = true, { "robotCategory", "RobotCategory" }, { "operationalJobRole", "OperationalJobRole" }, { "taskProgression", "TaskProgression" }, { "batteryStatus", "BatteryStatus" }, { "controlMode", "ControlMode" }, { "helpStatus", "HelpStatus" }, { "unavailability", "UnavailabilityReason", opt = true }, { "onDuty", { k = "bool" } } }
 types.SafeDistanceIndication = { k = "seq", ext = true, { "subjectStation", "StationId", opt = true }, { "safeDistanceIndicator", "SafeDistanceIndicator" }, { "timeToCollision", "DeltaTimeTenthOfSecond", opt = true } }
 types.SafeDistanceIndicator = { k = "bool" }
+types.SafetyTimeout = { k = "int", min = 1, max = 86400000 }
 types.SemiAxisLength = { k = "int", min = 0, max = 4095, names = { [0] = "doNotUse", [4094] = "outOfRange", [4095] = "unavailable" } }
 types.SequenceOfSafeDistanceIndication = { k = "list", min = 1, max = 8, of = "SafeDistanceIndication", ext = true }
 types.SequenceOfTrajectoryInterceptionIndication = { k = "list", min = 1, max = 8, of = "TrajectoryInterceptionIndication", ext = true }
-types.SessionFarewell = { k = "choice", root = { { "ended", "SessionNumber" }, { "left", "CoordinationSession" } }, ext = true, adds = {  } }
+types.SessionEnding = { k = "enum", root = { "completed", "aborted" } }
+types.SessionFarewell = { k = "choice", root = { { "ended", "EndedSession" }, { "left", "LeftSession" } }, ext = true, adds = {  } }
 types.SessionNumber = { k = "int", min = 0, max = 4294967295 }
 types.SessionRole = { k = "choice", root = { { "requester", "RequesterRole" }, { "helper", "HelperRole" }, { "leader", "LeaderRole" }, { "follower", "FollowerRole" } }, ext = true, adds = {  } }
 types.Shape = { k = "choice", root = { { "rectangular", "RectangularShape" }, { "circular", "CircularShape" }, { "polygonal", "PolygonalShape" }, { "elliptical", "EllipticalShape" }, { "radial", "RadialShape" }, { "radialShapes", "RadialShapes" } }, ext = true, adds = {  } }
@@ -360,7 +365,7 @@ types.StandardLength12b = { k = "int", min = 0, max = 4095 }
 types.StandardLength9b = { k = "int", min = 0, max = 511 }
 types.StateOfCharge = { k = "int", min = 0, max = 101, names = { [0] = "empty", [100] = "full", [101] = "unavailable" } }
 types.StationId = { k = "int", min = 0, max = 4294967295 }
-types.TaskProgression = { k = "enum", root = { "idle", "executing", "completed", "failed", "safeIdle" }, ext = true }
+types.TaskProgression = { k = "enum", root = { "idle", "executing", "inPosition", "completed", "failed", "safeIdle" }, ext = true }
 types.TaskSet = { k = "bits", min = 16, max = 16, names = { [0] = "initialPos", [1] = "move", [2] = "block" } }
 types.TaskType = { k = "int", min = 0, max = 15, names = { [0] = "initialPos", [1] = "move", [2] = "block" } }
 types.TrafficParticipantType = { k = "int", min = 0, max = 255, names = { [0] = "unknown", [1] = "pedestrian", [2] = "cyclist", [3] = "moped", [4] = "motorcycle", [5] = "passengerCar", [6] = "bus", [7] = "lightTruck", [8] = "heavyTruck", [9] = "trailer", [10] = "specialVehicle", [11] = "tram", [12] = "lightVruVehicle", [13] = "animal", [14] = "agricultural", [15] = "infrastructure" } }
@@ -383,11 +388,11 @@ types.YawRateValue = { k = "int", min = -32766, max = 32767, names = { [-32766] 
 for _, name in ipairs({ "altitude", "altitudeValue", "curvatureValue", "deltaAltitude", "deltaLatitude", "deltaLongitude", "lanePosition", "latitude", "longitude", "value", "xCoordinate", "yCoordinate", "yawRateValue", "zCoordinate" }) do
     fields[name] = ProtoField.int32("crossguard." .. name, name)
 end
-for _, name in ipairs({ "accelOrDecel", "accepted", "altitudeConfidence", "capabilities", "charging", "clusterProfiles", "completed", "controlMode", "curvatureConfidence", "direction", "driveDirection", "executing", "executionStatus", "exteriorLights", "helpStatus", "maneuver", "means", "operationalJobRole", "requestedTasks", "robotCategory", "safeDistanceIndicator", "safeIdle", "supportedTasks", "taskProgression", "toPedestrians", "toVehicles", "unavailability", "unavailable", "unsupportedTask", "urgency", "yawRateConfidence" }) do
+for _, name in ipairs({ "accelOrDecel", "accepted", "altitudeConfidence", "capabilities", "charging", "clusterProfiles", "completed", "controlMode", "curvatureConfidence", "direction", "driveDirection", "ending", "executing", "executionStatus", "exteriorLights", "helpStatus", "inPosition", "maneuver", "means", "onDuty", "operationalJobRole", "requestedTasks", "robotCategory", "safeDistanceIndicator", "safeIdle", "supportedTasks", "taskProgression", "toPedestrians", "toVehicles", "unavailability", "unavailable", "unsupportedTask", "urgency", "yawRateConfidence", "yields" }) do
     fields[name] = ProtoField.string("crossguard." .. name, name)
     texts[name] = true
 end
-for _, name in ipairs({ "actionDeltaTime", "asymmetricAreaOffset", "clusterCardinalitySize", "clusterId", "confidence", "deltaTimeBigRange", "deltaTimeHighPrecision", "deltaTimeMidRange", "ended", "estimatedTimeToCompletion", "followerCount", "generationDeltaTime", "heartbeat", "heartbeatEcho", "height", "horizontalOpeningAngleEnd", "horizontalOpeningAngleStart", "id", "jobAdviceID", "leaderStationID", "length", "lossProbability", "maximumSpeed", "messageId", "minimumPedestrianDistance", "offerNumber", "orientation", "pathDeltaTime", "protocolVersion", "radius", "range", "refPointId", "region", "requestID", "semiBreadth", "semiLength", "semiMajorAxisLength", "semiMajorAxisOrientation", "semiMajorConfidence", "semiMajorOrientation", "semiMinorAxisLength", "semiMinorConfidence", "sessionNumber", "speedConfidence", "speedValue", "stateOfCharge", "stationID", "stationId", "stationType", "subjectStation", "symmetricAreaOffset", "targetFollowerStationID", "targetHeading", "taskType", "timeToCollision", "trajectoryInterceptionConfidence", "trajectoryInterceptionProbability", "validityDuration", "verticalOpeningAngleEnd", "verticalOpeningAngleStart", "width" }) do
+for _, name in ipairs({ "actionDeltaTime", "asymmetricAreaOffset", "clusterCardinalitySize", "clusterId", "confidence", "deltaTimeBigRange", "deltaTimeHighPrecision", "deltaTimeMidRange", "estimatedTimeToCompletion", "followerCount", "generationDeltaTime", "heartbeat", "heartbeatEcho", "height", "horizontalOpeningAngleEnd", "horizontalOpeningAngleStart", "id", "intersection", "jobAdviceID", "leaderStationID", "length", "lossProbability", "maximumSpeed", "messageId", "minimumPedestrianDistance", "offerNumber", "orientation", "pathDeltaTime", "protocolVersion", "radius", "range", "refPointId", "region", "regulator", "requestID", "safetyTimeout", "semiBreadth", "semiLength", "semiMajorAxisLength", "semiMajorAxisOrientation", "semiMajorConfidence", "semiMajorOrientation", "semiMinorAxisLength", "semiMinorConfidence", "sessionNumber", "speedConfidence", "speedValue", "stateOfCharge", "stationID", "stationId", "stationType", "subjectStation", "symmetricAreaOffset", "targetFollowerStationID", "targetHeading", "taskType", "timeToCollision", "trajectoryInterceptionConfidence", "trajectoryInterceptionProbability", "validityDuration", "verticalOpeningAngleEnd", "verticalOpeningAngleStart", "width" }) do
     fields[name] = ProtoField.uint32("crossguard." .. name, name)
 end
 

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use crossguard_codec::TaskParameters;
 use crossguard_harness::application::{Application, Wish};
 use crossguard_harness::body::{Body, Build};
+use crossguard_harness::boot::Boot;
 use crossguard_harness::counters::Cause;
 use crossguard_harness::journal::{Journal, WhenFull};
 use crossguard_harness::plan::Plan;
@@ -106,7 +107,7 @@ fn start(leader: Halves, follower: Halves) -> Pair {
         Setup {
             name: name.to_owned(),
             station: StationId(station),
-            boot: 1,
+            boot: Boot::first_of_its_kind(),
             config: Config::default(),
             wire: Wire::default(),
             security: Security::default(),

@@ -69,6 +69,11 @@ impl Street {
         packets.collect()
     }
 
+    fn receive(&mut self, robot: usize, packet: &[u8]) -> Vec<Vec<u8>> {
+        let arrived_ms = self.now_ms;
+        self.turn(robot, Stimulus::Datagram { packet, arrived_ms })
+    }
+
     fn minute(&mut self) {
         let detected = Event::PedestrianDetected(Plan::crossing(Site::default()).request());
         let mut on_air = vec![(1, self.turn(0, Stimulus::Event(detected)))];
@@ -81,7 +86,7 @@ impl Street {
             }
             while let Some((to, packets)) = on_air.pop() {
                 for packet in packets {
-                    let answers = self.turn(to, Stimulus::Datagram(&packet));
+                    let answers = self.receive(to, &packet);
                     on_air.push((1 - to, answers));
                 }
             }
@@ -92,7 +97,7 @@ impl Street {
                 let minute = u32::try_from(self.now_ms / MINUTE_MS).unwrap_or(0);
                 let vehicle = (place + minute * VEHICLES) % VEHICLES_IN_ALL;
                 let packet = packet_of(vehicle, &mut self.cam);
-                let _ = self.turn(0, Stimulus::Datagram(&packet));
+                let _ = self.receive(0, &packet);
             }
         }
     }

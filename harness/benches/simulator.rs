@@ -35,6 +35,7 @@ fn street(seed: u64, robots: usize) -> Swarm {
             followers: u8::try_from(TEAM.min(robots) - 1).unwrap_or(1),
             ..Plan::crossing(site)
         },
+        corner: place / TEAM,
         build: Build::Quadruped,
         place: Place::new(f64::from(station(place).0) % 20.0, -2.0),
         time_scale: 3.0,
@@ -74,6 +75,7 @@ fn street(seed: u64, robots: usize) -> Swarm {
         script,
         heals_us: SECONDS * 1_000_000,
         late_max_us: 1_000,
+        ..Swarm::default()
     }
 }
 

@@ -45,7 +45,7 @@ struct Follower {
 impl Follower {
     /// Tells the endpoint what happened, and carries out what it wants, in its order.
     fn handle(&mut self, stimulus: Stimulus<'_>) -> Result<(), Box<dyn Error>> {
-        let now_ms = u64::try_from(self.began.elapsed().as_millis())?;
+        let now_ms = self.now_ms();
         let moment = Moment {
             now_ms,
             timestamp_its: si::timestamp_its(unix_ms()),
@@ -83,6 +83,8 @@ impl Follower {
             Act::Start(maneuver, _where_and_how) => {
                 self.running = Some((maneuver.id, Instant::now() + MANEUVER));
             }
+            // A body that falls back takes its time. Until the application tells `Event::RoadClear`, once the
+            // body is where the policy wants it and nobody is on the road, the robot helps nobody else.
             Act::Stop(..) | Act::FallBack(..) => self.running = None,
             Act::Notice(Notice::Released(..)) => self.is_released = true,
             _ => {}
@@ -99,6 +101,10 @@ impl Follower {
             }
             _ => Ok(()),
         }
+    }
+
+    fn now_ms(&self) -> u64 {
+        u64::try_from(self.began.elapsed().as_millis()).unwrap_or(u64::MAX)
     }
 
     fn record(&mut self, entry: Entry) -> Result<(), Box<dyn Error>> {
@@ -128,7 +134,15 @@ impl Follower {
         while !self.is_released {
             // The socket waits for 10 ms at most, which is less than `delay_max`.
             match self.socket.recv(&mut packet) {
-                Ok(length) => self.handle(Stimulus::Datagram(&packet[..length]))?,
+                Ok(length) => {
+                    // The socket is asked all the time, so that nothing has been waiting there. A stack with
+                    // a queue notes the time where it fills it.
+                    let datagram = Stimulus::Datagram {
+                        packet: &packet[..length],
+                        arrived_ms: self.now_ms(),
+                    };
+                    self.handle(datagram)?;
+                }
                 Err(error) if is_nothing(&error) => self.handle(Stimulus::Time)?,
                 Err(error) => return Err(error.into()),
             }

@@ -16,6 +16,7 @@ def main():
         "crossguard_role": "gauge",
         "crossguard_followers": "gauge",
         "crossguard_corridor_open": "gauge",
+        "crossguard_on_duty": "gauge",
         "crossguard_steps": "counter",
         "crossguard_messages": "counter",
         "crossguard_without_effect": "counter",

@@ -247,7 +247,8 @@ def judge_log(path, status, corridor, event):
         ("UNLOCK_IDENTITY", "unlockIdentity"))}
     notices = {of_event[name.upper()]: name for name in (
         "roles_established", "follower_joined", "follower_gone", "lease_granted", "lease_expired",
-        "command_acknowledged", "command_rejected", "maneuver_reported", "maneuver_completed",
+        "command_acknowledged", "command_rejected", "maneuver_reported", "maneuver_in_position",
+        "maneuver_completed", "offer_lapsed", "yielded",
         "maneuver_failed", "follower_safe_idle", "session_ended", "offering", "joined", "released",
         "contact_lost", "contact_regained")}
 
@@ -320,7 +321,7 @@ def main():
             task = types["crossguard_msgs/msg/Task"]
             number = types["crossguard_msgs/msg/Session"](leader=0, boot=0, count=0)
             command.publish(
-                kind=constants("Command")["DETECT"], followers=1, urgency=1, tasks=[], follower=0,
+                kind=constants("Command")["DETECT"], followers=1, urgency=1, place=0, tasks=[], follower=0,
                 task=task(type=255), has_target=False, target=vector(x=0.0, y=0.0, z=0.0),
                 maximum_speed=0.0, session=number, request=0, availability=0)
             heard["ari", "corridor"].until("an open corridor", lambda it: it.open)

@@ -8,7 +8,7 @@ use crossguard_codec::{
     Battery, Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, Position,
     RobotCategory, RobotState, SlowState, Target, TaskParameters,
 };
-use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, TaskType};
+use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, TaskSet, TaskType};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
@@ -67,6 +67,9 @@ const ACCELERATION: f64 = 1.2;
 /// By how much the speed of a maneuver may differ from the one that was meant.
 const GAIT_VARIATION: f64 = 0.03;
 
+/// How near a body is to a place at which it stands, in metres.
+const AT_PLACE_M: f64 = 0.05;
+
 /// For how long a body is where it was said to be, in seconds.
 const POSE_LASTS_S: f64 = 1.0;
 
@@ -81,6 +84,26 @@ pub struct Pose {
     pub speed_mps: f64,
 }
 
+/// What a body reports.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Report {
+    /// It is at the place from which it guards.
+    InPosition(ManeuverId),
+    /// It has finished this maneuver.
+    Completed(ManeuverId),
+}
+
+/// How far a body is with its fallback.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Fallback {
+    /// It is under way.
+    UnderWay,
+    /// It holds its place until the road is clear.
+    Holding,
+    /// It is finished: the body stands where its policy wants it.
+    Finished,
+}
+
 /// A simulated body, or one that others move.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -93,6 +116,12 @@ pub struct Body {
     /// The place to go to when contact is lost on the carriageway.
     safe_place: Place,
     motion: Option<Motion>,
+    /// Where it set out for the maneuver, and where it leads.
+    way: Option<(Place, Place)>,
+    /// How far it is with a fallback, if it carries one out.
+    fallback: Option<Fallback>,
+    /// The maneuvers that hold a place until they are ended from outside.
+    holding: TaskSet,
     /// How many seconds of the body's time pass in one second.
     time_scale: f64,
     gait: ChaCha8Rng,
@@ -104,9 +133,8 @@ pub struct Body {
 struct Motion {
     to: Place,
     speed_mps: f64,
-    /// The maneuver that is finished when the body arrives; `None` on the way to safety, or to where
-    /// it blocks.
-    maneuver: Option<ManeuverId>,
+    /// What the body reports when it arrives.
+    report: Option<Report>,
 }
 
 impl Body {
@@ -122,6 +150,9 @@ impl Body {
             acceleration_mps2: 0.0,
             safe_place: place,
             motion: None,
+            way: None,
+            fallback: None,
+            holding: TaskSet::of(&[TaskType::BLOCK]),
             time_scale,
             gait: ChaCha8Rng::seed_from_u64(seed),
             known_s: None,
@@ -137,6 +168,12 @@ impl Body {
             time_scale: 1.0,
             ..self
         }
+    }
+
+    /// The same body, which guards from a place in these maneuvers instead of in a `block`.
+    #[must_use]
+    pub fn holding(self, holding: TaskSet) -> Self {
+        Self { holding, ..self }
     }
 
     /// Others say where it is. One that moves by itself knows better.
@@ -162,7 +199,7 @@ impl Body {
 
     /// Carries the body back to where it is safe, as a person would between two trials.
     pub fn carry_to_safe_place(&mut self) {
-        self.stand_still();
+        self.stop();
         self.place = self.safe_place;
     }
 
@@ -177,12 +214,19 @@ impl Body {
         self.set_out(Motion {
             to: place,
             speed_mps: self.build.speed_max(),
-            maneuver: None,
+            report: None,
         });
     }
 
-    /// Begins a maneuver. Without a target it is done where the body stands. A `block` goes on until
-    /// it is ended from outside.
+    /// Whether the body stands at a place, as far as is known.
+    #[must_use]
+    pub fn stands_at(&self, place: Place) -> bool {
+        let is_known = self.known_s.is_none_or(|left| left > 0.0);
+        is_known && self.motion.is_none() && self.place.distance(place) < AT_PLACE_M
+    }
+
+    /// Begins a maneuver. Without a target it is done where the body stands. One that holds a place, like
+    /// a `block`, goes on until it is ended from outside; the body reports when it is there.
     pub fn start(&mut self, maneuver: Maneuver, parameters: TaskParameters) {
         let to = match parameters.target {
             Some(Target::Position {
@@ -197,23 +241,90 @@ impl Body {
             .unwrap_or(f64::INFINITY)
             .min(self.build.speed_max());
         let gait = 1.0 + self.gait.random_range(-GAIT_VARIATION..GAIT_VARIATION);
+        self.fallback = None;
+        self.way = Some((self.place, to));
         self.set_out(Motion {
             to,
             speed_mps: limit * gait,
-            maneuver: (maneuver.task != TaskType::BLOCK).then_some(maneuver.id),
+            report: Some(if self.holding.contains(maneuver.task) {
+                Report::InPosition(maneuver.id)
+            } else {
+                Report::Completed(maneuver.id)
+            }),
         });
     }
 
-    /// Ends the maneuver that runs.
+    /// Ends the maneuver that runs, or the fallback.
     pub fn stop(&mut self) {
+        self.fallback = None;
+        self.way = None;
         self.stand_still();
     }
 
-    /// Ends the maneuver that runs, by a policy.
+    /// Ends the maneuver that runs, by a policy. That takes time: see [`fallback`](Self::fallback).
     pub fn fall_back(&mut self, policy: FallbackPolicy) {
-        self.stand_still();
-        if policy == FallbackPolicy::GoToSafePosition {
-            self.walk_to(self.safe_place);
+        let pace_mps = self.motion.map(|motion| motion.speed_mps);
+        let way = self.way.take();
+        let to = match policy {
+            FallbackPolicy::StopInPlace | FallbackPolicy::HoldUntilClear => {
+                self.where_it_can_stop()
+            }
+            FallbackPolicy::GoToSafePosition => self.safe_place,
+            // The escort's way leads from one kerb to the other.
+            FallbackPolicy::EscortToKerb => way.map_or(self.place, |(from, to)| {
+                let (back, on) = (self.place.distance(from), self.place.distance(to));
+                if back < on { from } else { to }
+            }),
+        };
+        self.fallback = Some(match policy {
+            FallbackPolicy::HoldUntilClear => Fallback::Holding,
+            _ => Fallback::UnderWay,
+        });
+        let speed_mps = match policy {
+            // At the pace of the person at its side.
+            FallbackPolicy::EscortToKerb => pace_mps,
+            FallbackPolicy::StopInPlace | FallbackPolicy::HoldUntilClear => Some(self.speed_mps),
+            FallbackPolicy::GoToSafePosition => None,
+        };
+        self.set_out(Motion {
+            to,
+            speed_mps: speed_mps.unwrap_or(self.build.speed_max()),
+            report: None,
+        });
+    }
+
+    /// How far the body is with a fallback; `None` when it carries none out.
+    #[must_use]
+    pub const fn fallback(&self) -> Option<Fallback> {
+        self.fallback
+    }
+
+    /// Whether it moves by itself because of a fallback.
+    #[must_use]
+    pub fn walks_back(&self) -> bool {
+        self.fallback.is_some() && self.motion.is_some()
+    }
+
+    /// The driver of the body says that its fallback is finished. One that moves by itself knows better.
+    pub fn finish_fallback(&mut self) {
+        if self.known_s.is_some() && self.fallback == Some(Fallback::UnderWay) {
+            self.fallback = Some(Fallback::Finished);
+        }
+    }
+
+    /// The road is clear: the body need not hold any more.
+    pub fn release(&mut self) {
+        self.fallback = None;
+    }
+
+    /// Where the body comes to a stand if it brakes now.
+    fn where_it_can_stop(&self) -> Place {
+        let way = self.speed_mps * self.speed_mps / (2.0 * ACCELERATION);
+        match self.motion {
+            Some(motion) => self
+                .place
+                .towards(motion.to, way.min(self.place.distance(motion.to))),
+            None => self.place,
         }
     }
 
@@ -225,8 +336,8 @@ impl Body {
         }
     }
 
-    /// Lets `seconds` pass. Returns the maneuver that was finished meanwhile.
-    pub fn advance(&mut self, seconds: f64) -> Option<ManeuverId> {
+    /// Lets `seconds` pass. Returns what the body reports meanwhile.
+    pub fn advance(&mut self, seconds: f64) -> Option<Report> {
         if let Some(known_s) = &mut self.known_s {
             *known_s = (*known_s - seconds).max(0.0);
         }
@@ -235,14 +346,14 @@ impl Body {
         while left > 0.0 && self.motion.is_some() {
             let slice = left.min(0.02);
             left -= slice;
-            if let Some(finished) = self.advance_slice(slice) {
-                return Some(finished);
+            if let Some(report) = self.advance_slice(slice) {
+                return Some(report);
             }
         }
         None
     }
 
-    fn advance_slice(&mut self, seconds: f64) -> Option<ManeuverId> {
+    fn advance_slice(&mut self, seconds: f64) -> Option<Report> {
         let motion = self.motion?;
         let way = self.place.distance(motion.to);
         // The speed from which the body can still stop at its target.
@@ -254,7 +365,10 @@ impl Body {
         if way <= step.max(0.005) {
             self.place = motion.to;
             self.stand_still();
-            return motion.maneuver;
+            if self.fallback == Some(Fallback::UnderWay) {
+                self.fallback = Some(Fallback::Finished);
+            }
+            return motion.report;
         }
         self.heading_deg = self.place.bearing(motion.to);
         self.acceleration_mps2 = (speed - self.speed_mps) / seconds;
@@ -407,23 +521,59 @@ mod tests {
             ..TaskParameters::default()
         };
         body.start(block, parameters);
+        assert_eq!(body.advance(2.0), None, "it is under way");
+        assert_eq!(body.advance(60.0), Some(Report::InPosition(block.id)));
         assert_eq!(body.advance(600.0), None);
         assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
     }
 
-    #[test]
-    fn a_body_that_falls_back_goes_to_safety_and_finishes_nothing() {
+    fn fallen_back(after_s: f64, policy: FallbackPolicy) -> Body {
         let mut body = walking(1.0);
-        assert_eq!(body.advance(4.0), None);
-        body.fall_back(FallbackPolicy::GoToSafePosition);
-        assert_eq!(body.advance(30.0), None);
-        assert!(body.place().distance(Place::default()) < 0.01);
+        assert_eq!(body.advance(after_s), None);
+        body.fall_back(policy);
+        body
+    }
 
-        let mut body = walking(1.0);
-        body.advance(4.0);
+    #[test]
+    fn going_to_safety_takes_its_time_and_finishes_no_maneuver() {
+        let mut body = fallen_back(4.0, FallbackPolicy::GoToSafePosition);
+        assert_eq!(body.advance(0.5), None);
+        assert_eq!(body.fallback(), Some(Fallback::UnderWay));
+        assert_eq!(body.advance(30.0), None);
+        assert_eq!(body.fallback(), Some(Fallback::Finished));
+        assert!(body.place().distance(Place::default()) < 0.01);
+    }
+
+    #[test]
+    fn stopping_in_place_brakes() {
+        let mut body = fallen_back(4.0, FallbackPolicy::StopInPlace);
         let before = body.place();
-        body.fall_back(FallbackPolicy::StopInPlace);
+        body.advance(0.1);
+        assert_eq!(body.fallback(), Some(Fallback::UnderWay));
         body.advance(30.0);
-        assert_eq!(body.place(), before);
+        assert_eq!(body.fallback(), Some(Fallback::Finished));
+        let way = body.place().distance(before);
+        assert!((0.05..0.2).contains(&way), "{way}");
+    }
+
+    #[test]
+    fn an_escort_goes_to_the_nearer_kerb_at_the_pace_of_its_person() {
+        for (after_s, kerb) in [(3.0, 0.0), (8.0, 5.0)] {
+            let mut body = fallen_back(after_s, FallbackPolicy::EscortToKerb);
+            body.advance(0.1);
+            assert!(body.state().speed.unwrap().value <= 0.5 * (1.0 + GAIT_VARIATION));
+            body.advance(30.0);
+            assert_eq!(body.fallback(), Some(Fallback::Finished));
+            assert!(body.place().distance(Place::new(0.0, kerb)) < 0.01);
+        }
+    }
+
+    #[test]
+    fn a_body_holds_until_it_is_released() {
+        let mut body = fallen_back(4.0, FallbackPolicy::HoldUntilClear);
+        body.advance(600.0);
+        assert_eq!(body.fallback(), Some(Fallback::Holding));
+        body.release();
+        assert_eq!(body.fallback(), None);
     }
 }

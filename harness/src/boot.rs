@@ -59,8 +59,38 @@ pub enum BootError {
 pub struct Boot {
     /// The counter of this boot.
     pub counter: u16,
+    /// Where it is kept; nowhere, for robots of which nothing outlives the process.
+    kept: Option<Kept>,
+}
+
+#[derive(Debug)]
+struct Kept {
+    path: PathBuf,
     /// Held so that no other process takes the same file.
     _lock: File,
+}
+
+impl Boot {
+    /// The first counter of a robot of which nothing outlives the process, as in a demonstration.
+    #[must_use]
+    pub const fn first_of_its_kind() -> Self {
+        Self {
+            counter: 1,
+            kept: None,
+        }
+    }
+
+    /// Takes the next counter while the robot runs: the numbers of this one are half used up.
+    ///
+    /// # Errors
+    /// Every way in which there is no counter to be had; the robot goes on with the one that it has.
+    pub fn renew(&mut self) -> Result<u16, BootError> {
+        self.counter = match &self.kept {
+            Some(kept) => take_after(&kept.path, self.counter)?,
+            None => self.counter.saturating_add(1),
+        };
+        Ok(self.counter)
+    }
 }
 
 /// Takes the next boot counter from `path`. A file that does not exist begins at 1.
@@ -68,21 +98,34 @@ pub struct Boot {
 /// # Errors
 /// Every way in which there is no counter to be had; the file is then as it was.
 pub fn take(path: &Path) -> Result<Boot, BootError> {
+    let lock = lock(path)?;
+    Ok(Boot {
+        counter: take_after(path, 0)?,
+        kept: Some(Kept {
+            path: path.to_owned(),
+            _lock: lock,
+        }),
+    })
+}
+
+/// Takes the next counter, under the lock: larger than in the file, and than `known`, which this process has
+/// had. A file that is gone or was put back must not make the counter go back.
+fn take_after(path: &Path, known: u16) -> Result<u16, BootError> {
     let unusable = |cause| BootError::Unusable {
         path: path.to_owned(),
         cause,
     };
-    let lock = lock(path)?;
     let counter = match File::open(path) {
         Ok(file) => next(path, file)?,
         Err(missing) if missing.kind() == std::io::ErrorKind::NotFound => 1,
         Err(cause) => return Err(unusable(cause)),
     };
+    let above = known.checked_add(1).ok_or_else(|| BootError::Exhausted {
+        path: path.to_owned(),
+    })?;
+    let counter = counter.max(above);
     replace(path, counter).map_err(unusable)?;
-    Ok(Boot {
-        counter,
-        _lock: lock,
-    })
+    Ok(counter)
 }
 
 /// The counter itself is replaced at every boot, so the lock is on a file beside it.
@@ -158,6 +201,25 @@ mod tests {
         for expected in 1..=3 {
             assert_eq!(take(&path).unwrap().counter, expected);
         }
+    }
+
+    #[test]
+    fn a_counter_is_renewed_while_it_is_in_use() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.boot");
+        let mut boot = take(&path).unwrap();
+        assert_eq!((boot.renew().unwrap(), boot.counter), (2, 2));
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        assert!(boot.renew().is_err());
+        assert_eq!(boot.counter, 2);
+        fs::remove_dir(&path).unwrap();
+        // Not 1, although there is no file; and not 2, which an old file would have next.
+        assert_eq!(boot.renew().unwrap(), 3);
+        fs::write(&path, format!("{MAGIC} 1\n")).unwrap();
+        assert_eq!(boot.renew().unwrap(), 4);
+        drop(boot);
+        assert_eq!(take(&path).unwrap().counter, 5);
     }
 
     #[test]

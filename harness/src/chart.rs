@@ -8,7 +8,8 @@ use std::fmt::Write as _;
 
 use crossguard_codec::Identifiers;
 use crossguard_protocol::{
-    Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Ram, Rmcm, State, StationId,
+    Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Outputs, Ram, Rmcm, State,
+    StationId,
 };
 
 use crate::trace::{Entry, Record};
@@ -62,7 +63,12 @@ struct Lane {
     identifiers: Identifiers,
     /// Whether nothing is known of it but what others hear.
     is_stranger: bool,
+    /// Until when its sign shows go, if it does.
+    go_until_us: Option<u64>,
 }
+
+/// By how much records of different robots may come out of order, in microseconds.
+const DISORDER_US: u64 = 100_000;
 
 impl Chart {
     /// A chart of robots with these names and station ids, from left to right.
@@ -74,6 +80,7 @@ impl Chart {
             state: State::Idle,
             identifiers,
             is_stranger: false,
+            go_until_us: None,
         };
         Self {
             spacing: if robots.len() > 2 {
@@ -140,6 +147,51 @@ impl Chart {
 
     /// What a record adds.
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
+        let mut marks = self.signs_that_ended(record);
+        marks.extend(self.marks_of(record));
+        marks
+    }
+
+    /// The signs that went to stop by themselves before a record: nothing has renewed them.
+    fn signs_that_ended(&mut self, record: &Record) -> Vec<Mark> {
+        let mut marks = Vec::new();
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            let slack_us = if lane.name == record.robot {
+                0
+            } else {
+                DISORDER_US
+            };
+            let ended = lane
+                .go_until_us
+                .filter(|go| go.saturating_add(slack_us) < record.at_us);
+            if let Some(at_us) = ended {
+                lane.go_until_us = None;
+                #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+                let seconds = at_us as f64 / 1e6;
+                marks.push(Mark::Note {
+                    lane: i,
+                    text: format!("! the sign went to stop by itself at {seconds:.3}"),
+                });
+            }
+        }
+        marks
+    }
+
+    /// Keeps until when a sign shows go.
+    fn keep_sign(&mut self, lane: usize, at_us: u64, outputs: &Outputs) {
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+                    let time_us = u64::from(time.0) * 1_000;
+                    self.lanes[lane].go_until_us = Some(at_us.saturating_add(time_us));
+                }
+                Output::CorridorClosed(_) => self.lanes[lane].go_until_us = None,
+                _ => {}
+            }
+        }
+    }
+
+    fn marks_of(&mut self, record: &Record) -> Vec<Mark> {
         if let Entry::Started {
             station,
             identifiers,
@@ -161,6 +213,7 @@ impl Chart {
                 if let Input::Local(Event::IdentityChanged(station)) = input {
                     self.lanes[lane].station = *station;
                 }
+                self.keep_sign(lane, record.at_us, outputs);
                 let mut notes: Vec<_> = note_of_input(input).into_iter().collect();
                 notes.extend(outputs.iter().filter_map(note_of_output));
                 let after = state.state();
@@ -195,6 +248,7 @@ impl Chart {
             state: State::Idle,
             identifiers,
             is_stranger: false,
+            go_until_us: None,
         };
         match seat {
             Some(seat) => self.lanes[seat] = lane,
@@ -213,6 +267,7 @@ impl Chart {
                 state: State::Idle,
                 identifiers: Identifiers::default(),
                 is_stranger: true,
+                go_until_us: None,
             });
             return Some(self.lanes.len() - 1);
         }
@@ -290,9 +345,13 @@ impl Chart {
 /// A RAM without what changes from one to the next.
 fn essence(mut ram: Ram) -> Ram {
     match &mut ram.coordination {
-        Coordination::Leader { heartbeat, .. } => *heartbeat = Heartbeat(0),
-        Coordination::Follower { echo, .. } => *echo = Heartbeat(0),
-        Coordination::None | Coordination::NeedHelp { .. } | Coordination::OfferHelp { .. } => {}
+        Coordination::Leader { heartbeat, .. } | Coordination::NeedHelp { heartbeat, .. } => {
+            *heartbeat = Heartbeat(0);
+        }
+        Coordination::OfferHelp { echo, .. } | Coordination::Follower { echo, .. } => {
+            *echo = Heartbeat(0);
+        }
+        Coordination::None => {}
     }
     ram
 }
@@ -321,10 +380,18 @@ fn ram_text(ram: &Ram) -> String {
         Coordination::NeedHelp { number, .. } => format!("needHelp {station}#{}", number.0),
         Coordination::OfferHelp { session, .. } => format!("offerHelp {session}"),
         Coordination::Leader {
-            number, followers, ..
+            number,
+            followers,
+            yields,
+            ..
         } => {
             let followers: Vec<_> = followers.iter().map(|f| f.station.to_string()).collect();
-            format!("leader {station}#{} of {}", number.0, followers.join(", "))
+            let yields = if yields { ", yields" } else { "" };
+            format!(
+                "leader {station}#{} of {}{yields}",
+                number.0,
+                followers.join(", ")
+            )
         }
         Coordination::Follower {
             session,
@@ -341,15 +408,20 @@ fn ram_text(ram: &Ram) -> String {
     };
     let farewell = match ram.farewell {
         None => String::new(),
-        Some(Farewell::Ended(number)) => format!(", ended {station}#{}", number.0),
-        Some(Farewell::Left(session)) => format!(", left {session}"),
+        Some(Farewell::Ended(number, ending)) => {
+            format!(", ended {station}#{}, {ending}", number.0)
+        }
+        Some(Farewell::Left(session, _)) => format!(", left {session}"),
     };
-    format!("RAM {part}{farewell}")
+    let duty = if ram.on_duty { ", on duty" } else { "" };
+    format!("RAM {part}{farewell}{duty}")
 }
 
 fn note_of_input(input: &Input) -> Option<String> {
     match input {
-        Input::Local(Event::OpenCorridor | Event::CommandManeuver { .. }) => None,
+        Input::Local(Event::OpenCorridor | Event::CommandManeuver { .. } | Event::AllAnswered) => {
+            None
+        }
         Input::Local(event) => Some(format!("* {event}")),
         _ => None,
     }
@@ -360,12 +432,16 @@ fn note_of_output(output: &Output) -> Option<String> {
         Output::StartManeuver(_)
         | Output::StopManeuver(..)
         | Output::FallBack(..)
-        | Output::CorridorOpened
-        | Output::CorridorClosed(_) => format!("> {output}"),
+        | Output::CorridorOpened(_)
+        | Output::CorridorClosed(_)
+        | Output::RenewEpoch => format!("> {output}"),
         Output::Notify(
             notice @ (Notice::FollowerGone(..)
             | Notice::LeaseExpired(_)
             | Notice::CommandRejected(..)
+            | Notice::ManeuverInPosition(..)
+            | Notice::OfferLapsed(_)
+            | Notice::Yielded(_)
             | Notice::ManeuverFailed(..)
             | Notice::ManeuverCompleted(..)
             | Notice::FollowerSafeIdle(..)

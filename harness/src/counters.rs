@@ -24,6 +24,8 @@ pub enum Cause {
     Contradictory(&'static str),
     /// The transition function ignored an input.
     Ignored(Ignored),
+    /// A datagram waited for longer than `delay_max` from its arrival until the robot was told of it.
+    WaitedTooLong,
     /// A datagram arrived while the inbox was full.
     InboxFull,
     /// The robot perceived people and did not know where it is itself.
@@ -36,6 +38,8 @@ pub enum Cause {
     LinkFailed,
     /// Datagrams came faster than they were taken off the link.
     LinkFull,
+    /// The next boot counter could not be persisted; the robot goes on with the one that it has.
+    EpochNotRenewed,
     /// The log's reader was too slow; the log ended before this record.
     LogFull,
     /// A reader of records that need not have all was too slow.
@@ -55,12 +59,14 @@ impl Cause {
             // Not which robot it was about; that is in the log.
             Self::Ignored(Ignored::NotEngaged(..)) => "ignored: not engaged".to_owned(),
             Self::Ignored(why) => format!("ignored: {why}"),
+            Self::WaitedTooLong => "waited too long".to_owned(),
             Self::InboxFull => "inbox full".to_owned(),
             Self::Unplaced => "perceived without a position".to_owned(),
             Self::Simulated(how) => how.name().to_owned(),
             Self::NotSent => "not sent".to_owned(),
             Self::LinkFailed => "link failed".to_owned(),
             Self::LinkFull => "link full".to_owned(),
+            Self::EpochNotRenewed => "boot counter not renewed".to_owned(),
             Self::LogFull => "log full".to_owned(),
             Self::OutputFull => "output full".to_owned(),
         }

@@ -15,19 +15,23 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use crossguard_protocol::{Config, EndReason, Event, Notice, Output, Phase};
+use crossguard_protocol::{Config, EndReason, Event, Notice, Output};
 use serde::Serialize;
 
 use crate::application::{Application, Wish};
 use crate::body::Body;
+use crate::boot::Boot;
 use crate::capture::Capture;
 use crate::counters::Cause;
 use crate::journal::{Journal, WhenFull};
+use crate::machine::is_at_rest;
 use crate::perception::Feed;
 use crate::ras::surroundings::Awareness;
 use crate::runtime::{Clock, Order, Running, Setup};
+use crate::sign::Sign;
 use crate::site::Site;
 use crate::station::{Mode, Security};
+use crate::street::{Road, Street};
 use crate::timing::{Summary, Timing};
 use crate::trace::{self, Entry, Record};
 use crate::transport::{Faults, LinkError, ZenohRouter};
@@ -135,7 +139,9 @@ struct Demo<'a> {
     counters: BTreeMap<String, BTreeMap<String, u64>>,
     /// How the newest session ended.
     end: Option<End>,
-    is_corridor_open: bool,
+    /// The pedestrian, and what shows him or her when to cross.
+    street: Street,
+    signs: Vec<Sign>,
     /// Whether the victim of the scenario has lost power.
     has_struck: bool,
     /// People whom the robots' sensors have.
@@ -156,6 +162,13 @@ pub enum Seen<'a> {
         at_us: u64,
         /// The robot's name.
         robot: &'a str,
+    },
+    /// The pedestrian steps on the road, or is across.
+    Pedestrian {
+        /// Microseconds since the log's clock started.
+        at_us: u64,
+        /// Whether he or she is on the road now.
+        is_on_road: bool,
     },
 }
 
@@ -190,21 +203,25 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     // All sockets are open before any robot says anything.
     let links = links::open(options, participants.len())?;
     let mut securities = options.security.iter().cloned();
-    let mut robots = Vec::new();
+    let (mut robots, mut signs) = (Vec::new(), Vec::new());
+    let street = Street::default();
     for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
         let (site, seed) = (Site::default(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Body::new(build, site, place, options.time_scale, seed);
+        let application = Application::new(body, participant.plan.clone());
+        let application = application.on(Road::Known(street.clone()));
+        signs.push(application.sign().clone());
         let running = Setup {
             name: participant.name.to_owned(),
             station: participant.station,
             // Nothing of a demonstration outlives it, so each of its boots is the first.
-            boot: 1,
+            boot: Boot::first_of_its_kind(),
             config: Config::default(),
             wire: Wire::default(),
             security: securities.next().unwrap_or_default(),
             awareness: options.awareness,
-            application: Application::new(body, participant.plan.clone()),
+            application,
             link,
             journal: journal.clone(),
             clock,
@@ -222,7 +239,8 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         rest: BTreeMap::new(),
         counters: BTreeMap::new(),
         end: None,
-        is_corridor_open: false,
+        street,
+        signs,
         has_struck: false,
         perceived: options.perceived.clone(),
         _router: links.router,
@@ -239,6 +257,7 @@ impl Demo<'_> {
         }
         for (participant, robot) in &self.robots {
             if let Some(plan) = &participant.plan {
+                self.street.arrive(plan.crossing_us(options.time_scale));
                 let detected = Event::PedestrianDetected(plan.request());
                 robot.order(Order::Wish(Wish::Tell(detected)));
             }
@@ -258,10 +277,22 @@ impl Demo<'_> {
         false
     }
 
-    /// Takes the victim's power once the corridor is open.
+    /// The pedestrian looks at the signs.
+    fn look(&mut self) {
+        let at_us = self.clock.now_us();
+        let shows_go = self.signs.iter().any(|sign| sign.shows_go(at_us));
+        let was_clear = self.street.is_clear();
+        self.street.look(at_us, shows_go);
+        let is_on_road = !self.street.is_clear();
+        if is_on_road == was_clear {
+            (self.watch)(Seen::Pedestrian { at_us, is_on_road });
+        }
+    }
+
+    /// Takes the victim's power once the pedestrian is on the road.
     fn strike(&mut self) {
         let victim = self.scenario.victim();
-        let victim = victim.filter(|_| self.is_corridor_open && !self.has_struck);
+        let victim = victim.filter(|_| !self.street.is_clear() && !self.has_struck);
         for (participant, robot) in &self.robots {
             if Some(participant.name) == victim {
                 robot.order(Order::Die);
@@ -287,6 +318,7 @@ impl Demo<'_> {
         self.tell_perceived();
         let deadline = Instant::now() + moment;
         loop {
+            self.look();
             let left = deadline.saturating_duration_since(Instant::now());
             match self.records.recv_timeout(left) {
                 Ok(record) => self.take(&record),
@@ -318,7 +350,7 @@ impl Demo<'_> {
         trace::write(&mut self.log, record).expect("writing to memory does not fail");
         match &record.entry {
             Entry::Step { outputs, state, .. } if !self.is_dead(&record.robot) => {
-                let at_rest = matches!(state.phase(), Phase::Idle) && state.farewell().is_none();
+                let at_rest = is_at_rest(state);
                 let name = format!("{:?}", state.state());
                 self.rest.insert(record.robot.clone(), (at_rest, name));
                 outputs.iter().for_each(|output| self.note(*output));
@@ -338,8 +370,6 @@ impl Demo<'_> {
 
     fn note(&mut self, output: Output) {
         match output {
-            Output::CorridorOpened => self.is_corridor_open = true,
-            Output::CorridorClosed(_) => self.is_corridor_open = false,
             // Of two requesters one withdraws, and the other goes on.
             Output::Notify(Notice::SessionEnded(_, EndReason::Withdrawn(_))) => {}
             Output::Notify(Notice::SessionEnded(_, why)) => self.end = Some(End::Session(why)),

@@ -107,7 +107,11 @@ pub fn drive(model: &Model, replay: &Replay) -> Driven {
 struct Driver {
     /// `None` while it is down.
     endpoint: Option<Endpoint>,
+    /// Its station id in the scenario.
     station: StationId,
+    /// The one that it had when it went down.
+    last: StationId,
+    hangs: bool,
     boot: u16,
 }
 
@@ -127,13 +131,20 @@ struct Street<'a> {
     on_air: VecDeque<Flight>,
     delayed: Vec<Flight>,
     datagrams: usize,
+    /// Whether a message may arrive long after it was sent.
+    keeps: bool,
+    /// How many robots may boot again.
+    restarts_left: u8,
 }
 
 impl<'a> Street<'a> {
     fn new(model: &'a Model) -> Self {
+        let channel = model.scenario().channel;
         let robots = model.scenario().robots.iter().map(|setup| Driver {
             endpoint: None,
             station: setup.station,
+            last: setup.station,
+            hangs: false,
             boot: 0,
         });
         let mut street = Self {
@@ -142,6 +153,8 @@ impl<'a> Street<'a> {
             on_air: VecDeque::new(),
             delayed: Vec::new(),
             datagrams: 0,
+            keeps: channel.monotone || channel.delayed > 0,
+            restarts_left: model.scenario().bounds.restarts,
         };
         for robot in &mut street.robots {
             robot.boot(model);
@@ -161,8 +174,13 @@ impl<'a> Street<'a> {
                         self.delayed.push(flight.clone());
                         flight
                     }
+                    Delivery::AnyTime => self.ever_sent(transmission)?,
                 };
-                self.handle(flight.to, Stimulus::Datagram(&flight.packet))
+                let datagram = Stimulus::Datagram {
+                    packet: &flight.packet,
+                    arrived_ms: 0,
+                };
+                self.handle(flight.to, datagram)
             }
             Action::Lose(transmission) if self.on_air.is_empty() => {
                 self.take_delayed(transmission).map(drop)
@@ -176,10 +194,25 @@ impl<'a> Street<'a> {
             Action::Expire(robot, timer) => self.handle(robot.into(), Stimulus::Timer(timer)),
             Action::Local(robot, event) => self.tell(robot.into(), event),
             Action::Crash(robot) => {
-                self.robots[usize::from(robot)].endpoint = None;
+                let driver = &mut self.robots[usize::from(robot)];
+                if let Some(endpoint) = driver.endpoint.take() {
+                    driver.last = endpoint.robot().station();
+                }
                 Ok(())
             }
+            // Time stands still for all. The model gives a robot that hangs nothing to do.
+            Action::Hang(robot) => {
+                self.robots[usize::from(robot)].hangs = true;
+                Ok(())
+            }
+            Action::Resume(robot) => {
+                self.robots[usize::from(robot)].hangs = false;
+                Ok(())
+            }
+            // What people do concerns no endpoint.
+            Action::StepOnRoad(_) | Action::Across(_) => Ok(()),
             Action::Restart(robot) => {
+                self.restarts_left -= 1;
                 self.robots[usize::from(robot)].boot(self.model);
                 Ok(())
             }
@@ -193,6 +226,7 @@ impl<'a> Street<'a> {
             _ => None,
         };
         let stimulus = match event {
+            Event::InPosition(id) => Stimulus::Event(Event::InPosition(executing().unwrap_or(id))),
             Event::ManeuverCompleted(id) => {
                 Stimulus::Event(Event::ManeuverCompleted(executing().unwrap_or(id)))
             }
@@ -246,11 +280,15 @@ impl<'a> Street<'a> {
             });
         for message in messages {
             for (to, robot) in self.robots.iter().enumerate().filter(|(to, _)| *to != from) {
-                let is_heard = robot
-                    .endpoint
-                    .as_ref()
-                    .is_some_and(|endpoint| concerns(&message, endpoint.robot().station()));
-                if is_heard {
+                let station = match &robot.endpoint {
+                    Some(endpoint) => endpoint.robot().station(),
+                    None => robot.last,
+                };
+                let may_hear = match robot.endpoint {
+                    None => self.keeps && self.restarts_left > 0,
+                    Some(_) => self.keeps || !robot.hangs,
+                };
+                if may_hear && concerns(&message, station) {
                     self.on_air.push_back(Flight {
                         from,
                         to,
@@ -286,6 +324,13 @@ impl<'a> Street<'a> {
             .position(|f| self.is_meant(f, transmission));
         let at = at.ok_or_else(|| self.not_sent(transmission))?;
         Ok(self.delayed.remove(at))
+    }
+
+    /// A message of a monotone channel, on which everything that was ever sent stays.
+    fn ever_sent(&self, transmission: Transmission) -> Result<Flight, Disagreement> {
+        let mut sent = self.on_air.iter();
+        let flight = sent.find(|flight| self.is_meant(flight, transmission));
+        flight.cloned().ok_or_else(|| self.not_sent(transmission))
     }
 
     fn not_sent(&self, transmission: Transmission) -> Disagreement {

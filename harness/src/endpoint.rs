@@ -10,6 +10,7 @@
 //! ```
 
 mod act;
+mod answers;
 
 use std::collections::BTreeMap;
 
@@ -24,6 +25,7 @@ use crossguard_protocol::{
 
 pub use self::act::Act;
 use self::act::act;
+use self::answers::Answers;
 use crate::counters::{Cause, Counters};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::containers;
@@ -44,8 +46,14 @@ pub struct Moment {
 /// What an endpoint is told.
 #[derive(Clone, Copy, Debug)]
 pub enum Stimulus<'a> {
-    /// A datagram was received: a `GeoNetworking` packet.
-    Datagram(&'a [u8]),
+    /// A datagram was received: a `GeoNetworking` packet. One that has waited for longer than
+    /// [`delay_max`](crossguard_protocol::Settings::delay_max) is dropped.
+    Datagram {
+        /// The packet.
+        packet: &'a [u8],
+        /// When it arrived, on the clock of [`Moment::now_ms`].
+        arrived_ms: u64,
+    },
     /// The application tells an event. A maneuver is commanded without parameters.
     Event(Event),
     /// The application commands a maneuver, with parameters.
@@ -84,6 +92,10 @@ pub enum Effect {
         kind: MessageKind,
         /// Who sent it.
         from: StationId,
+        /// When it arrived, on the clock of [`Moment::now_ms`].
+        arrived_ms: u64,
+        /// When the robot was told of it, on that clock.
+        told_ms: u64,
         /// Its octets.
         octets: Vec<u8>,
     },
@@ -126,6 +138,8 @@ pub struct Endpoint {
     orders: BTreeMap<StationId, TaskParameters>,
     /// Who is around the robot.
     surroundings: Surroundings,
+    /// Who has answered a request.
+    answers: Answers,
     /// Shortest interval that congestion control allows, in ms.
     congestion_ms: u64,
     counters: Counters,
@@ -159,6 +173,7 @@ impl Endpoint {
             generation: Generation::default(),
             orders: BTreeMap::new(),
             surroundings,
+            answers: Answers::default(),
             congestion_ms: INTERVAL_MIN_MS,
             counters: Counters::default(),
         }
@@ -213,6 +228,13 @@ impl Endpoint {
         &self.counters
     }
 
+    /// Whether the robot asks for help, has offers enough, and has heard an answer of every robot that it heard
+    /// in the last second: then [`Event::AllAnswered`] may be told.
+    #[must_use]
+    pub fn all_have_answered(&self) -> bool {
+        self.answers.are_all_in(self.told_ms, &self.robot)
+    }
+
     /// Counts something that came to nothing outside of the endpoint.
     pub fn count(&mut self, cause: Cause) {
         self.counters.count(cause);
@@ -247,7 +269,9 @@ impl Endpoint {
         self.elapse(&mut turn);
         self.renew_pseudonym(&mut turn);
         match stimulus {
-            Stimulus::Datagram(octets) => self.hear(&mut turn, octets),
+            Stimulus::Datagram { packet, arrived_ms } => {
+                self.hear(&mut turn, packet, arrived_ms);
+            }
             Stimulus::Event(Event::CommandManeuver { follower, task }) => {
                 self.order(&mut turn, follower, task, TaskParameters::default());
             }
@@ -302,11 +326,17 @@ impl Endpoint {
         }
     }
 
-    /// Takes a packet in, if it is for this station.
-    fn hear(&mut self, turn: &mut Turn, packet: &[u8]) {
+    /// Takes a packet in, if it is for this station and has not waited for too long.
+    fn hear(&mut self, turn: &mut Turn, packet: &[u8], arrived_ms: u64) {
+        let waited_ms = turn.moment.now_ms.saturating_sub(arrived_ms);
+        let delay_max_ms = self.config.settings().delay_max.0;
+        if waited_ms > u64::from(delay_max_ms) {
+            let detail = format!("for {waited_ms} ms; delay_max is {delay_max_ms} ms");
+            return self.drop(turn, Cause::WaitedTooLong, detail, packet.to_vec());
+        }
         let ego = turn.ego();
         match self.station.receive(&ego, packet) {
-            Ok(indication) => self.hear_message(turn, packet, &indication),
+            Ok(indication) => self.hear_message(turn, packet, arrived_ms, &indication),
             Err(discarded) => {
                 let detail = discarded.to_string();
                 self.drop(turn, discarded.into(), detail, packet.to_vec());
@@ -314,7 +344,13 @@ impl Endpoint {
         }
     }
 
-    fn hear_message(&mut self, turn: &mut Turn, packet: &[u8], indication: &Indication<'_>) {
+    fn hear_message(
+        &mut self,
+        turn: &mut Turn,
+        packet: &[u8],
+        arrived_ms: u64,
+        indication: &Indication<'_>,
+    ) {
         let (service, octets) = (indication.service, indication.message);
         let dropped = match service {
             Service::Ram | Service::Rmcm => {
@@ -323,7 +359,7 @@ impl Endpoint {
                         let sender = (indication.signer, indication.permits);
                         let now_ms = turn.moment.now_ms;
                         match self.station.check_entitled(sender, &heard, now_ms) {
-                            Ok(()) => return self.heed(turn, octets, &heard),
+                            Ok(()) => return self.heed(turn, octets, arrived_ms, &heard),
                             Err(why) => (Cause::Rejected(why.cause()), why.to_string()),
                         }
                     }
@@ -350,10 +386,12 @@ impl Endpoint {
     }
 
     /// What a robot's message means to the transition function.
-    fn heed(&mut self, turn: &mut Turn, octets: &[u8], heard: &Heard) {
+    fn heed(&mut self, turn: &mut Turn, octets: &[u8], arrived_ms: u64, heard: &Heard) {
         turn.effects.push(Effect::Heard {
             kind: heard.service,
             from: heard.from,
+            arrived_ms: arrived_ms.min(turn.moment.now_ms),
+            told_ms: turn.moment.now_ms,
             octets: octets.to_vec(),
         });
         if let Some(state) = &heard.state {
@@ -368,6 +406,9 @@ impl Endpoint {
             }
         }
         for input in heard.inputs.iter() {
+            if let Input::Ram { ram, .. } = input {
+                self.answers.hear(turn.moment.now_ms, ram);
+            }
             self.step(turn, *input, heard.parameters);
         }
     }

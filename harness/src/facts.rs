@@ -12,7 +12,7 @@ mod area;
 mod view;
 
 pub use area::Area;
-pub use view::{FollowerView, View};
+pub use view::{FollowerView, View, duty_text};
 
 use std::collections::BTreeMap;
 
@@ -59,6 +59,9 @@ pub enum Fact {
     Corridor {
         /// Whether the corridor is open.
         is_open: bool,
+        /// When that began, in microseconds on the log's clock: before the record, where the sign ended by
+        /// itself because nothing renewed it.
+        since_us: u64,
         /// Why it was closed; empty where it was opened.
         why: String,
     },
@@ -146,6 +149,8 @@ struct Observed {
     name: String,
     identifiers: Identifiers,
     view: Option<View>,
+    /// Until when its sign shows go, if it does.
+    go_until_us: Option<u64>,
     counters: BTreeMap<String, u64>,
 }
 
@@ -178,12 +183,58 @@ impl Observer {
             });
             self.robots.len() - 1
         });
-        let mut facts = self.facts(robot, &record.entry);
+        let mut facts: Vec<_> = self
+            .sign_that_ended(robot, record.at_us)
+            .into_iter()
+            .collect();
+        facts.extend(self.facts(robot, record.at_us, &record.entry));
         facts.extend(self.notes(record));
         facts
     }
 
-    fn facts(&mut self, robot: usize, entry: &Entry) -> Vec<Fact> {
+    /// The sign of a robot that went to stop by itself before `at_us`.
+    fn sign_that_ended(&mut self, robot: usize, at_us: u64) -> Option<Fact> {
+        let go_until_us = &mut self.robots[robot].go_until_us;
+        let since_us = go_until_us.filter(|go_until_us| *go_until_us < at_us)?;
+        *go_until_us = None;
+        Some(Fact::Corridor {
+            is_open: false,
+            since_us,
+            why: "the sign ended by itself, since nothing renewed it".to_owned(),
+        })
+    }
+
+    /// What the outputs of a step mean for the sign.
+    fn sign(&mut self, robot: usize, at_us: u64, outputs: &Outputs) -> Vec<Fact> {
+        let go_until_us = &mut self.robots[robot].go_until_us;
+        let mut facts = Vec::new();
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+                    if go_until_us.is_none() {
+                        facts.push(Fact::Corridor {
+                            is_open: true,
+                            since_us: at_us,
+                            why: String::new(),
+                        });
+                    }
+                    let time_us = u64::from(time.0) * 1_000;
+                    *go_until_us = Some(at_us.saturating_add(time_us));
+                }
+                Output::CorridorClosed(why) if go_until_us.take().is_some() => {
+                    facts.push(Fact::Corridor {
+                        is_open: false,
+                        since_us: at_us,
+                        why: why.to_string(),
+                    });
+                }
+                _ => {}
+            }
+        }
+        facts
+    }
+
+    fn facts(&mut self, robot: usize, at_us: u64, entry: &Entry) -> Vec<Fact> {
         match entry {
             Entry::Started {
                 station,
@@ -200,7 +251,14 @@ impl Observer {
                     boot: *boot,
                 }];
                 // A robot that lost power says nothing of what it had a part in.
-                facts.extend(self.view(robot, &Robot::new(*station, *boot), &Outputs::default()));
+                if observed.go_until_us.take().is_some() {
+                    facts.push(Fact::Corridor {
+                        is_open: false,
+                        since_us: at_us,
+                        why: String::new(),
+                    });
+                }
+                facts.extend(self.view(robot, &Robot::new(*station, *boot)));
                 self.areas.guarding(*station, settings.guarding);
                 facts
             }
@@ -208,7 +266,7 @@ impl Observer {
                 input,
                 outputs,
                 state,
-            } => self.step(robot, input, outputs, state),
+            } => self.step(robot, at_us, input, outputs, state),
             Entry::Sent {
                 trigger, octets, ..
             } => self.sent(robot, &format!("{trigger:?}"), octets),
@@ -248,7 +306,14 @@ impl Observer {
         }
     }
 
-    fn step(&mut self, robot: usize, input: &Input, outputs: &Outputs, state: &Robot) -> Vec<Fact> {
+    fn step(
+        &mut self,
+        robot: usize,
+        at_us: u64,
+        input: &Input,
+        outputs: &Outputs,
+        state: &Robot,
+    ) -> Vec<Fact> {
         let mut facts = Vec::new();
         if !matches!(input, Input::Elapsed(_)) || !outputs.is_empty() {
             facts.push(Fact::Step {
@@ -259,12 +324,13 @@ impl Observer {
         if let Some(reason) = outputs.ignored() {
             facts.push(self.count(robot, Cause::Ignored(reason).name()));
         }
-        facts.extend(self.view(robot, state, outputs));
+        facts.extend(self.sign(robot, at_us, outputs));
+        facts.extend(self.view(robot, state));
         facts
     }
 
     /// What is new about the robot's part in a session.
-    fn view(&mut self, robot: usize, state: &Robot, outputs: &Outputs) -> Vec<Fact> {
+    fn view(&mut self, robot: usize, state: &Robot) -> Vec<Fact> {
         let (view, observed) = (View::of(state), &mut self.robots[robot]);
         if observed.view.as_ref() == Some(&view) {
             return Vec::new();
@@ -277,17 +343,6 @@ impl Observer {
             && self.areas.leave(before.station)
         {
             facts.push(Fact::Areas(Vec::new()));
-        }
-        let was_open = before.is_some_and(|before| before.corridor_open);
-        if was_open != view.corridor_open {
-            let why = outputs.iter().find_map(|output| match output {
-                Output::CorridorClosed(why) => Some(why.to_string()),
-                _ => None,
-            });
-            facts.push(Fact::Corridor {
-                is_open: view.corridor_open,
-                why: why.unwrap_or_default(),
-            });
         }
         facts.push(Fact::State(view));
         facts

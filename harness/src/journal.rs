@@ -9,13 +9,17 @@
 //! A log with a gap could not be validated from there on, so the reader of a log that is too slow is
 //! cut off. Either way every record that does not get through is counted under the queue's cause.
 
+use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel};
 use std::time::{Duration, Instant};
 
 use crate::counters::Cause;
 use crate::trace::Record;
+
+/// How many records wait for a reader that writes them: about ten seconds of a busy robot.
+pub const RECORDS: usize = 4_096;
 
 /// How often a record is tried again that is worth waiting for.
 const PATIENCE_STEP: Duration = Duration::from_millis(5);
@@ -85,6 +89,32 @@ impl Journal {
                 std::thread::sleep(PATIENCE_STEP);
             }
         }
+    }
+}
+
+/// Writes what comes out of a queue until nothing more can come. What is written is not kept back while
+/// nothing comes.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_out<T, W: Write>(
+    queue: &Receiver<T>,
+    to: &mut W,
+    write: impl Fn(&mut W, &T) -> std::io::Result<()>,
+) -> std::io::Result<()> {
+    loop {
+        let next = match queue.try_recv() {
+            Ok(next) => next,
+            Err(TryRecvError::Disconnected) => return to.flush(),
+            Err(TryRecvError::Empty) => {
+                to.flush()?;
+                match queue.recv() {
+                    Ok(next) => next,
+                    Err(_) => return Ok(()),
+                }
+            }
+        };
+        write(to, &next)?;
     }
 }
 

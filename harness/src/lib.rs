@@ -43,6 +43,7 @@
 //!   [`report`] for people.
 //! - [`readable`] has messages and packets as JSON.
 //! - [`observe`] tells `tracing` what a robot does; [`tally`] and [`metrics`] say how it is.
+//! - [`sign`] is what people at the road see, [`street`] what robots know of the people.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
 //! - [`demo`] is the paper's crossing and its extensions to teams, with simulated [`body`]s; [`timing`] is
 //!   its table, [`chart`] its sequence chart.
@@ -78,10 +79,12 @@ pub mod report;
 pub mod robot_file;
 pub mod runtime;
 pub mod sequence;
+pub mod sign;
 pub mod sim;
 pub mod site;
 pub mod sniffer;
 pub mod station;
+pub mod street;
 pub mod tally;
 pub mod timing;
 pub mod trace;

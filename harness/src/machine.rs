@@ -11,7 +11,7 @@
 //! [`runtime`](crate::runtime) drives it by a real clock and a socket, [`sim`](crate::sim) in virtual
 //! time; both do what the effects say.
 
-use crossguard_protocol::{Event, Phase};
+use crossguard_protocol::{Event, Phase, Robot};
 
 use crate::application::{Application, Wish};
 use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
@@ -69,6 +69,9 @@ impl Machine {
             };
             effects.extend(self.turn(moment, stimulus_of(wish)));
         }
+        if self.endpoint.all_have_answered() {
+            effects.extend(self.turn(moment, Stimulus::Event(Event::AllAnswered)));
+        }
         effects
     }
 
@@ -80,16 +83,32 @@ impl Machine {
                 self.application.act(act);
             }
         }
+        let (robot, config) = (self.endpoint.robot(), self.endpoint.config());
+        self.application.learn(robot, config);
         effects
     }
 
-    /// The event that the maneuver which runs is finished, well or not; the body stops. `None` when
-    /// none runs.
-    pub fn finish(&mut self, well: bool) -> Option<Event> {
+    /// The event that the body holds the place from which the maneuver that runs guards. `None` when none
+    /// runs.
+    #[must_use]
+    pub fn in_position(&self) -> Option<Event> {
         let Phase::Following(following) = self.endpoint.robot().phase() else {
             return None;
         };
-        let maneuver = following.executing()?;
+        Some(Event::InPosition(following.executing()?.id))
+    }
+
+    /// The event that the maneuver which runs is finished, well or not; the body stops. `None` when
+    /// none runs; then a fallback that runs is finished.
+    pub fn finish(&mut self, well: bool) -> Option<Event> {
+        let executing = match self.endpoint.robot().phase() {
+            Phase::Following(following) => following.executing(),
+            _ => None,
+        };
+        let Some(maneuver) = executing else {
+            self.application.finish_fallback();
+            return None;
+        };
         self.application.stop();
         Some(if well {
             Event::ManeuverCompleted(maneuver.id)
@@ -98,12 +117,27 @@ impl Machine {
         })
     }
 
-    /// Whether the robot has no part in a session and says farewell to none.
+    /// Whether the robot has no part in a session, says farewell to none, and has no duty on the road.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
-        let robot = self.endpoint.robot();
-        matches!(robot.phase(), Phase::Idle) && robot.farewell().is_none()
+        is_at_rest(self.endpoint.robot())
     }
+
+    /// Whether the robot may be switched off: it has no part in a session, says farewell to none, and its
+    /// body is on no way that its fallback takes. Who holds a place goes on holding it.
+    #[must_use]
+    pub fn may_stop(&self) -> bool {
+        let robot = self.endpoint.robot();
+        let is_under_way = self.application.body().walks_back();
+        matches!(robot.phase(), Phase::Idle) && robot.farewell().is_none() && !is_under_way
+    }
+}
+
+/// Whether a robot has no part in a session, says farewell to none, and has no duty on the road.
+#[must_use]
+pub fn is_at_rest(robot: &Robot) -> bool {
+    let is_idle = matches!(robot.phase(), Phase::Idle);
+    is_idle && robot.farewell().is_none() && robot.duty().is_none()
 }
 
 /// What a wish is to an endpoint.

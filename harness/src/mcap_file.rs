@@ -160,7 +160,7 @@ impl<W: Write + Seek> Recording<W> {
                 };
                 self.message("/log", at_us, &message)
             }
-            Fact::Corridor { is_open, why } => {
+            Fact::Corridor { is_open, why, .. } => {
                 let message = schemas::Corridor {
                     timestamp,
                     robot: name,
@@ -223,6 +223,7 @@ impl<W: Write + Seek> Recording<W> {
         let site = Site {
             latitude: placed.latitude,
             longitude: placed.longitude,
+            ..Site::default()
         };
         let pair = |key: &str, degrees: f64| (key.to_owned(), degrees.to_string());
         let metadata = [
@@ -319,6 +320,8 @@ fn state(timestamp: Time, robot: String, view: &View) -> schemas::State {
         executes: text(view.executes.as_ref()),
         followers: followers.collect(),
         corridor_open: view.corridor_open,
+        place: view.place.clone(),
+        duty: view.duty.clone(),
         availability: view.availability.clone(),
     }
 }

@@ -128,6 +128,12 @@ pub fn text(tally: &Tally) -> String {
     );
     page.value(&[robot], u64::from(tally.corridor_open()));
     page.family(
+        "crossguard_on_duty",
+        "gauge",
+        "Whether it has a duty on the road that waits for the road to be clear.",
+    );
+    page.value(&[robot], u64::from(tally.is_on_duty()));
+    page.family(
         "crossguard_steps_total",
         "counter",
         "Steps of the transition function.",

@@ -82,6 +82,7 @@ pub fn entry(entry: &Entry, before: &mut State) {
             message,
             from,
             octets,
+            ..
         } => debug!(message = message.name(), %from, octets = octets.len(), "heard"),
         Entry::Dropped { cause, detail, .. } if cause.starts_with("simulated ") => {
             debug!(cause, detail, "dropped");
@@ -106,18 +107,22 @@ fn step(input: &Input, outputs: &Outputs) {
             Output::StartManeuver(_)
             | Output::StopManeuver(..)
             | Output::FallBack(..)
-            | Output::CorridorOpened
-            | Output::CorridorClosed(_) => info!(%output, "output"),
+            | Output::CorridorOpened(_)
+            | Output::CorridorClosed(_)
+            | Output::RenewEpoch => info!(%output, "output"),
             Output::Notify(
                 Notice::FollowerGone(..)
                 | Notice::LeaseExpired(_)
                 | Notice::CommandRejected(..)
                 | Notice::ManeuverFailed(..)
                 | Notice::FollowerSafeIdle(..)
+                | Notice::OfferLapsed(_)
+                | Notice::Yielded(_)
                 | Notice::ContactLost(_),
             ) => warn!(%output, "notice"),
             Output::Notify(_) => debug!(%output, "notice"),
-            Output::SendRam
+            Output::CorridorExtended(_)
+            | Output::SendRam
             | Output::SendRmcm(_)
             | Output::LockIdentity
             | Output::UnlockIdentity => {}

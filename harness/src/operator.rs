@@ -38,8 +38,12 @@ pub enum Line {
 pub enum Tell {
     /// A wish of its application.
     Wish(Wish),
-    /// The maneuver that runs is finished, well or not.
+    /// The body holds the place from which the maneuver that runs guards.
+    InPosition,
+    /// The maneuver that runs is finished, well or not; or the fallback that runs.
     Finish(bool),
+    /// The road is clear.
+    Clear,
     /// Its sensors have this person, at this place on the site.
     Perceived(PerceivedVru),
 }
@@ -48,7 +52,9 @@ impl From<Tell> for Order {
     fn from(tell: Tell) -> Self {
         match tell {
             Tell::Wish(wish) => Self::Wish(wish),
+            Tell::InPosition => Self::InPosition,
             Tell::Finish(well) => Self::Finish { well },
+            Tell::Clear => Self::Clear,
             Tell::Perceived(vru) => Self::Perceived(vru),
         }
     }
@@ -60,9 +66,12 @@ detect [FOLLOWERS] [low|medium|high|emergency] [TASK ...]
                        a pedestrian needs help; 1 follower for initialPos and move by default
 order STATION TASK [EAST NORTH [SPEED]]
                        have a follower do a maneuver, in metres and m/s
-done | fail            the maneuver that runs is finished, or cannot be
+in-position            the body is at the place from which it guards
+done | fail            the maneuver that runs is finished, or cannot be; done also ends a fallback
 open | close           open or close the corridor
-task-completed         the pedestrian has crossed
+task-completed         the pedestrian has crossed, and nobody is on the road
+clear                  nobody is on the road any more: ends the duty of a robot that fell back or gave up,
+                       once its body has finished its fallback
 leave                  leave the session
 unavailable REASON     low-battery, teleoperated, emergency-stop, local-fault, not-safe
 available              take part again
@@ -121,8 +130,10 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
     let rest: Vec<&str> = words.collect();
     let tell = |event| Ok(Line::Order(Tell::Wish(Wish::Tell(event))));
     match (command, rest.as_slice()) {
-        ("detect", words) => tell(Event::PedestrianDetected(request(words)?)),
+        ("detect", words) => tell(Event::PedestrianDetected(request(words, site)?)),
         ("order", words) => order(words, site),
+        ("in-position", []) => Ok(Line::Order(Tell::InPosition)),
+        ("clear", []) => Ok(Line::Order(Tell::Clear)),
         ("done", []) => Ok(Line::Order(Tell::Finish(true))),
         ("fail", []) => Ok(Line::Order(Tell::Finish(false))),
         ("open", []) => tell(Event::OpenCorridor),
@@ -153,8 +164,8 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
         ("help", []) => Ok(Line::Help),
         ("quit", []) => Ok(Line::Quit),
         (
-            "done" | "fail" | "open" | "close" | "task-completed" | "leave" | "available"
-            | "unavailable" | "wait" | "until" | "status" | "help" | "quit",
+            "in-position" | "done" | "fail" | "clear" | "open" | "close" | "task-completed"
+            | "leave" | "available" | "unavailable" | "wait" | "until" | "status" | "help" | "quit",
             [.., last],
         ) => Err(Misunderstood::Surplus((*last).to_owned())),
         (other, _) => Err(Misunderstood::Command(other.to_owned())),
@@ -171,11 +182,12 @@ fn person(text: &str) -> Result<Line, Misunderstood> {
     }
 }
 
-fn request(words: &[&str]) -> Result<HelpRequest, Misunderstood> {
+fn request(words: &[&str], site: &Site) -> Result<HelpRequest, Misunderstood> {
     let mut request = HelpRequest {
         urgency: Urgency::Medium,
         followers: 1,
         tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]),
+        place: site.crossing,
     };
     let mut tasks = Vec::new();
     for (i, word) in words.iter().enumerate() {
@@ -399,6 +411,8 @@ mod tests {
         for text in [
             "detect 1 low move",
             "order 1 block",
+            "in-position",
+            "clear",
             "done",
             "fail",
             "open",

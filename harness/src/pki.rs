@@ -113,7 +113,16 @@ pub fn new_root(
     region: Option<Region>,
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
-    let key = PrivateKey::generate();
+    root_with(PrivateKey::generate(), name, term, region, its_aids)
+}
+
+fn root_with(
+    key: PrivateKey,
+    name: &str,
+    term: Term,
+    region: Option<Region>,
+    its_aids: &[u32],
+) -> Result<Holder, IssueError> {
     let terms = Terms {
         name: Some(name.to_owned()),
         validity: term.validity(),
@@ -137,6 +146,17 @@ pub fn new_authority(
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
     let key = PrivateKey::generate();
+    authority_with(key, root, name, term, region, its_aids)
+}
+
+fn authority_with(
+    key: PrivateKey,
+    root: &Holder,
+    name: &str,
+    term: Term,
+    region: Option<Region>,
+    its_aids: &[u32],
+) -> Result<Holder, IssueError> {
     let terms = Terms {
         name: Some(name.to_owned()),
         validity: term.validity(),
@@ -158,7 +178,16 @@ pub fn new_ticket(
     region: Option<Region>,
     permissions: Vec<Permission>,
 ) -> Result<Holder, IssueError> {
-    let key = PrivateKey::generate();
+    ticket_with(PrivateKey::generate(), authority, term, region, permissions)
+}
+
+fn ticket_with(
+    key: PrivateKey,
+    authority: &Holder,
+    term: Term,
+    region: Option<Region>,
+    permissions: Vec<Permission>,
+) -> Result<Holder, IssueError> {
     let terms = Terms {
         name: None,
         validity: term.validity(),
@@ -177,13 +206,26 @@ impl Pki {
     /// # Errors
     /// None that is to be expected.
     pub fn for_a_day(identifiers: &Identifiers, now: Time64) -> Result<Self, IssueError> {
+        Self::with_keys(identifiers, now, &mut PrivateKey::generate)
+    }
+
+    /// [`for_a_day`](Self::for_a_day) with these keys, for runs that repeat.
+    ///
+    /// # Errors
+    /// None that is to be expected.
+    pub fn with_keys(
+        identifiers: &Identifiers,
+        now: Time64,
+        keys: &mut dyn FnMut() -> PrivateKey,
+    ) -> Result<Self, IssueError> {
         let term = Term {
             from: now,
             duration: Duration::hours(24),
         };
         let its_aids = its_aids(identifiers);
-        let root = new_root("test root", term, None, &its_aids)?;
-        let authority = new_authority(&root, "test authority", term, None, &its_aids)?;
+        let root = root_with(keys(), "test root", term, None, &its_aids)?;
+        let name = "test authority";
+        let authority = authority_with(keys(), &root, name, term, None, &its_aids)?;
         Ok(Self { root, authority })
     }
 
@@ -208,13 +250,28 @@ impl Pki {
         tickets: usize,
         now: Time64,
     ) -> Result<Credentials, PkiError> {
+        self.credentials_with_keys(identifiers, tickets, now, &mut PrivateKey::generate)
+    }
+
+    /// [`credentials`](Self::credentials) with these keys, for runs that repeat.
+    ///
+    /// # Errors
+    /// None that is to be expected.
+    pub fn credentials_with_keys(
+        &self,
+        identifiers: &Identifiers,
+        tickets: usize,
+        now: Time64,
+        keys: &mut dyn FnMut() -> PrivateKey,
+    ) -> Result<Credentials, PkiError> {
         let term = Term {
             from: now,
             duration: Duration::hours(23),
         };
         let ticket = |_| {
             let permissions = robot_permissions(identifiers, &[Part::Lead, Part::Help]);
-            let Holder { certificate, key } = new_ticket(&self.authority, term, None, permissions)?;
+            let Holder { certificate, key } =
+                ticket_with(keys(), &self.authority, term, None, permissions)?;
             Ok(Ticket::new(certificate, key)?)
         };
         Ok(Credentials {

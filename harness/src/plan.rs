@@ -45,8 +45,7 @@ pub struct Plan {
     pub stages: Vec<Stage>,
     /// Where the leader itself stands while it leads, if it is to go there.
     pub own_place: Option<Place>,
-    /// How long the pedestrian takes to cross where nobody escorts it, in seconds of the robots' own
-    /// time.
+    /// How long a simulated pedestrian takes to cross, in seconds of the robots' own time.
     pub crossing_s: f64,
     /// After which time the leader gives up, in seconds.
     pub patience_s: f64,
@@ -103,6 +102,10 @@ pub(crate) const FAR_LANE: Place = Place::new(6.0, 5.0);
 /// How fast a robot walks beside a pedestrian, in m/s.
 const ESCORT_MPS: f64 = 0.424;
 
+/// For how long a pedestrian at its side is on the carriageway, in seconds of the robots' own time: the
+/// escort begins and ends on the pavement.
+const ESCORTED_S: f64 = 19.0;
+
 impl Plan {
     fn with(site: Site, followers: u8, stages: Vec<Stage>) -> Self {
         Self {
@@ -113,6 +116,14 @@ impl Plan {
             own_place: None,
             crossing_s: 8.0,
             patience_s: 200.0,
+        }
+    }
+
+    /// The pedestrian walks at the side of an escort.
+    fn at_escorts_pace(self) -> Self {
+        Self {
+            crossing_s: ESCORTED_S,
+            ..self
         }
     }
 
@@ -128,7 +139,7 @@ impl Plan {
             Stage::everybody(Leg::new(TaskType::INITIAL_POS, KERB)),
             Stage::everybody(escort),
         ];
-        Self::with(site, 1, stages)
+        Self::with(site, 1, stages).at_escorts_pace()
     }
 
     /// Two humanoids block both directions: the leader the near lane, its follower the far one. The
@@ -175,7 +186,7 @@ impl Plan {
             Stage::of(&[(escort, way)]),
         ];
         let followers = u8::try_from(blockers.len() + 1).unwrap_or(u8::MAX);
-        Self::with(site, followers, stages)
+        Self::with(site, followers, stages).at_escorts_pace()
     }
 
     /// What a leader with this plan asks for.
@@ -187,7 +198,30 @@ impl Plan {
             urgency: self.urgency,
             followers: self.followers,
             tasks: TaskSet::of(&tasks),
+            place: self.site.crossing,
         }
+    }
+
+    /// How long the pedestrian is on the road, in microseconds, where robots move so many times as fast as real.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a crossing takes seconds"
+    )]
+    pub fn crossing_us(&self, time_scale: f64) -> u64 {
+        (self.crossing_s / time_scale * 1e6) as u64
+    }
+
+    /// Whether somebody may cross in its last stage, under a maneuver that guards.
+    #[must_use]
+    pub fn lets_cross(&self, guarding: TaskSet) -> bool {
+        let mut legs = self
+            .stages
+            .last()
+            .into_iter()
+            .flat_map(|stage| &stage.parts);
+        legs.any(|(_, leg)| guarding.contains(leg.task))
     }
 
     /// Whether the pedestrian is escorted in a stage.

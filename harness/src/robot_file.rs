@@ -4,15 +4,23 @@ use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 
 use crossguard_codec::{IdentifierClash, Identifiers};
-use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
+use crossguard_protocol::{self as protocol, BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
-use crate::body::Build;
+use crate::application::Application;
+use crate::body::{Body, Build};
+use crate::boot::Boot;
+use crate::journal::Journal;
+use crate::plan::Plan;
 use crate::ras::clustering;
 use crate::ras::surroundings::Awareness;
 use crate::ras::vam::CLUSTER_INTERVAL_MS;
-use crate::site::{Place, Site};
-use crate::transport::{Link, Zenoh};
+use crate::runtime::{Clock, Setup};
+use crate::site::{CrossingReference, NoCrossing, Place, Site};
+use crate::station::Security;
+use crate::street::{Road, Street, Watched, Zone};
+use crate::transport::{Halves, Link, Zenoh};
+use crate::wire::Wire;
 
 /// A robot's configuration, checked.
 #[derive(Clone, Debug)]
@@ -31,8 +39,11 @@ pub struct RobotFile {
     pub site: Site,
     /// How many times as fast as real its simulated body moves.
     pub speed: f64,
-    /// Whether it leads the crossing by itself once a pedestrian is detected.
+    /// Whether it leads the crossing by itself once a pedestrian is detected. The pedestrian is simulated
+    /// then.
     pub autopilot: bool,
+    /// The part of the road on which people cross, if its sensors have everybody there.
+    pub zone: Option<Zone>,
     /// Its link.
     pub link: Link,
     /// The protocol's configuration.
@@ -56,6 +67,8 @@ struct Text {
     speed: f64,
     #[serde(default)]
     autopilot: bool,
+    crossing: Option<String>,
+    zone_m: Option<[f64; 4]>,
     #[serde(default)]
     site: Option<SiteTable>,
     link: LinkTable,
@@ -148,6 +161,14 @@ pub enum Impossibility {
     /// People cannot be clustered so.
     #[error("[people] {0}")]
     People(&'static str),
+    /// The crossing has no such name.
+    #[error("crossing: {0}")]
+    Crossing(#[from] NoCrossing),
+    /// The zone has no area.
+    #[error(
+        "zone_m is {0:?}: west, south, east and north in metres are wanted, west < east and south < north"
+    )]
+    Zone([f64; 4]),
     /// A site that is not on earth.
     #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
     Site(f64, f64),
@@ -175,6 +196,58 @@ impl RobotFile {
                 cause,
             })
     }
+
+    /// A simulated body at its place; `seed` is that of its gait.
+    #[must_use]
+    pub fn body(&self, seed: u64) -> Body {
+        Body::new(self.build, self.site, self.place, self.speed, seed)
+            .holding(self.config.settings().holding)
+    }
+
+    /// What it knows of the people on the road: nothing, unless its sensors have everybody there, or it
+    /// simulates a crossing.
+    #[must_use]
+    pub fn road(&self) -> Road {
+        match self.zone {
+            _ if self.autopilot => Road::Own(Street::default()),
+            Some(zone) => Road::Watched(Watched::new(zone)),
+            None => Road::Unknown,
+        }
+    }
+
+    /// What makes and reads its messages.
+    #[must_use]
+    pub const fn wire(&self) -> Wire {
+        Wire {
+            identifiers: self.identifiers,
+        }
+    }
+
+    /// The robot with this boot counter and body, on a clock that begins now.
+    #[must_use]
+    pub fn setup(
+        &self,
+        boot: Boot,
+        body: Body,
+        security: Security,
+        link: Halves,
+        journal: Journal,
+    ) -> Setup {
+        let plan = self.autopilot.then(|| Plan::crossing(self.site));
+        Setup {
+            name: self.name.clone(),
+            station: self.station,
+            boot,
+            config: self.config.clone(),
+            wire: self.wire(),
+            security,
+            awareness: self.awareness,
+            application: Application::new(body, plan).on(self.road()),
+            link,
+            journal,
+            clock: Clock::start(),
+        }
+    }
 }
 
 impl Text {
@@ -185,7 +258,15 @@ impl Text {
         let site = self.site.map_or_else(Site::default, |site| Site {
             latitude: site.latitude,
             longitude: site.longitude,
+            ..Site::default()
         });
+        let crossing = self.crossing.as_deref().map(str::parse);
+        let crossing = crossing.transpose()?;
+        let site = Site {
+            crossing: crossing.map_or(protocol::Place::UNKNOWN, |CrossingReference(place)| place),
+            ..site
+        };
+        let zone = self.zone_m.map(zone).transpose()?;
         if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
             return Err(Impossibility::Site(site.latitude, site.longitude));
         }
@@ -200,6 +281,7 @@ impl Text {
             site,
             speed: self.speed,
             autopilot: self.autopilot,
+            zone,
             link: self.link.check(folder)?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,
@@ -208,6 +290,18 @@ impl Text {
                 cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
             },
         })
+    }
+}
+
+fn zone(metres: [f64; 4]) -> Result<Zone, Impossibility> {
+    let [west, south, east, north] = metres;
+    if west < east && south < north {
+        Ok(Zone {
+            south_west: Place::new(west, south),
+            north_east: Place::new(east, north),
+        })
+    } else {
+        Err(Impossibility::Zone(metres))
     }
 }
 

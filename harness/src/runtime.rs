@@ -31,8 +31,9 @@ use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
 use crate::application::{Application, Wish};
 use crate::body::Pose;
+use crate::boot::{Boot, BootError};
 use crate::counters::Cause;
-use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crate::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crate::journal::Journal;
 use crate::machine::{Machine, stimulus_of};
 use crate::observe;
@@ -56,8 +57,9 @@ const LINK_REST: Duration = Duration::from_millis(200);
 /// How long the last record waits for a reader that is slow.
 const LAST_RECORD_WAIT: Duration = Duration::from_secs(1);
 
-/// How long the reader waits for a datagram before it looks whether it should stop.
-const READER_WAIT: Duration = Duration::from_millis(100);
+/// How long the reader waits for a datagram before it looks whether it should stop. A reader that looks less
+/// often is known to have hung, and its datagrams to have waited, by that much later.
+const READER_WAIT: Duration = Duration::from_millis(10);
 
 /// How often the body moves at least.
 const BODY_PERIOD: Duration = Duration::from_millis(5);
@@ -83,10 +85,19 @@ impl Clock {
         u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
     }
 
-    fn moment(&self) -> Moment {
+    /// What it showed at an instant, in ms; 0 before the start.
+    fn at_ms(&self, instant: Instant) -> u64 {
+        let since = instant.saturating_duration_since(self.start);
+        u64::try_from(since.as_millis()).unwrap_or(u64::MAX)
+    }
+}
+
+impl Moment {
+    /// This moment, which the clock shows as `now_us`.
+    fn at(now_us: u64) -> Self {
         let unix_ms = i64::try_from(unix_ms()).unwrap_or(i64::MAX);
-        Moment {
-            now_ms: self.now_us() / 1_000,
+        Self {
+            now_ms: now_us / 1_000,
             timestamp_its: timestamp_its(unix_ms),
         }
     }
@@ -104,7 +115,11 @@ fn unix_ms() -> u64 {
 pub enum Order {
     /// Something for its endpoint.
     Wish(Wish),
-    /// The maneuver that runs is finished, well or not.
+    /// The body holds the place from which the maneuver that runs guards.
+    InPosition,
+    /// A person says that the road is clear.
+    Clear,
+    /// The maneuver that runs is finished, well or not; or the fallback that runs.
     Finish {
         /// Whether it was completed.
         well: bool,
@@ -134,7 +149,7 @@ pub struct Setup {
     /// Its station id.
     pub station: StationId,
     /// Its boot counter.
-    pub boot: u16,
+    pub boot: Boot,
     /// Its configuration.
     pub config: Config,
     /// Encodes and decodes.
@@ -174,9 +189,12 @@ impl Setup {
             waiting: Arc::clone(&waiting),
             stop: Arc::clone(&stop),
         };
-        let now_ms = self.clock.now_us() / 1_000;
-        let robot = Robot::new(self.station, self.boot);
+        // The log begins when the robot's clock does.
+        let began_us = self.clock.now_us();
+        let now_ms = began_us / 1_000;
+        let robot = Robot::new(self.station, self.boot.counter);
         let mut turn = Loop {
+            began_us,
             machine: Machine::new(
                 Endpoint::new(robot, self.config, self.wire, now_ms)
                     .with_security(self.security)
@@ -188,6 +206,7 @@ impl Setup {
             journal: self.journal,
             clock: self.clock,
             waiting: Arc::clone(&waiting),
+            epochs: Epochs::start(self.boot),
             observed: State::Idle,
             stopping: false,
             is_dead: false,
@@ -309,13 +328,68 @@ impl Reader {
     }
 }
 
+/// The boot counter, in a thread of its own: the robot does not wait for its disk.
+struct Epochs {
+    ask: Option<SyncSender<()>>,
+    answers: Inbox<Result<u16, BootError>>,
+    thread: Option<JoinHandle<()>>,
+    /// Whether an answer is still to come.
+    is_asked: bool,
+}
+
+impl Epochs {
+    fn start(mut boot: Boot) -> Self {
+        let (ask, asked) = sync_channel(1);
+        let (answer, answers) = sync_channel(1);
+        let thread = std::thread::spawn(move || {
+            while asked.recv().is_ok() {
+                if answer.send(boot.renew()).is_err() {
+                    return;
+                }
+            }
+        });
+        Self {
+            ask: Some(ask),
+            answers,
+            thread: Some(thread),
+            is_asked: false,
+        }
+    }
+
+    /// Asks for the next counter, unless that has been asked already.
+    fn ask(&mut self) {
+        if let (Some(ask), false) = (&self.ask, self.is_asked) {
+            self.is_asked = ask.try_send(()).is_ok();
+        }
+    }
+
+    fn answer(&mut self) -> Option<Result<u16, BootError>> {
+        let answer = self.answers.try_recv().ok()?;
+        self.is_asked = false;
+        Some(answer)
+    }
+}
+
+impl Drop for Epochs {
+    /// The counter is free again when the robot has ended.
+    fn drop(&mut self) {
+        self.ask = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
 struct Loop {
+    /// When the robot's clock began.
+    began_us: u64,
     machine: Machine,
     name: String,
     sender: Box<dyn Sender>,
     journal: Journal,
     clock: Clock,
     waiting: Arc<Waiting>,
+    epochs: Epochs,
     /// The newest state that was told to whoever observes.
     observed: State,
     stopping: bool,
@@ -325,13 +399,18 @@ struct Loop {
 impl Loop {
     fn run(&mut self, inbox: &Inbox<Delivery>) {
         let _span = tracing::info_span!("robot", name = self.name).entered();
-        self.log(Entry::Started {
-            station: self.machine.endpoint().robot().station(),
-            boot: self.machine.endpoint().robot().boot(),
-            settings: Box::new(self.machine.endpoint().config().settings().clone()),
-            identifiers: self.machine.endpoint().wire().identifiers,
-            unix_ms: unix_ms(),
-        });
+        let since_ms = self.clock.now_us().saturating_sub(self.began_us) / 1_000;
+        let started = self.record_at(
+            self.began_us,
+            Entry::Started {
+                station: self.machine.endpoint().robot().station(),
+                boot: self.machine.endpoint().robot().boot(),
+                settings: Box::new(self.machine.endpoint().config().settings().clone()),
+                identifiers: self.machine.endpoint().wire().identifiers,
+                unix_ms: unix_ms().saturating_sub(since_ms),
+            },
+        );
+        self.put(started);
         while !self.is_done() {
             match inbox.recv_timeout(self.patience()) {
                 Ok(Delivery::Order(order)) => self.obey(order),
@@ -346,6 +425,7 @@ impl Loop {
             if self.is_dead {
                 return;
             }
+            self.renew_epoch();
             self.handle(Stimulus::Time);
         }
         self.count_overflow();
@@ -368,8 +448,11 @@ impl Loop {
     /// Takes in what comes from the reader.
     fn take(&mut self, delivery: Delivery) {
         match delivery {
-            Delivery::Arrived(Arrival::Datagram { octets, .. }) => {
-                self.handle(Stimulus::Datagram(&octets));
+            Delivery::Arrived(Arrival::Datagram { octets, at, .. }) => {
+                self.handle(Stimulus::Datagram {
+                    packet: &octets,
+                    arrived_ms: self.clock.at_ms(at),
+                });
             }
             Delivery::Arrived(Arrival::Lost { how, octets }) => {
                 let detail = "by the fault layer".to_owned();
@@ -398,6 +481,17 @@ impl Loop {
     fn obey(&mut self, order: Order) {
         match order {
             Order::Wish(wish) => self.handle(stimulus_of(wish)),
+            Order::InPosition => {
+                if let Some(event) = self.machine.in_position() {
+                    self.handle(Stimulus::Event(event));
+                }
+            }
+            Order::Clear => {
+                // Where nothing waits for it, the robot says so.
+                if !self.machine.application_mut().say_clear() {
+                    self.handle(Stimulus::Event(Event::RoadClear));
+                }
+            }
             Order::Finish { well } => {
                 if let Some(event) = self.machine.finish(well) {
                     self.handle(Stimulus::Event(event));
@@ -405,12 +499,26 @@ impl Loop {
             }
             Order::Perceived(vru) => {
                 let place = self.machine.application().body().place();
+                self.machine.application_mut().perceive(&vru);
                 self.handle(Stimulus::Perceived(&[seen_from(place, vru)]));
             }
             Order::Moved(pose) => self.machine.application_mut().moved(pose),
             Order::Reset => self.machine.application_mut().reset(),
             Order::Stop => self.begin_to_stop(),
             Order::Die => self.is_dead = true,
+        }
+    }
+
+    /// Tells the robot of a boot counter that has been persisted meanwhile.
+    fn renew_epoch(&mut self) {
+        match self.epochs.answer() {
+            None => {}
+            Some(Ok(boot)) => self.handle(Stimulus::Event(Event::EpochRenewed(boot))),
+            // The robot asks again with the next number that it gives out.
+            Some(Err(error)) => {
+                tracing::error!(%error, "the boot counter is not renewed");
+                self.drop(Cause::EpochNotRenewed, error.to_string(), Vec::new());
+            }
         }
     }
 
@@ -425,14 +533,16 @@ impl Loop {
     }
 
     fn is_done(&self) -> bool {
-        self.stopping && self.machine.is_at_rest()
+        self.stopping && self.machine.may_stop()
     }
 
     /// Hands something to the endpoint and carries out what it wants.
     fn handle(&mut self, stimulus: Stimulus<'_>) {
-        let moment = self.clock.moment();
+        // Read once: the sign counts from the moment that the protocol counts from.
+        let shown = self.clock.now_us();
+        let moment = Moment::at(shown);
         #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
-        let now_s = self.clock.now_us() as f64 / 1e6;
+        let now_s = shown as f64 / 1e6;
         for effect in self.machine.handle(moment, now_s, stimulus) {
             self.carry_out(effect);
         }
@@ -443,6 +553,9 @@ impl Loop {
             Effect::Transmit { packet, .. } => Some(packet.clone()),
             _ => None,
         };
+        if matches!(effect, Effect::Act(Act::RenewEpoch)) {
+            self.epochs.ask();
+        }
         // What is sent is logged first: no receiver logs it before its sender.
         if let Some(entry) = recorded(effect) {
             self.log(entry);
@@ -465,6 +578,10 @@ impl Loop {
 
     fn log(&mut self, entry: Entry) {
         let record = self.record(entry);
+        self.put(record);
+    }
+
+    fn put(&mut self, record: Record) {
         for lost in self.journal.put(record) {
             tracing::error!(cause = lost.name(), "dropped");
             self.machine.endpoint_mut().count(lost);
@@ -472,9 +589,13 @@ impl Loop {
     }
 
     fn record(&mut self, entry: Entry) -> Record {
+        self.record_at(self.clock.now_us(), entry)
+    }
+
+    fn record_at(&mut self, at_us: u64, entry: Entry) -> Record {
         observe::entry(&entry, &mut self.observed);
         Record {
-            at_us: self.clock.now_us(),
+            at_us,
             robot: self.name.clone(),
             entry,
         }

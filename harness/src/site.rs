@@ -1,6 +1,9 @@
 //! A street corner in metres, and where on earth it is.
 
+use std::str::FromStr;
+
 use crossguard_codec::{ConfidenceEllipse, Position, Target};
+use crossguard_protocol as protocol;
 
 /// A place in metres east and north of the site's origin.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -55,14 +58,45 @@ pub struct Site {
     pub latitude: f64,
     /// Longitude of the origin, in degrees, east positive.
     pub longitude: f64,
+    /// The crossing that requests for help are for; [`UNKNOWN`](protocol::Place::UNKNOWN) may be any.
+    pub crossing: protocol::Place,
 }
 
 impl Default for Site {
-    /// A street corner in Karlsruhe.
+    /// A street corner in Karlsruhe, at a crossing without a reference.
     fn default() -> Self {
         Self {
             latitude: 49.010_1,
             longitude: 8.412_4,
+            crossing: protocol::Place::UNKNOWN,
+        }
+    }
+}
+
+/// A crossing as files name it: road regulator and intersection, like `276:4711`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct CrossingReference(pub protocol::Place);
+
+/// A text that names no crossing.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error(
+    "'{0}' is no crossing: road regulator and intersection are wanted, each from 0 to 65535 and not both 0, \
+     like '276:4711'"
+)]
+pub struct NoCrossing(String);
+
+impl FromStr for CrossingReference {
+    type Err = NoCrossing;
+
+    fn from_str(text: &str) -> Result<Self, NoCrossing> {
+        let number = |text: &str| text.parse::<u16>().ok();
+        let halves = text.split_once(':');
+        let halves = halves.and_then(|(region, id)| Some((number(region)?, number(id)?)));
+        match halves {
+            Some((region, id)) if (region, id) != (0, 0) => Ok(Self(protocol::Place(
+                u32::from(region) << 16 | u32::from(id),
+            ))),
+            _ => Err(NoCrossing(text.to_owned())),
         }
     }
 }
@@ -141,6 +175,15 @@ mod tests {
             (f64::from(measured.0) / 10.0 - 50.0).abs() < 0.5,
             "{measured:?}"
         );
+    }
+
+    #[test]
+    fn a_crossing_is_named_as_it_reads() {
+        let named: CrossingReference = "276:4711".parse().unwrap();
+        assert_eq!(named.0.to_string(), "276:4711");
+        for text in ["", "276", "0:0", "276:65536", "a:b", "1:2:3"] {
+            assert!(text.parse::<CrossingReference>().is_err(), "{text}");
+        }
     }
 
     #[test]

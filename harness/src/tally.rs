@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::time::{Duration, Instant};
 
-use crossguard_protocol::{Phase, Robot, Role, StationId};
+use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
 
+use crate::facts::duty_text;
 use crate::trace::{Entry, Record};
 use crate::wire::MessageKind;
 
@@ -27,6 +29,8 @@ pub struct Tally {
     pub at_us: u64,
     /// Whether it has stopped.
     pub has_stopped: bool,
+    /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
+    pub go_until: Option<Instant>,
 }
 
 /// The way of a message.
@@ -60,6 +64,7 @@ impl Tally {
             Entry::Started { station, boot, .. } => {
                 self.robot.clone_from(&record.robot);
                 self.state = Some(Robot::new(*station, *boot));
+                self.go_until = None;
             }
             Entry::Step { outputs, state, .. } => {
                 self.steps += 1;
@@ -67,6 +72,7 @@ impl Tally {
                     self.count(&crate::counters::Cause::Ignored(reason).name());
                 }
                 self.state = Some((**state).clone());
+                self.sign(outputs);
             }
             Entry::Sent { message, .. } => self.message(Way::Sent, *message),
             Entry::Heard { message, from, .. } => {
@@ -79,6 +85,19 @@ impl Tally {
             Entry::Stopped { counters } => {
                 self.causes.clone_from(counters);
                 self.has_stopped = true;
+            }
+        }
+    }
+
+    fn sign(&mut self, outputs: &Outputs) {
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+                    let time = Duration::from_millis(time.0.into());
+                    self.go_until = Instant::now().checked_add(time);
+                }
+                Output::CorridorClosed(_) => self.go_until = None,
+                _ => {}
             }
         }
     }
@@ -103,11 +122,22 @@ impl Tally {
         those.map(|(_, count)| count).sum()
     }
 
-    /// Whether the pedestrian may cross, as far as this robot says.
+    /// Whether the pedestrian may cross: the sign shows go now, whether the robot still runs or not.
     #[must_use]
     pub fn corridor_open(&self) -> bool {
-        let phase = self.state.as_ref().map(Robot::phase);
-        matches!(phase, Some(Phase::Leading(leading)) if leading.corridor_open)
+        self.go_until.is_some_and(|until| Instant::now() < until)
+    }
+
+    /// Whether it has a duty on the road, or leads and waits for the road to be clear.
+    #[must_use]
+    pub fn is_on_duty(&self) -> bool {
+        self.state.as_ref().is_some_and(|state| {
+            let is_clearing = matches!(
+                state.phase(),
+                Phase::Leading(leading) if leading.corridor == Corridor::Clearing
+            );
+            is_clearing || state.duty().is_some()
+        })
     }
 
     /// How many followers it leads.
@@ -147,10 +177,11 @@ impl Tally {
                         line.push_str(" (out of contact)");
                     }
                 }
-                let corridor = if leading.corridor_open {
-                    "open"
-                } else {
-                    "closed"
+                let corridor = match leading.corridor {
+                    Corridor::Open if self.corridor_open() => "open",
+                    Corridor::Open => "ended by itself, since nothing renewed it",
+                    Corridor::Clear => "closed",
+                    Corridor::Clearing => "closed, road not known to be clear",
                 };
                 let _ = write!(line, ", corridor {corridor}");
             }
@@ -160,6 +191,9 @@ impl Tally {
                 }
             }
             _ => {}
+        }
+        if let Some(duty) = state.duty() {
+            let _ = write!(line, ", {}", duty_text(duty));
         }
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());

@@ -150,7 +150,7 @@ impl Timing {
                 Output::StartManeuver(maneuver) => self.times(own, maneuver.id).started = at,
                 Output::StopManeuver(
                     maneuver,
-                    StopReason::Released(ReleaseReason::SessionEnded),
+                    StopReason::Released(ReleaseReason::TaskCompleted),
                 ) if maneuver.task == TaskType::BLOCK => {
                     self.times(own, maneuver.id).completed = at;
                 }

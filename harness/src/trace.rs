@@ -6,6 +6,7 @@
 
 mod reader;
 
+pub(crate) use reader::{HELD_US, SAME_CLOCK_US};
 pub use reader::{Log, LogError, Merged, Records, Unreadable};
 
 use std::collections::BTreeMap;
@@ -79,6 +80,9 @@ pub enum Entry {
         message: MessageKind,
         /// Who sent it.
         from: StationId,
+        /// When; `None` in the log of a robot that does not say.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reception: Option<Reception>,
         /// The message.
         #[serde(with = "hex::serde")]
         octets: Vec<u8>,
@@ -100,7 +104,26 @@ pub enum Entry {
     },
 }
 
-/// What the log says of an effect. What the application is to do is in the outputs of its step.
+/// When a message came in, in microseconds on the log's clock.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Reception {
+    /// When it arrived.
+    pub arrived_us: u64,
+    /// When the robot was told of it: for so long it waited. What became of it stands in the log somewhat
+    /// later.
+    pub told_us: u64,
+}
+
+impl Reception {
+    /// For so long the message waited, in µs.
+    #[must_use]
+    pub const fn waited_us(&self) -> u64 {
+        self.told_us.saturating_sub(self.arrived_us)
+    }
+}
+
+/// What the log says of an effect, if the log's clock is that of the endpoint. What the application is to do is in the outputs of its step.
 #[must_use]
 pub fn recorded(effect: Effect) -> Option<Entry> {
     Some(match effect {
@@ -113,9 +136,19 @@ pub fn recorded(effect: Effect) -> Option<Entry> {
             outputs,
             state,
         },
-        Effect::Heard { kind, from, octets } => Entry::Heard {
+        Effect::Heard {
+            kind,
+            from,
+            arrived_ms,
+            told_ms,
+            octets,
+        } => Entry::Heard {
             message: kind,
             from,
+            reception: Some(Reception {
+                arrived_us: arrived_ms * 1_000,
+                told_us: told_ms * 1_000,
+            }),
             octets,
         },
         Effect::Transmit {

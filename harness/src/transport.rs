@@ -11,6 +11,7 @@
 //! where faults are made; the simulator draws from it as well. [`Reopening`] opens one again that has
 //! failed.
 
+mod attention;
 mod ethernet;
 mod faults;
 mod layer;
@@ -29,7 +30,7 @@ pub use zenoh::{Zenoh, ZenohError, ZenohMode, ZenohRouter};
 
 use std::io::ErrorKind;
 use std::net::SocketAddr;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
 const DATAGRAM_MAX: usize = 2_048;
@@ -117,6 +118,9 @@ pub enum Arrival {
         from: Source,
         /// What it holds.
         octets: Vec<u8>,
+        /// When it arrived, as far as the transport can tell, and not later: what waits from then on grows
+        /// old.
+        at: Instant,
     },
     /// A datagram that the fault layer lost on purpose.
     Lost {

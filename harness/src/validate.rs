@@ -11,24 +11,49 @@
 //! until the log of the sender has come to the transmission. Each record is looked at once, so the
 //! time grows with the length of the logs alone.
 //!
+//! Times are judged by what one log says of one clock, which is [never put](crate::runtime::Clock):
+//!
+//! | what a log shows | |
+//! |---|---|
+//! | The robot is told of more time than has passed, or of less than had passed at its record before | refused: no robot that reads its clock first can have written that, however slow its machine is |
+//! | A message is taken in before the time up to then is told | refused |
+//! | A message is taken in that waited for longer than `delay_max` | refused |
+//! | A timer is told later than `delay_max` after it is due; a step is taken later than `delay_max` after the time that the robot was told last | counted, with the longest: a process may hang |
+//! | I10 is broken among robots that share a log, and so a clock | refused, unless a robot was late or silent: its lease then outlasts a safety timer, as the rules say |
+//!
+//! W1, W2 and W4 are judged for people who step on the road as soon as a sign shows go.
+//!
+//! And what no log shows: where people are, whether a sign ended when its time was over, and whether a body was
+//! where its application said; how long messages were under way, since the clocks of sender and receiver are not
+//! compared; for how long one waited in a socket of a process that hung, but for the limit that its
+//! thread vouches for; I10 between robots with logs of their own. Where receptions do not say when they arrived,
+//! how many is counted.
+//!
 //! A log that ends in the middle is what a killed process leaves. What others heard from it after its
 //! end cannot be matched, and is counted.
 
+mod clock;
 mod fault;
+mod road;
 mod robot;
+mod time;
 
 pub use fault::Fault;
+pub use time::Late;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fmt;
 use std::io::BufRead;
 
 use crossguard_model_check::monitor::Monitor;
+use crossguard_model_check::timed::TimedProperty;
 use crossguard_protocol::{Event, Input, StationId};
 use serde::Serialize;
 
 pub use crate::trace::Log;
 use crate::trace::{Entry, Record, Records, Unreadable};
+use clock::{BrokenAt, Deed, SharedClock};
+use road::Road;
 use robot::Follow;
 
 /// What valid logs hold.
@@ -48,12 +73,18 @@ pub struct Validated {
     pub from_strangers: usize,
     /// How many were heard from robots after the end of their logs.
     pub beyond_logs: usize,
+    /// How many messages were taken in of which the logs do not say how long they had waited.
+    pub of_unknown_age: usize,
+    /// Steps that came later than the rules allow.
+    pub late: Late,
     /// How many records the robots themselves say are missing, because the log was full.
     pub missing: u64,
     /// The robots whose logs end in the middle of a run, because they lost power or were killed.
     pub cut_off: Vec<String>,
     /// The properties that had something to say, and were kept.
     pub properties: Vec<String>,
+    /// What was not judged, and why.
+    pub not_judged: Vec<String>,
 }
 
 /// Why logs are not valid: the first record that does not fit.
@@ -108,16 +139,20 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
     while let Some(next) = street.choose(&cursors) {
         let cursor = &mut cursors[next];
         if let Some(record) = cursor.head.take() {
+            let line = cursor.records.line();
             street
-                .take(record)
-                .map_err(|(robot, fault)| cursor.invalid(Some(robot), fault))?;
+                .take(record, &mut cursor.clock, line)
+                .map_err(|refusal| cursor.refused(refusal))?;
             cursor.advance()?;
         }
-        if cursors[next].head.is_none() {
-            street.end(&cursors[next]);
+        let cursor = &mut cursors[next];
+        if cursor.head.is_none() {
+            let judged = cursor.clock.finish();
+            judged.map_err(|broken| cursor.refused(Refusal::Clock(broken)))?;
+            street.end(cursor);
         }
     }
-    Ok(street.finish())
+    Ok(street.finish(cursors.iter().map(|cursor| &cursor.clock)))
 }
 
 /// A log, and how far it has been read.
@@ -126,6 +161,16 @@ struct Cursor<'a> {
     head: Option<Record>,
     /// The robots that it is of.
     robots: BTreeSet<String>,
+    /// The same, at moments of their common clock.
+    clock: SharedClock,
+}
+
+/// Why a record is not taken.
+enum Refusal {
+    /// It does not fit.
+    Record(String, Fault),
+    /// An earlier one, which was held back, does not fit to those of other robots at its time.
+    Clock(BrokenAt),
 }
 
 impl<'a> Cursor<'a> {
@@ -134,6 +179,7 @@ impl<'a> Cursor<'a> {
             records: Records::new(log),
             head: None,
             robots: BTreeSet::new(),
+            clock: SharedClock::default(),
         };
         cursor.advance()?;
         Ok(cursor)
@@ -163,6 +209,16 @@ impl<'a> Cursor<'a> {
             .map_or(0, |head| self.records.unix_us(head))
     }
 
+    fn refused(&self, refusal: Refusal) -> Invalid {
+        match refusal {
+            Refusal::Record(robot, fault) => self.invalid(Some(robot), fault),
+            Refusal::Clock(BrokenAt { robot, line }) => Invalid {
+                line,
+                ..self.invalid(Some(robot), BrokenAt::fault())
+            },
+        }
+    }
+
     fn invalid(&self, robot: Option<String>, fault: Fault) -> Invalid {
         Invalid {
             log: self.records.name().to_owned(),
@@ -176,6 +232,7 @@ impl<'a> Cursor<'a> {
 /// All robots of the logs, and what has been on the air between them.
 struct Street {
     monitor: Monitor,
+    road: Road,
     robots: BTreeMap<String, Follow>,
     /// The messages that were sent, each with its kind and octets.
     sent: HashSet<Vec<u8>>,
@@ -189,8 +246,9 @@ struct Street {
 impl Default for Street {
     fn default() -> Self {
         Self {
-            // Logs are merged by cause and effect, not by true time.
+            // Logs are merged by cause and effect, not by true time; that is for each log's own clock.
             monitor: Monitor::new(false),
+            road: Road::default(),
             robots: BTreeMap::new(),
             sent: HashSet::new(),
             stations: HashMap::new(),
@@ -233,37 +291,70 @@ impl Street {
         }
     }
 
-    fn take(&mut self, record: Record) -> Result<(), (String, Fault)> {
+    fn take(
+        &mut self,
+        record: Record,
+        clock: &mut SharedClock,
+        line: usize,
+    ) -> Result<(), Refusal> {
         self.validated.records += 1;
         let Record {
             at_us,
             robot,
             entry,
         } = record;
-        let result = self.take_entry(&robot, at_us, entry);
-        result.map_err(|fault| (robot, fault))
+        if let Entry::Started { unix_ms, .. } = entry {
+            clock.show(at_us, unix_ms).map_err(Refusal::Clock)?;
+        }
+        match self.take_entry(&robot, at_us, entry) {
+            Ok(None) => Ok(()),
+            Ok(Some(deed)) => clock
+                .take(at_us, &robot, line, deed)
+                .map_err(Refusal::Clock),
+            Err(fault) => Err(Refusal::Record(robot, fault)),
+        }
     }
 
-    fn take_entry(&mut self, robot: &str, at_us: u64, entry: Entry) -> Result<(), Fault> {
+    /// What the robot did, for who judges the robots of a clock.
+    fn take_entry(&mut self, robot: &str, at_us: u64, entry: Entry) -> Result<Option<Deed>, Fault> {
         if let Entry::Started { .. } = entry {
-            return self.start(robot, at_us, entry);
+            self.start(robot, at_us, entry)?;
+            let started = &self.robots[robot];
+            return Ok(Some(Deed::Boot {
+                robot: Box::new(started.robot().clone()),
+                effect_us: u64::from(started.config().settings().t_safety.0) * 1_000,
+            }));
         }
         let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
         follow.tick(at_us)?;
         match entry {
-            Entry::Started { .. } => Ok(()),
+            Entry::Started { .. } => Ok(None),
             Entry::Step {
                 input,
                 outputs,
                 state,
             } => {
                 self.validated.steps += 1;
-                follow.step(input, &outputs, &state)?;
+                self.road.told(follow.robot(), input, &mut self.monitor);
+                let late_us = follow.step(input, &outputs, &state)?;
+                if let Some(late_us) = late_us {
+                    self.validated.late.count(late_us);
+                }
                 if let Input::Local(Event::IdentityChanged(station)) = input {
                     self.stations.insert(station, robot.to_owned());
                 }
                 let broken = self.monitor.step(follow.place(), input, &outputs, &state);
-                broken.map_or(Ok(()), |broken| Err(Fault::Broken(broken)))
+                let broken =
+                    broken.or_else(|| self.road.shown(&outputs, &state, &mut self.monitor));
+                let overdue_us = follow.overdue_us();
+                match broken {
+                    Some(broken) => Err(Fault::Broken(broken)),
+                    None => Ok(Some(Deed::Step {
+                        after: state,
+                        is_late: late_us.is_some(),
+                        overdue_us,
+                    })),
+                }
             }
             Entry::Sent {
                 message, octets, ..
@@ -271,25 +362,27 @@ impl Street {
                 self.validated.sent += 1;
                 follow.sent(message, &octets)?;
                 self.sent.insert(octets);
-                Ok(())
+                Ok(None)
             }
             Entry::Heard {
                 message,
                 from,
+                reception,
                 octets,
             } => {
-                follow.heard(message, from, &octets)?;
-                self.match_reception(robot, from, &octets)
+                follow.heard(message, from, reception, &octets)?;
+                self.validated.of_unknown_age += usize::from(reception.is_none());
+                self.match_reception(robot, from, &octets).map(|()| None)
             }
             Entry::Dropped { cause, .. } => {
                 follow.dropped(cause);
-                Ok(())
+                Ok(None)
             }
             Entry::Stopped { counters } => {
                 self.validated.missing += follow.stopped(&counters)?;
                 self.running.remove(robot);
                 self.monitor.crash(follow.place());
-                Ok(())
+                Ok(Some(Deed::Stop))
             }
         }
     }
@@ -362,11 +455,20 @@ impl Street {
         }
     }
 
-    fn finish(self) -> Validated {
+    fn finish<'a>(self, clocks: impl Iterator<Item = &'a SharedClock>) -> Validated {
         let met = self.monitor.premises_met();
+        let mut properties: Vec<_> = met.map(|id| id.to_string()).collect();
+        let verdicts: Vec<_> = clocks.map(SharedClock::verdict).collect();
+        let i10 = TimedProperty::I10.name();
+        if verdicts.iter().any(Result::is_ok) {
+            properties.push(i10.to_owned());
+        }
+        let reasons: BTreeSet<_> = verdicts.into_iter().filter_map(Result::err).collect();
+        let reasons = reasons.into_iter().map(|why| format!("{i10}: {why}"));
         Validated {
             robots: self.robots.len(),
-            properties: met.map(|id| id.to_string()).collect(),
+            properties,
+            not_judged: reasons.collect(),
             ..self.validated
         }
     }

@@ -13,7 +13,7 @@ use support::*;
 
 #[test]
 fn check_reports_every_property_of_a_scenario_as_json() {
-    let output = run(&["check", "offer-race", "trio", "--json"]);
+    let output = run(&["check", "contention", "leader-crash", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let report = json(&output);
     let scenarios = report["scenarios"].as_array().unwrap();
@@ -40,37 +40,37 @@ fn check_reports_every_property_of_a_scenario_as_json() {
 
 #[test]
 fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
-    let output = run(&["check", "timed-pair", "--json"]);
+    let output = run(&["check", "timed-hang", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let report = json(&output);
     let scenario = &report["scenarios"][0];
     assert_eq!(scenario["exhaustive"], true);
     let figures = scenario["figures"].as_array().unwrap();
-    assert_eq!(figures.len(), 4);
+    assert_eq!(figures.len(), 5);
     for figure in figures {
         let (ms, bound_ms) = (figure["ms"].as_u64(), figure["bound_ms"].as_u64());
-        assert!(ms > Some(0) && ms <= bound_ms, "{figure}");
+        assert!(ms.is_some() && ms <= bound_ms, "{figure}");
     }
     assert_refused(
         &run(&[
             "check",
-            "timed-pair",
+            "timed-hang",
             "--export",
             "dot",
             "--output",
             "no-graph.dot",
         ]),
-        "'timed-pair' is a timed scenario",
+        "'timed-hang' is a timed scenario",
     );
     // What was found before the limit, and by which timers it is bounded.
-    let output = run(&["check", "timed-pair", "--max-states", "1000"]);
+    let output = run(&["check", "timed-hang", "--max-states", "1000"]);
     assert_eq!(output.status.code(), Some(3));
     let text = stdout(&output);
     assert!(
         text.contains("from a request to roles or to giving up"),
         "{text}"
     );
-    assert!(text.contains("by calculation at most 242 ms"), "{text}");
+    assert!(text.contains("by calculation at most 303 ms"), "{text}");
     assert!(
         text.contains("each shows 50 or 60 ms of each tick"),
         "{text}"
@@ -186,7 +186,7 @@ fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
         std::fs::write(file, text).unwrap();
         run(&["check", scenario, "--replay", file])
     };
-    let lost = "RAM needHelp 1#1.0 (1 x move, medium urgency) from 1";
+    let lost = "RAM needHelp 1#1.0 (1 x move, medium urgency), heartbeat 0 from 1";
     let cases = [
         (
             "\"send RAM\", \"lock identity\"",
@@ -268,10 +268,12 @@ fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
     let text = stdout(&output);
     assert_eq!(
         text.matches("violated, as it must be").count(),
-        12,
+        17,
         "{text}"
     );
-    assert!(text.contains("P12 is broken by:"), "{text}");
+    for id in ["P12", "W1", "W7"] {
+        assert!(text.contains(&format!("{id} is broken by:")), "{text}");
+    }
     assert!(
         text.ends_with("paper-literal fails as it must.\n"),
         "{text}"
@@ -290,21 +292,20 @@ fn the_shipped_scenarios_are_listed() {
 }
 
 #[test]
-fn the_state_diagram_has_the_papers_states_in_every_format() {
-    for format in ["mermaid", "dot", "json"] {
-        let output = run(&["fsm", "--format", format]);
-        assert_eq!(output.status.code(), Some(0));
-        let text = stdout(&output);
-        for state in [
-            "Idle",
-            "HelpRequested",
-            "RoleEstablished",
-            "ManeuverExecuting",
-        ] {
-            assert!(text.contains(state), "{state} is not in:\n{text}");
-        }
+fn the_state_diagram_has_the_papers_states_and_what_leads_from_one_to_another() {
+    // The default, mermaid, is in the README, and so in the test of the pages; dot is tested where it is drawn.
+    let output = run(&["fsm", "--format", "json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = stdout(&output);
+    for state in [
+        "Idle",
+        "HelpRequested",
+        "RoleEstablished",
+        "ManeuverExecuting",
+    ] {
+        assert!(text.contains(state), "{state} is not in:\n{text}");
     }
-    let transitions: Value = json(&run(&["fsm", "--format", "json"]));
+    let transitions: Value = json(&output);
     let starts = transitions.as_array().unwrap().iter().any(|transition| {
         transition["from"] == "RoleEstablished_follower"
             && transition["to"] == "ManeuverExecuting_follower"

@@ -51,7 +51,8 @@ fn walk(model: &Model, seed: u64, steps: usize) -> Vec<Action> {
 fn random_runs_of_every_scenario_are_those_of_endpoints() {
     for name in Scenario::shipped() {
         let scenario = Scenario::load(name).unwrap();
-        if scenario.timed.is_some() {
+        // On a monotone channel messages that differ in names alone cannot be told apart here.
+        if scenario.timed.is_some() || scenario.channel.monotone {
             continue;
         }
         let model = Model::new(scenario);

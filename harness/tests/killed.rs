@@ -48,11 +48,13 @@ fn kill(victim: usize, after_ms: u64) {
 
     // The survivor becomes idle, whoever is silent, and crosses with the one that is back.
     robots[victim] = start(configs[victim]);
-    type_to(&mut robots[1], "until idle 30\n");
+    // A follower that fell back helps again once somebody says that the road is clear.
+    type_to(&mut robots[1], "until idle 30\nclear\n");
     let come_to_rest = if victim == 0 {
         "wait 8\n"
     } else {
-        "until idle 30\n"
+        // The pedestrian may have been on the road: then it asks nobody before the road is clear.
+        "until idle 30\nwait 6\n"
     };
     type_to(&mut robots[0], &format!("{come_to_rest}{CROSS}quit\n"));
     assert_eq!(wait_for(&mut robots[0], PATIENCE).code(), Some(0), "{case}");

@@ -43,7 +43,11 @@ impl Street {
         for effect in self.robots[robot].handle(moment, now_s, stimulus) {
             match effect {
                 Effect::Transmit { packet, .. } => {
-                    self.tell(1 - robot, Stimulus::Datagram(&packet));
+                    let datagram = Stimulus::Datagram {
+                        packet: &packet,
+                        arrived_ms: self.now_ms.into(),
+                    };
+                    self.tell(1 - robot, datagram);
                 }
                 Effect::Act(Act::Start(maneuver, parameters)) => {
                     self.started.push((maneuver.task, parameters));

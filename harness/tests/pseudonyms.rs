@@ -72,7 +72,11 @@ impl Street {
             match effect {
                 Effect::Transmit { packet, octets, .. } => {
                     self.note(robot, &packet, &octets);
-                    self.tell(1 - robot, Stimulus::Datagram(&packet));
+                    let datagram = Stimulus::Datagram {
+                        packet: &packet,
+                        arrived_ms: self.now_ms,
+                    };
+                    self.tell(1 - robot, datagram);
                 }
                 Effect::Stepped { input, state, .. } => {
                     if let Input::Local(Event::IdentityChanged(_)) = input {

@@ -39,6 +39,7 @@ fn of_a_robot() -> Vec<Vec<u8>> {
         urgency: crossguard_protocol::Urgency::High,
         followers: 1,
         tasks: crossguard_protocol::TaskSet(1),
+        place: crossguard_protocol::Place::UNKNOWN,
     });
     let state = RobotState::default();
     let effects = robot.handle(moment(200), &state, Stimulus::Event(event));
@@ -94,7 +95,11 @@ fn any_packet_is_taken_or_dropped_under_a_cause() {
                 noise.fill_bytes(&mut packet[from..]);
             }
         }
-        let effects = endpoint.handle(moment(n), &state, Stimulus::Datagram(&packet));
+        let datagram = Stimulus::Datagram {
+            packet: &packet,
+            arrived_ms: moment(n).now_ms,
+        };
+        let effects = endpoint.handle(moment(n), &state, datagram);
         let drops = effects
             .iter()
             .filter(|effect| matches!(effect, Effect::Dropped { .. }))

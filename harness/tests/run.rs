@@ -164,6 +164,15 @@ fn a_configuration_that_makes_no_sense_is_refused_by_name() {
         good.replace("speed = 40.0", "speed = 0.0"),
         "a number from 1 to 100 is wanted",
     );
+    let named = |more: &str| good.replace("autopilot", &format!("{more}\nautopilot"));
+    refused(
+        named("crossing = \"276\""),
+        "crossing: '276' is no crossing",
+    );
+    refused(
+        named("zone_m = [5.0, 0.0, -3.0, 7.0]"),
+        "west < east and south < north",
+    );
     refused(good.replace("127.0.0.1", "192.0.2.1"), "192.0.2.1");
     refused(
         good.replace("peers", "multicast = \"239.1.1.1:4\"\npeers"),

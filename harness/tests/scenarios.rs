@@ -131,11 +131,9 @@ fn when_the_leader_dies_the_follower_falls_back_and_leaves() {
 #[test]
 fn of_two_that_detect_the_same_pedestrian_one_leads() {
     let (_, log) = scenario("two-detect", &["--speed", "20"]);
-    assert_eq!(
-        at(&log, "rolesEstablished"),
-        ["ARI"],
-        "the lower station id goes before"
-    );
+    // Between requests the lower station id goes before, but one that has got its help by then leads.
+    let leaders = at(&log, "rolesEstablished");
+    assert!(leaders == ["ARI"] || leaders == ["ARI-2"], "{leaders:?}");
     let escorts = started(&log).into_iter().filter(|(_, task)| *task == MOVE);
     assert_eq!(escorts.count(), 1, "the pedestrian is escorted once");
 }

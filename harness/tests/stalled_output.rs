@@ -10,6 +10,14 @@ use support::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 
+/// Waits until Go2, which is configured by the file `config`, has seen the whole crossing.
+fn assert_sees_all(dog: &mut Child, config: &str) {
+    type_to(dog, "until maneuver-executing 30\nuntil idle 30\nquit\n");
+    assert_eq!(wait_for(dog, PATIENCE).code(), Some(0));
+    let log = log_of(config);
+    assert!(log.contains("\"taskCompleted\"") && !log.contains("fallBack"));
+}
+
 /// ARI, whose output nobody reads, in a crossing with Go2. It is then told to stop; what it complained.
 fn cross_unread(more: &[&str], chatter: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
@@ -29,13 +37,7 @@ fn cross_unread(more: &[&str], chatter: &str) -> String {
     type_to(&mut humanoid, chatter);
     type_to(&mut humanoid, "wait 0.3\ndetect\n");
     // The dog sees the whole crossing, although nobody reads what its leader says.
-    type_to(
-        &mut dog,
-        "until maneuver-executing 30\nuntil idle 30\nquit\n",
-    );
-    assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
-    let dog = log_of(&go2);
-    assert!(dog.contains("sessionEnded") && !dog.contains("fallBack"));
+    assert_sees_all(&mut dog, &go2);
     signal(&humanoid, "-TERM");
     let status = wait_for(&mut humanoid, PATIENCE);
     // The log has all, and is that of a robot that stopped in order.
@@ -83,13 +85,7 @@ fn who_asks_for_all_details_and_does_not_read_them_does_not_stop_the_robot() {
         .unwrap();
     // Long enough that more is told than a pipe holds.
     type_to(&mut humanoid, "wait 4\ndetect\n");
-    type_to(
-        &mut dog,
-        "until maneuver-executing 30\nuntil idle 30\nquit\n",
-    );
-    assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
-    let dog = log_of(&go2);
-    assert!(dog.contains("sessionEnded") && !dog.contains("fallBack"));
+    assert_sees_all(&mut dog, &go2);
     signal(&humanoid, "-TERM");
     let output = humanoid.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(0));

@@ -55,17 +55,17 @@ fn assert_stopped_in_order(log: &[Value]) {
 }
 
 #[test]
-fn a_leader_ends_its_session_and_its_follower_stops_at_once() {
+fn a_leader_ends_its_session_and_its_follower_falls_back_at_once() {
     let [ari, go2] = logs_after_a_stop_of(0);
     assert_stopped_in_order(&ari);
     assert!(outputs(&ari).contains("\"leaveRequested\""));
     let go2 = outputs(&go2);
     assert!(
-        go2.contains("stopManeuver") && go2.contains("sessionEnded"),
+        go2.contains("fallBack") && go2.contains("sessionEnded"),
         "{go2}"
     );
     assert!(
-        !go2.contains("fallBack"),
+        !go2.contains("contactLost"),
         "released by name, not by silence"
     );
 }

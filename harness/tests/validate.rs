@@ -45,6 +45,8 @@ fn logs_of_two_processes_are_valid_together_and_alone_and_not_when_altered() {
     assert_eq!(report["from_strangers"], 0);
     assert_eq!(report["cut_off"], json!([]));
     assert!(report["heard"].as_u64().unwrap() > 20, "{report}");
+    let why = "I10: no two robots share a clock, and clocks of different logs are not compared";
+    assert_eq!(report["not_judged"], json!([why]));
     assert_eq!(run(&["validate", &go2]).status.code(), Some(0));
 
     // The dog's log says that it acknowledged another command.
@@ -75,6 +77,8 @@ enum Where {
     AsHeard,
     /// At the latest where that robot first has a part in a session, whose number has the boot counter in it.
     AtItsPart,
+    /// There or later, wherever it shows first.
+    FromThereOn,
     /// Where that robot stops and says what it has counted.
     AtTheEnd,
 }
@@ -116,13 +120,40 @@ fn flip_octet(line: &mut Value) {
     line["octets"] = flipped.into();
 }
 
+/// All times of a log, altered. When messages arrived is left out, so that only what was told is left to judge.
+fn alter_times(lines: &mut [Value], alter: fn(u64) -> u64) {
+    for line in lines {
+        line["atUs"] = alter(line["atUs"].as_u64().unwrap()).into();
+        line.as_object_mut().unwrap().remove("reception");
+    }
+}
+
+/// A message that the robot was told of when its clock showed more than a tenth of a second.
+fn is_heard_later(line: &Value) -> bool {
+    let told_us = line["reception"]["toldUs"].as_u64();
+    is(line, "heard") && told_us.is_some_and(|told_us| told_us > 100_000)
+}
+
+/// The message arrived so many ms earlier, and was told so many earlier.
+fn shift_reception(line: &mut Value, arrived_ms: u64, told_ms: u64) {
+    for (name, ms) in [("arrivedUs", arrived_ms), ("toldUs", told_ms)] {
+        let time = &mut line["reception"][name];
+        *time = (time.as_u64().unwrap() - ms * 1_000).into();
+    }
+}
+
 /// The next line of the same robot.
 fn next_of_robot(lines: &[Value], at: usize) -> usize {
-    let same = |i: &usize| lines[*i]["robot"] == lines[at]["robot"];
+    next_of(&lines[at]["robot"], lines, at)
+}
+
+/// The next line of a robot after this one, which may not be its own any more.
+fn next_of(robot: &Value, lines: &[Value], at: usize) -> usize {
+    let same = |i: &usize| lines[*i]["robot"] == *robot;
     (at + 1..lines.len()).find(same).unwrap_or(lines.len() - 1)
 }
 
-const ALTERATIONS: [Alteration; 18] = [
+const ALTERATIONS: [Alteration; 22] = [
     Alteration {
         name: "settings that break an inequality",
         line: |line| is(line, "started"),
@@ -165,7 +196,7 @@ const ALTERATIONS: [Alteration; 18] = [
         line: is_busy_step,
         alter: |lines, at| {
             let outputs = lines[at]["outputs"].as_array_mut().unwrap();
-            outputs.push("corridorOpened".into());
+            outputs.push(serde_json::json!({"corridorOpened": 1}));
         },
         refused: Where::There,
         reason: "corridor opened",
@@ -264,6 +295,34 @@ const ALTERATIONS: [Alteration; 18] = [
         refused: Where::There,
         reason: "has a clock that went back from",
     },
+    Alteration {
+        name: "all times twenty times as long",
+        line: |line| is(line, "started"),
+        alter: |lines, _| alter_times(lines, |us| us * 20),
+        refused: Where::FromThereOn,
+        reason: "ms at its record before",
+    },
+    Alteration {
+        name: "all times a twentieth",
+        line: |line| is(line, "started"),
+        alter: |lines, _| alter_times(lines, |us| us / 20),
+        refused: Where::FromThereOn,
+        reason: "ms passed since it was started, and it was",
+    },
+    Alteration {
+        name: "a message that had waited for too long",
+        line: is_heard_later,
+        alter: |lines, at| shift_reception(&mut lines[at], 80, 0),
+        refused: Where::There,
+        reason: "ms; delay_max is 50 ms",
+    },
+    Alteration {
+        name: "a message that was taken in at another time than the robot was told",
+        line: is_heard_later,
+        alter: |lines, at| shift_reception(&mut lines[at], 40, 40),
+        refused: Where::There,
+        reason: "µs, and was told of the time until",
+    },
 ];
 
 #[test]
@@ -275,7 +334,9 @@ fn every_kind_of_alteration_is_refused_with_position_and_reason() {
     let more = ["--loss", "0.2", "--port", &port, "--log", &log];
     assert_eq!(run(&[demo, more].concat()).status.code(), Some(0));
     let whole = records(&std::fs::read_to_string(&log).unwrap());
-    assert_eq!(run(&["validate", &log]).status.code(), Some(0));
+    let output = run(&["validate", &log, "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(json(&output)["of_unknown_age"], 0);
     let mut wrong = Vec::new();
     for Alteration {
         name,
@@ -291,11 +352,12 @@ fn every_kind_of_alteration_is_refused_with_position_and_reason() {
         alter(&mut lines, at);
         write(&log, &lines);
         let output = run(&["validate", &log, "--json"]);
-        assert_eq!(output.status.code(), Some(1), "{name}: {}", stderr(&output));
+        let said = format!("{} {}", stderr(&output), stdout(&output));
+        assert_eq!(output.status.code(), Some(1), "{name}: {said}");
         let report = json(&output);
         let found = usize::try_from(report["line"].as_u64().unwrap()).unwrap();
         let said = report["error"].as_str().unwrap();
-        let (there, next) = (at + 1, next_of_robot(&lines, at) + 1);
+        let (there, next) = (at + 1, next_of(&whole[at]["robot"], &lines, at) + 1);
         let is_there = match refused {
             Where::There => found == there,
             Where::ThereOrNext => (there..=next).contains(&found),
@@ -309,6 +371,7 @@ fn every_kind_of_alteration_is_refused_with_position_and_reason() {
                 let first = lines.iter().position(|line| is_part(&line)).unwrap();
                 (there..=first + 1).contains(&found)
             }
+            Where::FromThereOn => found >= there,
             Where::AtTheEnd => is(&lines[found - 1], "stopped"),
         };
         let begin = format!("{log}, line {found}: ");

@@ -54,7 +54,7 @@ fn open(parts: &[Zenoh]) -> Vec<Halves> {
 /// The next datagram.
 fn hear(halves: &mut Halves, patience: Duration) -> Option<(Source, Vec<u8>)> {
     match halves.receiver.receive(patience).unwrap()? {
-        Arrival::Datagram { from, octets } => Some((from, octets)),
+        Arrival::Datagram { from, octets, .. } => Some((from, octets)),
         other => panic!("{other:?}"),
     }
 }
@@ -254,19 +254,24 @@ fn cross(ari: &[&str], go2: &[&str]) -> [String; 2] {
     let mut dog = start_with(&of_go2, go2);
     std::thread::sleep(Duration::from_millis(200));
     let mut humanoid = start_with(&of_ari, ari);
-    type_to(
-        &mut humanoid,
-        "wait 1\ndetect\nuntil maneuver-executing 20\nuntil idle 20\nquit\n",
-    );
-    assert_ended_well(&mut humanoid);
-    type_to(&mut dog, "quit\n");
-    assert_ended_well(&mut dog);
+    let_cross(&mut humanoid, &mut dog);
     let logs = [log_of(&of_ari), log_of(&of_go2)];
     assert!(logs[0].contains("\"taskCompleted\""));
     for log in &logs {
         crossguard_harness::validate::one(log.as_bytes()).unwrap();
     }
     logs
+}
+
+/// Has two running robots do the crossing, and end.
+fn let_cross(humanoid: &mut Child, dog: &mut Child) {
+    type_to(
+        humanoid,
+        "wait 1\ndetect\nuntil maneuver-executing 20\nuntil idle 20\nquit\n",
+    );
+    assert_ended_well(humanoid);
+    type_to(dog, "quit\n");
+    assert_ended_well(dog);
 }
 
 fn assert_ended_well(robot: &mut Child) {
@@ -325,13 +330,7 @@ fn a_robot_file_names_the_network_as_well() {
     std::thread::sleep(Duration::from_millis(200));
     let connect = format!("mode = \"peer\"\nconnect = [\"{there}\"]");
     let mut humanoid = start(&with_link("ARI", 1, &connect));
-    type_to(
-        &mut humanoid,
-        "wait 1\ndetect\nuntil maneuver-executing 20\nuntil idle 20\nquit\n",
-    );
-    assert_ended_well(&mut humanoid);
-    type_to(&mut dog, "quit\n");
-    assert_ended_well(&mut dog);
+    let_cross(&mut humanoid, &mut dog);
     let both = with_link("Both", 3, "mode = \"peer\"\n[link]\nethernet = \"lo\"");
     assert_refused(&run(&["run", "--config", &both]), "[link] wants either");
 }

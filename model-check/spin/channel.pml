@@ -2,12 +2,13 @@
 
 inline copy(from, to) {
     to.kind = from.kind; to.session = from.session; to.beat = from.beat; to.offer = from.offer;
-    to.request = from.request; to.says = from.says; to.farewell = from.farewell
+    to.request = from.request; to.says = from.says;
+    to.farewell = from.farewell; to.ending = from.ending; to.left_offer = from.left_offer
 }
 
 inline forget_late() {
     late.kind = 0; late.session = 0; late.beat = 0; late.offer = 0; late.request = 0; late.says = 0;
-    late.farewell = 0
+    late.farewell = 0; late.ending = 0; late.left_offer = 0
 }
 
 #define DELIVER       1
@@ -22,6 +23,7 @@ inline take(fate) {
     :: fate <= DELAY -> air ? m
     :: else -> copy(late, m)
     fi;
+    losses = losses - (fate == LOSE || fate == LOSE_LATE);
     if
     :: fate == DELAY -> copy(m, late)
     :: fate == DELIVER_LATE || fate == LOSE_LATE -> forget_late()
@@ -42,11 +44,11 @@ end:
     :: atomic {
         if
         :: nempty(air) -> fate = DELIVER
-        :: nempty(air) -> fate = LOSE
-        :: nempty(air) && late.kind == 0 -> fate = DELAY
+        :: nempty(air) && losses > 0 -> fate = LOSE
+        :: nempty(air) && DELAYED && late.kind == 0 -> fate = DELAY
         :: STEP && late.kind != 0 -> fate = DELIVER_LATE
         :: STEP && late.kind != 0 -> fate = DELIVER_AGAIN
-        :: STEP && late.kind != 0 -> fate = LOSE_LATE
+        :: STEP && late.kind != 0 && losses > 0 -> fate = LOSE_LATE
         fi;
         d_step {
             take(fate); fate = 0;

@@ -34,18 +34,19 @@ inline rank_beats() {
     EACH_ON_AIR(m.beat = RANK(m.beat))
 }
 
-inline collect_offers() {
-    present = (1 << leader.offer) | (1 << follower.offer) | (1 << late.offer);
-    EACH_SESSION(present = present | (1 << confirmed[i]));
-    EACH_ON_AIR(present = present | (1 << m.offer))
-}
-
+/* The number of the next offer counts as one that occurs: what is given back is given out again. */
 inline rank_offers() {
-    collect_offers();
+    present = (1 << leader.offer) | (1 << late.offer) | (1 << late.left_offer);
+    present = present | (1 << follower.offer) | (1 << follower.next) | (1 << follower.left_offer);
+    EACH_SESSION(present = present | (1 << confirmed[i]));
+    EACH_ON_AIR(present = present | (1 << m.offer) | (1 << m.left_offer));
     assert(RANKS_SUFFICE);
     leader.offer = RANK(leader.offer);
     follower.offer = RANK(follower.offer);
+    follower.next = RANK(follower.next);
+    follower.left_offer = RANK(follower.left_offer);
     late.offer = RANK(late.offer);
+    late.left_offer = RANK(late.left_offer);
     EACH_SESSION(confirmed[i] = RANK(confirmed[i]));
-    EACH_ON_AIR(m.offer = RANK(m.offer))
+    EACH_ON_AIR(m.offer = RANK(m.offer); m.left_offer = RANK(m.left_offer))
 }

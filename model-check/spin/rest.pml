@@ -10,8 +10,9 @@ active proctype Rest() {
 end:
     d_step { STEP ->
         quiet = 1; forget_late();
-        commanded = 0; accepted = 0; started = 0; finished = 0; fallen_back = 0;
-        detections = 0; commands = 0; disturbances = 0;
+        commanded = 0; accepted = 0; started = 0; reached = 0; finished = 0; fallen_back = 0; told = 0;
+        detections = 0; commands = 0; disturbances = 0; losses = 0;
+        on_road = 0; unsure = 0; leader.duty = 0; follower.duty = 0;
         EACH_SESSION(confirmed[i] = 0);
         settle() };
     timeout -> CHECK(12, ALL_IDLE); CHECK(L7, ALL_IDLE)

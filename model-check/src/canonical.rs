@@ -135,6 +135,17 @@ impl Renamings {
         }
     }
 
+    /// The number of the set of all names in these sets.
+    pub(crate) fn union(&self, sets: impl Iterator<Item = u32>) -> u32 {
+        let mut names = Names::default();
+        for set in sets {
+            names.0.extend_from_slice(&self.sets[set as usize].0);
+        }
+        names.0.sort_unstable();
+        names.0.dedup();
+        self.set(names)
+    }
+
     /// The number of the renaming of a state in which these sets of names occur; `None` if no name
     /// changes.
     pub(crate) fn of(&self, sets: NameSets) -> Option<u32> {

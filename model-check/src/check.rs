@@ -376,7 +376,7 @@ pub(crate) fn placed(model: &Model, action: Action) -> (Place, String) {
     match action {
         Action::Deliver { transmission, how } => {
             let fate = match how {
-                Delivery::AtOnce => Fate::Arrives,
+                Delivery::AtOnce | Delivery::AnyTime => Fate::Arrives,
                 Delivery::Late => Fate::ArrivesLate,
                 Delivery::LateAndAgain => Fate::ArrivesLateAndAgain,
             };
@@ -388,6 +388,10 @@ pub(crate) fn placed(model: &Model, action: Action) -> (Place, String) {
         Action::Local(robot, event) => at(robot, event.to_string()),
         Action::Crash(robot) => at(robot, "crashes".to_owned()),
         Action::Restart(robot) => at(robot, "boots again".to_owned()),
+        Action::StepOnRoad(robot) => at(robot, "at its sign somebody steps on the road".to_owned()),
+        Action::Across(robot) => at(robot, "who stepped on the road there is across".to_owned()),
+        Action::Hang(robot) => at(robot, "hangs".to_owned()),
+        Action::Resume(robot) => at(robot, "goes on".to_owned()),
     }
 }
 
@@ -420,18 +424,29 @@ fn collision_probability(states: usize) -> f64 {
 fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
     let channel = scenario.channel;
     let mut assumptions = vec![
-        "untimed: any armed timer may expire at any moment, so verdicts hold for all timer settings"
+        "untimed: any armed timer may expire at any moment, so verdicts hold for all timer settings, but \
+         for L7, which says that some run exists"
             .to_owned(),
         format!("at most: {}", scenario.bounds),
-        format!(
-            "channel: {}; at most {} delayed at a time, each for any time, in any order, repeated",
-            if channel.loss { "loss per receiver" } else { "no loss" },
-            channel.delayed,
-        ),
+        if channel.monotone {
+            "channel: every message ever sent arrives at any later time, any number of times, in any \
+             order, or never, also after its receiver boots again; 'heartbeats' bounds how many periods \
+             leaders count, 'offers' how often a message makes a robot offer"
+                .to_owned()
+        } else {
+            format!(
+                "channel: {}; at most {} delayed at a time, each for any time, in any order, repeated",
+                if channel.loss { "loss per receiver" } else { "no loss" },
+                channel.delayed,
+            )
+        },
         format!("commands are repeated at most {} times", scenario.config.settings().n_ack),
         "all robots are equally far apart, and know all tasks that are asked for".to_owned(),
         receivers(scenario),
         "a crash stops the robot's body; station ids and boot counters survive it".to_owned(),
+        "applications are truthful: a body is where they say that it is, a guard finishes, the road is \
+         clear and the task is done only when nobody is on the road"
+            .to_owned(),
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),
         format!(
@@ -440,6 +455,13 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
             collision_probability(states)
         ),
     ];
+    if scenario.bounds.hangs > 0 {
+        assumptions.push(
+            "a robot that hangs does and hears nothing, keeps its state, and goes on at some time; its \
+             body does what it was last told"
+                .to_owned(),
+        );
+    }
     if !scenario.symmetric.is_empty() {
         let robots: Vec<_> = scenario.symmetric.iter().map(ToString::to_string).collect();
         assumptions.push(format!(
@@ -485,7 +507,7 @@ pub(crate) fn holds<const N: usize>(model: &Model, state: &State) -> bool {
 /// One such function for each property, in the order of [`PropertyId::ALL`].
 macro_rules! for_each_property {
     ($f:ident) => {
-        for_each_property!($f: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23)
+        for_each_property!($f: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28)
     };
     ($f:ident: $($n:literal)*) => {
         [$($f::<$n>),*]
@@ -498,7 +520,7 @@ const HOLDS: [fn(&Model, &State) -> bool; PropertyId::ALL.len()] = for_each_prop
 /// Their names, which stateright wants to be static.
 const NAMES: [&str; PropertyId::ALL.len()] = [
     "I1", "I2", "I3", "I4", "I5", "I6", "I7", "I8", "I9", "I11", "I12", "I13", "I14", "I15", "I16",
-    "I17", "I18", "L1", "L2", "L3", "L4", "L5", "L6", "L7",
+    "I17", "I18", "L1", "L2", "L3", "L4", "L5", "L6", "L7", "W1", "W2", "W3", "W4", "W7",
 ];
 
 /// The properties of a scenario that stateright can check, each with its condition from `conditions`.
@@ -506,7 +528,9 @@ pub(crate) fn checked_properties<M: stateright::Model>(
     scenario: &Scenario,
     conditions: &[fn(&M, &M::State) -> bool; PropertyId::ALL.len()],
 ) -> Vec<Property<M>> {
-    let by_state_or_step = |id: &&PropertyId| id.state_rule().is_some() || id.step_rule().is_some();
+    let by_state_or_step = |id: &&PropertyId| {
+        id.state_rule().is_some() || id.step_rule().is_some() || **id == PropertyId::W1
+    };
     let ids = scenario.properties.iter().filter(by_state_or_step);
     ids.map(|&id| Property {
         expectation: Expectation::Always,

@@ -75,7 +75,10 @@ const SHOWN: [fn(&Readable, &Shown) -> bool; PropertyId::ALL.len()] = for_each_p
 impl Readable {
     fn show(&self, state: State) -> Shown {
         let robots = self.0.nodes(&state).zip(names(self.0.scenario()));
-        let lines = robots.map(|(node, name)| format!("{name}: {node}"));
+        let lines = robots.enumerate().map(|(i, (node, name))| {
+            let hangs = if state.hangs(i) { "; it hangs" } else { "" };
+            format!("{name}: {node}{hangs}")
+        });
         let words = lines.collect::<Vec<_>>().join("\n");
         Shown { state, words }
     }

@@ -3,7 +3,8 @@
 //! A robot's timer is treated *weakly* fair: an armed timer expires at some time, unless it is
 //! stopped or restarted again and again. A timer that a step restarts counts as taken in that step, so
 //! that a safety timer which heartbeats keep restarting need never expire. What becomes of a message
-//! on air is decided at some time. These hold of every robot that keeps its own time.
+//! on air is decided at some time. A robot that hangs goes on at some time. These hold of every robot that
+//! keeps its own time. That a message of a monotone channel arrives is never assumed.
 //!
 //! In a cooperative scenario there is more: delivery is *strongly* fair for each way and kind of
 //! message, so that of what is sent again and again something arrives; and applications do at some
@@ -20,9 +21,9 @@ use crate::scenario::Scenario;
 /// Timers of which a robot has one.
 const OWN_TIMERS: u32 = 8;
 /// Timers of which a leader has one per follower.
-const TIMERS_PER_FOLLOWER: u32 = 4;
+const TIMERS_PER_FOLLOWER: u32 = 5;
 /// Events of the application that are treated fair.
-const EVENTS: u32 = 3;
+const EVENTS: u32 = 8;
 /// Kinds of RAM that are told apart.
 const RAM_KINDS: u32 = 5;
 
@@ -62,6 +63,7 @@ impl Numbers<'_> {
             Timer::Lost(station) => of_follower(1, station),
             Timer::Execution(station) => of_follower(2, station),
             Timer::Acknowledgement(station) => of_follower(3, station),
+            Timer::Offer(station) => of_follower(4, station),
         };
         Classes::one(robot * self.timers_per_robot() + number)
     }
@@ -75,18 +77,38 @@ impl Numbers<'_> {
         self.robots() * self.timers_per_robot()
     }
 
+    fn resume(self, robot: u32) -> Classes {
+        Classes::one(self.on_air() + 1 + robot)
+    }
+
+    fn all_resumes(self) -> Classes {
+        (0..self.robots()).fold(Classes::NONE, |all, robot| all | self.resume(robot))
+    }
+
+    fn first_event(self) -> u32 {
+        self.on_air() + 1 + self.robots()
+    }
+
     fn event(self, robot: u32, event: Event) -> Option<Classes> {
         let number = match event {
             Event::CommandManeuver { .. } => 0,
             Event::ManeuverCompleted(_) => 1,
             Event::TaskCompleted => 2,
+            Event::InPosition(_) => 3,
+            Event::OpenCorridor => 4,
+            Event::RoadClear => 5,
             _ => return None,
         };
-        Some(Classes::one(self.on_air() + 1 + robot * EVENTS + number))
+        Some(Classes::one(self.first_event() + robot * EVENTS + number))
+    }
+
+    /// What the pedestrian does at the sign of a robot.
+    fn pedestrian(self, robot: u32, number: u32) -> Classes {
+        Classes::one(self.first_event() + robot * EVENTS + number)
     }
 
     fn all_events(self) -> Classes {
-        let first = self.on_air() + 1;
+        let first = self.first_event();
         (first..first + self.robots() * EVENTS)
             .fold(Classes::NONE, |all, number| all | Classes::one(number))
     }
@@ -102,14 +124,16 @@ impl Numbers<'_> {
             Coordination::Leader { .. } => 3,
             Coordination::Follower { .. } => 4,
         };
-        let way = u32::from(transmission.from) * self.robots() + u32::from(transmission.to);
-        let first = self.on_air() + 1 + self.robots() * EVENTS;
+        // Nobody sends to itself.
+        let to = u32::from(transmission.to - u8::from(transmission.to > transmission.from));
+        let way = u32::from(transmission.from) * (self.robots() - 1) + to;
+        let first = self.first_event() + self.robots() * EVENTS;
         Some(Classes::one(first + way * RAM_KINDS + kind))
     }
 
     fn all_deliveries(self) -> Classes {
-        let first = self.on_air() + 1 + self.robots() * EVENTS;
-        (first..first + self.robots() * self.robots() * RAM_KINDS)
+        let first = self.first_event() + self.robots() * EVENTS;
+        (first..first + self.robots() * (self.robots() - 1) * RAM_KINDS)
             .fold(Classes::NONE, |all, number| all | Classes::one(number))
     }
 }
@@ -130,7 +154,7 @@ impl Runs<'_> {
     /// What the scenario assumes.
     pub(crate) fn fairness(&self) -> Fairness {
         let numbers = self.numbers();
-        let own = numbers.all_timers() | Classes::one(numbers.on_air());
+        let own = numbers.all_timers() | Classes::one(numbers.on_air()) | numbers.all_resumes();
         if self.model.scenario().cooperative {
             Fairness {
                 weak: own | numbers.all_events(),
@@ -167,9 +191,16 @@ impl Runs<'_> {
             Action::Local(robot, event) if cooperative => {
                 numbers.event(robot.into(), event).unwrap_or_default()
             }
-            Action::Local(..) | Action::Deliver { .. } | Action::Crash(_) | Action::Restart(_) => {
-                Classes::NONE
-            }
+            Action::StepOnRoad(robot) if cooperative => numbers.pedestrian(robot.into(), 6),
+            Action::Across(robot) if cooperative => numbers.pedestrian(robot.into(), 7),
+            Action::Resume(robot) => numbers.resume(robot.into()),
+            Action::Local(..)
+            | Action::Deliver { .. }
+            | Action::Crash(_)
+            | Action::Restart(_)
+            | Action::StepOnRoad(_)
+            | Action::Across(_)
+            | Action::Hang(_) => Classes::NONE,
         }
     }
 

@@ -6,7 +6,7 @@ use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
 use crate::check::Limits;
-use crate::model::{Action, Model, State};
+use crate::model::{Action, Delivery, Model, State};
 use crate::node::Node;
 use crate::report::CutOff;
 
@@ -26,6 +26,9 @@ pub(crate) struct Graph {
     parents: Vec<u32>,
     /// Successors of all states, one after the other.
     targets: Vec<u32>,
+    /// Whether each of these is reached by nothing but arrivals on a monotone channel, which nobody can
+    /// rely on.
+    by_chance: Vec<bool>,
     /// Where the successors of each state begin, and after the last where they end.
     starts: Vec<u32>,
     /// Whether each state can reach one in which all robots are idle.
@@ -49,6 +52,7 @@ impl Building {
                 states: Vec::new(),
                 parents: Vec::new(),
                 targets: Vec::new(),
+                by_chance: Vec::new(),
                 starts: vec![0],
                 resettable: Vec::new(),
                 depth: 0,
@@ -84,8 +88,19 @@ impl Building {
                 }
                 None => self.add(next, short(at)),
             };
-            if !self.graph.targets[from..].contains(&number) {
+            let by_chance = matches!(
+                action,
+                Action::Deliver {
+                    how: Delivery::AnyTime,
+                    ..
+                }
+            );
+            let known = self.graph.targets[from..].iter().position(|&t| t == number);
+            if let Some(known) = known {
+                self.graph.by_chance[from + known] &= by_chance;
+            } else {
                 self.graph.targets.push(number);
+                self.graph.by_chance.push(by_chance);
             }
         }
         self.graph.starts.push(short(self.graph.targets.len()));
@@ -98,6 +113,7 @@ impl Building {
         graph.states.shrink_to_fit();
         graph.parents.shrink_to_fit();
         graph.targets.shrink_to_fit();
+        graph.by_chance.shrink_to_fit();
         graph.starts.shrink_to_fit();
         graph
     }
@@ -220,13 +236,16 @@ impl Graph {
         run
     }
 
-    /// For each state, whether it can reach one that satisfies `goal`.
+    /// For each state, whether it can reach one that satisfies `goal`, on a monotone channel without the
+    /// help of any message.
     fn can_reach(&self, goal: impl Fn(&State) -> bool) -> Vec<bool> {
         let states = self.states.len();
         // The predecessors of each state, one after the other. Each place is filled from its end, which
         // leaves its beginning in `starts`.
         let mut starts = vec![0_u32; states + 1];
-        for &target in &self.targets {
+        let relied_on = |&(_, by_chance): &(&u32, &bool)| !by_chance;
+        let transitions = self.targets.iter().zip(&self.by_chance);
+        for (&target, _) in transitions.filter(relied_on) {
             starts[target as usize] += 1;
         }
         let mut end = 0;
@@ -236,7 +255,10 @@ impl Graph {
         }
         let mut sources = vec![0_u32; self.targets.len()];
         for from in 0..states {
-            for &target in self.targets(from) {
+            let (first, end) = (self.starts[from] as usize, self.starts[from + 1] as usize);
+            let transitions = self.targets[first..end].iter();
+            let transitions = transitions.zip(&self.by_chance[first..end]);
+            for (&target, _) in transitions.filter(relied_on) {
                 let start = &mut starts[target as usize];
                 *start -= 1;
                 sources[*start as usize] = short(from);

@@ -1,11 +1,14 @@
 //! What has happened, as far as a property needs it and no robot's state tells.
 
 use crossguard_protocol::{
-    Answer, Command, Confirmation, ManeuverId, OfferNumber, Output, Outputs, Phase, Renaming,
-    RequestId, Rmcm, Robot, SessionId, StationId, TaskType, Verdict,
+    Answer, Command, Confirmation, Coordination, Event, Input, ManeuverId, Notice, OfferNumber,
+    Output, Outputs, Phase, Renaming, Report, RequestId, Rmcm, Robot, SessionId, StationId,
+    TaskType, Verdict,
 };
 
 use crate::canonical::Renamable;
+use crate::road::Pedestrian;
+use crate::serial::request_is_newer;
 
 /// The history of a run. Sorted, so that the order of unrelated events does not tell states apart.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
@@ -13,6 +16,8 @@ pub struct History {
     commands: Vec<CommandRecord>,
     confirmed: Vec<(SessionId, Confirmation)>,
     before_crash: Vec<(StationId, SessionId)>,
+    /// Who is on the road.
+    pub pedestrian: Pedestrian,
 }
 
 /// What became of one command.
@@ -33,6 +38,10 @@ pub struct CommandRecord {
     pub finished: bool,
     /// The follower has fallen back from it.
     pub fell_back: bool,
+    /// The follower's body has reached the place from which it guards.
+    pub in_position: bool,
+    /// The leader was told that it has ended, or has dropped the follower.
+    pub told: bool,
 }
 
 impl History {
@@ -40,6 +49,11 @@ impl History {
     #[must_use]
     pub fn command(&self, to: StationId, id: ManeuverId) -> Option<&CommandRecord> {
         Some(&self.commands[self.place_of(to, id)?])
+    }
+
+    /// The records of all commands with this id: one per follower.
+    pub(crate) fn commands_with(&self, id: ManeuverId) -> impl Iterator<Item = &CommandRecord> {
+        self.commands.iter().filter(move |record| record.id == id)
     }
 
     /// Where the record of a command stands; runs may be long.
@@ -58,7 +72,7 @@ impl History {
             .take_while(|record| key(record) == (to, session))
             .filter(|record| record.started)
             .map(|record| record.id.request);
-        requests.reduce(|a, b| if b.is_newer_than(a) { b } else { a })
+        requests.reduce(|a, b| if request_is_newer(b, a) { b } else { a })
     }
 
     /// Whether the leader of `session` has confirmed this follower with this offer.
@@ -95,12 +109,21 @@ impl History {
         &mut self,
         before: &Robot,
         after: &Robot,
-        finished: Option<ManeuverId>,
+        input: Input,
         outputs: &Outputs,
     ) {
         let station = after.station();
-        if let Some(id) = finished {
-            self.update(station, id, |record| record.finished = true);
+        match input {
+            Input::Local(Event::ManeuverCompleted(id)) => {
+                self.update(station, id, |record| record.finished = true);
+            }
+            Input::Local(Event::InPosition(id)) => {
+                self.update(station, id, |record| record.in_position = true);
+            }
+            _ => {}
+        }
+        if let Some((follower, id)) = told_end(station, input) {
+            self.update(follower, id, |record| record.told = true);
         }
         for output in outputs.iter() {
             match *output {
@@ -119,6 +142,14 @@ impl History {
                 }
                 Output::FallBack(maneuver, _) => {
                     self.update(station, maneuver.id, |record| record.fell_back = true);
+                }
+                Output::Notify(Notice::FollowerGone(follower, _)) => {
+                    let of_follower = |record: &&mut CommandRecord| {
+                        record.to == follower && record.id.session.leader == station
+                    };
+                    for record in self.commands.iter_mut().filter(of_follower) {
+                        record.told = true;
+                    }
                 }
                 _ => {}
             }
@@ -173,6 +204,8 @@ impl History {
             started: false,
             finished: false,
             fell_back: false,
+            in_position: false,
+            told: false,
         };
         insert_sorted(&mut self.commands, record, command_order);
     }
@@ -199,10 +232,28 @@ impl Renamable for History {
             *station = to.station(*station);
             *session = session.renamed(to);
         }
+        history.pedestrian = history.pedestrian.renamed(to);
         history.commands.sort_unstable_by_key(command_order);
         history.confirmed.sort_unstable_by_key(confirmation_order);
         history.before_crash.sort_unstable();
         history
+    }
+}
+
+/// The command of which a message tells its leader that it has ended, and its follower.
+pub(crate) fn told_end(leader: StationId, input: Input) -> Option<(StationId, ManeuverId)> {
+    let Input::Ram { ram, .. } = input else {
+        return None;
+    };
+    match ram.coordination {
+        Coordination::Follower {
+            session,
+            last: Some(Report { request, progress }),
+            ..
+        } if session.leader == leader && !progress.is_running() => {
+            Some((ram.station, ManeuverId { session, request }))
+        }
+        _ => None,
     }
 }
 

@@ -46,11 +46,6 @@ impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
         self.renamed.insert((number, renaming), renamed);
         renamed
     }
-
-    /// The set of names that occur in a value.
-    pub(crate) fn names(&self, number: u32) -> u32 {
-        self.values[number as usize].1
-    }
 }
 
 impl<T: Clone + Eq + Hash> Interner<T> {
@@ -68,7 +63,13 @@ impl<T: Clone + Eq + Hash> Interner<T> {
         self.number_with(value, |_| Renamings::EMPTY)
     }
 
-    fn number_with(&self, value: T, names: impl FnOnce(&T) -> u32) -> u32 {
+    /// The set of names that occur in a value.
+    pub(crate) fn names(&self, number: u32) -> u32 {
+        self.values[number as usize].1
+    }
+
+    /// The number of a value in which the set of names of this number occurs.
+    pub(crate) fn number_with(&self, value: T, names: impl FnOnce(&T) -> u32) -> u32 {
         if let Some(number) = self.numbers.get(&value) {
             return *number;
         }

@@ -28,9 +28,10 @@
 //! ```
 //!
 //! - [`scenario`] reads what is to be explored, [`model`] says what may happen in it, with the robots of
-//!   [`node`], the channel of [`network`] and what must be remembered of the past in [`history`].
+//!   [`node`], the channel of [`network`] or [`monotone`] and what must be remembered of the past in [`history`].
 //! - [`properties`] are the rules, [`check`] and [`report`] say what came of them, [`fair`] decides
 //!   leads-to, [`timed`] is the view in which time passes in ticks.
+//! - [`road`] is what bodies, signs and a pedestrian do, and what must be true of them.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
 //!   states to other tools.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
@@ -55,14 +56,17 @@ pub mod history;
 mod intern;
 pub mod model;
 pub mod monitor;
+pub mod monotone;
 pub mod network;
 pub mod node;
 pub mod paper;
 pub mod properties;
 pub mod replay;
 pub mod report;
+pub mod road;
 pub mod scenario;
 pub mod sequence;
+mod serial;
 mod steps;
 pub mod subject;
 pub mod symmetry;

@@ -8,11 +8,12 @@
 //! Liveness is left out: that something comes to pass is only seen when a run is over. See
 //! [`Limits`](crate::timed::Limits) for the times by which it must.
 
-use crossguard_protocol::{Config, Input, Outputs, Robot, StationId};
+use crossguard_protocol::{Config, Input, Maneuver, Outputs, Robot, SessionId, StationId, Timer};
 
 use crate::history::History;
 use crate::node::Node;
 use crate::properties::{PropertyId, StepView, View, World};
+use crate::road::{Pedestrian, w1_guards_in_place};
 use crate::steps::judge;
 use crate::timed::{TimedProperty, has_lease_on_lost};
 
@@ -54,6 +55,8 @@ pub struct Monitor {
     is_timed: bool,
     has_strangers: bool,
     premises: u32,
+    /// The sessions at whose signs those on the road have stepped on it, one entry for each person.
+    on_road: Vec<SessionId>,
 }
 
 #[derive(Debug)]
@@ -63,6 +66,8 @@ struct Seats(Vec<Seat>);
 struct Seat {
     node: Node,
     config: Config,
+    /// Whether its process hangs.
+    is_hung: bool,
 }
 
 impl World for Seats {
@@ -72,7 +77,7 @@ impl World for Seats {
 
     fn can_progress(&self) -> bool {
         let mut robots = self.0.iter().filter_map(|seat| seat.node.robot.as_ref());
-        robots.any(|robot| robot.next_due().is_some())
+        robots.any(|robot| robot.timers().iter().any(|(timer, _)| *timer != Timer::Ram))
     }
 
     fn place_of(&self, station: StationId) -> Option<usize> {
@@ -97,26 +102,43 @@ impl Monitor {
             is_timed: timed,
             has_strangers: false,
             premises: 0,
+            on_road: Vec::new(),
         }
     }
 
     /// One more robot, which has not booted. Its place.
     pub fn add(&mut self, station: StationId) -> usize {
         let (node, config) = (Node::down(station), Config::default());
-        self.seats.0.push(Seat { node, config });
+        self.seats.0.push(Seat {
+            node,
+            config,
+            is_hung: false,
+        });
         self.seats.0.len() - 1
     }
 
-    /// A robot boots.
+    /// A robot boots. Its body is where it was.
     ///
     /// # Panics
     /// When there is no such robot.
     pub fn boot(&mut self, place: usize, robot: &Robot, config: &Config) {
         self.crash(place);
+        let mut node = Node::booted(robot.clone());
+        node.actuation.body = self.seats.0[place].node.actuation.body;
         self.seats.0[place] = Seat {
-            node: Node::booted(robot.clone()),
+            node,
             config: config.clone(),
+            is_hung: false,
         };
+    }
+
+    /// A robot's process hangs, or goes on. One that hangs does nothing by what it still knows, so its leases
+    /// are not held against its followers.
+    ///
+    /// # Panics
+    /// When there is no such robot.
+    pub fn hang(&mut self, place: usize, is_hung: bool) {
+        self.seats.0[place].is_hung = is_hung;
     }
 
     /// From now on robots hear others of which nothing is told here: what holds of two robots and one
@@ -130,11 +152,12 @@ impl Monitor {
     /// # Panics
     /// When there is no such robot.
     pub fn crash(&mut self, place: usize) {
-        let node = &mut self.seats.0[place].node;
+        let Seat { node, is_hung, .. } = &mut self.seats.0[place];
         if let Some(robot) = &node.robot {
             self.history.record_crash(robot);
         }
         *node = node.crashed();
+        *is_hung = false;
     }
 
     /// A robot takes a step, and is in the state `after` then. The first property that this breaks.
@@ -151,6 +174,10 @@ impl Monitor {
         let seat = &mut self.seats.0[place];
         let next = seat.node.observed(input, outputs, after.clone());
         let before = std::mem::replace(&mut seat.node, next);
+        // Of all on the road, those concern the step that its body guards.
+        let guarded = before.actuation.body.maneuver().map(|id| id.session);
+        let guarded = guarded.filter(|session| self.on_road.contains(session));
+        self.history.pedestrian = guarded.map_or(Pedestrian::Waiting, Pedestrian::OnRoad);
         let view = StepView {
             config: &seat.config,
             history: &self.history,
@@ -164,20 +191,54 @@ impl Monitor {
         let has_strangers = self.has_strangers;
         let judged = |id: &PropertyId| broken & id.bit() != 0 && !(has_strangers && is_of_two(*id));
         let mut first = PropertyId::ALL.into_iter().find(judged);
-        if view.is_historic() {
-            let finished = view.finished();
-            if let (Some(from), Some(to)) = (&before.robot, &seat.node.robot) {
-                self.history.record_step(from, to, finished, outputs);
-            }
+        if view.is_historic()
+            && let (Some(from), Some(to)) = (&before.robot, &seat.node.robot)
+        {
+            self.history.record_step(from, to, input, outputs);
         }
         if first.is_none() {
             first = self.judge_state();
         }
-        let late = || self.is_timed && has_lease_on_lost(&self.seats.0.iter().map(|s| &s.node));
+        let late = || {
+            let seats = self.seats.0.iter().filter(|seat| !seat.is_hung);
+            self.is_timed && has_lease_on_lost(&seats.filter_map(|seat| seat.node.robot.as_ref()))
+        };
         match first {
             Some(id) => Some(Broken::Untimed(id)),
             None => late().then_some(Broken::Timed(TimedProperty::I10)),
         }
+    }
+
+    /// Somebody steps on the road at the sign of a session, whose crossing requires so many guards. The
+    /// property that this breaks.
+    pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<Broken> {
+        let nodes: Vec<&Node> = self.seats.0.iter().map(|seat| &seat.node).collect();
+        let view = View {
+            nodes: &nodes,
+            history: &self.history,
+            world: &self.seats,
+        };
+        let are_there = self.has_strangers || w1_guards_in_place::holds(&view, session, required);
+        self.premises |= PropertyId::W1.bit();
+        self.on_road.push(session);
+        (!are_there).then_some(Broken::Untimed(PropertyId::W1))
+    }
+
+    /// A person who stepped on the road at the sign of this session is across.
+    pub fn is_across(&mut self, session: SessionId) {
+        if let Some(at) = self.on_road.iter().position(|it| *it == session) {
+            self.on_road.swap_remove(at);
+        }
+    }
+
+    /// The maneuver by which a robot's body guards people now, if it is up.
+    ///
+    /// # Panics
+    /// When there is no such robot.
+    #[must_use]
+    pub fn guards(&self, place: usize) -> Option<Maneuver> {
+        let seat = &self.seats.0[place];
+        seat.node.actuation.body.guards(seat.config.settings())
     }
 
     fn judge_state(&mut self) -> Option<PropertyId> {
@@ -229,7 +290,7 @@ const fn is_of_two(id: PropertyId) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_protocol::{Event, HelpRequest, Output, SessionId, TaskSet, TaskType, Urgency};
+    use crossguard_protocol::{Event, HelpRequest, Output, Place, TaskSet, TaskType, Urgency};
 
     use super::*;
 
@@ -238,6 +299,7 @@ mod tests {
             urgency: Urgency::Low,
             followers: 1,
             tasks: TaskSet::of(&[TaskType::MOVE]),
+            place: Place::default(),
         }))
     }
 

@@ -10,12 +10,21 @@
 //! can as well happen before or after to a delayed message. Broadcasts go off air in the order in which
 //! they were sent. The receivers of one hear it in the order in which the scenario lists them or, where
 //! some robots of a scenario are symmetric, in any order.
+//!
+//! A robot that is down or hangs hears nothing. A message to it gets lost, or is delayed and arrives after
+//! the robot has booted again or goes on, as do messages that were delayed before. Loss is not counted
+//! there, and needs no channel that loses.
+//!
+//! A *monotone* channel has nothing on air and nothing delayed: it is the set of all messages ever sent,
+//! of which any arrives at any time. It is finite by two bounds, on heartbeats and on offers;
+//! [`monotone`](crate::monotone) says why, and what is refused there.
 
 use crossguard_protocol::{
     Coordination, Decimetres, Farewell, Input, Ram, Renaming, Rmcm, StationId,
 };
 
 use crate::canonical::Renamable;
+use crate::monotone::Sets;
 
 /// How many messages may be delayed at a time.
 pub const MAX_DELAYED: usize = 4;
@@ -68,7 +77,7 @@ pub struct Transmission {
 
 /// A transmission in four bytes, or none. States are compared and hashed by the million.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-struct Slot(u32);
+pub(crate) struct Slot(u32);
 
 impl Slot {
     const EMPTY: Self = Self(0);
@@ -77,7 +86,7 @@ impl Slot {
         self.0 == 0
     }
 
-    const fn of(Transmission { from, to, message }: Transmission) -> Self {
+    pub(crate) const fn of(Transmission { from, to, message }: Transmission) -> Self {
         Self(1 << 24 | (from as u32) << 20 | (to as u32) << 16 | message as u32)
     }
 
@@ -86,7 +95,7 @@ impl Slot {
         self.0 & !(0xf << 16)
     }
 
-    const fn transmission(self) -> Option<Transmission> {
+    pub(crate) const fn transmission(self) -> Option<Transmission> {
         if self.is_empty() {
             return None;
         }
@@ -107,12 +116,15 @@ pub(crate) struct Network {
     on_air: [Slot; MAX_ON_AIR],
     /// Delayed, as a sorted set.
     delayed: [Slot; MAX_DELAYED],
+    /// Number of the set of all messages ever sent, where the channel is monotone.
+    pub(crate) sent: u32,
 }
 
 impl Network {
     pub(crate) const EMPTY: Self = Self {
         on_air: [Slot::EMPTY; MAX_ON_AIR],
         delayed: [Slot::EMPTY; MAX_DELAYED],
+        sent: Sets::EMPTY,
     };
 
     /// Puts a message on air.
@@ -187,14 +199,14 @@ impl Network {
         self.delayed.iter().filter_map(|slot| slot.transmission())
     }
 
-    /// All messages.
+    /// All messages on air or delayed.
     pub(crate) fn messages(&self) -> impl Iterator<Item = u16> {
         let all = self.on_air.iter().chain(&self.delayed);
         all.filter_map(|slot| slot.transmission())
             .map(|transmission| transmission.message)
     }
 
-    /// The network with every message replaced.
+    /// The network with every message on air or delayed replaced.
     pub(crate) fn map(&self, mut replace: impl FnMut(Transmission) -> Transmission) -> Self {
         let mut network = *self;
         for slot in network.on_air.iter_mut().chain(&mut network.delayed) {
@@ -226,8 +238,8 @@ pub fn concerns(message: &Message, receiver: StationId) -> bool {
         }) => {
             let by_farewell = match farewell {
                 None => false,
-                Some(Farewell::Ended(_)) => true,
-                Some(Farewell::Left(session)) => session.leader == receiver,
+                Some(Farewell::Ended(..)) => true,
+                Some(Farewell::Left(session, _)) => session.leader == receiver,
             };
             let by_coordination = match coordination {
                 Coordination::None => false,

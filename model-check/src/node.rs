@@ -3,13 +3,14 @@
 use std::fmt;
 
 use crossguard_protocol::{
-    Config, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming, Robot,
+    Config, Corridor, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming, Robot,
     StationId, Timer,
 };
 
 use smallvec::SmallVec;
 
 use crate::canonical::Renamable;
+use crate::road::{Body, Heard};
 
 /// A transition function. The kit has one, [`Protocol`]; to put another in its place shows what a
 /// rule is good for.
@@ -65,6 +66,12 @@ pub struct Actuation {
     pub corridor_open: bool,
     /// Whether the pseudonym is held.
     pub identity_locked: bool,
+    /// What the body does, and what becomes of that without being told.
+    pub body: Body,
+    /// What it has received, as a leader, of a leader that goes before it at its place.
+    pub heard: Heard,
+    /// Whether its sign has shown go, and nobody has said since then that the road is clear.
+    pub road_unsure: bool,
 }
 
 impl Node {
@@ -95,13 +102,16 @@ impl Node {
         }
     }
 
-    /// The robot after a crash. Its motors stop, it shows nobody anything.
+    /// The robot after a crash. Its motors stop and it stays where it is; it shows nobody anything.
     #[must_use]
     pub fn crashed(&self) -> Self {
         Self {
             robot: None,
             persisted: self.persisted,
-            actuation: Actuation::default(),
+            actuation: Actuation {
+                body: self.actuation.body.off(),
+                ..Actuation::default()
+            },
         }
     }
 
@@ -109,7 +119,9 @@ impl Node {
     #[must_use]
     pub fn restarted(&self) -> Self {
         let Persisted { station, boot } = self.persisted;
-        Self::booted(Robot::new(station, boot + 1))
+        let mut node = Self::booted(Robot::new(station, boot + 1));
+        node.actuation.body = self.actuation.body;
+        node
     }
 
     /// One step of the transition function, and what it tells the body. `None` when the robot is
@@ -128,6 +140,13 @@ impl Node {
     /// The node after a step that has taken its robot to `after`.
     #[must_use]
     pub fn observed(&self, input: Input, outputs: &Outputs, after: Robot) -> Self {
+        let heard = match &self.robot {
+            Some(before) => {
+                let heard = self.actuation.heard;
+                heard.after(&before.ram(), input, &after.ram())
+            }
+            None => Heard::Nothing,
+        };
         let mut next = Self {
             persisted: Persisted {
                 station: after.station(),
@@ -136,6 +155,8 @@ impl Node {
             robot: Some(after),
             ..*self
         };
+        next.actuation.heard = heard;
+        next.actuation.body = self.actuation.body.after(input, outputs);
         next.actuation.finish(input, outputs);
         for output in outputs.iter() {
             next.actuation.follow(output);
@@ -154,21 +175,19 @@ impl Node {
     /// Whether what the body does is what the protocol state says.
     #[must_use]
     pub fn actuation_agrees(&self) -> bool {
-        let expected = match &self.robot {
-            None => Actuation::default(),
-            Some(robot) => Actuation {
-                running: match robot.phase() {
-                    Phase::Following(following) => following.executing().map(|m| m.id),
-                    _ => None,
-                },
-                corridor_open: match robot.phase() {
-                    Phase::Leading(leading) => leading.corridor_open,
-                    _ => false,
-                },
-                identity_locked: robot.identity() != Identity::Unlocked,
-            },
-        };
-        self.actuation == expected
+        let (mut running, mut corridor_open, mut identity_locked) = (None, false, false);
+        if let Some(robot) = &self.robot {
+            match robot.phase() {
+                Phase::Following(following) => running = following.executing().map(|m| m.id),
+                Phase::Leading(leading) => corridor_open = leading.corridor == Corridor::Open,
+                Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => {}
+            }
+            identity_locked = robot.identity() != Identity::Unlocked;
+        }
+        self.actuation.running == running
+            && self.actuation.corridor_open == corridor_open
+            && self.actuation.identity_locked == identity_locked
+            && self.actuation.body.running().map(|m| m.id) == running
     }
 
     /// The node without its durations: every armed timer has 1 ms left. Which timers are armed
@@ -192,8 +211,8 @@ impl fmt::Display for Node {
             return f.write_str("down");
         };
         write!(f, "{robot}")?;
-        if let Some(maneuver) = self.actuation.running {
-            write!(f, "; its body executes {maneuver}")?;
+        if self.actuation.body != Body::Parked {
+            write!(f, "; its body: {}", self.actuation.body)?;
         }
         if self.actuation.corridor_open {
             f.write_str("; the corridor is open")?;
@@ -219,6 +238,8 @@ impl Renamable for Node {
             },
             actuation: Actuation {
                 running,
+                body: self.actuation.body.renamed(to),
+                heard: self.actuation.heard.renamed(to),
                 ..self.actuation
             },
         }
@@ -239,9 +260,14 @@ impl Renaming for ForgetDurations {
 impl Actuation {
     /// The application says itself that a maneuver is over.
     fn finish(&mut self, input: Input, outputs: &Outputs) {
-        use crossguard_protocol::Event::{ManeuverCompleted, ManeuverFailed};
+        use crossguard_protocol::Event::{
+            ManeuverCompleted, ManeuverFailed, RoadClear, TaskCompleted,
+        };
         if outputs.ignored().is_some() {
             return;
+        }
+        if let Input::Local(RoadClear | TaskCompleted) = input {
+            self.road_unsure = false;
         }
         if let Input::Local(ManeuverCompleted(id) | ManeuverFailed(id)) = input
             && self.running == Some(id)
@@ -258,11 +284,18 @@ impl Actuation {
                     self.running = None;
                 }
             }
-            Output::CorridorOpened => self.corridor_open = true,
+            // Without time it shows go until it is told otherwise: nobody need look at it.
+            Output::CorridorOpened(_) => (self.corridor_open, self.road_unsure) = (true, true),
+            // A sign that is told to show go for longer shows go, whatever it showed before.
+            Output::CorridorExtended(_) => self.corridor_open = true,
             Output::CorridorClosed(_) => self.corridor_open = false,
             Output::LockIdentity => self.identity_locked = true,
             Output::UnlockIdentity => self.identity_locked = false,
-            Output::SendRam | Output::SendRmcm(_) | Output::Notify(_) | Output::Ignored(_) => {}
+            Output::SendRam
+            | Output::SendRmcm(_)
+            | Output::RenewEpoch
+            | Output::Notify(_)
+            | Output::Ignored(_) => {}
         }
     }
 }

@@ -4,20 +4,22 @@
 //! touching code. An unknown key, an impossible bound or an unknown property is an error that names
 //! the line.
 
+mod file;
+
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use crossguard_protocol::{
-    Availability, BrokenInequality, Config, Event, HelpRequest, Inequality, MAX_FOLLOWERS,
-    Settings, StationId, TaskSet, TaskType, Urgency,
+    Availability, BrokenInequality, Config, Event, HelpRequest, MAX_FOLLOWERS, StationId, Urgency,
 };
 use serde::{Deserialize, Serialize};
 
+use crate::monotone;
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
-use crate::symmetry::{Asymmetry, Claim, Wrong};
-use crate::timed::{Section, Timed, TimedImpossibility, TimedProperty};
+use crate::symmetry::Asymmetry;
+use crate::timed::{Timed, TimedImpossibility};
 
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 4;
@@ -40,7 +42,7 @@ pub struct Scenario {
     /// The station ids of the robots of which it does not matter which is which: states that differ in
     /// that alone count as one.
     pub symmetric: Vec<StationId>,
-    /// What a robot that detects a pedestrian asks for.
+    /// What a robot that detects a pedestrian asks for, where its setup says nothing else.
     pub request: HelpRequest,
     /// How often what may happen in one run.
     pub bounds: Bounds,
@@ -50,7 +52,8 @@ pub struct Scenario {
     pub channel: Channel,
     /// Whether everything around the robots does its part, which L3 assumes: an RMCM arrives, of the
     /// RAM that are sent again and again some arrive, no timer that guards against silence runs out,
-    /// and applications command, finish, and end the task once it is completed.
+    /// and applications command, finish, and end the task once it is completed. Where there is a corridor
+    /// they open it and keep it open, one pedestrian crosses, and guards and task end after that.
     pub cooperative: bool,
     /// The configuration of every robot.
     pub config: Config,
@@ -81,6 +84,9 @@ pub struct RobotSetup {
     /// Whether it may detect a pedestrian.
     #[serde(default)]
     pub detects: bool,
+    /// How urgent its requests are, where that differs from the scenario's request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub urgency: Option<Urgency>,
 }
 
 /// How often each kind of event may happen in one run, over all robots together; never where a file
@@ -101,6 +107,13 @@ pub struct Bounds {
     pub restarts: u8,
     /// A message gets lost on its way to one receiver; any number of times where nothing is said.
     pub losses: Option<u8>,
+    /// A robot hangs. To go on costs nothing.
+    pub hangs: u8,
+    /// A RAM timer expires and changes its robot, as it does where a heartbeat is counted. For a monotone
+    /// channel, which needs it.
+    pub heartbeats: Option<u8>,
+    /// A message makes a robot offer its help. For a monotone channel, which needs it.
+    pub offers: Option<u8>,
 }
 
 impl Bounds {
@@ -113,8 +126,12 @@ impl Bounds {
             | Event::LeaveRequested
             | Event::AvailabilityChanged(Availability::Unavailable(_))
             | Event::IdentityChanged(_) => &mut self.disturbances,
-            Event::ManeuverCompleted(_)
+            Event::InPosition(_)
+            | Event::ManeuverCompleted(_)
             | Event::TaskCompleted
+            | Event::RoadClear
+            | Event::AllAnswered
+            | Event::EpochRenewed(_)
             | Event::AvailabilityChanged(Availability::Available)
             | Event::OpenCorridor
             | Event::CloseCorridor => return,
@@ -131,40 +148,11 @@ pub struct Channel {
     /// once, or never. A timed scenario bounds for how long instead.
     #[serde(default)]
     pub delayed: u8,
+    /// Whether every message that was ever sent may arrive at any later time, any number of times.
+    #[serde(default)]
+    pub monotone: bool,
     /// Whether a message may get lost on its way to one receiver and reach another.
     pub loss: bool,
-}
-
-/// The file's form of a scenario.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    name: String,
-    summary: String,
-    robots: Vec<RobotSetup>,
-    #[serde(default)]
-    symmetric: Vec<toml::Spanned<StationId>>,
-    request: Request,
-    bounds: Bounds,
-    #[serde(default)]
-    corridor: bool,
-    #[serde(default)]
-    cooperative: bool,
-    channel: Channel,
-    #[serde(default)]
-    protocol: Settings,
-    timed: Option<Section>,
-    properties: Vec<toml::Spanned<String>>,
-    expected: Option<Size>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Request {
-    #[serde(default)]
-    urgency: Urgency,
-    followers: toml::Spanned<u8>,
-    tasks: Vec<toml::Spanned<String>>,
 }
 
 /// Why a scenario cannot be used.
@@ -217,6 +205,9 @@ pub enum Impossibility {
     /// Two robots with the same station id.
     #[error("two robots have station id {0}")]
     SameStation(StationId),
+    /// An urgency that is never used.
+    #[error("robot {0} has an urgency but no 'detects = true', so it never asks for help")]
+    UnusedUrgency(StationId),
     /// Nobody can start.
     #[error("no robot has 'detects = true', so nothing would ever happen")]
     NobodyDetects,
@@ -236,8 +227,13 @@ pub enum Impossibility {
     #[error("station ids {0} and {1} must not differ by a multiple of {PSEUDONYM_STEP}")]
     SamePseudonyms(StationId, StationId),
     /// A property that assumes what the scenario does not.
-    #[error("L3 speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
+    #[error(
+        "L3 and W7 speak about cooperative scenarios only; this one lacks 'cooperative = true'"
+    )]
     NotCooperative,
+    /// What does not fit a monotone channel.
+    #[error(transparent)]
+    Monotone(#[from] monotone::Misfit),
     /// Robots that are not symmetric.
     #[error(transparent)]
     Asymmetry(#[from] Asymmetry),
@@ -253,7 +249,7 @@ pub enum Impossibility {
 }
 
 /// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 14] = [
+const SHIPPED: [(&str, &str); 29] = [
     ("pair", include_str!("../scenarios/pair.toml")),
     ("contention", include_str!("../scenarios/contention.toml")),
     ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
@@ -264,10 +260,41 @@ const SHIPPED: [(&str, &str); 14] = [
     ("offer-race", include_str!("../scenarios/offer-race.toml")),
     ("bilateral", include_str!("../scenarios/bilateral.toml")),
     ("trio", include_str!("../scenarios/trio.toml")),
+    (
+        "pair-monotone",
+        include_str!("../scenarios/pair-monotone.toml"),
+    ),
+    (
+        "contention-monotone",
+        include_str!("../scenarios/contention-monotone.toml"),
+    ),
+    ("pair-hang", include_str!("../scenarios/pair-hang.toml")),
+    (
+        "contention-urgency",
+        include_str!("../scenarios/contention-urgency.toml"),
+    ),
     ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
     ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
+    ("timed-hang", include_str!("../scenarios/timed-hang.toml")),
+    ("timed-wait", include_str!("../scenarios/timed-wait.toml")),
+    (
+        "timed-rivals",
+        include_str!("../scenarios/timed-rivals.toml"),
+    ),
     ("wrap", include_str!("../scenarios/wrap.toml")),
     ("stable", include_str!("../scenarios/stable.toml")),
+    ("blocker", include_str!("../scenarios/blocker.toml")),
+    (
+        "trio-corridor",
+        include_str!("../scenarios/trio-corridor.toml"),
+    ),
+    ("two-teams", include_str!("../scenarios/two-teams.toml")),
+    ("crossing", include_str!("../scenarios/crossing.toml")),
+    ("rivals", include_str!("../scenarios/rivals.toml")),
+    (
+        "trio-delayed",
+        include_str!("../scenarios/trio-delayed.toml"),
+    ),
     (
         "team-of-four",
         include_str!("../scenarios/team-of-four.toml"),
@@ -280,10 +307,18 @@ const SHIPPED: [(&str, &str); 14] = [
         "timed-in-use",
         include_str!("../scenarios/timed-in-use.toml"),
     ),
+    (
+        "timed-trio-drift",
+        include_str!("../scenarios/timed-trio-drift.toml"),
+    ),
+    (
+        "timed-trio-delay",
+        include_str!("../scenarios/timed-trio-delay.toml"),
+    ),
 ];
 
 /// How many of the shipped scenarios take seconds.
-const QUICK: usize = 11;
+const QUICK: usize = 23;
 
 impl Scenario {
     /// The names of the shipped scenarios that take seconds.
@@ -319,6 +354,15 @@ impl Scenario {
         Self::parse(name, &text)
     }
 
+    /// What the robot at this place asks for when it detects a pedestrian.
+    #[must_use]
+    pub fn request_of(&self, place: usize) -> HelpRequest {
+        HelpRequest {
+            urgency: self.robots[place].urgency.unwrap_or(self.request.urgency),
+            ..self.request
+        }
+    }
+
     /// The place of the robot that has, or had before it changed its pseudonym, this station id.
     #[must_use]
     pub fn place_of(&self, station: StationId) -> Option<usize> {
@@ -327,201 +371,6 @@ impl Scenario {
             .iter()
             .position(|robot| base(robot.station) == base(station))
     }
-
-    /// Reads a scenario from its text; `file` is what errors call it.
-    ///
-    /// # Errors
-    /// The first thing that is wrong, with its line.
-    pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
-        let parsed: File = toml::from_str(text).map_err(|cause| ScenarioError::Syntax {
-            file: file.to_owned(),
-            cause,
-        })?;
-        parsed
-            .check()
-            .map_err(|Located { at, cause }| ScenarioError::Impossible {
-                file: file.to_owned(),
-                line: at.line_in(text),
-                cause,
-            })
-    }
-}
-
-/// Where in a file something is wrong.
-enum Place {
-    Offset(usize),
-    Key(&'static str),
-}
-
-impl Place {
-    /// The line, counted from 1.
-    fn line_in(&self, text: &str) -> usize {
-        let offset = match self {
-            Self::Offset(offset) => *offset,
-            Self::Key(key) => text
-                .lines()
-                .scan(0, |start, line| {
-                    let this = *start;
-                    *start += line.len() + 1;
-                    Some((this, line))
-                })
-                .find(|(_, line)| line.trim_start().trim_start_matches('[').starts_with(key))
-                .map_or(0, |(start, _)| start),
-        };
-        text[..offset.min(text.len())].matches('\n').count() + 1
-    }
-}
-
-struct Located {
-    at: Place,
-    cause: Impossibility,
-}
-
-fn at(at: Place, cause: impl Into<Impossibility>) -> Located {
-    Located {
-        at,
-        cause: cause.into(),
-    }
-}
-
-impl File {
-    fn check(self) -> Result<Scenario, Located> {
-        use Impossibility as I;
-        let robots = self.robots.len();
-        if !(2..=MAX_ROBOTS).contains(&robots) {
-            return Err(at(Place::Key("robots"), I::Robots(robots)));
-        }
-        for (i, robot) in self.robots.iter().enumerate() {
-            let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
-            for other in self.robots[..i].iter().map(|other| other.station) {
-                if other == one {
-                    return Err(at(Place::Key("robots"), I::SameStation(one)));
-                }
-                if pseudonym(other) == pseudonym(one) {
-                    return Err(at(Place::Key("robots"), I::SamePseudonyms(other, one)));
-                }
-            }
-        }
-        if !self.robots.iter().any(|robot| robot.detects) {
-            return Err(at(Place::Key("robots"), I::NobodyDetects));
-        }
-        if self.cooperative && robots > MAX_COOPERATIVE_ROBOTS {
-            return Err(at(Place::Key("cooperative"), I::Cooperative(robots)));
-        }
-        let delayed = self.channel.delayed;
-        if usize::from(delayed) > MAX_DELAYED {
-            return Err(at(Place::Key("delayed"), I::Delayed(delayed)));
-        }
-        let request = self.request.check()?;
-        let config = Config::new(self.protocol)
-            .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
-        let claim = Claim {
-            robots: &self.robots,
-            followers: request.followers,
-            bounds: self.bounds,
-            is_timed: self.timed.is_some(),
-            properties: &self.properties,
-        };
-        let symmetric = claim.check(&self.symmetric).map_err(|(wrong, cause)| {
-            let place = match wrong {
-                Wrong::At(offset) => Place::Offset(offset),
-                Wrong::Key(key) => Place::Key(key),
-            };
-            at(place, cause)
-        })?;
-        let mut timed = None;
-        if let Some(section) = self.timed {
-            let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
-            let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
-            if self.cooperative {
-                let cause = TimedImpossibility::Untimed("cooperative");
-                return Err(at(Place::Key("cooperative"), cause));
-            }
-            checked.properties = all_named(&self.properties, |name| {
-                let unknown = || TimedImpossibility::Property(name.to_owned());
-                TimedProperty::named(name).ok_or_else(|| unknown().into())
-            })?;
-            timed = Some(checked);
-        }
-        let properties = match timed {
-            Some(_) => Vec::new(),
-            None => all_named(&self.properties, |name| match name.parse() {
-                Ok(PropertyId::L3) if !self.cooperative => Err(I::NotCooperative),
-                Ok(property) => Ok(property),
-                Err(()) => Err(I::Property(name.to_owned())),
-            })?,
-        };
-        Ok(Scenario {
-            name: self.name,
-            summary: self.summary,
-            robots: self.robots,
-            symmetric,
-            request,
-            bounds: self.bounds,
-            corridor: self.corridor,
-            channel: self.channel,
-            cooperative: self.cooperative,
-            config,
-            timed,
-            properties,
-            expected: self.expected,
-        })
-    }
-}
-
-/// The properties of these names.
-fn all_named<P>(
-    names: &[toml::Spanned<String>],
-    parse: impl Fn(&str) -> Result<P, Impossibility>,
-) -> Result<Vec<P>, Located> {
-    let property = |name: &toml::Spanned<String>| {
-        parse(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
-    };
-    names.iter().map(property).collect()
-}
-
-/// The key whose line a broken inequality is reported at: the first timer in its formula.
-const fn key_of(inequality: Inequality) -> &'static str {
-    match inequality {
-        Inequality::RepeatsInRange => "n_ack",
-        Inequality::DriftInRange => "drift_ppm",
-        Inequality::LeaseWithinSafety | Inequality::HeartbeatsWithinLease => "t_lease",
-        Inequality::SelectionWithinOffer => "t_select",
-        Inequality::OfferWithinHelp => "t_offer",
-        Inequality::FarewellRepeated => "t_farewell",
-        Inequality::LockOutlastsTask | Inequality::HeartbeatsInNumberSpace => "t_lock",
-        Inequality::TimerInRange => "protocol",
-    }
-}
-
-impl Request {
-    fn check(self) -> Result<HelpRequest, Located> {
-        let place = Place::Offset(self.followers.span().start);
-        let followers = self.followers.into_inner();
-        if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
-            return Err(at(place, Impossibility::Followers(followers)));
-        }
-        let mut tasks = Vec::new();
-        for name in self.tasks {
-            let place = Place::Offset(name.span().start);
-            let name = name.into_inner();
-            match task_of(&name) {
-                Some(task) => tasks.push(task),
-                None => return Err(at(place, Impossibility::Task(name))),
-            }
-        }
-        Ok(HelpRequest {
-            urgency: self.urgency,
-            followers,
-            tasks: TaskSet::of(&tasks),
-        })
-    }
-}
-
-fn task_of(name: &str) -> Option<TaskType> {
-    TaskSet(u16::MAX)
-        .iter()
-        .find(|task| task.to_string() == name)
 }
 
 impl Hash for Bounds {
@@ -534,9 +383,13 @@ impl Hash for Bounds {
             crashes,
             restarts,
             losses,
+            hangs,
+            heartbeats,
+            offers,
         } = *self;
-        // A bound of 255 losses and none at all may share a hash.
-        let losses = losses.unwrap_or(u8::MAX);
+        // A bound of 255 and none at all may share a hash.
+        let [losses, heartbeats, offers] =
+            [losses, heartbeats, offers].map(|bound| bound.unwrap_or(u8::MAX));
         state.write(&[
             detections,
             commands,
@@ -544,6 +397,9 @@ impl Hash for Bounds {
             crashes,
             restarts,
             losses,
+            hangs,
+            heartbeats,
+            offers,
         ]);
     }
 }
@@ -557,6 +413,9 @@ impl fmt::Display for Bounds {
             ("crashes", self.crashes),
             ("restarts", self.restarts),
             ("losses", self.losses.unwrap_or_default()),
+            ("hangs", self.hangs),
+            ("heartbeats", self.heartbeats.unwrap_or_default()),
+            ("offers", self.offers.unwrap_or_default()),
         ];
         let allowed: Vec<_> = bounds
             .iter()

@@ -15,6 +15,7 @@ use smallvec::SmallVec;
 use crate::canonical::Renamings;
 use crate::history::History;
 use crate::intern::Interner;
+use crate::monotone::MessageNames;
 use crate::network::Message;
 use crate::node::{Node, Rules};
 use crate::properties::{PropertyId, StepView};
@@ -170,6 +171,12 @@ impl Steps {
     /// The number of a message after a renaming.
     pub(crate) fn message_renamed(&self, message: u16, renaming: u32) -> u16 {
         short(self.messages.renamed(message.into(), renaming))
+    }
+}
+
+impl MessageNames for Steps {
+    fn names(&self, message: u16) -> u32 {
+        self.messages.names(message.into())
     }
 }
 

@@ -170,14 +170,29 @@ impl Exchange {
         self.places[place].into()
     }
 
-    /// A network after the exchange, its messages replaced by `message`.
-    pub(crate) fn network(&self, network: &Network, message: impl Fn(u16) -> u16) -> Network {
+    /// A set of places, one bit for each, after the exchange.
+    pub(crate) fn bits(&self, places: u8) -> u8 {
+        let members = (0..MAX_ROBOTS).filter(|place| places & 1 << place != 0);
+        members.fold(0, |all, place| all | 1 << self.places[place])
+    }
+
+    /// A message on its way after the exchange, the message itself replaced by `message`.
+    pub(crate) fn transmission(
+        &self,
+        sent: Transmission,
+        message: impl Fn(u16) -> u16,
+    ) -> Transmission {
         let place = |place: u8| self.places[usize::from(place)];
-        let mut exchanged = network.map(|transmission| Transmission {
-            from: place(transmission.from),
-            to: place(transmission.to),
-            message: message(transmission.message),
-        });
+        Transmission {
+            from: place(sent.from),
+            to: place(sent.to),
+            message: message(sent.message),
+        }
+    }
+
+    /// A network after the exchange, its messages on air or delayed replaced by `message`.
+    pub(crate) fn network(&self, network: &Network, message: impl Fn(u16) -> u16) -> Network {
+        let mut exchanged = network.map(|sent| self.transmission(sent, &message));
         exchanged.sort_broadcasts();
         exchanged
     }
@@ -239,6 +254,7 @@ pub(crate) struct Symmetry {
     pub(crate) nodes: KnownImages,
     pub(crate) messages: KnownImages,
     pub(crate) histories: KnownImages,
+    pub(crate) sets: KnownImages,
 }
 
 impl Symmetry {
@@ -248,6 +264,7 @@ impl Symmetry {
             nodes: KnownImages::default(),
             messages: KnownImages::default(),
             histories: KnownImages::default(),
+            sets: KnownImages::default(),
         }
     }
 

@@ -80,8 +80,8 @@ fn label(input: Input) -> Option<String> {
     Some(match input {
         Input::Ram { ram, .. } => match (ram.coordination, ram.farewell) {
             (part, None) => format!("RAM {}", part_name(part)),
-            (Coordination::None, Some(Farewell::Ended(_))) => "RAM ended".to_owned(),
-            (Coordination::None, Some(Farewell::Left(_))) => "RAM left".to_owned(),
+            (Coordination::None, Some(Farewell::Ended(..))) => "RAM ended".to_owned(),
+            (Coordination::None, Some(Farewell::Left(..))) => "RAM left".to_owned(),
             (_, Some(_)) => return None,
         },
         Input::Rmcm(Rmcm::Command(_)) => "RMCM command".to_owned(),
@@ -102,6 +102,7 @@ fn part_name(coordination: Coordination) -> &'static str {
         Coordination::Follower { last, .. } => match last.map(|last| last.progress) {
             None => "follower",
             Some(Progress::Executing) => "executing",
+            Some(Progress::InPosition) => "inPosition",
             Some(Progress::Completed) => "completed",
             Some(Progress::Failed(_)) => "failed",
             Some(Progress::SafeIdle) => "safeIdle",

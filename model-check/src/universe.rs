@@ -9,16 +9,17 @@
 use std::collections::HashSet;
 
 use crossguard_protocol::{
-    Answer, Availability, Command, Config, Confirmation, Coordination, Decimetres, Event, Failure,
-    Farewell, Followers, Heartbeat, HelpRequest, Input, OfferNumber, Phase, Progress, Ram,
-    Rejection, Report, RequestId, Rmcm, Robot, SessionId, SessionNumber, Settings, StationId,
-    TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
+    Answer, Availability, Command, Config, Confirmation, Coordination, Decimetres, Ending, Event,
+    Failure, Farewell, Followers, Heartbeat, HelpRequest, Input, Millis, OfferNumber, Phase,
+    Progress, Ram, Rejection, Report, RequestId, Rmcm, Robot, SessionId, SessionNumber, Settings,
+    StationId, TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
 };
 
 use crate::canonical::{Names, Ranks, Renamable};
 use crate::network::Message;
 use crate::network::concerns;
 use crate::node::{Node, Protocol};
+use crate::road::{Body, Heard};
 use crate::transitions::Transitions;
 
 /// The robot, its two peers, and a station that is none of them.
@@ -68,7 +69,12 @@ pub fn explore(config: &Config) -> Universe {
             let Some((after, outputs)) = node.step(&Protocol, config, input) else {
                 continue;
             };
-            universe.judge(config, &node, input, &after, outputs.ignored().is_some());
+            let is_ignored = outputs.ignored().is_some();
+            universe.judge(config, &node, input, &after, is_ignored);
+            if is_ignored {
+                // The state is the same, or else `judge` has noted it.
+                continue;
+            }
             let next = canonical(&after);
             if seen.insert(next.clone()) {
                 todo.push(next);
@@ -104,6 +110,8 @@ fn out_of_requests(config: &Config) -> Node {
             session,
             offer,
             capabilities,
+            echo: config.settings().first_heartbeat,
+            t_safety: config.settings().t_safety,
         },
         None,
     ));
@@ -137,7 +145,13 @@ fn out_of_requests(config: &Config) -> Node {
 }
 
 fn canonical(node: &Node) -> Node {
-    let node = node.untimed();
+    let mut node = node.untimed();
+    // Nothing of this makes a difference to what the robot does next.
+    node.actuation.heard = Heard::Nothing;
+    node.actuation.road_unsure = false;
+    if node.actuation.body.running().is_none() {
+        node.actuation.body = Body::Parked;
+    }
     let mut ranks = Ranks::default();
     ranks.add(&Names::of(&node));
     if ranks.rank() {
@@ -153,7 +167,10 @@ impl Universe {
             .robot
             .as_ref()
             .is_some_and(|robot| robot.is_valid(config));
-        if !valid || !after.actuation_agrees() || (ignored && before != after) {
+        // What it has heard all the same is not its own.
+        let mut own = after.clone();
+        own.actuation.heard = before.actuation.heard;
+        if !valid || !after.actuation_agrees() || (ignored && *before != own) {
             self.invalid.push(format!("{input} in {before:?}"));
         }
         let message = match input {
@@ -192,6 +209,7 @@ fn inputs(robot: &Robot) -> Vec<Input> {
             let number = SessionNumber(number(1, 8));
             let next = Coordination::NeedHelp {
                 number,
+                heartbeat: Heartbeat(0),
                 request: request(1, Urgency::High),
             };
             for coordination in [Coordination::None, next] {
@@ -218,6 +236,7 @@ fn ram(station: StationId, coordination: Coordination, farewell: Option<Farewell
             station,
             coordination,
             farewell,
+            on_duty: false,
         },
         distance: Decimetres(0),
     }
@@ -228,6 +247,7 @@ fn request(followers: u8, urgency: Urgency) -> HelpRequest {
         urgency,
         followers,
         tasks: TaskSet::of(&[TaskType::MOVE]),
+        place: crossguard_protocol::Place::default(),
     }
 }
 
@@ -239,6 +259,8 @@ fn events(robot: &Robot) -> Vec<Event> {
         Event::LeaveRequested,
         Event::AvailabilityChanged(Availability::Available),
         Event::AvailabilityChanged(Availability::Unavailable(Unavailability::LocalFault)),
+        Event::RoadClear,
+        Event::AllAnswered,
         Event::OpenCorridor,
         Event::CloseCorridor,
         Event::IdentityChanged(ME),
@@ -257,24 +279,31 @@ fn events(robot: &Robot) -> Vec<Event> {
     for session in sessions(robot) {
         for request in requests(robot) {
             let id = crossguard_protocol::ManeuverId { session, request };
-            events.extend([Event::ManeuverCompleted(id), Event::ManeuverFailed(id)]);
+            events.extend([
+                Event::InPosition(id),
+                Event::ManeuverCompleted(id),
+                Event::ManeuverFailed(id),
+            ]);
         }
     }
     events
 }
 
-/// The session that the robot is in, one of its own that is over, and one of each peer.
+/// The session that the robot is in, one of its own that is over, one of each peer, and that of its rival.
 fn sessions(robot: &Robot) -> Vec<SessionId> {
     let of = |leader, boot, count| SessionId {
         leader,
         number: SessionNumber(number(boot, count)),
     };
     let mut sessions = vec![of(ME, 0, 7), of(PEERS[0], 1, 7), of(PEERS[1], 1, 7)];
-    sessions.extend(
-        robot
-            .session()
-            .filter(|session| !sessions.contains(session)),
-    );
+    let rival = match robot.phase() {
+        Phase::Requesting(requesting) => requesting.rival,
+        Phase::Leading(leading) => leading.rival,
+        Phase::Idle | Phase::Offering(_) | Phase::Following(_) => None,
+    };
+    for known in [robot.session(), rival.map(|rival| rival.session)] {
+        sessions.extend(known.filter(|session| !sessions.contains(session)));
+    }
     sessions
 }
 
@@ -294,8 +323,10 @@ fn offers(robot: &Robot, station: StationId) -> Vec<OfferNumber> {
 fn heartbeats(robot: &Robot) -> Vec<Heartbeat> {
     let newest = match robot.phase() {
         Phase::Leading(leading) => leading.heartbeat,
+        Phase::Requesting(requesting) => requesting.heartbeat,
+        Phase::Offering(offering) => offering.heard,
         Phase::Following(following) => following.heard,
-        _ => Heartbeat(1),
+        Phase::Idle => Heartbeat(1),
     };
     // Ranks start at 0, so there is an older one only above it.
     let older = newest.0.checked_sub(1).map(Heartbeat);
@@ -334,10 +365,13 @@ fn coordinations(robot: &Robot, station: StationId) -> Vec<Coordination> {
         .map(|s| s.number);
     for number in numbers {
         for urgency in [Urgency::Low, Urgency::Medium, Urgency::High] {
-            all.push(Coordination::NeedHelp {
-                number,
-                request: request(1, urgency),
-            });
+            for heartbeat in heartbeats(robot) {
+                all.push(Coordination::NeedHelp {
+                    number,
+                    heartbeat,
+                    request: request(1, urgency),
+                });
+            }
         }
         let lists = offers(robot, ME)
             .into_iter()
@@ -345,11 +379,20 @@ fn coordinations(robot: &Robot, station: StationId) -> Vec<Coordination> {
             .chain([Followers::EMPTY]);
         for followers in lists {
             for heartbeat in heartbeats(robot) {
-                all.push(Coordination::Leader {
-                    number,
-                    heartbeat,
-                    followers,
-                });
+                for (urgency, yields) in [
+                    (Urgency::Low, false),
+                    (Urgency::High, false),
+                    (Urgency::High, true),
+                ] {
+                    all.push(Coordination::Leader {
+                        number,
+                        heartbeat,
+                        followers,
+                        urgency,
+                        place: crossguard_protocol::Place::default(),
+                        yields,
+                    });
+                }
             }
         }
     }
@@ -359,11 +402,17 @@ fn coordinations(robot: &Robot, station: StationId) -> Vec<Coordination> {
     {
         let capabilities = TaskSet::of(&[TaskType::MOVE]);
         for offer in offers(robot, station) {
-            all.push(Coordination::OfferHelp {
-                session,
-                offer,
-                capabilities,
-            });
+            for echo in heartbeats(robot) {
+                for t_safety in [Millis(2_000), Millis(1)] {
+                    all.push(Coordination::OfferHelp {
+                        session,
+                        offer,
+                        capabilities,
+                        echo,
+                        t_safety,
+                    });
+                }
+            }
         }
         for echo in heartbeats(robot) {
             all.push(Coordination::Follower {
@@ -374,6 +423,7 @@ fn coordinations(robot: &Robot, station: StationId) -> Vec<Coordination> {
             for request in requests(robot) {
                 for progress in [
                     Progress::Executing,
+                    Progress::InPosition,
                     Progress::Completed,
                     Progress::Failed(Failure::Maneuver),
                     Progress::SafeIdle,
@@ -394,11 +444,12 @@ fn coordinations(robot: &Robot, station: StationId) -> Vec<Coordination> {
 fn farewells(robot: &Robot, station: StationId) -> Vec<Farewell> {
     sessions(robot)
         .into_iter()
-        .map(|session| {
+        .flat_map(|session| {
             if session.leader == station {
-                Farewell::Ended(session.number)
+                [Ending::Completed, Ending::Aborted].map(|e| Farewell::Ended(session.number, e))
             } else {
-                Farewell::Left(session)
+                let [older, newer] = [(0, 5), (2, 5)].map(|(b, c)| OfferNumber(number(b, c)));
+                [older, newer].map(|offer| Farewell::Left(session, offer))
             }
         })
         .collect()
@@ -446,12 +497,20 @@ fn answers(robot: &Robot) -> Vec<Answer> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fsm::{Format, diagram};
+
+    /// Up to renaming.
+    const STATES: usize = 48_202;
 
     #[test]
     fn whatever_peers_say_every_step_of_a_robot_is_valid() {
         let universe = explore(&config());
         assert_eq!(universe.invalid, Vec::<String>::new());
         assert_eq!(universe.wrongly_left_out, Vec::<String>::new());
-        assert!(universe.states > 1_000, "{} states", universe.states);
+        assert_eq!(universe.states, STATES, "verification.md says how many");
+        let dot = diagram(&universe.transitions, Format::Dot);
+        for state in ["Idle", "HelpRequested_helper", "ManeuverExecuting_leader"] {
+            assert!(dot.contains(state), "{state} is not in:\n{dot}");
+        }
     }
 }

@@ -75,7 +75,7 @@ fn impossible_values_are_named_with_their_line() {
         (
             "\"L4\"",
             "\"L3\"",
-            "L3 speaks about cooperative scenarios only",
+            "L3 and W7 speak about cooperative scenarios only",
         ),
     ];
     for (from, to, message) in cases {
@@ -113,4 +113,67 @@ fn a_scenario_that_is_neither_shipped_nor_a_file_is_told_apart() {
         matches!(missing, ScenarioError::Unreadable { .. }),
         "{missing}"
     );
+}
+
+/// The error that the monotone pair gives when one of its lines is replaced.
+fn monotone_error(from: &str, to: &str) -> String {
+    let valid = include_str!("../scenarios/pair-monotone.toml");
+    assert!(valid.contains(from), "no line '{from}'");
+    let text = valid.replacen(from, to, 1);
+    Scenario::parse("my.toml", &text).unwrap_err().to_string()
+}
+
+#[test]
+fn what_does_not_fit_a_monotone_channel_is_refused() {
+    let cases = [
+        (
+            "monotone = true",
+            "monotone = true\ndelayed = 1",
+            "exclude each other",
+        ),
+        (
+            "loss = true",
+            "loss = false",
+            "'loss = false': a monotone channel decides about no loss",
+        ),
+        (
+            "commands = 1",
+            "commands = 1\nlosses = 1",
+            "'losses': a monotone channel decides about no loss",
+        ),
+        (
+            "heartbeats = 1",
+            "",
+            "'monotone = true' needs 'heartbeats = n' in [bounds]",
+        ),
+        (
+            "offers = 2",
+            "",
+            "'monotone = true' needs 'offers = n' in [bounds]",
+        ),
+        (
+            "monotone = true",
+            "",
+            "'heartbeats' bounds runs on a monotone channel only",
+        ),
+        (
+            "corridor = true",
+            "cooperative = true",
+            "assumes that messages arrive",
+        ),
+        ("\"L7\"", "\"L6\"", "L6 does not hold of a monotone channel"),
+    ];
+    for (from, to, message) in cases {
+        let error = monotone_error(from, to);
+        assert!(error.contains(message), "{error}");
+        assert!(error.starts_with("my.toml:"), "{error}");
+    }
+}
+
+#[test]
+fn an_urgency_that_is_never_used_is_refused() {
+    let error = error("station = 2", "station = 2\nurgency = \"high\"");
+    assert!(error.contains("robot 2 has an urgency"), "{error}");
+    let line = line_of("station = 2") + 1;
+    assert!(error.starts_with(&format!("my.toml:{line}: ")), "{error}");
 }

@@ -38,12 +38,15 @@ macro_rules! verified {
 
 verified!(
     pair "pair", contention "contention", pair_reboot "pair-reboot", leader_crash "leader-crash",
-    offer_race "offer-race", bilateral "bilateral", trio "trio", wrap "wrap", stable "stable"
+    offer_race "offer-race", bilateral "bilateral", trio "trio",
+    pair_monotone "pair-monotone", contention_monotone "contention-monotone", pair_hang "pair-hang",
+    contention_urgency "contention-urgency", wrap "wrap", stable "stable",
+    blocker "blocker", trio_corridor "trio-corridor", two_teams "two-teams", crossing "crossing", rivals "rivals"
 );
 
 #[test]
 fn every_quick_scenario_is_verified_here() {
-    // Those that are timed are verified in `timed.rs`.
+    // Timed scenarios are verified in `timed.rs`, where the long ones are left to `crossguard check`.
     let untimed = |name: &&str| Scenario::load(name).unwrap().timed.is_none();
     assert!(
         Scenario::quick()

@@ -34,6 +34,7 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         protocol::numbers::HARNESSES,
         protocol::lists::HARNESSES,
         protocol::lease::HARNESSES,
+        protocol::settings::HARNESSES,
         protocol::boot::HARNESSES,
         protocol::idle::HARNESSES,
         protocol::requesting::HARNESSES,

@@ -14,5 +14,6 @@ pub mod lists;
 pub mod numbers;
 pub mod offering;
 pub mod requesting;
+pub mod settings;
 pub(crate) mod stage;
 pub mod timers;

@@ -8,6 +8,9 @@ use serde::Deserialize;
 /// How often each harness runs, at most.
 const RUNS: u64 = 400_000;
 
+/// How often each runs where more is asked for.
+const MANY_RUNS: u64 = 30_000;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Committed {
@@ -66,7 +69,26 @@ fn exercise(harness: &Harness) -> stand_in::Record {
 }
 
 #[test]
-fn every_harness_holds_for_random_values_and_reaches_its_marks() {
+fn every_harness_of_the_protocol_holds_for_random_values_and_reaches_its_marks() {
+    hold_and_reach_their_marks("protocol::");
+}
+
+#[test]
+fn every_harness_of_the_codec_holds_for_random_values_and_reaches_its_marks() {
+    hold_and_reach_their_marks("codec::");
+}
+
+#[test]
+#[ignore = "takes a minute; the protocol's mutants are judged by it, see protocol/MUTANTS.md"]
+fn every_harness_of_the_protocol_holds_for_many_random_values() {
+    for harness in harnesses().filter(|harness| harness.name().starts_with("protocol::")) {
+        println!("{}", harness.name());
+        stand_in::run(harness.run, 1, MANY_RUNS);
+    }
+}
+
+/// The harnesses of one module with random values.
+fn hold_and_reach_their_marks(module: &str) {
     let committed = committed();
     let proved = committed
         .harness
@@ -78,7 +100,7 @@ fn every_harness_holds_for_random_values_and_reaches_its_marks() {
         .map(|e| (e.name.as_str(), e.covers));
     let covers: BTreeMap<_, _> = proved.chain(others).collect();
     let mut wrong = Vec::new();
-    for harness in harnesses() {
+    for harness in harnesses().filter(|harness| harness.name().starts_with(module)) {
         let listed = covers.get(harness.name()).copied();
         let record = exercise(harness);
         let unreached = record.covers.values().any(|reached| !reached);

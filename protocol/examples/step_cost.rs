@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use crossguard_protocol::{
     Availability, Config, Decimetres, Event, HelpRequest, Input, ManeuverId, Millis, Output,
-    Outputs, Phase, Robot, StationId, TaskSet, TaskType, Unavailability, Urgency,
+    Outputs, Phase, Place, Robot, StationId, TaskSet, TaskType, Unavailability, Urgency,
 };
 
 const ROBOTS: usize = 5;
@@ -174,6 +174,8 @@ impl Street {
             (11, Some(id)) => Event::ManeuverFailed(id),
             (23..=28, _) => Event::OpenCorridor,
             (29, _) => Event::CloseCorridor,
+            (12..=22, Some(id)) => Event::InPosition(id),
+            (33..=35, _) => Event::RoadClear,
             (30, _) => Event::TaskCompleted,
             (31, _) => Event::LeaveRequested,
             (32, _) => {
@@ -200,6 +202,7 @@ fn request(followers: u8) -> HelpRequest {
         urgency: Urgency::Medium,
         followers,
         tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK]),
+        place: Place(7),
     }
 }
 

@@ -9,8 +9,9 @@ use crate::time::Millis;
 
 /// The values that a robot is configured with. [`Config::new`] checks them.
 ///
-/// Times are from 1 ms to one day; all robots of a team have the same. What holds between them is in
-/// [`Inequality`].
+/// Times are from 1 ms to one day. What holds between them is in [`Inequality`]. Robots of a team may have
+/// different settings: a helper tells its `t_safety` in its offer, and a requester takes no offer whose
+/// `t_safety` its own lease does not fit. Drift and `delay_max` must be the same for all.
 ///
 /// The paper gives no timers. `t_ack` covers the negotiation times that it measures (74 ms ± 15 ms and
 /// 129 ms ± 102 ms) with four deviations to spare.
@@ -22,8 +23,10 @@ pub struct Settings {
     /// the shortest interval of CAM (EN 302 637-2, clause 6.1.3).
     pub ram_period: Millis,
     /// How long a requester gathers offers, counted from the first, before it selects; 300 ms by default.
+    /// It selects sooner when [`Event::AllAnswered`](crate::Event::AllAnswered) says that no other offer can come.
     pub t_select: Millis,
-    /// How long a helper reserves itself for one requester; 3 s by default.
+    /// How long a helper reserves itself for a requester of which it hears no newer heartbeat; 3 s by
+    /// default.
     pub t_offer: Millis,
     /// How long a request for help stands; 10 s by default.
     pub t_help: Millis,
@@ -41,20 +44,27 @@ pub struct Settings {
     pub t_farewell: Millis,
     /// How long the identity may stay locked, farewells included; 5 minutes by default.
     pub t_lock: Millis,
+    /// How long a pedestrian needs to cross at most; 30 s by default. A corridor opens only where the
+    /// identity lock and the execution limits leave so much time.
+    pub t_cross: Millis,
     /// `T_exec` by task type: how long a maneuver may run; by default 5 s for `initialPos` and 60 s for
     /// the others.
     pub t_exec: [Millis; TaskType::COUNT],
     /// Largest error of a robot's clock rate, in parts per million, below 100,000; 1000 by default.
     pub drift_ppm: u32,
     /// Longest time by which the endpoint is late to tell the robot that time has passed, and by which a
-    /// message is old when it is told; 50 ms by default.
+    /// message is old when it is told, on the robot's own clock; 50 ms by default. The endpoint has no other
+    /// clock to keep it by.
     pub delay_max: Millis,
     /// The maneuvers that this robot can do; the three with names by default.
     pub capabilities: TaskSet,
     /// The maneuvers under which a pedestrian may cross; the corridor opens only for these. `move` and
     /// `block` by default.
     pub guarding: TaskSet,
-    /// Fallback policy by task type; by default to a safe position from `move`, hold until clear for
+    /// The maneuvers that guard from a place: the corridor opens only once the follower has reported
+    /// that it is in position. `block` by default.
+    pub holding: TaskSet,
+    /// Fallback policy by task type; by default escort to the nearer kerb from `move`, hold until clear for
     /// `block`, stop in place for the others.
     pub fallback: [FallbackPolicy; TaskType::COUNT],
     /// First `requestID` of every follower in a session; 0 by default.
@@ -68,7 +78,7 @@ impl Default for Settings {
         let mut t_exec = [Millis(60_000); TaskType::COUNT];
         t_exec[TaskType::INITIAL_POS.value() as usize] = Millis(5_000);
         let mut fallback = [FallbackPolicy::StopInPlace; TaskType::COUNT];
-        fallback[TaskType::MOVE.value() as usize] = FallbackPolicy::GoToSafePosition;
+        fallback[TaskType::MOVE.value() as usize] = FallbackPolicy::EscortToKerb;
         fallback[TaskType::BLOCK.value() as usize] = FallbackPolicy::HoldUntilClear;
         Self {
             ram_period: Millis(100),
@@ -82,15 +92,27 @@ impl Default for Settings {
             t_leave: Millis(5_000),
             t_farewell: Millis(1_000),
             t_lock: Millis(300_000),
+            t_cross: Millis(30_000),
             t_exec,
             drift_ppm: 1_000,
             delay_max: Millis(50),
             capabilities: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK]),
             guarding: TaskSet::of(&[TaskType::MOVE, TaskType::BLOCK]),
+            holding: TaskSet::of(&[TaskType::BLOCK]),
             fallback,
             first_request: RequestId(0),
             first_heartbeat: Heartbeat(0),
         }
+    }
+}
+
+impl Settings {
+    /// Whether a timer of `own` here ends before a timer of `theirs` on another robot that was started no
+    /// earlier, whatever the two clocks do and however late this robot learns of it.
+    const fn ends_before(&self, own: Millis, theirs: Millis) -> bool {
+        let drift = self.drift_ppm as u64;
+        let own = own.0 as u64 + self.delay_max.0 as u64;
+        own * (1_000_000 + drift) < theirs.0 as u64 * (1_000_000 - drift)
     }
 }
 
@@ -112,12 +134,16 @@ pub enum Inequality {
     /// `drift_ppm < 100000`.
     DriftInRange,
     /// `(t_lease + delay_max) * (1 + drift) < t_safety * (1 - drift)`: the lease ends before the
-    /// follower can have fallen back, whatever the two clocks do (property I10).
+    /// follower can have fallen back, whatever the two clocks do (property I10). Both times of the leader are
+    /// on its own clock, which may be slow for both.
     LeaseWithinSafety,
     /// `3 * ram_period <= t_lease`: a lease survives two lost heartbeats.
     HeartbeatsWithinLease,
     /// `t_select < t_offer`: an offer is still reserved when the requester selects.
     SelectionWithinOffer,
+    /// `(3 * ram_period + delay_max) * (1 + drift) < t_offer * (1 - drift)`: an offer survives two lost
+    /// heartbeats, on both sides.
+    HeartbeatsWithinOffer,
     /// `t_offer <= t_help`: no helper waits longer than the request stands.
     OfferWithinHelp,
     /// `3 * ram_period <= t_farewell`: a farewell survives two lost RAM.
@@ -126,6 +152,9 @@ pub enum Inequality {
     /// `t_help + t_farewell < t_lock` if it can do none: the lock outlasts the shortest useful
     /// session.
     LockOutlastsTask,
+    /// `t_cross + t_farewell < t_lock`, and `t_cross <= t_exec` for each guarding task that the robot can
+    /// do: a crossing that begins can end.
+    CrossingWithinLimits,
     /// `t_lock / ram_period < 32768`: two heartbeats of a session are less than half the number
     /// space apart.
     HeartbeatsInNumberSpace,
@@ -133,16 +162,18 @@ pub enum Inequality {
 
 impl Inequality {
     /// All inequalities, in the order in which they are checked.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::TimerInRange,
         Self::RepeatsInRange,
         Self::DriftInRange,
         Self::LeaseWithinSafety,
         Self::HeartbeatsWithinLease,
         Self::SelectionWithinOffer,
+        Self::HeartbeatsWithinOffer,
         Self::OfferWithinHelp,
         Self::FarewellRepeated,
         Self::LockOutlastsTask,
+        Self::CrossingWithinLimits,
         Self::HeartbeatsInNumberSpace,
     ];
 
@@ -156,9 +187,11 @@ impl Inequality {
             Self::LeaseWithinSafety => "lease-within-safety",
             Self::HeartbeatsWithinLease => "heartbeats-within-lease",
             Self::SelectionWithinOffer => "selection-within-offer",
+            Self::HeartbeatsWithinOffer => "heartbeats-within-offer",
             Self::OfferWithinHelp => "offer-within-help",
             Self::FarewellRepeated => "farewell-repeated",
             Self::LockOutlastsTask => "lock-outlasts-task",
+            Self::CrossingWithinLimits => "crossing-within-limits",
             Self::HeartbeatsInNumberSpace => "heartbeats-in-number-space",
         }
     }
@@ -175,10 +208,16 @@ impl Inequality {
             }
             Self::HeartbeatsWithinLease => "3 * ram_period <= t_lease",
             Self::SelectionWithinOffer => "t_select < t_offer",
+            Self::HeartbeatsWithinOffer => {
+                "(3 * ram_period + delay_max) * (1 + drift) < t_offer * (1 - drift)"
+            }
             Self::OfferWithinHelp => "t_offer <= t_help",
             Self::FarewellRepeated => "3 * ram_period <= t_farewell",
             Self::LockOutlastsTask => {
                 "t_help + t_farewell + t_exec < t_lock for every capability, t_exec 0 for none"
+            }
+            Self::CrossingWithinLimits => {
+                "t_cross + t_farewell < t_lock, and t_cross <= t_exec for every guarding capability"
             }
             Self::HeartbeatsInNumberSpace => "t_lock / ram_period < 32768",
         }
@@ -199,6 +238,7 @@ impl Inequality {
                     s.t_leave,
                     s.t_farewell,
                     s.t_lock,
+                    s.t_cross,
                 ];
                 let in_range = |t: &Millis| (Millis(1)..=Millis::MAX_TIMER).contains(t);
                 named.iter().all(in_range)
@@ -207,13 +247,10 @@ impl Inequality {
             }
             Self::RepeatsInRange => (1..=15).contains(&s.n_ack),
             Self::DriftInRange => s.drift_ppm < 100_000,
-            Self::LeaseWithinSafety => {
-                let drift = u64::from(s.drift_ppm);
-                let lease = u64::from(s.t_lease.0) + u64::from(s.delay_max.0);
-                lease * (1_000_000 + drift) < u64::from(s.t_safety.0) * (1_000_000 - drift)
-            }
+            Self::LeaseWithinSafety => s.ends_before(s.t_lease, s.t_safety),
             Self::HeartbeatsWithinLease => thrice_period <= s.t_lease.0,
             Self::SelectionWithinOffer => s.t_select < s.t_offer,
+            Self::HeartbeatsWithinOffer => s.ends_before(Millis(thrice_period), s.t_offer),
             Self::OfferWithinHelp => s.t_offer <= s.t_help,
             Self::FarewellRepeated => thrice_period <= s.t_farewell.0,
             Self::LockOutlastsTask => {
@@ -222,6 +259,11 @@ impl Inequality {
                     session.saturating_add(s.t_exec[task.value() as usize]) < s.t_lock
                 };
                 session < s.t_lock && s.capabilities.iter().all(outlasts)
+            }
+            Self::CrossingWithinLimits => {
+                let mut guarding = s.capabilities.intersection(s.guarding).iter();
+                s.t_cross.saturating_add(s.t_farewell) < s.t_lock
+                    && guarding.all(|task| s.t_cross <= s.t_exec[task.value() as usize])
             }
             Self::HeartbeatsInNumberSpace => s.t_lock.0 / s.ram_period.0 < Heartbeat::HALF_SPACE,
         }
@@ -284,6 +326,24 @@ impl Config {
         self.0.fallback[task.value() as usize]
     }
 
+    /// Whether a lease of this robot ends before a follower with this `t_safety` can have fallen back.
+    #[must_use]
+    pub const fn lease_fits(&self, t_safety: Millis) -> bool {
+        self.0.ends_before(self.0.t_lease, t_safety)
+    }
+
+    /// How long a requester counts on an offer after it sent the newest heartbeat that the offer echoes.
+    /// It ends before the reservation of a helper with the same `t_offer` can have lapsed.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "it is not above `t_offer`")]
+    pub const fn t_offer_lease(&self) -> Millis {
+        let drift = self.0.drift_ppm as u64;
+        let on_fast_clock = self.0.t_offer.0 as u64 * (1_000_000 - drift) / (1_000_000 + drift);
+        Millis(on_fast_clock as u32)
+            .saturating_sub(self.0.delay_max)
+            .saturating_sub(Millis(1))
+    }
+
     /// How long a leader keeps a follower whose lease has expired: by then a follower that is deaf
     /// has left of its own accord.
     #[must_use]
@@ -340,7 +400,7 @@ mod tests {
     fn each_inequality_is_refused_by_its_name_and_at_its_edge() {
         use Inequality as I;
         type Case = (Option<Inequality>, fn(&mut Settings));
-        let cases: [Case; 26] = [
+        let cases: [Case; 32] = [
             (Some(I::TimerInRange), |s| s.t_ack = Millis(0)),
             (None, |s| s.t_ack = Millis(1)),
             (Some(I::TimerInRange), |s| s.t_exec[7] = Millis(86_400_001)),
@@ -366,6 +426,19 @@ mod tests {
             (None, |s| s.t_select = Millis(2_999)),
             (Some(I::SelectionWithinOffer), |s| {
                 s.t_select = Millis(3_000);
+            }),
+            // (3 * 100 + 50) * 1.001 < t_offer * 0.999 from t_offer = 351 on.
+            (None, |s| s.t_offer = Millis(351)),
+            (Some(I::HeartbeatsWithinOffer), |s| s.t_offer = Millis(350)),
+            (None, |s| s.t_cross = Millis(60_000)),
+            (Some(I::CrossingWithinLimits), |s| {
+                s.t_cross = Millis(60_001);
+            }),
+            (None, |s| {
+                (s.guarding, s.t_cross) = (TaskSet::EMPTY, Millis(298_999));
+            }),
+            (Some(I::CrossingWithinLimits), |s| {
+                (s.guarding, s.t_cross) = (TaskSet::EMPTY, Millis(299_000));
             }),
             (None, |s| s.t_offer = Millis(10_000)),
             (Some(I::OfferWithinHelp), |s| s.t_offer = Millis(10_001)),
@@ -396,7 +469,7 @@ mod tests {
     fn the_lock_outlasts_the_farewell_of_a_robot_that_can_do_nothing() {
         let lock = |t_lock| {
             broken(|s| {
-                s.capabilities = TaskSet::EMPTY;
+                (s.capabilities, s.t_cross) = (TaskSet::EMPTY, Millis(1));
                 s.t_lock = Millis(t_lock);
             })
         };

@@ -11,7 +11,9 @@ use crate::output::{
     ReleaseReason, StopReason,
 };
 use crate::state::Robot;
-use crate::task::{Availability, FallbackPolicy, HelpRequest, TaskSet, Unavailability, Urgency};
+use crate::task::{
+    Availability, FallbackPolicy, HelpRequest, Place, TaskSet, Unavailability, Urgency,
+};
 use crate::time::Millis;
 
 impl Display for Robot {
@@ -71,6 +73,7 @@ macro_rules! display_as_words {
 }
 
 display_as_words!(
+    crate::Ending,
     EndReason,
     FallbackPolicy,
     GoneReason,
@@ -111,6 +114,7 @@ impl Display for Disengagement {
             Self::CommandOutstanding => "yet to acknowledge a command",
             Self::NotExecuting => "not executing anything",
             Self::NotGuarding => "not guarding anybody",
+            Self::NotInPosition => "not in position",
             Self::Completed => "done with its task",
             Self::Failed(why) => return write!(f, "unable to do its task: {why}"),
             Self::SafeIdle => "idle in safety",
@@ -160,7 +164,11 @@ impl Display for HelpRequest {
             f,
             "{} x {}, {} urgency",
             self.followers, self.tasks, self.urgency
-        )
+        )?;
+        if self.place == Place::UNKNOWN {
+            return Ok(());
+        }
+        write!(f, ", at {}", self.place)
     }
 }
 
@@ -174,26 +182,41 @@ impl Display for Ram {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.coordination {
             Coordination::None => f.write_str("RAM none")?,
-            Coordination::NeedHelp { number, request } => {
-                write!(f, "RAM needHelp {}#{} ({request})", self.station, number.0)?;
+            Coordination::NeedHelp {
+                number,
+                heartbeat,
+                request,
+            } => {
+                let number = number.0;
+                write!(
+                    f,
+                    "RAM needHelp {}#{number} ({request}), heartbeat {heartbeat}",
+                    self.station
+                )?;
             }
             Coordination::OfferHelp {
                 session,
                 capabilities,
+                echo,
                 ..
             } => {
-                write!(f, "RAM offerHelp {session} ({capabilities})")?;
+                write!(f, "RAM offerHelp {session} ({capabilities}), echo {echo}")?;
             }
             Coordination::Leader {
                 number,
                 heartbeat,
                 followers,
+                yields,
+                ..
             } => {
                 write!(f, "RAM leader {}#{} of", self.station, number.0)?;
                 for follower in followers.iter() {
                     write!(f, " {}", follower.station)?;
                 }
                 write!(f, ", heartbeat {heartbeat}")?;
+                if yields {
+                    f.write_str(", yields the place")?;
+                }
             }
             Coordination::Follower {
                 session,
@@ -207,10 +230,18 @@ impl Display for Ram {
             }
         }
         match self.farewell {
-            None => Ok(()),
-            Some(Farewell::Ended(number)) => write!(f, ", ended {}#{}", self.station, number.0),
-            Some(Farewell::Left(session)) => write!(f, ", left {session}"),
+            None => {}
+            Some(Farewell::Ended(number, ending)) => {
+                write!(f, ", ended {}#{}, {ending}", self.station, number.0)?;
+            }
+            Some(Farewell::Left(session, offer)) => {
+                write!(f, ", left {session} by offer {}", offer.0)?;
+            }
         }
+        if self.on_duty {
+            f.write_str(", on duty")?;
+        }
+        Ok(())
     }
 }
 
@@ -243,14 +274,18 @@ impl Display for Event {
         match self {
             Self::PedestrianDetected(request) => write!(f, "pedestrian detected ({request})"),
             Self::CommandManeuver { follower, task } => write!(f, "command {follower} {task}"),
+            Self::InPosition(id) => write!(f, "maneuver {id} in position"),
             Self::ManeuverCompleted(id) => write!(f, "maneuver {id} completed"),
             Self::ManeuverFailed(id) => write!(f, "maneuver {id} failed"),
             Self::TaskCompleted => f.write_str("task completed"),
+            Self::RoadClear => f.write_str("road clear"),
+            Self::AllAnswered => f.write_str("all have answered"),
             Self::LeaveRequested => f.write_str("leave requested"),
             Self::AvailabilityChanged(availability) => write!(f, "now {availability}"),
             Self::OpenCorridor => f.write_str("open corridor"),
             Self::CloseCorridor => f.write_str("close corridor"),
             Self::IdentityChanged(station) => write!(f, "identity changed to {station}"),
+            Self::EpochRenewed(boot) => write!(f, "boot counter renewed to {boot}"),
         }
     }
 }
@@ -284,9 +319,12 @@ impl Display for Notice {
             Self::CommandAcknowledged(station, id) => write!(f, "{station} acknowledged {id}"),
             Self::CommandRejected(station, id, why) => write!(f, "{station} rejected {id}: {why}"),
             Self::ManeuverReported(station, id) => write!(f, "{station} executes {id}"),
+            Self::ManeuverInPosition(station, id) => write!(f, "{station} in position for {id}"),
             Self::ManeuverCompleted(station, id) => write!(f, "{station} completed {id}"),
             Self::ManeuverFailed(station, id, why) => write!(f, "{station} failed {id}: {why}"),
             Self::FollowerSafeIdle(station, id) => write!(f, "{station} fell back from {id}"),
+            Self::OfferLapsed(station) => write!(f, "the offer of {station} has lapsed"),
+            Self::Yielded(station) => write!(f, "place yielded to {station}"),
             Self::SessionEnded(session, why) => write!(f, "{session} ended: {why}"),
             Self::Offering(session) => write!(f, "offering to {session}"),
             Self::Joined(session) => write!(f, "joined {session}"),
@@ -305,10 +343,12 @@ impl Display for Output {
             Self::StartManeuver(maneuver) => write!(f, "start {maneuver}"),
             Self::StopManeuver(maneuver, why) => write!(f, "stop {maneuver}: {why}"),
             Self::FallBack(maneuver, policy) => write!(f, "fall back from {maneuver}: {policy}"),
-            Self::CorridorOpened => f.write_str("corridor opened"),
+            Self::CorridorOpened(left) => write!(f, "corridor opened for {left}"),
+            Self::CorridorExtended(left) => write!(f, "corridor open for another {left}"),
             Self::CorridorClosed(why) => write!(f, "corridor closed: {why}"),
             Self::LockIdentity => f.write_str("lock identity"),
             Self::UnlockIdentity => f.write_str("unlock identity"),
+            Self::RenewEpoch => f.write_str("renew the boot counter"),
             Self::Notify(notice) => notice.fmt(f),
             Self::Ignored(reason) => write!(f, "ignored: {reason}"),
         }

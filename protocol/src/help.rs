@@ -2,19 +2,74 @@
 
 use core::cmp::Reverse;
 
-use crate::id::{OfferNumber, SessionId, StationId};
+use crate::id::{Heartbeat, OfferNumber, SessionId, StationId};
 use crate::list::List;
 use crate::output::{EndReason, Ignored, Notice, Output, ReleaseReason, Sink};
 use crate::robot::{Effect, Step};
-use crate::state::{Leading, Lease, Member, Offer, Offering, Phase, Requesting, Robot};
-use crate::task::{HelpRequest, Urgency};
-use crate::time::Countdown;
+use crate::roles::age_of;
+use crate::state::{
+    Corridor, Leading, Lease, Member, Offer, Offering, Phase, Requesting, Rival, Robot,
+};
+use crate::task::{HelpRequest, Place, Urgency};
+use crate::time::{Countdown, Millis};
 
-/// A request's place in the total order of requests: the smaller key goes before.
+/// What a request or a leader claims: a place, with this urgency.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Claim {
+    pub(crate) urgency: Urgency,
+    pub(crate) place: Place,
+}
+
+/// The place of a claim in the total order of claims: the smaller key goes before.
 type Precedence = (Reverse<Urgency>, StationId);
 
-const fn precedence(request: HelpRequest, leader: StationId) -> Precedence {
-    (Reverse(request.urgency), leader)
+impl Claim {
+    pub(crate) const fn of(request: HelpRequest) -> Self {
+        Self {
+            urgency: request.urgency,
+            place: request.place,
+        }
+    }
+
+    const fn precedence(self, station: StationId) -> Precedence {
+        (Reverse(self.urgency), station)
+    }
+
+    /// Whether this claim of `station` goes before the one of `other_station` at the same place.
+    pub(crate) fn goes_before(
+        self,
+        station: StationId,
+        other: Self,
+        other_station: StationId,
+    ) -> Effect {
+        if !self.place.may_be(other.place) {
+            return Err(Ignored::OtherPlace);
+        }
+        if self.precedence(station) > other.precedence(other_station) {
+            return Err(Ignored::LowerPrecedence);
+        }
+        Ok(())
+    }
+}
+
+impl Rival {
+    /// Notes a rival that is heard; whether it was heard before, with an older heartbeat. The first time
+    /// `known` is changed and nothing else, and that only where no other rival has just been noted.
+    pub(crate) fn is_heard_again(self, known: &mut Option<Self>) -> Result<bool, Ignored> {
+        match known {
+            Some(rival) if rival.session == self.session => {
+                if self.heartbeat.is_newer_than(rival.heartbeat) {
+                    return Ok(true);
+                }
+                Err(Ignored::FirstHeard)
+            }
+            Some(rival) if rival.fresh => Err(Ignored::FirstHeard),
+            _ => {
+                *known = Some(self);
+                Ok(false)
+            }
+        }
+    }
 }
 
 /// An offer's place in the order of selection: capability match, then distance, then station id.
@@ -28,27 +83,41 @@ pub(crate) fn rank(offer: &Offer) -> impl Ord + use<> {
 }
 
 impl Robot {
+    /// The rival that the robot has noted.
+    pub(crate) const fn rival_mut(&mut self) -> Option<&mut Rival> {
+        match &mut self.phase {
+            Phase::Requesting(requesting) => requesting.rival.as_mut(),
+            Phase::Leading(leading) => leading.rival.as_mut(),
+            Phase::Idle | Phase::Offering(_) | Phase::Following(_) => None,
+        }
+    }
+
     /// `needHelp` of another robot.
     pub(crate) fn hear_request(
         &mut self,
         step: &mut Step<'_, impl Sink>,
-        session: SessionId,
+        heard: Rival,
         request: HelpRequest,
     ) -> Effect {
-        match &self.phase {
-            Phase::Idle => self.offer(step, session, request),
+        let Rival {
+            session, heartbeat, ..
+        } = heard;
+        match &mut self.phase {
+            Phase::Idle => self.offer(step, heard, request),
             Phase::Requesting(own) => {
-                let own_precedence = precedence(own.request, self.station);
-                if precedence(request, session.leader) > own_precedence {
-                    return Err(Ignored::LowerPrecedence);
+                let claim = Claim::of(own.request);
+                Claim::of(request).goes_before(session.leader, claim, self.station)?;
+                if heard.is_heard_again(&mut own.rival)? {
+                    // The request that goes before is helped rather than competed with.
+                    self.end_session(step, EndReason::Withdrawn(session.leader));
+                    // Where this robot cannot help, it has withdrawn all the same.
+                    let _ = self.offer(step, heard, request);
                 }
-                // The request that goes before is helped rather than competed with.
-                self.end_session(step, EndReason::Withdrawn(session.leader));
-                // Where this robot cannot help, it has withdrawn all the same.
-                let _ = self.offer(step, session, request);
                 Ok(())
             }
-            Phase::Offering(offering) if offering.session == session => Err(Ignored::NothingNew),
+            Phase::Offering(offering) if offering.session == session => {
+                offering.hear_heartbeat(step, heartbeat)
+            }
             Phase::Following(following) if following.session == session => Err(Ignored::NothingNew),
             Phase::Offering(_) | Phase::Leading(_) | Phase::Following(_) => Err(Ignored::InSession),
         }
@@ -58,9 +127,12 @@ impl Robot {
     fn offer(
         &mut self,
         step: &mut Step<'_, impl Sink>,
-        session: SessionId,
+        heard: Rival,
         request: HelpRequest,
     ) -> Effect {
+        let Rival {
+            session, heartbeat, ..
+        } = heard;
         self.may_join()?;
         let capabilities = step
             .config
@@ -70,12 +142,14 @@ impl Robot {
         if capabilities.is_empty() {
             return Err(Ignored::UnsupportedTask);
         }
-        let number = OfferNumber(self.issue_number()?);
+        let number = OfferNumber(self.issue_number(step)?);
         let reservation = Countdown::armed(step.config.settings().t_offer);
         self.phase = Phase::Offering(Offering {
             session,
             number,
             capabilities,
+            heard: heartbeat,
+            t_safety: step.config.settings().t_safety,
             reservation,
         });
         self.withdraw_farewell(session);
@@ -90,13 +164,18 @@ impl Robot {
         step: &mut Step<'_, impl Sink>,
         session: SessionId,
         offer: Offer,
+        t_safety: Millis,
     ) -> Effect {
         if session.leader != self.station {
             return Err(Ignored::NotAddressed);
         }
+        let next_ram = self.ram.left().unwrap_or(Millis::ZERO);
         match &mut self.phase {
             Phase::Requesting(requesting) if requesting.number == session.number => {
-                requesting.take_offer(step, offer)
+                if !step.config.lease_fits(t_safety) {
+                    return Err(Ignored::TimersDoNotFit);
+                }
+                requesting.take_offer(step, offer, next_ram)
             }
             Phase::Leading(leading) if leading.number == session.number => {
                 // The helper learns from the list of followers whether it is one of them.
@@ -129,21 +208,43 @@ impl Robot {
         let leading = Leading {
             number,
             request: requesting.request,
-            heartbeat: settings.first_heartbeat,
+            // The session and its heartbeats go on.
+            heartbeat: requesting.heartbeat,
             members: requesting
                 .offers
                 .iter()
                 .take(usize::from(requesting.request.followers))
                 .map(member)
                 .collect(),
-            corridor_open: false,
+            corridor: Corridor::Clear,
+            rival: None,
+            yields_to: None,
         };
         self.phase = Phase::Leading(leading);
-        // The first heartbeat's period starts with the role.
-        self.ram = Countdown::armed(settings.ram_period);
         step.out
             .notify(Notice::RolesEstablished(self.own_session(number)));
         step.out.push(Output::SendRam);
+    }
+
+    /// No other offer can come: what stands is what there is to choose from.
+    pub(crate) fn select_early(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
+        let Phase::Requesting(requesting) = &self.phase else {
+            return Err(Ignored::NothingNew);
+        };
+        if requesting.offers.len() < usize::from(requesting.request.followers) {
+            return Err(Ignored::NothingNew);
+        }
+        self.selection_expired(step);
+        Ok(())
+    }
+
+    /// The offer of a helper has lapsed: the helper may be free for others by now.
+    pub(crate) fn offer_expired(&mut self, step: &mut Step<'_, impl Sink>, station: StationId) {
+        let Phase::Requesting(requesting) = &mut self.phase else {
+            return;
+        };
+        requesting.forget_offer(|offer| offer.station == station);
+        step.out.notify(Notice::OfferLapsed(station));
     }
 
     /// `T_help` has run out.
@@ -159,11 +260,32 @@ impl Robot {
 }
 
 impl Requesting {
-    fn take_offer(&mut self, step: &mut Step<'_, impl Sink>, offer: Offer) -> Effect {
-        if self.offers.iter().any(|known| *known == offer) {
-            return Err(Ignored::NothingNew);
+    /// Takes an offer in, or its newer echo. An older offer of the same helper replaces nothing.
+    fn take_offer(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        mut offer: Offer,
+        next_ram: Millis,
+    ) -> Effect {
+        if !self.heartbeat.can_follow(offer.echo) {
+            return Err(Ignored::EchoFromFuture);
         }
-        self.forget_offer(offer.station);
+        let of_helper = |known: &&Offer| known.station == offer.station;
+        if let Some(known) = self.offers.iter().find(of_helper) {
+            if offer.number < known.number {
+                return Err(Ignored::OldOffer);
+            }
+            if offer.number == known.number && !offer.echo.is_newer_than(known.echo) {
+                return Err(Ignored::OldHeartbeat);
+            }
+        }
+        let age = age_of(step.config, self.heartbeat, offer.echo, next_ram);
+        let left = step.config.t_offer_lease().saturating_sub(age);
+        if left == Millis::ZERO {
+            return Err(Ignored::OldHeartbeat);
+        }
+        offer.standing = Countdown::armed(left);
+        self.forget_offer(|known| known.station == offer.station);
         self.offers.insert_ranked(offer, |a, b| rank(a) < rank(b));
         if !self.selection.is_armed() {
             self.selection = Countdown::armed(step.config.settings().t_select);
@@ -171,11 +293,9 @@ impl Requesting {
         Ok(())
     }
 
-    /// Forgets what `station` offered; whether there was anything.
-    pub(crate) fn forget_offer(&mut self, station: StationId) -> bool {
-        self.offers
-            .remove_first(|offer| offer.station == station)
-            .is_some()
+    /// Forgets the first offer of which that is true; whether there was any.
+    pub(crate) fn forget_offer(&mut self, is_meant: impl Fn(&Offer) -> bool) -> bool {
+        self.offers.remove_first(is_meant).is_some()
     }
 
     /// Whether the offers stand in the order of selection, one per station.
@@ -187,6 +307,18 @@ impl Requesting {
                 .zip(self.offers.iter().skip(1))
                 .all(|(a, b)| rank(a) < rank(b))
             && all_distinct(&self.offers, |offer| offer.station)
+    }
+}
+
+impl Offering {
+    /// A newer heartbeat of the request keeps the robot reserved for it.
+    fn hear_heartbeat(&mut self, step: &mut Step<'_, impl Sink>, heartbeat: Heartbeat) -> Effect {
+        if !heartbeat.is_newer_than(self.heard) {
+            return Err(Ignored::OldHeartbeat);
+        }
+        self.heard = heartbeat;
+        self.reservation = Countdown::armed(step.config.settings().t_offer);
+        Ok(())
     }
 }
 

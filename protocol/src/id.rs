@@ -143,6 +143,13 @@ impl Heartbeat {
         distance != 0 && (distance as u32) < Self::HALF_SPACE
     }
 
+    /// Whether this number is `other` or less than half the number space newer: a robot whose newest
+    /// heartbeat is this one can have sent `other`.
+    #[must_use]
+    pub(crate) const fn can_follow(self, other: Self) -> bool {
+        (self.distance_from(other) as u32) < Self::HALF_SPACE
+    }
+
     /// The number `periods` later.
     #[must_use]
     pub const fn after(self, periods: u16) -> Self {

@@ -24,7 +24,7 @@ impl Robot {
             return Err(Ignored::InSession);
         }
         self.may_join()?;
-        let number = SessionNumber(self.issue_number()?);
+        let number = SessionNumber(self.issue_number(step)?);
         self.open_session(step, number, request);
         Ok(())
     }
@@ -39,6 +39,8 @@ impl Robot {
         self.phase = Phase::Requesting(Requesting {
             number,
             request,
+            heartbeat: step.config.settings().first_heartbeat,
+            rival: None,
             offers: List::EMPTY,
             help: Countdown::armed(step.config.settings().t_help),
             selection: Countdown::OFF,
@@ -53,6 +55,9 @@ impl Robot {
     pub(crate) fn may_join(&self) -> Effect {
         if let Availability::Unavailable(reason) = self.availability {
             return Err(Ignored::Unavailable(reason));
+        }
+        if self.duty.is_some() {
+            return Err(Ignored::OnDuty);
         }
         match self.identity {
             Identity::Expiring => Err(Ignored::IdentityLockLimit),
@@ -89,6 +94,7 @@ impl Robot {
             Phase::Following(following) => {
                 let failed = Progress::Failed(Failure::Unavailable(reason));
                 match following.finish(failed) {
+                    Some(maneuver) if reason.can_fall_back() => self.fall_back(step, maneuver),
                     Some(maneuver) => {
                         let why = StopReason::Unavailable(reason);
                         step.out.push(Output::StopManeuver(maneuver, why));

@@ -60,12 +60,18 @@ pub enum Event {
         /// The maneuver.
         task: TaskType,
     },
+    /// The body holds the place from which the maneuver that was started guards.
+    InPosition(ManeuverId),
     /// The maneuver that was started has been finished.
     ManeuverCompleted(ManeuverId),
     /// The maneuver that was started cannot be finished.
     ManeuverFailed(ManeuverId),
-    /// The pedestrian has crossed; the session may end.
+    /// The pedestrian has crossed and nobody is on the road; the session may end.
     TaskCompleted,
+    /// The people that this robot guarded are off the road, and its body has finished its fallback.
+    RoadClear,
+    /// The requester knows of no robot nearby that has not answered its request.
+    AllAnswered,
     /// The robot wants to leave whatever session it is in.
     LeaveRequested,
     /// The robot became available or unavailable.
@@ -76,6 +82,8 @@ pub enum Event {
     CloseCorridor,
     /// The robot has changed its pseudonym; only possible while the identity is not locked.
     IdentityChanged(StationId),
+    /// A larger boot counter has been persisted, as [`Output::RenewEpoch`](crate::Output::RenewEpoch) asked.
+    EpochRenewed(u16),
 }
 
 /// The timers of a robot. A timer exists only in the state that needs it.
@@ -97,6 +105,8 @@ pub enum Timer {
     Acknowledgement(StationId),
     /// Requester: `T_help`.
     Help,
+    /// Requester: how long the offer of this helper stands without a newer echo.
+    Offer(StationId),
     /// Requester: the time to gather offers.
     Selection,
     /// Helper: `T_offer`.

@@ -7,19 +7,30 @@
 //! Not for use in an endpoint, and not part of the stable interface.
 //!
 //! ```text
-//!  Source ──► arbitrary: Config, Robot, Input ──► numbers, lists, lease   laws of values
-//!                                                 steps, watch            laws of one step
-//!                                                 timers                  laws of elapsed time
+//!  Source ──► arbitrary: Config, Robot, Input ──► numbers, lists, lease, settings laws of values
+//!                                                 steps: contact, offers, …      laws of one step
+//!                                                 timers                         laws of elapsed time
 //! ```
 
 pub mod arbitrary;
+pub mod causes;
+pub mod commands;
+pub mod contact;
+pub mod farewells;
 pub mod lease;
 pub mod lists;
+pub mod news;
 pub mod numbers;
+pub mod offers;
+pub mod requests;
+pub mod road;
+pub mod settings;
 pub mod steps;
 pub mod timers;
+pub mod times;
 pub mod watch;
 
+mod arithmetic;
 mod source;
 
 pub use source::Source;

@@ -12,7 +12,7 @@
 //!
 //! ```
 //! use crossguard_protocol::{
-//!     Config, Decimetres, Event, HelpRequest, Input, Millis, Output, Robot, State, StationId,
+//!     Config, Decimetres, Event, HelpRequest, Input, Millis, Output, Place, Robot, State, StationId,
 //!     TaskSet, TaskType, Urgency,
 //! };
 //!
@@ -22,7 +22,7 @@
 //!
 //! // ARI sees a pedestrian and asks for one robot that can go somewhere and escort.
 //! let tasks = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]);
-//! let request = HelpRequest { urgency: Urgency::Medium, followers: 1, tasks };
+//! let request = HelpRequest { urgency: Urgency::Medium, followers: 1, tasks, place: Place(7) };
 //! let outputs = ari.step(&config, Input::Local(Event::PedestrianDetected(request)));
 //! assert!(outputs.iter().any(|output| *output == Output::SendRam));
 //!
@@ -94,8 +94,8 @@ pub use id::{
 pub use input::{Decimetres, Event, Input, Timer};
 pub use list::{Full, List};
 pub use message::{
-    Answer, Command, Confirmation, Coordination, Failure, Farewell, Followers, Progress, Ram,
-    Rejection, Report, Rmcm, Verdict,
+    Answer, Command, Confirmation, Coordination, Ending, Failure, Farewell, Followers, Progress,
+    Ram, Rejection, Report, Rmcm, Verdict,
 };
 pub use output::{
     CorridorClosure, Disengagement, EndReason, GoneReason, Ignored, Maneuver, Notice, Output,
@@ -103,12 +103,12 @@ pub use output::{
 };
 pub use rename::Renaming;
 pub use state::{
-    Contact, Following, Identity, Job, Leading, Lease, Member, Offer, Offering, Order, Outstanding,
-    Phase, Refusal, Requesting, Robot, Role, StandingFarewell, State,
+    Contact, Corridor, Duty, Following, Identity, Job, Leading, Lease, Member, Offer, Offering,
+    Order, Outstanding, Phase, Refusal, Requesting, Rival, Robot, Role, StandingFarewell, State,
 };
 pub use task::{
-    Availability, FallbackPolicy, HelpRequest, NoSuchTask, TaskSet, TaskType, Unavailability,
-    Urgency,
+    Availability, FallbackPolicy, HelpRequest, NoSuchTask, Place, TaskSet, TaskType,
+    Unavailability, Urgency,
 };
 pub use time::{Countdown, Millis};
 

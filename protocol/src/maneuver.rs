@@ -1,12 +1,11 @@
 //! Stage 4, Maneuver execution: commands, acknowledgements, repetition, progress.
 
+use crate::config::Config;
 use crate::id::{ManeuverId, RequestId, SessionId, SessionNumber, StationId};
-use crate::message::{
-    Answer, Command, Failure, Farewell, Progress, Rejection, Report, Rmcm, Verdict,
-};
+use crate::message::{Answer, Command, Failure, Progress, Rejection, Report, Rmcm, Verdict};
 use crate::output::{EndReason, GoneReason, Ignored, Maneuver, Notice, Output, Sink, StopReason};
 use crate::robot::{Effect, Step};
-use crate::state::{Following, Job, Member, Order, Outstanding, Phase, Refusal, Robot};
+use crate::state::{Corridor, Following, Job, Member, Order, Outstanding, Phase, Refusal, Robot};
 use crate::task::{Availability, TaskType};
 use crate::time::Countdown;
 
@@ -28,12 +27,17 @@ impl Robot {
             number: leading.number,
         };
         let request = leading.request;
-        let used_up = leading
-            .member(follower)
+        let member = leading.member(follower);
+        let used_up = member
             .is_some_and(|member| member.may_be_commanded().is_ok() && member.is_used_up(step));
+        let guards = member.is_some_and(|member| member.guards(step.config));
+        if leading.corridor != Corridor::Clear && (used_up || guards) {
+            // No message takes a guard off a road on which there may be people.
+            return Err(Ignored::RoadOccupied);
+        }
         if used_up {
             // A new session, and with it a new number space, before half of this one is used.
-            let number = SessionNumber(self.issue_number()?);
+            let number = SessionNumber(self.issue_number(step)?);
             self.end_session(step, EndReason::Renewed);
             self.open_session(step, number, request);
             return Ok(());
@@ -140,6 +144,15 @@ impl Member {
         Ok(())
     }
 
+    /// Whether the follower guards people by what it is known to do or may have begun to do.
+    fn guards(&self, config: &Config) -> bool {
+        self.order.is_some_and(|order| {
+            // The execution limit is the leader's own: the follower knows nothing of it and goes on.
+            let is_over_time = order.progress == Some(Progress::Failed(Failure::ExecutionLimit));
+            (order.is_running() || is_over_time) && config.settings().guarding.contains(order.task)
+        })
+    }
+
     /// Whether the follower's request numbers of this session are used up.
     fn is_used_up(&self, step: &Step<'_, impl Sink>) -> bool {
         let first = step.config.settings().first_request;
@@ -223,14 +236,15 @@ impl Member {
     ) -> Effect {
         let acknowledged = self.acknowledge(step, session, report.request);
         let Some(order) = self.order.as_mut().filter(|order| {
-            // A final progress stays final, whatever a delayed RAM says.
-            order.request == report.request && order.is_running()
+            // Progress only goes on, whatever a delayed RAM says; a final one stays final.
+            order.request == report.request
+                && order.is_running()
+                && order
+                    .progress
+                    .is_none_or(|known| report.progress.is_after(known))
         }) else {
             return acknowledged.or(Err(Ignored::NothingNew));
         };
-        if order.progress == Some(report.progress) {
-            return acknowledged.or(Err(Ignored::NothingNew));
-        }
         order.progress = Some(report.progress);
         if !report.progress.is_running() {
             order.execution = Countdown::OFF;
@@ -241,6 +255,7 @@ impl Member {
         };
         step.out.notify(match report.progress {
             Progress::Executing => Notice::ManeuverReported(self.station, id),
+            Progress::InPosition => Notice::ManeuverInPosition(self.station, id),
             Progress::Completed => Notice::ManeuverCompleted(self.station, id),
             Progress::Failed(failure) => Notice::ManeuverFailed(self.station, id, failure),
             Progress::SafeIdle => Notice::FollowerSafeIdle(self.station, id),
@@ -265,16 +280,50 @@ impl Robot {
         if command.to != self.station {
             return Err(Ignored::NotAddressed);
         }
-        let (station, availability) = (self.station, self.availability);
+        let station = self.station;
+        let rejection = self.rejection(step, command.task);
         match &mut self.phase {
             Phase::Following(following) if following.session == command.session => {
-                following.take_command(step, station, availability, command)
+                following.take_command(step, station, rejection, command)
             }
             // The confirmation is still under way; the leader will repeat the command.
             Phase::Offering(offering) if offering.session == command.session => {
                 Err(Ignored::NotJoined)
             }
-            _ => self.say_farewell(step, Farewell::Left(command.session)),
+            // The leader lists this robot in its RAM, and is told then which offer is over.
+            _ => Err(Ignored::OtherSession),
+        }
+    }
+
+    /// The body holds the place from which the maneuver guards.
+    pub(crate) fn reach_position(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        id: ManeuverId,
+    ) -> Effect {
+        let following = self.executor_of(id)?;
+        let Some(job) = &mut following.job else {
+            return Err(Ignored::NotExecuting);
+        };
+        if job.progress == Progress::InPosition {
+            return Err(Ignored::NothingNew);
+        }
+        job.progress = Progress::InPosition;
+        step.out.push(Output::SendRam);
+        Ok(())
+    }
+
+    /// The follower's state, if it executes this maneuver.
+    fn executor_of(&mut self, id: ManeuverId) -> Result<&mut Following, Ignored> {
+        match &mut self.phase {
+            Phase::Following(following)
+                if following
+                    .executing()
+                    .is_some_and(|maneuver| maneuver.id == id) =>
+            {
+                Ok(following)
+            }
+            _ => Err(Ignored::NotExecuting),
         }
     }
 
@@ -302,18 +351,23 @@ impl Robot {
         id: ManeuverId,
         progress: Progress,
     ) -> Effect {
-        let Phase::Following(following) = &mut self.phase else {
-            return Err(Ignored::NotExecuting);
-        };
-        if following
-            .executing()
-            .is_none_or(|maneuver| maneuver.id != id)
-        {
-            return Err(Ignored::NotExecuting);
-        }
-        following.finish(progress);
+        self.executor_of(id)?.finish(progress);
         step.out.push(Output::SendRam);
         Ok(())
+    }
+
+    /// Why the robot must reject a command for `task`.
+    fn rejection(&self, step: &Step<'_, impl Sink>, task: TaskType) -> Option<Rejection> {
+        if let Availability::Unavailable(reason) = self.availability {
+            return Some(Rejection::Unavailable(reason));
+        }
+        if self.duty.is_some() {
+            return Some(Rejection::OnDuty);
+        }
+        if !step.config.settings().capabilities.contains(task) {
+            return Some(Rejection::UnsupportedTask);
+        }
+        None
     }
 }
 
@@ -322,7 +376,7 @@ impl Following {
         &mut self,
         step: &mut Step<'_, impl Sink>,
         station: StationId,
-        availability: Availability,
+        rejection: Option<Rejection>,
         command: Command,
     ) -> Effect {
         let answer = |verdict| {
@@ -357,7 +411,7 @@ impl Following {
             return Err(Ignored::OldCommand);
         }
         self.renew_contact(step);
-        if let Some(reason) = rejection(step, availability, command.task) {
+        if let Some(reason) = rejection {
             self.refused = Some(Refusal {
                 request: command.request,
                 reason,
@@ -395,19 +449,4 @@ impl Following {
         }
         Some(maneuver)
     }
-}
-
-/// Why a robot must reject a command for `task`.
-fn rejection(
-    step: &Step<'_, impl Sink>,
-    availability: Availability,
-    task: TaskType,
-) -> Option<Rejection> {
-    if let Availability::Unavailable(reason) = availability {
-        return Some(Rejection::Unavailable(reason));
-    }
-    if !step.config.settings().capabilities.contains(task) {
-        return Some(Rejection::UnsupportedTask);
-    }
-    None
 }

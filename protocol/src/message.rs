@@ -6,7 +6,8 @@
 use crate::MAX_FOLLOWERS;
 use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, SessionNumber, StationId};
 use crate::list::List;
-use crate::task::{HelpRequest, TaskSet, TaskType, Unavailability};
+use crate::task::{HelpRequest, Place, TaskSet, TaskType, Unavailability, Urgency};
+use crate::time::Millis;
 
 /// What a Robot Awareness Message says about coordination.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -18,6 +19,8 @@ pub struct Ram {
     pub coordination: Coordination,
     /// A session that it names as over.
     pub farewell: Option<Farewell>,
+    /// Whether it still has a duty on the road from a maneuver or session that ended early.
+    pub on_duty: bool,
 }
 
 /// A robot's part in a session, as its RAM tells.
@@ -32,6 +35,8 @@ pub enum Coordination {
     NeedHelp {
         /// Number of the session.
         number: SessionNumber,
+        /// Newest heartbeat: it tells a request that stands from a late message.
+        heartbeat: Heartbeat,
         /// What it asks for.
         request: HelpRequest,
     },
@@ -43,6 +48,10 @@ pub enum Coordination {
         offer: OfferNumber,
         /// The maneuvers that the helper can do.
         capabilities: TaskSet,
+        /// Newest heartbeat of the request that it heard.
+        echo: Heartbeat,
+        /// Its own `t_safety`, which the leader's lease must fit.
+        t_safety: Millis,
     },
     /// `RoleConfirmed`: leads a session and names its followers.
     Leader {
@@ -50,8 +59,14 @@ pub enum Coordination {
         number: SessionNumber,
         /// Newest heartbeat.
         heartbeat: Heartbeat,
-        /// The followers; whoever is not among them has no part in the session.
+        /// The followers; any other robot has no part in the session.
         followers: Followers,
+        /// Urgency of the request; the first key in the order of leaders at one place.
+        urgency: Urgency,
+        /// The crossing of the session.
+        place: Place,
+        /// Whether it has yielded the place to another leader and lets nobody cross any more.
+        yields: bool,
     },
     /// Follows the leader of `session`.
     Follower {
@@ -92,8 +107,10 @@ pub struct Report {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub enum Progress {
-    /// The maneuver runs.
+    /// The maneuver runs, and the body is under way.
     Executing,
+    /// The maneuver runs, and the body holds the place from which it guards.
+    InPosition,
     /// It was finished.
     Completed,
     /// It ended without success.
@@ -106,7 +123,17 @@ impl Progress {
     /// Whether the maneuver runs; every other progress is final for its command.
     #[must_use]
     pub const fn is_running(self) -> bool {
-        matches!(self, Self::Executing)
+        matches!(self, Self::Executing | Self::InPosition)
+    }
+
+    /// Whether this progress of a command can only come after `earlier`.
+    #[must_use]
+    pub(crate) const fn is_after(self, earlier: Self) -> bool {
+        match earlier {
+            Self::Executing => !matches!(self, Self::Executing),
+            Self::InPosition => !self.is_running(),
+            Self::Completed | Self::Failed(_) | Self::SafeIdle => false,
+        }
     }
 }
 
@@ -129,9 +156,20 @@ pub enum Failure {
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub enum Farewell {
     /// The sender's own session of this number has ended.
-    Ended(SessionNumber),
-    /// The sender has no part in this session any more.
-    Left(SessionId),
+    Ended(SessionNumber, Ending),
+    /// The sender has no part in this session any more by this offer or an earlier one.
+    Left(SessionId, OfferNumber),
+}
+
+/// How a session ended.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Ending {
+    /// The crossing is completed and the road is clear: followers are free.
+    Completed,
+    /// Any other end: somebody may be on the road, so followers fall back by their tasks' policies.
+    Aborted,
 }
 
 /// What a Robot Maneuver Coordination Message says.
@@ -194,4 +232,6 @@ pub enum Rejection {
     UnsupportedTask,
     /// It is unavailable.
     Unavailable(Unavailability),
+    /// It has a duty on the road, of which its application has not said that it is over.
+    OnDuty,
 }

@@ -5,6 +5,7 @@ use crate::id::{ManeuverId, SessionId, StationId};
 use crate::list::List;
 use crate::message::{Failure, Rejection, Rmcm};
 use crate::task::{FallbackPolicy, TaskType, Unavailability};
+use crate::time::Millis;
 
 /// One output of the transition function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -20,16 +21,23 @@ pub enum Output {
     StartManeuver(Maneuver),
     /// Stop this maneuver.
     StopManeuver(Maneuver, StopReason),
-    /// Stop this maneuver because contact with the leader is lost, by the task's policy.
+    /// End this maneuver by the task's policy. The robot is on duty until the application says
+    /// [`Event::RoadClear`](crate::Event::RoadClear).
     FallBack(Maneuver, FallbackPolicy),
-    /// The pedestrian may cross from now on.
-    CorridorOpened,
+    /// The pedestrian may cross from now on, for this long. What shows it must end by itself then, without
+    /// this robot's help.
+    CorridorOpened(Millis),
+    /// The pedestrian may go on crossing, for this long from now.
+    CorridorExtended(Millis),
     /// The pedestrian may not cross from now on.
     CorridorClosed(CorridorClosure),
     /// Keep station id, certificate and link address from now on.
     LockIdentity,
     /// Station id, certificate and link address may change again.
     UnlockIdentity,
+    /// Half of this boot counter's numbers are given out: persist a larger one, and then tell
+    /// [`Event::EpochRenewed`](crate::Event::EpochRenewed).
+    RenewEpoch,
     /// Tell the application.
     Notify(Notice),
     /// The input changed nothing, for this reason.
@@ -70,6 +78,8 @@ pub enum CorridorClosure {
     FollowerMissing,
     /// The session ended.
     SessionEnded,
+    /// The place is yielded to this leader.
+    Yielded(StationId),
     /// The application asked for it.
     Application,
 }
@@ -87,6 +97,8 @@ pub enum Disengagement {
     NotExecuting,
     /// Its task does not guard a pedestrian.
     NotGuarding,
+    /// Its task guards from a place, and it has not reported that it is there.
+    NotInPosition,
     /// It finished its task.
     Completed,
     /// Its task failed.
@@ -116,12 +128,18 @@ pub enum Notice {
     CommandRejected(StationId, ManeuverId, Rejection),
     /// Leader: this follower reports that it executes this command.
     ManeuverReported(StationId, ManeuverId),
+    /// Leader: this follower reports that it guards from its place.
+    ManeuverInPosition(StationId, ManeuverId),
     /// Leader: this follower finished this command.
     ManeuverCompleted(StationId, ManeuverId),
     /// Leader: this command failed.
     ManeuverFailed(StationId, ManeuverId, Failure),
     /// Leader: this follower fell back; it is idle in safety.
     FollowerSafeIdle(StationId, ManeuverId),
+    /// Requester: the offer of this helper has lapsed.
+    OfferLapsed(StationId),
+    /// Leader: yields the place to this leader. The session ends once the road is clear.
+    Yielded(StationId),
     /// Requester or leader: the session is over.
     SessionEnded(SessionId, EndReason),
     /// Helper: offers to take part in this session.
@@ -145,7 +163,7 @@ pub enum EndReason {
     TaskCompleted,
     /// `T_help` ran out before enough helpers were found.
     NoHelp,
-    /// This station's request goes before.
+    /// The request of this station at the same place goes before, or it leads there already.
     Withdrawn(StationId),
     /// No follower is left.
     NoFollowers,
@@ -164,7 +182,9 @@ pub enum EndReason {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub enum ReleaseReason {
-    /// The leader named the session as ended.
+    /// The leader named the session as ended: the crossing is completed.
+    TaskCompleted,
+    /// The leader named the session as ended otherwise.
     SessionEnded,
     /// The leader does not list this robot.
     NotListed,
@@ -218,8 +238,29 @@ pub enum Ignored {
     RolesAlreadyAssigned,
     /// The answer is not for the outstanding command.
     NotOutstanding,
-    /// The request does not go before this robot's own.
+    /// The request or leader does not go before this robot's own.
     LowerPrecedence,
+    /// The request or leader goes before, but does not count yet: it was not heard before with an older
+    /// heartbeat, or another one was noted less than a period ago.
+    FirstHeard,
+    /// The request or leader is of another place.
+    OtherPlace,
+    /// The leader has yielded already.
+    Yielding,
+    /// The offer is older than the one that stands.
+    OldOffer,
+    /// The farewell names an older offer than the one that was confirmed.
+    OtherOffer,
+    /// The list names an offer that this robot never made.
+    NeverOffered,
+    /// The helper's `t_safety` is too short for this robot's lease.
+    TimersDoNotFit,
+    /// The robot has a duty on the road, of which its application has not said that it is over.
+    OnDuty,
+    /// People may be on the road, so no guard is taken off it and no session is renewed.
+    RoadOccupied,
+    /// The identity lock or an execution limit leaves less time than `t_cross`.
+    NotEnoughTime,
     /// The robot has a part in a session already.
     InSession,
     /// The robot leads no session.
@@ -250,7 +291,7 @@ pub enum Ignored {
     IdentityLocked,
     /// The identity has been locked for too long; it must be unlocked before the next session.
     IdentityLockLimit,
-    /// This boot's numbers for sessions and offers are used up; restart the robot.
+    /// This boot counter's numbers are used up; persist a larger one.
     NumbersExhausted,
     /// No such timer is armed.
     TimerNotArmed,

@@ -1,7 +1,7 @@
 //! States and messages up to renaming, for tools that compare them.
 //!
 //! The transition function compares numbers and never looks at their absolute values: of two
-//! heartbeats it asks which is newer, of two session or offer numbers whether they are the same. So
+//! heartbeats or offer numbers it asks which is newer, of two session numbers whether they are the same. So
 //! two states that differ in such a renaming alone behave alike, and a model checker need visit only
 //! one of them. That keeps a model with unbounded counters finite without bounding the counters.
 //!
@@ -9,19 +9,22 @@
 //! Where neither makes a difference, stations may be exchanged; [`Renaming::station`] says when.
 
 use crate::help::rank;
-use crate::id::{Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
+use crate::id::{
+    Heartbeat, ManeuverId, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber,
+};
 use crate::input::Timer;
 use crate::list::List;
 use crate::message::{Answer, Command, Confirmation, Coordination, Farewell, Ram, Rmcm};
-use crate::state::{Leading, Member, Offering, Phase, Requesting, Robot};
+use crate::output::Maneuver;
+use crate::state::{Duty, Leading, Member, Offering, Phase, Requesting, Rival, Robot};
 use crate::time::Millis;
 
 /// A renaming of what states and messages hold. What a method is not given stays as it is.
 ///
 /// The renamed state is a valid one if the renaming keeps stations apart, keeps the order of the
-/// heartbeats of each session and keeps them less than half the number space apart, is injective on the
-/// numbers of each station and boot, maps [`Robot::next_number`] above all of them, and makes no timer
-/// due.
+/// heartbeats of each session and keeps them less than half the number space apart, keeps the order of the
+/// numbers of each station and boot, [`Robot::next_number`] among them, keeps the number of an offer that
+/// stands just below the next, and makes no timer due.
 pub trait Renaming {
     /// A station. It is exchanged for another one wherever it occurs; numbers and heartbeats are still
     /// given by the old names of their stations.
@@ -100,8 +103,10 @@ impl SessionId {
 impl Farewell {
     fn renamed(self, to: &mut impl Renaming, from: StationId) -> Self {
         match self {
-            Self::Ended(number) => Self::Ended(session_number(to, from, number)),
-            Self::Left(session) => Self::Left(session.renamed(to)),
+            Self::Ended(number, ending) => Self::Ended(session_number(to, from, number), ending),
+            Self::Left(session, offer) => {
+                Self::Left(session.renamed(to), offer_number(to, from, offer))
+            }
         }
     }
 }
@@ -124,23 +129,41 @@ impl Ram {
         let station = self.station;
         let coordination = match self.coordination {
             Coordination::None => Coordination::None,
-            Coordination::NeedHelp { number, request } => Coordination::NeedHelp {
+            Coordination::NeedHelp {
+                number,
+                heartbeat,
+                request,
+            } => Coordination::NeedHelp {
                 number: session_number(to, station, number),
+                heartbeat: to.heartbeat(
+                    SessionId {
+                        leader: station,
+                        number,
+                    },
+                    heartbeat,
+                ),
                 request,
             },
             Coordination::OfferHelp {
                 session,
                 offer,
                 capabilities,
+                echo,
+                t_safety,
             } => Coordination::OfferHelp {
                 session: session.renamed(to),
                 offer: offer_number(to, station, offer),
                 capabilities,
+                echo: to.heartbeat(session, echo),
+                t_safety,
             },
             Coordination::Leader {
                 number,
                 heartbeat,
                 followers,
+                urgency,
+                place,
+                yields,
             } => Coordination::Leader {
                 number: session_number(to, station, number),
                 heartbeat: to.heartbeat(
@@ -155,6 +178,9 @@ impl Ram {
                     |follower| follower.renamed(to),
                     |follower| follower.station,
                 ),
+                urgency,
+                place,
+                yields,
             },
             Coordination::Follower {
                 session,
@@ -171,6 +197,7 @@ impl Ram {
             station: to.station(station),
             coordination,
             farewell,
+            on_duty: self.on_duty,
         }
     }
 }
@@ -214,6 +241,7 @@ impl Robot {
         if let Some(standing) = &mut robot.farewell {
             standing.farewell = standing.farewell.renamed(to, station);
         }
+        robot.duty = robot.duty.map(|duty| duty.renamed(to));
         match &mut robot.phase {
             Phase::Idle => {}
             Phase::Requesting(requesting) => requesting.rename(to, station),
@@ -231,10 +259,40 @@ impl Robot {
     }
 }
 
+impl Duty {
+    fn renamed(self, to: &mut impl Renaming) -> Self {
+        match self {
+            Self::FallingBack(Maneuver { id, task }) => {
+                let session = id.session.renamed(to);
+                let id = ManeuverId { session, ..id };
+                Self::FallingBack(Maneuver { id, task })
+            }
+            Self::Crossing(session) => Self::Crossing(session.renamed(to)),
+        }
+    }
+}
+
+impl Rival {
+    fn renamed(self, to: &mut impl Renaming) -> Self {
+        Self {
+            heartbeat: to.heartbeat(self.session, self.heartbeat),
+            session: self.session.renamed(to),
+            ..self
+        }
+    }
+}
+
 impl Requesting {
     fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
+        let session = SessionId {
+            leader: station,
+            number: self.number,
+        };
         self.number = session_number(to, station, self.number);
+        self.heartbeat = to.heartbeat(session, self.heartbeat);
+        self.rival = self.rival.map(|rival| rival.renamed(to));
         for offer in self.offers.iter_mut() {
+            offer.echo = to.heartbeat(session, offer.echo);
             offer.number = offer_number(to, offer.station, offer.number);
             offer.station = to.station(offer.station);
         }
@@ -244,6 +302,7 @@ impl Requesting {
 
 impl Offering {
     fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
+        self.heard = to.heartbeat(self.session, self.heard);
         self.session = self.session.renamed(to);
         self.number = offer_number(to, station, self.number);
     }
@@ -257,6 +316,8 @@ impl Leading {
         };
         self.number = session_number(to, station, self.number);
         self.heartbeat = to.heartbeat(session, self.heartbeat);
+        self.rival = self.rival.map(|rival| rival.renamed(to));
+        self.yields_to = self.yields_to.map(|other| to.station(other));
         let rename = |member: &Member| Member {
             offer: offer_number(to, member.station, member.offer),
             echoed: member.echoed.map(|echoed| to.heartbeat(session, echoed)),

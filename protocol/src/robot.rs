@@ -10,11 +10,12 @@
 //! ```
 
 use crate::config::Config;
-use crate::id::{SessionId, SessionNumber, StationId, UniqueNumber};
+use crate::help::Claim;
+use crate::id::{OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::input::{Decimetres, Event, Input};
 use crate::message::{Confirmation, Coordination, Farewell, Ram, Report, Rmcm};
 use crate::output::{Ignored, Output, Outputs, Sink};
-use crate::state::{Identity, Phase, Robot, Role, State};
+use crate::state::{Duty, Identity, Offer, Phase, Rival, Robot, Role, State};
 use crate::task::Availability;
 use crate::time::{Countdown, Millis};
 
@@ -22,6 +23,8 @@ use crate::time::{Countdown, Millis};
 pub(crate) struct Step<'a, S> {
     pub(crate) config: &'a Config,
     pub(crate) out: &'a mut S,
+    /// Whether a lease was renewed in this step, so that an open corridor is extended.
+    pub(crate) renewed: bool,
 }
 
 /// What came of an input: it had an effect, or it is ignored for a reason.
@@ -39,6 +42,7 @@ impl Robot {
             availability: Availability::Available,
             identity: Identity::Unlocked,
             ram: Countdown::OFF,
+            duty: None,
             farewell: None,
             phase: Phase::Idle,
         }
@@ -57,7 +61,11 @@ impl Robot {
 
     /// [`step`](Self::step), with the outputs going where they are wanted.
     pub(crate) fn step_into(&mut self, config: &Config, input: Input, out: &mut impl Sink) {
-        let step = &mut Step { config, out };
+        let step = &mut Step {
+            config,
+            out,
+            renewed: false,
+        };
         let effect = match input {
             Input::Ram { ram, distance } => self.hear_ram(step, &ram, distance),
             Input::Rmcm(Rmcm::Command(command)) => self.hear_command(step, command),
@@ -92,40 +100,50 @@ impl Robot {
             .map(|farewell| self.hear_farewell(step, from, farewell));
         let part = match ram.coordination {
             Coordination::None => Err(Ignored::NothingNew),
-            Coordination::NeedHelp { number, request } => self.hear_request(
-                step,
-                SessionId {
+            Coordination::NeedHelp {
+                number,
+                heartbeat,
+                request,
+            } => {
+                let session = SessionId {
                     leader: from,
                     number,
-                },
-                request,
-            ),
+                };
+                self.hear_request(step, Rival::heard(session, heartbeat), request)
+            }
             Coordination::OfferHelp {
                 session,
                 offer,
                 capabilities,
+                echo,
+                t_safety,
             } => {
-                let offer = crate::state::Offer {
+                let offer = Offer {
                     station: from,
                     number: offer,
                     capabilities,
                     distance,
+                    echo,
+                    standing: Countdown::OFF,
                 };
-                self.hear_offer(step, session, offer)
+                self.hear_offer(step, session, offer, t_safety)
             }
             Coordination::Leader {
                 number,
                 heartbeat,
                 followers,
-            } => self.hear_leader(
-                step,
-                SessionId {
+                urgency,
+                place,
+                yields,
+            } => {
+                let session = SessionId {
                     leader: from,
                     number,
-                },
-                heartbeat,
-                &followers,
-            ),
+                };
+                let heard = Rival::heard(session, heartbeat);
+                let claim = (!yields).then_some(Claim { urgency, place });
+                self.hear_leader(step, heard, &followers, claim)
+            }
             Coordination::Follower {
                 session,
                 echo,
@@ -139,9 +157,12 @@ impl Robot {
         match event {
             Event::PedestrianDetected(request) => self.detect_pedestrian(step, request),
             Event::CommandManeuver { follower, task } => self.command(step, follower, task),
+            Event::InPosition(id) => self.reach_position(step, id),
             Event::ManeuverCompleted(id) => self.complete_maneuver(step, id),
             Event::ManeuverFailed(id) => self.fail_maneuver(step, id),
             Event::TaskCompleted => self.complete_task(step),
+            Event::RoadClear => self.clear_road(step),
+            Event::AllAnswered => self.select_early(step),
             Event::LeaveRequested => self.leave_on_request(step),
             Event::AvailabilityChanged(availability) => {
                 self.change_availability(step, availability)
@@ -149,6 +170,7 @@ impl Robot {
             Event::OpenCorridor => self.open_corridor(step),
             Event::CloseCorridor => self.close_corridor(step),
             Event::IdentityChanged(station) => self.change_identity(station),
+            Event::EpochRenewed(boot) => self.renew_epoch(boot),
         }
     }
 
@@ -169,13 +191,43 @@ impl Robot {
     }
 
     /// A number that this robot has never given out before.
-    pub(crate) fn issue_number(&mut self) -> Result<UniqueNumber, Ignored> {
+    pub(crate) fn issue_number(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+    ) -> Result<UniqueNumber, Ignored> {
         let count = self.next_count;
         self.next_count = count.checked_add(1).ok_or(Ignored::NumbersExhausted)?;
+        if self.next_count > u16::MAX / 2 {
+            step.out.push(Output::RenewEpoch);
+        }
         Ok(UniqueNumber {
             boot: self.boot,
             count,
         })
+    }
+
+    /// Takes back the number of an offer that nobody can confirm any more, so that a peer which asks for
+    /// help and ends its request over and over uses up none.
+    pub(crate) fn take_back_number(&mut self, offer: OfferNumber) {
+        // While it offers, it gives out nothing else: this is the last one of its epoch.
+        if offer.0.boot == self.boot {
+            self.next_count = offer.0.count;
+        }
+    }
+
+    /// Whether this robot has given the number out, in this life or an earlier one.
+    pub(crate) const fn has_issued(&self, number: UniqueNumber) -> bool {
+        number.boot < self.boot || (number.boot == self.boot && number.count < self.next_count)
+    }
+
+    /// A larger boot counter has been persisted: its numbers are all new.
+    fn renew_epoch(&mut self, boot: u16) -> Effect {
+        if boot <= self.boot {
+            return Err(Ignored::NothingNew);
+        }
+        self.boot = boot;
+        self.next_count = 0;
+        Ok(())
     }
 
     /// The robot's own session of this number.
@@ -193,12 +245,15 @@ impl Robot {
             Phase::Idle => Coordination::None,
             Phase::Requesting(requesting) => Coordination::NeedHelp {
                 number: requesting.number,
+                heartbeat: requesting.heartbeat,
                 request: requesting.request,
             },
             Phase::Offering(offering) => Coordination::OfferHelp {
                 session: offering.session,
                 offer: offering.number,
                 capabilities: offering.capabilities,
+                echo: offering.heard,
+                t_safety: offering.t_safety,
             },
             Phase::Leading(leading) => Coordination::Leader {
                 number: leading.number,
@@ -211,6 +266,9 @@ impl Robot {
                         offer: member.offer,
                     })
                     .collect(),
+                urgency: leading.request.urgency,
+                place: leading.request.place,
+                yields: leading.yields_to.is_some(),
             },
             Phase::Following(following) => Coordination::Follower {
                 session: following.session,
@@ -226,6 +284,7 @@ impl Robot {
             station: self.station,
             coordination,
             farewell,
+            on_duty: self.duty.is_some(),
         }
     }
 
@@ -297,13 +356,19 @@ impl Robot {
         self.identity
     }
 
+    /// What it still does on the road from a maneuver or session that ended early.
+    #[must_use]
+    pub const fn duty(&self) -> Option<Duty> {
+        self.duty
+    }
+
     /// The session that its farewell names as over.
     pub(crate) const fn farewell_session(&self) -> Option<SessionId> {
         match self.farewell {
             None => None,
             Some(standing) => Some(match standing.farewell {
-                Farewell::Ended(number) => self.own_session(number),
-                Farewell::Left(session) => session,
+                Farewell::Ended(number, _) => self.own_session(number),
+                Farewell::Left(session, _) => session,
             }),
         }
     }

@@ -8,11 +8,12 @@
 //! stands, the follower cannot have fallen back for lack of contact, however messages are delayed.
 
 use crate::config::Config;
-use crate::id::{Heartbeat, SessionId, StationId};
+use crate::help::Claim;
+use crate::id::{Heartbeat, OfferNumber, SessionId, StationId};
 use crate::message::{Farewell, Followers, Progress, Report};
 use crate::output::{EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, Sink};
 use crate::robot::{Effect, Step};
-use crate::state::{Contact, Following, Leading, Lease, Member, Phase, Robot};
+use crate::state::{Contact, Following, Leading, Lease, Member, Phase, Rival, Robot};
 use crate::time::{Countdown, Millis};
 
 impl Robot {
@@ -20,10 +21,13 @@ impl Robot {
     pub(crate) fn hear_leader(
         &mut self,
         step: &mut Step<'_, impl Sink>,
-        session: SessionId,
-        heartbeat: Heartbeat,
+        heard: Rival,
         followers: &Followers,
+        claim: Option<Claim>,
     ) -> Effect {
+        let Rival {
+            session, heartbeat, ..
+        } = heard;
         let listed = followers
             .iter()
             .find(|f| f.station == self.station)
@@ -42,19 +46,70 @@ impl Robot {
                 }
             }
             _ => {
-                // Listed for an offer that has expired, or that an earlier life of this robot made.
-                return match listed {
-                    Some(_) => self.say_farewell(step, Farewell::Left(session)),
-                    None => Err(Ignored::NotAddressed),
+                let competed = self.compete(step, heard, claim);
+                // Listed for an offer that has expired, or that an earlier life of this robot made. Where the
+                // robot has just ended its own session, that is what it says first.
+                return match (competed, listed) {
+                    (Err(_), Some(offer)) => self.decline(step, session, offer),
+                    _ => competed,
                 };
             }
         }
         self.release(step, ReleaseReason::NotListed);
-        if listed.is_some() {
+        if let Some(offer) = listed {
             // The leader believes that an earlier offer of this robot still stands.
-            let _ = self.say_farewell(step, Farewell::Left(session));
+            let _ = self.decline(step, session, offer);
         }
         Ok(())
+    }
+
+    /// Tells a leader that the offer which it lists does not stand.
+    fn decline(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        session: SessionId,
+        offer: OfferNumber,
+    ) -> Effect {
+        if !self.has_issued(offer.0) {
+            return Err(Ignored::NeverOffered);
+        }
+        self.say_farewell(step, Farewell::Left(session, offer))
+    }
+
+    /// A requester withdraws for a leader at the same place; a leader yields to one that goes before.
+    /// Both do so when they hear it again.
+    fn compete(
+        &mut self,
+        step: &mut Step<'_, impl Sink>,
+        heard: Rival,
+        claim: Option<Claim>,
+    ) -> Effect {
+        let station = self.station;
+        let other = heard.session.leader;
+        match &mut self.phase {
+            Phase::Requesting(own) => {
+                let claim = claim.ok_or(Ignored::Yielding)?;
+                if !claim.place.may_be(own.request.place) {
+                    return Err(Ignored::OtherPlace);
+                }
+                if heard.is_heard_again(&mut own.rival)? {
+                    self.end_session(step, EndReason::Withdrawn(other));
+                }
+                Ok(())
+            }
+            Phase::Leading(own) => {
+                let claim = claim.ok_or(Ignored::Yielding)?;
+                claim.goes_before(other, Claim::of(own.request), station)?;
+                if own.yields_to.is_some() {
+                    return Err(Ignored::NothingNew);
+                }
+                if heard.is_heard_again(&mut own.rival)? {
+                    self.yield_place(step, other);
+                }
+                Ok(())
+            }
+            Phase::Idle | Phase::Offering(_) | Phase::Following(_) => Err(Ignored::NotAddressed),
+        }
     }
 
     fn join(&mut self, step: &mut Step<'_, impl Sink>, following: Following) {
@@ -78,10 +133,10 @@ impl Robot {
         let next_ram = self.ram.left().unwrap_or(Millis::ZERO);
         match &mut self.phase {
             Phase::Leading(leading) if leading.number == session.number => {
-                if !leading.can_have_sent(echo) {
+                if !leading.heartbeat.can_follow(echo) {
                     return Err(Ignored::EchoFromFuture);
                 }
-                let age = leading.age_of(step.config, echo, next_ram);
+                let age = age_of(step.config, leading.heartbeat, echo, next_ram);
                 let heard = leading.update_member(from, |member| {
                     let echoed = member.hear_echo(step, echo, age);
                     let Some(report) = last else { return echoed };
@@ -100,14 +155,12 @@ impl Robot {
             return;
         };
         following.contact = Contact::Lost(Countdown::armed(step.config.settings().t_leave));
+        let session = following.session;
         if let Some(maneuver) = following.finish(Progress::SafeIdle) {
-            step.out.push(Output::FallBack(
-                maneuver,
-                step.config.fallback(maneuver.task),
-            ));
+            self.fall_back(step, maneuver);
             step.out.push(Output::SendRam);
         }
-        step.out.notify(Notice::ContactLost(following.session));
+        step.out.notify(Notice::ContactLost(session));
     }
 
     /// `T_leave` ran out as well.
@@ -158,13 +211,22 @@ impl Robot {
     }
 }
 
-impl Leading {
-    /// Whether `heartbeat` is the newest or less than half the number space older, as every one of
-    /// the session is.
-    pub(crate) const fn can_have_sent(&self, heartbeat: Heartbeat) -> bool {
-        (self.heartbeat.distance_from(heartbeat) as u32) < Heartbeat::HALF_SPACE
-    }
+/// How long ago `heartbeat` can have been sent at the earliest, where `newest` is the newest and the next
+/// RAM is due in `next_ram`. Heartbeats count periods, so this is never less than the true age.
+#[must_use]
+pub(crate) fn age_of(
+    config: &Config,
+    newest: Heartbeat,
+    heartbeat: Heartbeat,
+    next_ram: Millis,
+) -> Millis {
+    let period = config.settings().ram_period;
+    let periods = u32::from(newest.distance_from(heartbeat));
+    let in_this_period = period.saturating_sub(next_ram);
+    Millis(periods.saturating_mul(period.0)).saturating_add(in_this_period)
+}
 
+impl Leading {
     /// A follower whose newest echo this leader will not be able to put in order in `periods`.
     pub(crate) fn follower_out_of_order(&self, periods: u16) -> Option<StationId> {
         let lag = |echoed| u32::from(self.heartbeat.distance_from(echoed)) + u32::from(periods);
@@ -178,13 +240,10 @@ impl Leading {
     }
 
     /// How long ago `heartbeat` can have been sent at the earliest, where the next RAM is due in
-    /// `next_ram`. Heartbeats count periods, so this is never less than the true age.
+    /// `next_ram`.
     #[must_use]
     pub fn age_of(&self, config: &Config, heartbeat: Heartbeat, next_ram: Millis) -> Millis {
-        let period = config.settings().ram_period;
-        let periods = u32::from(self.heartbeat.distance_from(heartbeat));
-        let in_this_period = period.saturating_sub(next_ram);
-        Millis(periods.saturating_mul(period.0)).saturating_add(in_this_period)
+        age_of(config, self.heartbeat, heartbeat, next_ram)
     }
 }
 
@@ -208,6 +267,7 @@ impl Member {
                 step.out.notify(Notice::LeaseGranted(self.station));
             }
             self.lease = Lease::Stands(Countdown::armed(left));
+            step.renewed = true;
         }
         Ok(())
     }

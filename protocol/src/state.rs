@@ -26,7 +26,7 @@ use crate::list::List;
 use crate::message::{Farewell, Progress, Rejection};
 use crate::output::Maneuver;
 use crate::task::{Availability, HelpRequest, TaskSet, TaskType};
-use crate::time::Countdown;
+use crate::time::{Countdown, Millis};
 
 /// The state of one robot; the transition function is [`Robot::step`].
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -38,6 +38,8 @@ pub struct Robot {
     pub(crate) next_count: u16,
     pub(crate) availability: Availability,
     pub(crate) identity: Identity,
+    /// What the robot still does on the road, or must find clear, before it takes part in anything new.
+    pub(crate) duty: Option<Duty>,
     /// Time to the next periodic RAM; armed in a session and while a farewell stands.
     pub(crate) ram: Countdown,
     pub(crate) farewell: Option<StandingFarewell>,
@@ -107,6 +109,18 @@ pub enum Identity {
     Expiring,
 }
 
+/// A duty on the road that outlives its command or its session.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[repr(u8)]
+pub enum Duty {
+    /// The body carries out the fallback of this maneuver.
+    FallingBack(Maneuver),
+    /// The robot led this session, which ended while people may have been on the road.
+    Crossing(SessionId),
+}
+
 /// A farewell that is announced for a while.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -125,12 +139,42 @@ pub struct Requesting {
     pub number: SessionNumber,
     /// What it asks for.
     pub request: HelpRequest,
+    /// Newest heartbeat.
+    pub heartbeat: Heartbeat,
+    /// A request or leader at the same place that goes before, as heard first.
+    pub rival: Option<Rival>,
     /// The offers it has heard, best first.
     pub offers: List<Offer, MAX_FOLLOWERS>,
     /// `T_help`.
     pub help: Countdown,
     /// Time left to gather offers; armed from the first offer on.
     pub selection: Countdown,
+}
+
+/// A request or a leader at the same place that goes before this robot's own. It counts once it is heard
+/// again with a newer heartbeat: a late message of a session that is over is never heard so.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Rival {
+    /// Its session.
+    pub session: SessionId,
+    /// Newest heartbeat heard of it.
+    pub heartbeat: Heartbeat,
+    /// Whether this robot's own heartbeat has not moved on since. Until it has, no other rival takes the
+    /// place of this one: rivals that do not hear each other would take turns, and none be heard twice.
+    pub fresh: bool,
+}
+
+impl Rival {
+    /// A rival that is heard now.
+    #[must_use]
+    pub const fn heard(session: SessionId, heartbeat: Heartbeat) -> Self {
+        Self {
+            session,
+            heartbeat,
+            fresh: true,
+        }
+    }
 }
 
 /// An offer as a requester has heard it.
@@ -145,6 +189,10 @@ pub struct Offer {
     pub capabilities: TaskSet,
     /// How far away the helper is.
     pub distance: Decimetres,
+    /// Newest heartbeat that it echoed.
+    pub echo: Heartbeat,
+    /// How long the offer stands without a newer echo: until then the helper is still reserved.
+    pub standing: Countdown,
 }
 
 /// A helper's state.
@@ -157,7 +205,11 @@ pub struct Offering {
     pub number: OfferNumber,
     /// What it can do of what is asked for.
     pub capabilities: TaskSet,
-    /// `T_offer`.
+    /// Newest heartbeat of the request that it heard.
+    pub heard: Heartbeat,
+    /// Its `t_safety`, as the offer tells it.
+    pub t_safety: Millis,
+    /// `T_offer`, since the newest heartbeat.
     pub reservation: Countdown,
 }
 
@@ -173,8 +225,26 @@ pub struct Leading {
     pub heartbeat: Heartbeat,
     /// The followers.
     pub members: List<Member, MAX_FOLLOWERS>,
-    /// Whether the pedestrian may cross.
-    pub corridor_open: bool,
+    /// Whether the pedestrian may cross, and whether the road is known to be clear.
+    pub corridor: Corridor,
+    /// A leader at the same place that goes before, as heard first.
+    pub rival: Option<Rival>,
+    /// The leader that it has yielded the place to. It lets nobody cross any more, keeps its followers
+    /// until the road is clear, and ends.
+    pub yields_to: Option<StationId>,
+}
+
+/// The corridor of a leader.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+pub enum Corridor {
+    /// Nobody may cross, and nobody is on the road.
+    Clear,
+    /// The pedestrian may cross.
+    Open,
+    /// Nobody may cross any more, and people may still be on the road.
+    Clearing,
 }
 
 /// A leader's record of one follower.

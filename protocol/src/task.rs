@@ -168,6 +168,36 @@ pub struct HelpRequest {
     pub followers: u8,
     /// The maneuvers that the followers will be asked for.
     pub tasks: TaskSet,
+    /// The crossing that the help is for. Requests and leaders compete where they may be at one place.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub place: Place,
+}
+
+/// The crossing of a request and of its session, as `IntersectionReferenceID` of ISO/TS 19091 names it:
+/// road regulator in the upper 16 bits, intersection in the lower.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
+pub struct Place(pub u32);
+
+impl Place {
+    /// Not known. It may be any place, so it competes with all of them.
+    pub const UNKNOWN: Self = Self(0);
+
+    /// Whether the two may be one place: they are equal, or one of them is unknown.
+    #[must_use]
+    pub const fn may_be(self, other: Self) -> bool {
+        self.0 == other.0 || self.0 == Self::UNKNOWN.0 || other.0 == Self::UNKNOWN.0
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if *self == Self::UNKNOWN {
+            return f.pad("an unknown place");
+        }
+        write!(f, "{}:{}", self.0 >> 16, self.0 & 0xffff)
+    }
 }
 
 /// Whether the robot takes part in coordination.
@@ -199,7 +229,17 @@ pub enum Unavailability {
     NotSafe,
 }
 
-/// What a follower does with a running maneuver when it loses contact with its leader.
+impl Unavailability {
+    /// Whether the robot can still carry out a fallback policy. A robot under emergency stop, with a
+    /// fault, or steered by a person cannot: its body is not its own to command.
+    #[must_use]
+    pub const fn can_fall_back(self) -> bool {
+        matches!(self, Self::LowBattery | Self::NotSafe)
+    }
+}
+
+/// What a follower does with a running maneuver at every end but a completed crossing: contact lost,
+/// session aborted, left, or not listed any more.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
@@ -208,6 +248,8 @@ pub enum FallbackPolicy {
     StopInPlace,
     /// Leave the carriageway for the safe position that the application knows.
     GoToSafePosition,
+    /// Stay at the side of the escorted person to the nearer kerb, then stop.
+    EscortToKerb,
     /// Hold the position and the traffic until the carriageway is clear, then stop.
     HoldUntilClear,
 }

@@ -5,7 +5,7 @@ use crate::id::StationId;
 use crate::input::{Decimetres, Event, Input};
 use crate::output::{Output, Outputs};
 use crate::state::Robot;
-use crate::task::{HelpRequest, TaskSet, TaskType, Urgency};
+use crate::task::{HelpRequest, Place, TaskSet, TaskType, Urgency};
 
 pub(crate) const ARI: StationId = StationId(1);
 pub(crate) const GO2: StationId = StationId(2);
@@ -21,6 +21,7 @@ fn request() -> HelpRequest {
         urgency: Urgency::Medium,
         followers: 2,
         tasks: TaskSet::of(&[TaskType::MOVE]),
+        place: Place(7),
     }
 }
 

@@ -3,14 +3,14 @@
 //! The end of a session is announced by naming it; a bare `helpStatus = none` ends nothing. A
 //! farewell stands for a while, and is repeated to whoever still believes in the session.
 
-use crate::id::{SessionId, StationId};
-use crate::message::Farewell;
+use crate::id::{OfferNumber, SessionId, StationId};
+use crate::message::{Ending, Farewell};
 use crate::output::{
-    CorridorClosure, EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, Sink,
+    CorridorClosure, EndReason, GoneReason, Ignored, Maneuver, Notice, Output, ReleaseReason, Sink,
     StopReason,
 };
 use crate::robot::{Effect, Step};
-use crate::state::{Identity, Phase, Robot, StandingFarewell};
+use crate::state::{Corridor, Duty, Identity, Phase, Robot, StandingFarewell};
 use crate::time::Countdown;
 
 impl Robot {
@@ -23,6 +23,49 @@ impl Robot {
             }
             Phase::Idle | Phase::Offering(_) | Phase::Following(_) => Err(Ignored::NotLeading),
         }
+    }
+
+    /// The application says that the road is clear, and that the body's fallback is finished.
+    pub(crate) fn clear_road(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
+        if self.duty.take().is_some() {
+            step.out.push(Output::SendRam);
+            return Ok(());
+        }
+        let Phase::Leading(leading) = &mut self.phase else {
+            return Err(Ignored::NothingNew);
+        };
+        match leading.corridor {
+            Corridor::Clear => return Err(Ignored::NothingNew),
+            Corridor::Open => return Err(Ignored::CorridorOpen),
+            Corridor::Clearing => leading.corridor = Corridor::Clear,
+        }
+        if let Some(other) = leading.yields_to {
+            self.end_session(step, EndReason::Withdrawn(other));
+        }
+        Ok(())
+    }
+
+    /// Another leader goes before at the same place: nobody is let across any more, and the session ends
+    /// once the road is clear.
+    pub(crate) fn yield_place(&mut self, step: &mut Step<'_, impl Sink>, other: StationId) {
+        let Phase::Leading(leading) = &mut self.phase else {
+            return;
+        };
+        leading.yields_to = Some(other);
+        step.out.notify(Notice::Yielded(other));
+        leading.shut(step, CorridorClosure::Yielded(other));
+        if leading.corridor == Corridor::Clear {
+            self.end_session(step, EndReason::Withdrawn(other));
+        } else {
+            step.out.push(Output::SendRam);
+        }
+    }
+
+    /// Ends a maneuver by its task's policy; the robot is on duty until the road is clear.
+    pub(crate) fn fall_back(&mut self, step: &mut Step<'_, impl Sink>, maneuver: Maneuver) {
+        let policy = step.config.fallback(maneuver.task);
+        step.out.push(Output::FallBack(maneuver, policy));
+        self.duty = Some(Duty::FallingBack(maneuver));
     }
 
     /// The application wants to leave: a leader ends its session, a helper or follower leaves it.
@@ -41,12 +84,19 @@ impl Robot {
 
     /// Ends the robot's own session and names it as ended.
     pub(crate) fn end_session(&mut self, step: &mut Step<'_, impl Sink>, why: EndReason) {
-        let number = match &self.phase {
+        let ending = match why {
+            EndReason::TaskCompleted => Ending::Completed,
+            _ => Ending::Aborted,
+        };
+        let number = match &mut self.phase {
             Phase::Requesting(requesting) => requesting.number,
             Phase::Leading(leading) => {
-                if leading.corridor_open {
-                    step.out
-                        .push(Output::CorridorClosed(CorridorClosure::SessionEnded));
+                leading.shut(step, CorridorClosure::SessionEnded);
+                if leading.corridor != Corridor::Clear && ending == Ending::Aborted {
+                    self.duty = Some(Duty::Crossing(SessionId {
+                        leader: self.station,
+                        number: leading.number,
+                    }));
                 }
                 leading.number
             }
@@ -55,15 +105,18 @@ impl Robot {
         self.phase = Phase::Idle;
         step.out
             .notify(Notice::SessionEnded(self.own_session(number), why));
-        let _ = self.say_farewell(step, Farewell::Ended(number));
+        let _ = self.say_farewell(step, Farewell::Ended(number, ending));
     }
 
     /// Leaves another robot's session and names it as left.
     pub(crate) fn leave(&mut self, step: &mut Step<'_, impl Sink>, why: ReleaseReason) {
-        if let Some(session) = self.session() {
-            self.release(step, why);
-            let _ = self.say_farewell(step, Farewell::Left(session));
-        }
+        let (session, offer) = match &self.phase {
+            Phase::Offering(offering) => (offering.session, offering.number),
+            Phase::Following(following) => (following.session, following.offer),
+            Phase::Idle | Phase::Requesting(_) | Phase::Leading(_) => return,
+        };
+        self.release(step, why);
+        let _ = self.say_farewell(step, Farewell::Left(session, offer));
     }
 
     /// Has no part in another robot's session any more; the leader knows already or need not know.
@@ -71,11 +124,16 @@ impl Robot {
         let session = match &self.phase {
             Phase::Offering(offering) => offering.session,
             Phase::Following(following) => {
+                let session = following.session;
                 if let Some(maneuver) = following.executing() {
-                    step.out
-                        .push(Output::StopManeuver(maneuver, StopReason::Released(why)));
+                    if why == ReleaseReason::TaskCompleted {
+                        let why = StopReason::Released(why);
+                        step.out.push(Output::StopManeuver(maneuver, why));
+                    } else {
+                        self.fall_back(step, maneuver);
+                    }
                 }
-                following.session
+                session
             }
             Phase::Idle | Phase::Requesting(_) | Phase::Leading(_) => return,
         };
@@ -111,7 +169,7 @@ impl Robot {
         farewell: Farewell,
     ) -> Effect {
         match farewell {
-            Farewell::Ended(number) => {
+            Farewell::Ended(number, ending) => {
                 let ended = SessionId {
                     leader: from,
                     number,
@@ -119,10 +177,18 @@ impl Robot {
                 if self.session() != Some(ended) {
                     return Err(Ignored::OtherSession);
                 }
-                self.release(step, ReleaseReason::SessionEnded);
+                if let Phase::Offering(offering) = &self.phase {
+                    let number = offering.number;
+                    self.take_back_number(number);
+                }
+                let why = match ending {
+                    Ending::Completed => ReleaseReason::TaskCompleted,
+                    Ending::Aborted => ReleaseReason::SessionEnded,
+                };
+                self.release(step, why);
                 Ok(())
             }
-            Farewell::Left(session) => self.hear_left(step, from, session),
+            Farewell::Left(session, offer) => self.hear_left(step, from, session, offer),
         }
     }
 
@@ -131,21 +197,23 @@ impl Robot {
         step: &mut Step<'_, impl Sink>,
         from: StationId,
         session: SessionId,
+        offer: OfferNumber,
     ) -> Effect {
         if session.leader != self.station {
             return Err(Ignored::NotAddressed);
         }
         match &mut self.phase {
             Phase::Requesting(requesting) if requesting.number == session.number => {
-                if requesting.forget_offer(from) {
+                if requesting.forget_offer(|known| known.station == from && known.number <= offer) {
                     Ok(())
                 } else {
                     Err(Ignored::NothingNew)
                 }
             }
             Phase::Leading(leading) if leading.number == session.number => {
-                if leading.member(from).is_none() {
-                    return Err(Ignored::NotAFollower);
+                let member = leading.member(from).ok_or(Ignored::NotAFollower)?;
+                if offer < member.offer {
+                    return Err(Ignored::OtherOffer);
                 }
                 self.drop_follower(step, from, GoneReason::Left);
                 Ok(())
@@ -165,7 +233,11 @@ impl Robot {
             // It is not over; the sender claims a part in it that nobody gave it.
             return Err(Ignored::NotAFollower);
         }
-        self.say_farewell(step, Farewell::Ended(session.number))
+        if self.farewell_session() == Some(session) {
+            // How it ended is being said.
+            return Err(Ignored::NothingNew);
+        }
+        self.say_farewell(step, Farewell::Ended(session.number, Ending::Aborted))
     }
 
     /// The robot takes part in `session`: to go on saying that it is over would undo that.

@@ -19,6 +19,9 @@ macro_rules! visit_countdowns {
         match &$($mutability)? robot.phase {
             Phase::Idle => {}
             Phase::Requesting(requesting) => {
+                for offer in requesting.offers.$iter() {
+                    visit(Timer::Offer(offer.station), &$($mutability)? offer.standing);
+                }
                 visit(Timer::Help, &$($mutability)? requesting.help);
                 visit(Timer::Selection, &$($mutability)? requesting.selection);
             }
@@ -142,6 +145,7 @@ impl Robot {
             Timer::Lost(station) => self.lost_expired(step, station),
             Timer::Execution(station) => self.execution_expired(step, station),
             Timer::Acknowledgement(station) => self.acknowledgement_expired(step, station),
+            Timer::Offer(station) => self.offer_expired(step, station),
             Timer::Help => self.help_expired(step),
             Timer::Selection => self.selection_expired(step),
             Timer::Reservation => self.reservation_expired(step),
@@ -158,12 +162,19 @@ impl Robot {
         // A session ends with the identity lock, long before its periods exceed 16 bits.
         let periods = u16::try_from(1 + late.0 / period.0).unwrap_or(u16::MAX);
         self.bump_heartbeat(step, periods);
+        if let Some(rival) = self.rival_mut() {
+            rival.fresh = false;
+        }
         step.out.push(Output::SendRam);
     }
 
     /// Some RAM periods are over. A follower that has echoed nothing for half the number space, which
     /// is longer than the identity may be locked, is lost whatever its other timers say.
     fn bump_heartbeat(&mut self, step: &mut Step<'_, impl Sink>, periods: u16) {
+        if let Phase::Requesting(requesting) = &mut self.phase {
+            // A request ends long before half the number space is used.
+            requesting.heartbeat = requesting.heartbeat.after(periods);
+        }
         while let Phase::Leading(leading) = &mut self.phase {
             let Some(station) = leading.follower_out_of_order(periods) else {
                 leading.heartbeat = leading.heartbeat.after(periods);
@@ -213,6 +224,7 @@ fn timer_limit(config: &Config, timer: Timer) -> Millis {
         // `T_exec` depends on the task; the follower's record is checked against it.
         Timer::Execution(_) => Millis::MAX_TIMER,
         Timer::Acknowledgement(_) => settings.t_ack,
+        Timer::Offer(_) => config.t_offer_lease(),
         Timer::Help => settings.t_help,
         Timer::Selection => settings.t_select,
         Timer::Reservation => settings.t_offer,

@@ -13,8 +13,9 @@ use crate::config::Config;
 use crate::help::all_distinct;
 use crate::id::RequestId;
 use crate::message::{Failure, Farewell, Progress};
-use crate::state::{Following, Identity, Leading, Member, Phase, Requesting, Robot};
+use crate::state::{Corridor, Following, Identity, Leading, Member, Phase, Requesting, Robot};
 use crate::task::Availability;
+use crate::time::Millis;
 
 impl Robot {
     /// Whether the state is one that [`Robot::step`] can produce under `config`.
@@ -30,7 +31,8 @@ impl Robot {
             // I11: the corridor is open only while every required follower is engaged.
             && match &self.phase {
                 Phase::Leading(leading) => {
-                    !leading.corridor_open || leading.corridor_obstacle(config).is_none()
+                    leading.corridor != Corridor::Open
+                        || leading.corridor_obstacle(config).is_none()
                 }
                 _ => true,
             }
@@ -45,7 +47,7 @@ impl Robot {
                 // Its own session the robot ends; it does not leave it.
                 let is_own = matches!(
                     standing.farewell,
-                    Farewell::Left(session) if session.leader == self.station
+                    Farewell::Left(session, _) if session.leader == self.station
                 );
                 standing.left.is_armed() && !is_own
             })
@@ -54,6 +56,13 @@ impl Robot {
                 Identity::Locked(left) => left.is_armed(),
                 Identity::Expiring => matches!(self.phase, Phase::Idle),
             }
+            // W4: a robot with a duty on the road executes nothing and takes no new part.
+            && (self.duty.is_none()
+                || match &self.phase {
+                    Phase::Idle => true,
+                    Phase::Following(following) => following.executing().is_none(),
+                    Phase::Requesting(_) | Phase::Offering(_) | Phase::Leading(_) => false,
+                })
             // The RAM never names the session as over that it takes part in.
             && (self.session().is_none() || self.farewell_session() != self.session())
             && self.phase_is_valid(config)
@@ -65,7 +74,7 @@ impl Robot {
         match &self.phase {
             Phase::Idle => true,
             Phase::Requesting(requesting) => {
-                self.has_issued(requesting.number.0.boot, requesting.number.0.count)
+                self.has_issued(requesting.number.0)
                     && self.availability == Availability::Available
                     && requesting.is_valid()
                     && requesting
@@ -74,14 +83,20 @@ impl Robot {
                         .all(|offer| offer.station != self.station)
             }
             Phase::Offering(offering) => {
-                self.has_issued(offering.number.0.boot, offering.number.0.count)
+                self.has_issued(offering.number.0)
+                    // It is the last one given out, unless its epoch is over.
+                    && (offering.number.0.boot != self.boot
+                        || offering.number.0.count.checked_add(1) == Some(self.next_count))
                     && self.availability == Availability::Available
                     && offering.session.leader != self.station
                     && offering.reservation.is_armed()
                     && !offering.capabilities.is_empty()
+                    // A RAM can tell it.
+                    && Millis(1) <= offering.t_safety
+                    && offering.t_safety <= Millis::MAX_TIMER
             }
             Phase::Leading(leading) => {
-                self.has_issued(leading.number.0.boot, leading.number.0.count)
+                self.has_issued(leading.number.0)
                     && self.availability == Availability::Available
                     && leading.is_valid(config)
                     && leading
@@ -90,16 +105,11 @@ impl Robot {
                         .all(|member| member.station != self.station)
             }
             Phase::Following(following) => {
-                self.has_issued(following.offer.0.boot, following.offer.0.count)
+                self.has_issued(following.offer.0)
                     && following.session.leader != self.station
                     && following.is_valid(self.availability)
             }
         }
-    }
-
-    /// I15: what the robot takes part in began in this life.
-    fn has_issued(&self, boot: u16, count: u16) -> bool {
-        boot == self.boot && count < self.next_count
     }
 }
 
@@ -109,6 +119,7 @@ impl Requesting {
             && !self.request.tasks.is_empty()
             && self.help.is_armed()
             && (self.selection.is_armed() || self.offers.is_empty())
+            && self.offers.iter().all(|offer| offer.standing.is_armed())
             && self.offers_are_ranked()
     }
 }
@@ -121,6 +132,8 @@ impl Leading {
             && !self.request.tasks.is_empty()
             && self.members.is_dense()
             && (1..=at_most).contains(&self.members.len())
+            // W3: one that has yielded ends as soon as its road is clear.
+            && (self.yields_to.is_none() || self.corridor == Corridor::Clearing)
             // I18: no two followers with the same station id.
             && all_distinct(&self.members, |member| member.station)
             && self.members.iter().all(|member| member.is_valid(config, self))
@@ -137,7 +150,7 @@ impl Member {
         self.next_request.distance_from(first) <= RequestId::MAX_PER_SESSION
             && self.lease.countdown().is_armed()
             // It echoed what this leader sent, and not so long ago that the order is in doubt.
-            && self.echoed.is_none_or(|echoed| leading.can_have_sent(echoed))
+            && self.echoed.is_none_or(|echoed| leading.heartbeat.can_follow(echoed))
             // Commands are given only to those who have taken their role, and so is the lease.
             && (self.has_joined()
                 || (self.outstanding.is_none() && self.order.is_none() && !self.lease.stands()))

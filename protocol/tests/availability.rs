@@ -49,20 +49,28 @@ fn an_offer_is_withdrawn_by_name() {
         street.tell(ARI, Event::PedestrianDetected(escort(1)));
         let session = street.session_of(ARI);
         street.tell(GO2, unavailable(reason));
-        assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+        assert_eq!(
+            street[GO2].farewell(),
+            Some(Farewell::Left(session, FIRST_OFFER))
+        );
         street.pass(1_000);
         assert_eq!(street[ARI].role(), Role::Requester, "the offer is gone");
     }
 }
 
 #[test]
-fn a_follower_that_executes_stops_and_fails() {
+fn a_follower_that_executes_fails_and_ends_it_as_its_body_can() {
     for reason in EVERY_REASON {
         let mut street = Street::executing(TaskType::MOVE);
         let maneuver = street.following(GO2).executing().unwrap();
         street.tell(GO2, unavailable(reason));
-        let stop = Output::StopManeuver(maneuver, StopReason::Unavailable(reason));
-        assert!(street.has_put_out(GO2, stop));
+        let end = if reason.can_fall_back() {
+            Output::FallBack(maneuver, FallbackPolicy::EscortToKerb)
+        } else {
+            Output::StopManeuver(maneuver, StopReason::Unavailable(reason))
+        };
+        assert!(street.has_put_out(GO2, end), "{reason}");
+        assert_eq!(street[GO2].duty().is_some(), reason.can_fall_back());
         let failed = Notice::ManeuverFailed(GO2, maneuver.id, Failure::Unavailable(reason));
         assert!(street.has_put_out(ARI, Output::Notify(failed)));
         assert_eq!(

@@ -25,13 +25,6 @@ fn answer(street: &Street, request: u8, verdict: Verdict) -> Rmcm {
     })
 }
 
-fn order(task: TaskType) -> Event {
-    Event::CommandManeuver {
-        follower: GO2,
-        task,
-    }
-}
-
 #[test]
 fn a_repeated_command_is_acknowledged_again_and_not_executed_again() {
     let mut street = Street::executing(TaskType::MOVE);
@@ -53,7 +46,7 @@ fn a_repeated_command_is_acknowledged_again_and_not_executed_again() {
 fn an_older_command_changes_nothing() {
     let mut street = Street::executing(TaskType::INITIAL_POS);
     let older = command(&street, 0, TaskType::INITIAL_POS);
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     assert_eq!(
         street.following(GO2).executing().unwrap().task,
         TaskType::MOVE
@@ -72,7 +65,7 @@ fn an_older_command_changes_nothing() {
 fn a_newer_command_supersedes_the_one_that_runs() {
     let mut street = Street::executing(TaskType::BLOCK);
     let running = street.following(GO2).executing().unwrap();
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     let id = street.maneuver(GO2, 1);
     let start = Output::StartManeuver(Maneuver {
         id,
@@ -92,7 +85,7 @@ fn a_newer_command_supersedes_the_one_that_runs() {
 fn the_leader_repeats_the_same_command_and_then_gives_the_follower_up() {
     let mut street = Street::with_roles(&[ARI, GO2]);
     street.part(ARI, GO2);
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     let first = command(&street, 0, TaskType::MOVE);
     let session = street.session_of(ARI);
     assert_eq!(street.outputs_of(ARI), [Output::SendRmcm(first)]);
@@ -119,7 +112,7 @@ fn the_leader_repeats_the_same_command_and_then_gives_the_follower_up() {
 fn a_lost_acknowledgement_costs_one_repeat() {
     let mut street = Street::with_roles(&[ARI, GO2]);
     street.cut(GO2, ARI);
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     assert_eq!(street[GO2].state(), State::ManeuverExecuting);
     assert_eq!(street[ARI].state(), State::RoleEstablished);
     street.pass(599);
@@ -137,7 +130,7 @@ fn an_acknowledgement_that_is_not_the_outstanding_one_changes_nothing() {
     let nothing_outstanding = answer(&street, 0, Verdict::Accepted);
     let ignored = street.hears_rmcm(ARI, nothing_outstanding).ignored();
     assert_eq!(ignored, Some(Ignored::NotOutstanding));
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     let rejected = Verdict::Rejected(Rejection::UnsupportedTask);
     for wrong in [1, 127, 255] {
         for verdict in [Verdict::Accepted, rejected] {
@@ -159,8 +152,8 @@ fn an_acknowledgement_that_is_not_the_outstanding_one_changes_nothing() {
 fn one_command_is_outstanding_per_follower() {
     let mut street = Street::with_roles(&[ARI, GO2]);
     street.part(ARI, GO2);
-    street.tell(ARI, order(TaskType::INITIAL_POS));
-    let second = street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::INITIAL_POS));
+    let second = street.tell(ARI, order(GO2, TaskType::MOVE));
     assert_eq!(second.ignored(), Some(Ignored::CommandOutstanding));
 }
 
@@ -181,14 +174,14 @@ fn a_command_of_somebody_who_is_not_the_leader_is_not_addressed() {
 fn a_task_that_the_follower_cannot_do_is_rejected() {
     let mut street = Street::with_roles(&[ARI, GO2]);
     let unknown = TaskType::new(9).unwrap();
-    street.tell(ARI, order(unknown));
+    street.tell(ARI, order(GO2, unknown));
     let id = street.maneuver(ARI, 0);
     let rejected = Notice::CommandRejected(GO2, id, Rejection::UnsupportedTask);
     assert!(street.has_put_out(ARI, Output::Notify(rejected)));
     assert_eq!(street.count(GO2, starts), 0);
     assert_eq!(street[ARI].state(), State::RoleEstablished);
     // The next command has a number of its own.
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     assert_eq!(
         street.following(GO2).executing().unwrap().id.request,
         RequestId(1)
@@ -227,7 +220,7 @@ fn a_rejected_command_is_rejected_again_even_when_it_could_be_done_by_then() {
 #[test]
 fn a_rejected_command_leaves_the_running_one_alone() {
     let mut street = Street::executing(TaskType::BLOCK);
-    street.tell(ARI, order(TaskType::new(9).unwrap()));
+    street.tell(ARI, order(GO2, TaskType::new(9).unwrap()));
     assert_eq!(
         street.following(GO2).executing().unwrap().task,
         TaskType::BLOCK
@@ -245,7 +238,7 @@ fn a_command_overtakes_neither_the_confirmation_nor_the_role() {
     street.part(ARI, GO2);
     street.pass(300);
     // The leader has confirmed, but has not heard that the follower took its role.
-    let early = street.tell(ARI, order(TaskType::MOVE));
+    let early = street.tell(ARI, order(GO2, TaskType::MOVE));
     assert_eq!(early.ignored(), Some(Ignored::NotJoined));
     // A command that arrives before the confirmation is not executed, and does not undo the offer.
     let outputs = street.hears_rmcm(GO2, command(&street, 0, TaskType::MOVE));
@@ -292,7 +285,7 @@ fn request_numbers_wrap_without_confusion() {
     };
     let mut street = Street::with_roles_and_settings(&[ARI, GO2], settings);
     for expected in [254, 255, 0, 1] {
-        street.tell(ARI, order(TaskType::BLOCK));
+        street.tell(ARI, order(GO2, TaskType::BLOCK));
         assert_eq!(
             street.following(GO2).executing().unwrap().id.request,
             RequestId(expected)
@@ -307,25 +300,27 @@ fn a_session_is_renewed_before_half_the_request_numbers_are_used() {
     let mut street = Street::with_roles(&[ARI, GO2]);
     let first = street.session_of(ARI);
     for request in 0..RequestId::MAX_PER_SESSION {
-        street.tell(ARI, order(TaskType::BLOCK));
+        street.tell(ARI, order(GO2, TaskType::BLOCK));
         assert_eq!(
             street.following(GO2).executing().unwrap().id.request,
             RequestId(request)
         );
         street.forget();
     }
-    street.tell(ARI, order(TaskType::BLOCK));
+    street.tell(ARI, order(GO2, TaskType::BLOCK));
     let renewed = Notice::SessionEnded(first, EndReason::Renewed);
     assert!(street.has_put_out(ARI, Output::Notify(renewed)));
     assert_eq!(street[ARI].role(), Role::Requester);
     assert_ne!(street.session_of(ARI), first);
-    // The follower hears the end of the first session and the need in the second, and helps again.
-    street.pass(400);
+    // Its guard holds until the road is clear; then it hears the need in the second session, and helps again.
+    assert_eq!(street[GO2].role(), Role::None);
+    street.tell(GO2, Event::RoadClear);
+    street.pass(500);
     assert_eq!(
         (street[ARI].role(), street[GO2].role()),
         (Role::Leader, Role::Follower)
     );
-    street.tell(ARI, order(TaskType::BLOCK));
+    street.tell(ARI, order(GO2, TaskType::BLOCK));
     assert_eq!(
         street.following(GO2).executing().unwrap().id.request,
         RequestId(0)
@@ -344,10 +339,10 @@ fn a_session_is_not_ended_for_one_that_cannot_be_opened() {
     street.pass(1_000);
     street.establish_roles(ARI, 1);
     for _ in 0..RequestId::MAX_PER_SESSION {
-        street.tell(ARI, order(TaskType::BLOCK));
+        street.tell(ARI, order(GO2, TaskType::BLOCK));
         street.forget();
     }
-    let ignored = street.tell(ARI, order(TaskType::BLOCK)).ignored();
+    let ignored = street.tell(ARI, order(GO2, TaskType::BLOCK)).ignored();
     assert_eq!(ignored, Some(Ignored::NumbersExhausted));
     assert_eq!(street[ARI].role(), Role::Leader);
 }

@@ -5,13 +5,6 @@ mod script;
 use crossguard_protocol::*;
 use script::*;
 
-fn order(task: TaskType) -> Event {
-    Event::CommandManeuver {
-        follower: GO2,
-        task,
-    }
-}
-
 fn progress_known_to_ari(street: &Street) -> Option<Progress> {
     street
         .leading(ARI)
@@ -28,7 +21,7 @@ fn a_stale_ram_does_not_complete_a_newer_command() {
     let first = street.maneuver(GO2, 0);
     street.tell(GO2, Event::ManeuverCompleted(first));
     let stale = street[GO2].ram();
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     street.forget();
     assert_eq!(
         street.hears_ram(ARI, stale).ignored(),
@@ -59,7 +52,7 @@ fn a_ram_of_another_session_completes_nothing() {
     let of_the_first = street[GO2].ram();
     street.tell(ARI, Event::TaskCompleted);
     street.establish_roles(ARI, 1);
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     street.hears_ram(ARI, of_the_first);
     assert_eq!(progress_known_to_ari(&street), Some(Progress::Executing));
 }
@@ -69,7 +62,7 @@ fn completion_waits_for_the_acknowledgement_of_its_own_command() {
     let mut street = Street::executing(TaskType::BLOCK);
     // The next command gets lost; the follower's RAM still speaks of the first.
     street.cut(ARI, GO2);
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     let first = street.maneuver(GO2, 0);
     street.tell(GO2, Event::ManeuverCompleted(first));
     assert!(street.has_put_out(ARI, Output::Notify(Notice::ManeuverCompleted(GO2, first))));
@@ -87,7 +80,7 @@ fn completion_waits_for_the_acknowledgement_of_its_own_command() {
 fn a_ram_that_reports_the_outstanding_command_stands_for_its_lost_acknowledgement() {
     let mut street = Street::with_roles(&[ARI, GO2]);
     street.cut(GO2, ARI);
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     let id = street.maneuver(GO2, 0);
     street.heal();
     street.forget();
@@ -123,8 +116,8 @@ fn only_the_running_maneuver_can_be_finished() {
     let early = street.maneuver(GO2, 0);
     let outputs = street.tell(GO2, Event::ManeuverCompleted(early));
     assert_eq!(outputs.ignored(), Some(Ignored::NotExecuting));
-    street.tell(ARI, order(TaskType::INITIAL_POS));
-    street.tell(ARI, order(TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::INITIAL_POS));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     for event in [
         Event::ManeuverCompleted(early),
         Event::ManeuverFailed(early),

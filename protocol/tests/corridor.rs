@@ -13,7 +13,7 @@ fn refusal(street: &mut Street) -> Option<Ignored> {
 fn open() -> Street {
     let mut street = Street::executing(TaskType::MOVE);
     assert_eq!(refusal(&mut street), None);
-    assert!(street.leading(ARI).corridor_open);
+    assert_eq!(street.corridor(ARI), Corridor::Open);
     street.forget();
     street
 }
@@ -68,7 +68,7 @@ fn it_opens_when_the_follower_is_engaged_and_says_why_not_before() {
     street.heal();
     street.pass(100);
     assert_eq!(refusal(&mut street), None);
-    assert!(street.has_put_out(ARI, Output::CorridorOpened));
+    assert_eq!(street.count(ARI, opens), 1);
     assert_eq!(refusal(&mut street), Some(Ignored::CorridorOpen));
 }
 
@@ -94,7 +94,7 @@ fn it_closes_when_the_lease_runs_out() {
     // It does not open again by itself when the lease is back.
     street.heal();
     street.pass(50);
-    assert!(!street.leading(ARI).corridor_open);
+    assert_eq!(street.corridor(ARI), Corridor::Clearing);
 }
 
 #[test]
@@ -134,17 +134,34 @@ fn it_closes_when_the_follower_is_done_or_fails_or_falls_back() {
 }
 
 #[test]
-fn it_closes_when_a_new_command_is_given() {
+fn no_command_takes_a_guard_off_the_road() {
     let mut street = open();
-    street.part(ARI, GO2);
-    street.tell(
-        ARI,
-        Event::CommandManeuver {
-            follower: GO2,
-            task: TaskType::BLOCK,
-        },
+    for _ in 0..2 {
+        let outputs = street.tell(ARI, order(GO2, TaskType::INITIAL_POS));
+        assert_eq!(outputs.ignored(), Some(Ignored::RoadOccupied));
+        street.tell(ARI, Event::CloseCorridor);
+    }
+    assert_eq!(
+        street.following(GO2).executing().unwrap().task,
+        TaskType::MOVE
     );
-    assert_closed(&street, not_engaged(Disengagement::CommandOutstanding));
+    street.tell(ARI, Event::RoadClear);
+    assert_eq!(street.corridor(ARI), Corridor::Clear);
+    assert_eq!(
+        street
+            .tell(ARI, order(GO2, TaskType::INITIAL_POS))
+            .ignored(),
+        None
+    );
+}
+
+#[test]
+fn nor_does_one_that_its_execution_limit_has_been_reached() {
+    let mut street = open();
+    street.pass(60_000);
+    assert_eq!(street[GO2].state(), State::ManeuverExecuting, "it goes on");
+    let outputs = street.tell(ARI, order(GO2, TaskType::INITIAL_POS));
+    assert_eq!(outputs.ignored(), Some(Ignored::RoadOccupied));
 }
 
 #[test]
@@ -200,6 +217,7 @@ fn every_required_follower_must_be_engaged() {
             task: TaskType::BLOCK,
         },
     );
+    street.in_position(GO2);
     let not_executing = Disengagement::NotExecuting;
     assert_eq!(
         refusal(&mut street),
@@ -212,6 +230,7 @@ fn every_required_follower_must_be_engaged() {
             task: TaskType::BLOCK,
         },
     );
+    street.in_position(SPOT);
     assert_eq!(refusal(&mut street), None);
     street.forget();
     // One leaves: the other is still engaged, but one is not enough.

@@ -60,7 +60,7 @@ fn two_robots_help_a_pedestrian_across() {
         (street[ARI].state(), street[GO2].state()),
         (State::Idle, State::Idle)
     );
-    let released = Notice::Released(session, ReleaseReason::SessionEnded);
+    let released = Notice::Released(session, ReleaseReason::TaskCompleted);
     assert!(street.has_put_out(GO2, Output::Notify(released)));
 
     // The farewell passes, the identities are unlocked.

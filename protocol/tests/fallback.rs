@@ -15,7 +15,7 @@ fn alone(task: TaskType) -> Street {
 fn the_follower_falls_back_after_t_safety_by_the_policy_of_its_task() {
     for (task, policy) in [
         (TaskType::INITIAL_POS, FallbackPolicy::StopInPlace),
-        (TaskType::MOVE, FallbackPolicy::GoToSafePosition),
+        (TaskType::MOVE, FallbackPolicy::EscortToKerb),
         (TaskType::BLOCK, FallbackPolicy::HoldUntilClear),
     ] {
         let mut street = alone(task);
@@ -33,7 +33,7 @@ fn the_follower_falls_back_after_t_safety_by_the_policy_of_its_task() {
 }
 
 #[test]
-fn the_leader_learns_of_the_fallback_and_may_command_again() {
+fn the_leader_learns_of_the_fallback_and_may_command_again_once_the_road_is_clear() {
     let mut street = alone(TaskType::MOVE);
     let id = street.maneuver(GO2, 0);
     street.pass(2_500);
@@ -41,16 +41,15 @@ fn the_leader_learns_of_the_fallback_and_may_command_again() {
     street.pass(200);
     assert!(street.has_put_out(ARI, Output::Notify(Notice::FollowerSafeIdle(GO2, id))));
     assert_eq!(street[ARI].state(), State::RoleEstablished);
-    street.tell(
-        ARI,
-        Event::CommandManeuver {
-            follower: GO2,
-            task: TaskType::MOVE,
-        },
-    );
+    street.tell(ARI, order(GO2, TaskType::MOVE));
+    let rejected = Notice::CommandRejected(GO2, street.maneuver(ARI, 1), Rejection::OnDuty);
+    assert!(street.has_put_out(ARI, Output::Notify(rejected)));
+    assert_eq!(street.following(GO2).executing(), None);
+    street.tell(GO2, Event::RoadClear);
+    street.tell(ARI, order(GO2, TaskType::MOVE));
     assert_eq!(
         street.following(GO2).executing().unwrap().id.request,
-        RequestId(1)
+        RequestId(2)
     );
 }
 
@@ -122,7 +121,10 @@ fn without_contact_the_follower_leaves_after_t_leave() {
     assert_eq!(street[GO2].role(), Role::Follower);
     street.pass(1);
     assert_eq!(street[GO2].role(), Role::None);
-    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(session, FIRST_OFFER))
+    );
     let released = Notice::Released(session, ReleaseReason::ContactLost);
     assert!(street.has_put_out(GO2, Output::Notify(released)));
 }

@@ -6,18 +6,7 @@ use crossguard_protocol::*;
 use script::*;
 
 fn offer_from(station: StationId, session: SessionId, tasks: &[TaskType]) -> Ram {
-    let offer = OfferNumber(UniqueNumber { boot: 1, count: 0 });
-    let capabilities = TaskSet::of(tasks);
-    let coordination = Coordination::OfferHelp {
-        session,
-        offer,
-        capabilities,
-    };
-    Ram {
-        station,
-        coordination,
-        farewell: None,
-    }
+    offer(station, session, FIRST_OFFER, tasks, 0)
 }
 
 fn confirmed(street: &Street) -> Vec<StationId> {
@@ -65,7 +54,7 @@ fn an_idle_robot_offers_to_one_requester_and_stays_with_it() {
     let again = street[ARI].ram();
     assert_eq!(
         street.hears_ram(GO2, again).ignored(),
-        Some(Ignored::NothingNew)
+        Some(Ignored::OldHeartbeat)
     );
     let other = street[SPOT].ram();
     assert_eq!(
@@ -107,7 +96,7 @@ fn a_request_stands_for_t_help_and_no_longer() {
     assert!(street.has_put_out(ARI, Output::Notify(ended)));
     assert_eq!(
         street[ARI].farewell(),
-        Some(Farewell::Ended(session.number))
+        Some(Farewell::Ended(session.number, Ending::Aborted))
     );
 }
 
@@ -196,8 +185,20 @@ fn a_better_offer_displaces_the_worst_of_a_full_list() {
 
 #[test]
 fn a_helper_that_moved_is_ranked_by_its_new_distance() {
-    let offers = [(GO2, BOTH, 10), (SPOT, BOTH, 20), (GO2, BOTH, 30)];
-    assert_eq!(select_among(1, &offers), [SPOT]);
+    let mut street = Street::new(&[ARI]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let session = street.session_of(ARI);
+    let hears = |street: &mut Street, station, echo, distance| {
+        let ram = offer(station, session, FIRST_OFFER, BOTH, echo);
+        let distance = Decimetres(distance);
+        street.step(ARI, Input::Ram { ram, distance });
+    };
+    hears(&mut street, GO2, 0, 10);
+    hears(&mut street, SPOT, 0, 20);
+    street.pass(100);
+    hears(&mut street, GO2, 1, 30);
+    street.pass(200);
+    assert_eq!(confirmed(&street), [SPOT]);
 }
 
 #[test]
@@ -247,7 +248,7 @@ fn a_repeated_offer_changes_nothing() {
     let offer = street[GO2].ram();
     assert_eq!(
         street.hears_ram(ARI, offer).ignored(),
-        Some(Ignored::NothingNew)
+        Some(Ignored::OldHeartbeat)
     );
 }
 
@@ -259,14 +260,7 @@ fn a_robot_that_can_do_nothing_of_what_is_asked_for_does_not_offer() {
         ..Settings::default()
     };
     let mut street = Street::with_settings(&[GO2], settings);
-    let ram = Ram {
-        station: ARI,
-        coordination: Coordination::NeedHelp {
-            number: SessionNumber(UniqueNumber { boot: 1, count: 0 }),
-            request: escort(1),
-        },
-        farewell: None,
-    };
+    let ram = need_help(ARI, 0, 0, escort(1));
     assert_eq!(
         street.hears_ram(GO2, ram).ignored(),
         Some(Ignored::UnsupportedTask)
@@ -334,7 +328,10 @@ fn an_offer_that_ran_out_before_the_confirmation_is_answered() {
     );
     street.heal();
     street.pass(100);
-    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(session, FIRST_OFFER))
+    );
     assert_eq!(street[ARI].role(), Role::None, "its only follower is gone");
 }
 
@@ -345,7 +342,7 @@ fn a_helper_that_left_may_come_back_with_a_new_offer() {
     street.tell(GO2, Event::LeaveRequested);
     assert_eq!(
         street[GO2].farewell(),
-        Some(Farewell::Left(street.session_of(ARI)))
+        Some(Farewell::Left(street.session_of(ARI), FIRST_OFFER))
     );
     street.pass(100);
     assert_eq!(street[GO2].role(), Role::Helper);

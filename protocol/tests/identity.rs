@@ -104,7 +104,11 @@ fn a_follower_leaves_in_order_when_its_own_lock_has_lasted_too_long() {
     street.pass(80_000 - 1_000 - 900 - 400);
     let released = Notice::Released(session, ReleaseReason::IdentityLockLimit);
     assert!(street.has_put_out(GO2, Output::Notify(released)));
-    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    let second = OfferNumber(UniqueNumber { boot: 1, count: 1 });
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(session, second))
+    );
     assert_eq!(street[GO2].identity(), Identity::Expiring);
     assert_eq!(
         street[ARI].state(),
@@ -116,17 +120,15 @@ fn a_follower_leaves_in_order_when_its_own_lock_has_lasted_too_long() {
 #[test]
 fn a_farewell_does_not_outlast_the_lock() {
     let mut street = Street::with_settings(&[ARI], short_lock());
-    let stale = |count| Ram {
-        station: GO2,
-        coordination: Coordination::Follower {
-            session: SessionId {
+    let stale = |count| {
+        follower(
+            GO2,
+            SessionId {
                 leader: ARI,
                 number: SessionNumber(UniqueNumber { boot: 0, count }),
             },
-            echo: Heartbeat(0),
-            last: None,
-        },
-        farewell: None,
+            0,
+        )
     };
     // Somebody keeps naming sessions that are over, so there is always one to say farewell to.
     for count in 0..158 {
@@ -152,18 +154,14 @@ fn while_the_lock_runs_out_no_further_farewell_prolongs_it() {
     street.pass(1);
     assert_eq!(street[ARI].identity(), Identity::Expiring);
     let farewell = street[ARI].farewell();
-    let stale = Ram {
-        station: GO2,
-        coordination: Coordination::Follower {
-            session: SessionId {
-                leader: ARI,
-                number: SessionNumber(UniqueNumber { boot: 0, count: 0 }),
-            },
-            echo: Heartbeat(0),
-            last: None,
+    let stale = follower(
+        GO2,
+        SessionId {
+            leader: ARI,
+            number: SessionNumber(UniqueNumber { boot: 0, count: 0 }),
         },
-        farewell: None,
-    };
+        0,
+    );
     assert_eq!(
         street.hears_ram(ARI, stale).ignored(),
         Some(Ignored::IdentityLockLimit)

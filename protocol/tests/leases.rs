@@ -19,44 +19,26 @@ fn safety_left(street: &Street) -> Option<u32> {
     }
 }
 
-fn leader_ram(street: &Street, heartbeat: u16) -> Ram {
-    let Coordination::Leader {
-        number, followers, ..
-    } = street[ARI].ram().coordination
-    else {
+fn leader_ram(street: &Street, newest: u16) -> Ram {
+    let mut ram = street[ARI].ram();
+    let Coordination::Leader { heartbeat, .. } = &mut ram.coordination else {
         panic!("no leader")
     };
-    let heartbeat = Heartbeat(heartbeat);
-    let coordination = Coordination::Leader {
-        number,
-        heartbeat,
-        followers,
-    };
-    Ram {
-        station: ARI,
-        coordination,
-        farewell: None,
-    }
+    *heartbeat = Heartbeat(newest);
+    ram
 }
 
 fn echo(street: &Street, heartbeat: u16) -> Ram {
-    let session = street.session_of(ARI);
-    let coordination = Coordination::Follower {
-        session,
-        echo: Heartbeat(heartbeat),
-        last: None,
-    };
-    Ram {
-        station: GO2,
-        coordination,
-        farewell: None,
-    }
+    follower(GO2, street.session_of(ARI), heartbeat)
 }
 
-/// Roles at heartbeat 1, then silence between the two.
+/// The newest heartbeat when the roles are established: the request has beaten three times.
+const NEWEST: u16 = 4;
+
+/// Roles, then silence between the two.
 fn apart() -> Street {
     let mut street = Street::with_roles(&[ARI, GO2]);
-    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(1));
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(NEWEST));
     street.part(ARI, GO2);
     street
 }
@@ -65,7 +47,7 @@ fn apart() -> Street {
 fn a_leader_bumps_its_heartbeat_once_per_ram_period() {
     let mut street = apart();
     street.pass(1_000);
-    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(11));
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(NEWEST + 10));
     assert_eq!(street.count(ARI, sends_ram), 10);
 }
 
@@ -73,7 +55,7 @@ fn a_leader_bumps_its_heartbeat_once_per_ram_period() {
 fn a_leader_that_is_told_late_counts_the_periods_it_missed() {
     let mut street = apart();
     street.step(ARI, Input::Elapsed(Millis(1_050)));
-    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(11));
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(NEWEST + 10));
     assert_eq!(street[ARI].next_ram(), Some(Millis(50)));
     assert_eq!(
         street.count(ARI, sends_ram),
@@ -137,20 +119,20 @@ fn a_long_maneuver_needs_no_repeated_command() {
 fn the_lease_counts_from_when_the_echoed_heartbeat_was_sent() {
     let mut street = apart();
     street.pass(400);
-    // Heartbeat 5 has just been sent; its echo comes 70 ms later.
+    // The fourth heartbeat has just been sent; its echo comes 70 ms later.
     street.pass(70);
-    let ram = echo(&street, 5);
+    let ram = echo(&street, NEWEST + 4);
     street.hears_ram(ARI, ram);
     assert_eq!(lease_left(&street), Some(1_900 - 70));
-    // An echo of heartbeat 5 that comes when 8 is the newest is 370 ms old; but it is not newer.
+    // An echo of it that comes when the seventh is the newest is 370 ms old; but it is not newer.
     street.pass(300);
-    let ram = echo(&street, 5);
+    let ram = echo(&street, NEWEST + 4);
     assert_eq!(
         street.hears_ram(ARI, ram).ignored(),
         Some(Ignored::OldHeartbeat)
     );
     assert_eq!(lease_left(&street), Some(1_900 - 370));
-    let ram = echo(&street, 7);
+    let ram = echo(&street, NEWEST + 6);
     street.hears_ram(ARI, ram);
     assert_eq!(lease_left(&street), Some(1_900 - 170));
 }
@@ -160,11 +142,11 @@ fn an_echo_that_is_older_than_a_lease_grants_none() {
     let mut street = apart();
     street.pass(2_000);
     assert_eq!(lease_left(&street), None);
-    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(21));
-    let ram = echo(&street, 2);
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(NEWEST + 20));
+    let ram = echo(&street, NEWEST + 1);
     street.hears_ram(ARI, ram);
     assert_eq!(lease_left(&street), None, "sent 1900 ms ago");
-    let ram = echo(&street, 3);
+    let ram = echo(&street, NEWEST + 2);
     street.hears_ram(ARI, ram);
     assert_eq!(lease_left(&street), Some(100), "sent 1800 ms ago");
     let granted = Notice::LeaseGranted(GO2);
@@ -174,7 +156,7 @@ fn an_echo_that_is_older_than_a_lease_grants_none() {
 #[test]
 fn an_echo_of_a_heartbeat_that_was_never_sent_is_ignored() {
     let mut street = apart();
-    let ram = echo(&street, 2);
+    let ram = echo(&street, NEWEST + 1);
     assert_eq!(
         street.hears_ram(ARI, ram).ignored(),
         Some(Ignored::EchoFromFuture)
@@ -248,8 +230,8 @@ fn heartbeats_wrap_without_confusion() {
     };
     let mut street = Street::with_roles_and_settings(&[ARI, GO2], settings);
     street.pass(1_000);
-    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(9));
-    assert_eq!(street.following(GO2).heard, Heartbeat(9));
+    assert_eq!(street.leading(ARI).heartbeat, Heartbeat(12));
+    assert_eq!(street.following(GO2).heard, Heartbeat(12));
     assert!(lease_left(&street).is_some());
 }
 
@@ -286,38 +268,22 @@ fn gone(station: StationId) -> Output {
 }
 
 #[test]
-fn a_follower_that_the_leader_no_longer_lists_is_released() {
+fn a_follower_that_the_leader_no_longer_lists_falls_back() {
     let mut street = Street::executing(TaskType::MOVE);
-    let Coordination::Leader {
-        number, heartbeat, ..
-    } = street[ARI].ram().coordination
-    else {
-        panic!("no leader")
-    };
     let other = Confirmation {
         station: SPOT,
-        offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
+        offer: FIRST_OFFER,
     };
-    let coordination = Coordination::Leader {
-        number,
-        heartbeat,
-        followers: [other].into_iter().collect(),
-    };
+    let session = street.session_of(ARI);
     let maneuver = street.following(GO2).executing().unwrap();
     let outputs = street.hears_ram(
         GO2,
-        Ram {
-            station: ARI,
-            coordination,
-            farewell: None,
-        },
+        leader(session, NEWEST + 1, [other].into_iter().collect()),
     );
-    let stop = StopReason::Released(ReleaseReason::NotListed);
-    assert!(
-        outputs
-            .iter()
-            .any(|o| *o == Output::StopManeuver(maneuver, stop))
-    );
+    let fall_back = Output::FallBack(maneuver, FallbackPolicy::EscortToKerb);
+    assert!(outputs.iter().any(|o| *o == fall_back));
+    let released = Notice::Released(session, ReleaseReason::NotListed);
+    assert!(outputs.notices().any(|notice| notice == released));
     assert_eq!(street[GO2].role(), Role::None);
     assert_eq!(street[GO2].farewell(), None, "the leader knows already");
 }
@@ -326,33 +292,15 @@ fn a_follower_that_the_leader_no_longer_lists_is_released() {
 fn being_listed_for_another_offer_is_not_being_listed() {
     let mut street = Street::executing(TaskType::MOVE);
     let session = street.session_of(GO2);
-    let Coordination::Leader {
-        number, heartbeat, ..
-    } = street[ARI].ram().coordination
-    else {
-        panic!("no leader")
-    };
     let offer = OfferNumber(UniqueNumber { boot: 0, count: 7 });
-    let followers = [Confirmation {
-        station: GO2,
-        offer,
-    }]
-    .into_iter()
-    .collect();
-    let coordination = Coordination::Leader {
-        number,
-        heartbeat,
-        followers,
-    };
+    let station = GO2;
+    let listed = [Confirmation { station, offer }].into_iter().collect();
     street.part(ARI, GO2);
-    street.hears_ram(
-        GO2,
-        Ram {
-            station: ARI,
-            coordination,
-            farewell: None,
-        },
-    );
+    street.hears_ram(GO2, leader(session, NEWEST + 1, listed));
     assert_eq!(street[GO2].role(), Role::None);
-    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(session, offer)),
+        "it names the offer that does not stand"
+    );
 }

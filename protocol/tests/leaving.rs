@@ -6,14 +6,19 @@ use crossguard_protocol::*;
 use script::*;
 
 #[test]
-fn a_follower_that_leaves_stops_and_names_the_session() {
+fn a_follower_that_leaves_falls_back_and_names_the_session() {
     let mut street = Street::executing(TaskType::MOVE);
     let session = street.session_of(GO2);
     let maneuver = street.following(GO2).executing().unwrap();
     street.tell(GO2, Event::LeaveRequested);
-    let stop = StopReason::Released(ReleaseReason::LeaveRequested);
-    assert!(street.has_put_out(GO2, Output::StopManeuver(maneuver, stop)));
-    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    let policy = FallbackPolicy::EscortToKerb;
+    assert!(street.has_put_out(GO2, Output::FallBack(maneuver, policy)));
+    let released = Notice::Released(session, ReleaseReason::LeaveRequested);
+    assert!(street.has_put_out(GO2, Output::Notify(released)));
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(session, FIRST_OFFER))
+    );
     let gone = Notice::FollowerGone(GO2, GoneReason::Left);
     assert!(street.has_put_out(ARI, Output::Notify(gone)));
 }
@@ -32,12 +37,7 @@ fn a_helper_that_leaves_takes_its_offer_back() {
     let left = street[GO2].ram();
     assert_eq!(left.farewell, None, "the farewell has had its time");
     let session = street.session_of(ARI);
-    let farewell = Some(Farewell::Left(session));
-    let left = Ram {
-        station: GO2,
-        coordination: Coordination::None,
-        farewell,
-    };
+    let left = farewell(GO2, Farewell::Left(session, FIRST_OFFER));
     assert_eq!(
         street.hears_ram(ARI, left).ignored(),
         Some(Ignored::NothingNew)
@@ -117,7 +117,10 @@ fn the_farewell_to_one_session_goes_along_with_the_request_of_the_next() {
     street.tell(ARI, Event::TaskCompleted);
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
     let ram = street[ARI].ram();
-    assert_eq!(ram.farewell, Some(Farewell::Ended(first.number)));
+    assert_eq!(
+        ram.farewell,
+        Some(Farewell::Ended(first.number, Ending::Completed))
+    );
     // The one RAM ends the follower's part and wins it for the next session.
     street.hears_ram(GO2, ram);
     assert_eq!(street[GO2].role(), Role::Helper);
@@ -136,11 +139,7 @@ fn an_end_that_nobody_hears_frees_the_followers_all_the_same() {
 #[test]
 fn what_somebody_else_leaves_is_not_this_robots_concern() {
     let mut street = Street::with_roles(&[ARI, GO2]);
-    let left = |session| Ram {
-        station: SPOT,
-        coordination: Coordination::None,
-        farewell: Some(Farewell::Left(session)),
-    };
+    let left = |session| farewell(SPOT, Farewell::Left(session, FIRST_OFFER));
     let own = street.session_of(ARI);
     let foreign = SessionId { leader: NAO, ..own };
     let older = SessionId {

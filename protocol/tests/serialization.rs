@@ -45,6 +45,7 @@ fn a_robot_in_the_middle_of_a_request_is_what_it_was() {
         urgency: Urgency::Low,
         followers: 1,
         tasks: TaskSet::of(&[TaskType::BLOCK]),
+        place: Place(3),
     };
     let detected = Input::Local(Event::PedestrianDetected(request));
     robot.step(&Config::default(), detected);

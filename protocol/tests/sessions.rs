@@ -30,16 +30,19 @@ fn a_rebooted_leader_never_reuses_a_session_number() {
 }
 
 #[test]
-fn each_session_and_each_offer_of_one_boot_has_its_own_number() {
+fn no_offer_to_a_session_has_the_number_of_another_one() {
     let mut street = Street::new(&[ARI, GO2]);
     let mut seen = Vec::new();
     for _ in 0..3 {
         street.tell(ARI, Event::PedestrianDetected(escort(1)));
-        let Coordination::OfferHelp { offer, .. } = street[GO2].ram().coordination else {
-            panic!()
-        };
-        assert!(!seen.contains(&offer));
-        seen.push(offer);
+        let session = street.session_of(ARI);
+        for _ in 0..2 {
+            let offer = (session, street.offer_of(GO2));
+            assert!(!seen.contains(&offer));
+            seen.push(offer);
+            street.tell(GO2, Event::LeaveRequested);
+            street.pass(100);
+        }
         street.tell(ARI, Event::TaskCompleted);
         street.pass(1_000);
     }
@@ -49,15 +52,7 @@ fn each_session_and_each_offer_of_one_boot_has_its_own_number() {
 fn a_leader_that_lists_nobody_in_another_session_moves_no_follower() {
     let mut street = Street::executing(TaskType::MOVE);
     let before = following_state(&street);
-    let stale = Ram {
-        station: ARI,
-        coordination: Coordination::Leader {
-            number: other_session(ARI).number,
-            heartbeat: Heartbeat(500),
-            followers: Followers::EMPTY,
-        },
-        farewell: None,
-    };
+    let stale = leader(other_session(ARI), 500, Followers::EMPTY);
     assert_eq!(
         street.hears_ram(GO2, stale).ignored(),
         Some(Ignored::NotAddressed)
@@ -68,21 +63,13 @@ fn a_leader_that_lists_nobody_in_another_session_moves_no_follower() {
 #[test]
 fn a_bare_none_releases_nobody() {
     let mut street = Street::executing(TaskType::MOVE);
-    let bare = Ram {
-        station: ARI,
-        coordination: Coordination::None,
-        farewell: None,
-    };
+    let bare = ram(ARI, Coordination::None);
     assert_eq!(
         street.hears_ram(GO2, bare).ignored(),
         Some(Ignored::NothingNew)
     );
     assert_eq!(street[GO2].state(), State::ManeuverExecuting);
-    let bare = Ram {
-        station: GO2,
-        coordination: Coordination::None,
-        farewell: None,
-    };
+    let bare = ram(GO2, Coordination::None);
     assert_eq!(
         street.hears_ram(ARI, bare).ignored(),
         Some(Ignored::NothingNew)
@@ -94,11 +81,7 @@ fn a_bare_none_releases_nobody() {
 fn only_the_end_of_the_own_session_releases() {
     let mut street = Street::executing(TaskType::MOVE);
     let session = street.session_of(GO2);
-    let ended = |station, number| Ram {
-        station,
-        coordination: Coordination::None,
-        farewell: Some(Farewell::Ended(number)),
-    };
+    let ended = |station, number| farewell(station, Farewell::Ended(number, Ending::Completed));
     let of_another_number = ended(ARI, other_session(ARI).number);
     assert_eq!(
         street.hears_ram(GO2, of_another_number).ignored(),
@@ -113,7 +96,7 @@ fn only_the_end_of_the_own_session_releases() {
 
     let maneuver = street.following(GO2).executing().unwrap();
     let outputs = street.hears_ram(GO2, ended(ARI, session.number));
-    let stop = StopReason::Released(ReleaseReason::SessionEnded);
+    let stop = StopReason::Released(ReleaseReason::TaskCompleted);
     assert!(
         outputs
             .iter()
@@ -143,17 +126,8 @@ fn a_command_of_another_session_is_not_executed() {
             task: TaskType::MOVE,
         };
         let outputs = street.hears_rmcm(GO2, Rmcm::Command(command));
-        assert!(!outputs.iter().any(starts) && !outputs.iter().any(sends_rmcm));
+        assert_eq!(outputs.ignored(), Some(Ignored::OtherSession));
         assert_eq!(following_state(&street), before);
-        // Who commands in a session that this robot has no part in is told so.
-        let left = Some(Farewell::Left(other_session(leader)));
-        assert_eq!(street[GO2].farewell(), left);
-        assert!(outputs.iter().any(sends_ram));
-        assert_eq!(
-            street.hears_rmcm(GO2, Rmcm::Command(command)).ignored(),
-            Some(Ignored::NothingNew),
-            "told once, not once per command"
-        );
     }
 }
 
@@ -201,19 +175,11 @@ fn whoever_follows_in_a_session_that_is_over_is_told_so() {
     street.pass(100);
     assert_eq!(
         street[ARI].farewell(),
-        Some(Farewell::Ended(session.number))
+        Some(Farewell::Ended(session.number, Ending::Aborted))
     );
     assert_eq!(street[GO2].state(), State::Idle);
     // It stands for a while and is not started anew by every RAM.
-    let stale = Ram {
-        station: GO2,
-        coordination: Coordination::Follower {
-            session,
-            echo: Heartbeat(0),
-            last: None,
-        },
-        farewell: None,
-    };
+    let stale = follower(GO2, session, 0);
     assert_eq!(
         street.hears_ram(ARI, stale).ignored(),
         Some(Ignored::NothingNew)
@@ -230,7 +196,7 @@ fn a_session_that_somebody_named_before_it_was_opened_is_not_named_as_over() {
     street.hears_ram(ARI, offer_to(session));
     assert_eq!(
         street[ARI].farewell(),
-        Some(Farewell::Ended(session.number))
+        Some(Farewell::Ended(session.number, Ending::Aborted))
     );
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
     assert_eq!(street.session_of(ARI), session);
@@ -252,15 +218,7 @@ fn whoever_claims_a_part_that_nobody_gave_it_does_not_end_the_session() {
     let mut street = Street::new(&[ARI]);
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
     let session = street.session_of(ARI);
-    let claim = Ram {
-        station: GO2,
-        coordination: Coordination::Follower {
-            session,
-            echo: Heartbeat(0),
-            last: None,
-        },
-        farewell: None,
-    };
+    let claim = follower(GO2, session, 0);
     assert_eq!(
         street.hears_ram(ARI, claim).ignored(),
         Some(Ignored::NotAFollower)
@@ -270,16 +228,7 @@ fn whoever_claims_a_part_that_nobody_gave_it_does_not_end_the_session() {
 
 /// What `GO2` says when it has a part in an older session of `ARI`.
 fn offer_to(session: SessionId) -> Ram {
-    let coordination = Coordination::OfferHelp {
-        session,
-        offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
-        capabilities: TaskSet::of(&[TaskType::MOVE]),
-    };
-    Ram {
-        station: GO2,
-        coordination,
-        farewell: None,
-    }
+    offer(GO2, session, FIRST_OFFER, &[TaskType::MOVE], 0)
 }
 
 #[test]
@@ -293,7 +242,7 @@ fn an_offer_to_an_older_session_is_not_taken_for_the_present_one() {
         let before = street[ARI].phase().clone();
         street.hears_ram(ARI, offer_to(other_session(ARI)));
         assert_eq!(*street[ARI].phase(), before);
-        let ended = Farewell::Ended(other_session(ARI).number);
+        let ended = Farewell::Ended(other_session(ARI).number, Ending::Aborted);
         assert_eq!(
             street[ARI].farewell(),
             Some(ended),
@@ -316,20 +265,7 @@ fn a_helper_is_not_moved_by_another_session_of_the_same_leader() {
         offer,
     };
     for followers in [Followers::EMPTY, [me].into_iter().collect()] {
-        let (number, heartbeat) = (other_session(ARI).number, Heartbeat(0));
-        let coordination = Coordination::Leader {
-            number,
-            heartbeat,
-            followers,
-        };
-        street.hears_ram(
-            GO2,
-            Ram {
-                station: ARI,
-                coordination,
-                farewell: None,
-            },
-        );
+        street.hears_ram(GO2, leader(other_session(ARI), 0, followers));
         assert_eq!(*street[GO2].phase(), before);
     }
     let (request, task) = (RequestId(0), TaskType::MOVE);
@@ -341,11 +277,12 @@ fn a_helper_is_not_moved_by_another_session_of_the_same_leader() {
     };
     assert_eq!(
         street.hears_rmcm(GO2, Rmcm::Command(command)).ignored(),
-        Some(Ignored::NothingNew)
+        Some(Ignored::OtherSession)
     );
     assert_eq!(
         street[GO2].farewell(),
-        Some(Farewell::Left(other_session(ARI)))
+        Some(Farewell::Left(other_session(ARI), offer)),
+        "it said so when it was listed"
     );
     assert_eq!(*street[GO2].phase(), before);
 }
@@ -354,12 +291,7 @@ fn a_helper_is_not_moved_by_another_session_of_the_same_leader() {
 fn who_leaves_an_older_session_keeps_its_offer_to_the_present_one() {
     let mut street = Street::new(&[ARI, GO2]);
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
-    let farewell = Some(Farewell::Left(other_session(ARI)));
-    let left = Ram {
-        station: GO2,
-        coordination: Coordination::None,
-        farewell,
-    };
+    let left = farewell(GO2, Farewell::Left(other_session(ARI), FIRST_OFFER));
     assert_eq!(
         street.hears_ram(ARI, left).ignored(),
         Some(Ignored::OtherSession)
@@ -401,7 +333,10 @@ fn a_rebooted_follower_is_not_drawn_back_by_a_late_confirmation() {
     let released = Notice::Released(session, ReleaseReason::NotListed);
     assert!(outputs.notices().any(|notice| notice == released));
     assert_eq!(street[GO2].role(), Role::None);
-    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(session, FIRST_OFFER))
+    );
 
     // The leader learns it.
     street.heal();
@@ -415,7 +350,10 @@ fn a_rebooted_follower_that_is_still_listed_says_that_it_left() {
     let session = street.session_of(ARI);
     street.reboot(GO2);
     street.pass(100);
-    assert_eq!(street[GO2].farewell(), Some(Farewell::Left(session)));
+    assert_eq!(
+        street[GO2].farewell(),
+        Some(Farewell::Left(session, FIRST_OFFER))
+    );
     let gone = Notice::FollowerGone(GO2, GoneReason::Left);
     assert!(street.has_put_out(ARI, Output::Notify(gone)));
     let ended = Notice::SessionEnded(session, EndReason::NoFollowers);
@@ -428,17 +366,11 @@ fn a_robot_has_one_part_in_one_session_at_a_time() {
     for who in [ARI, GO2] {
         let detected = street.tell(who, Event::PedestrianDetected(escort(1)));
         assert_eq!(detected.ignored(), Some(Ignored::InSession));
-        let other = Ram {
-            station: SPOT,
-            coordination: Coordination::NeedHelp {
-                number: other_session(SPOT).number,
-                request: HelpRequest {
-                    urgency: Urgency::Emergency,
-                    ..escort(1)
-                },
-            },
-            farewell: None,
+        let urgent = HelpRequest {
+            urgency: Urgency::Emergency,
+            ..escort(1)
         };
+        let other = need_help(SPOT, 9, 0, urgent);
         assert_eq!(
             street.hears_ram(who, other).ignored(),
             Some(Ignored::InSession)
@@ -481,14 +413,7 @@ fn messages_with_the_own_station_id_are_ignored() {
 #[test]
 fn a_boot_whose_numbers_are_used_up_opens_no_session_and_makes_no_offer() {
     let mut street = Street::new(&[ARI]);
-    let need_help = |count| Ram {
-        station: SPOT,
-        coordination: Coordination::NeedHelp {
-            number: SessionNumber(UniqueNumber { boot: 1, count }),
-            request: escort(1),
-        },
-        farewell: None,
-    };
+    let need_help = |count| need_help(SPOT, count, 0, escort(1));
     for count in 0..u16::MAX {
         assert_eq!(street.hears_ram(ARI, need_help(count)).ignored(), None);
         street.tell(ARI, Event::LeaveRequested);

@@ -128,29 +128,21 @@ fn the_end_of_the_session_frees_them_all() {
 
 #[test]
 fn one_step_of_a_full_team_stays_within_the_capacity_for_outputs() {
-    let mut street = team();
+    let everybody = [ARI, GO2, SPOT, NAO, PEPPER];
+    // The leader sleeps until everything is due at once: under an open corridor, and with commands that
+    // nobody acknowledges.
+    let open = Street::open(&everybody, TaskType::BLOCK);
+    let mut commanded = team();
     for follower in [GO2, SPOT, NAO, PEPPER] {
-        street.tell(
-            ARI,
-            Event::CommandManeuver {
-                follower,
-                task: TaskType::BLOCK,
-            },
-        );
+        commanded.tell(ARI, order(follower, TaskType::BLOCK));
     }
-    assert_eq!(street.tell(ARI, Event::OpenCorridor).ignored(), None);
     for follower in [GO2, SPOT, NAO, PEPPER] {
-        street.part(ARI, follower);
-        street.tell(
-            ARI,
-            Event::CommandManeuver {
-                follower,
-                task: TaskType::MOVE,
-            },
-        );
+        commanded.part(ARI, follower);
+        commanded.tell(ARI, order(follower, TaskType::MOVE));
     }
-    // The leader sleeps until everything is due at once.
-    let outputs = street.step(ARI, Input::Elapsed(Millis(400_000)));
-    assert!(outputs.len() <= MAX_OUTPUTS);
-    assert_eq!(street[ARI].state(), State::Idle);
+    for mut street in [open, commanded] {
+        let outputs = street.step(ARI, Input::Elapsed(Millis(400_000)));
+        assert!(outputs.len() <= MAX_OUTPUTS);
+        assert_eq!(street[ARI].state(), State::Idle);
+    }
 }

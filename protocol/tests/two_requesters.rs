@@ -27,6 +27,12 @@ fn the_lower_station_id_goes_before_among_equals() {
     let withdrawn = street.session_of(GO2);
     street.pass(100);
     assert_eq!(
+        street[GO2].role(),
+        Role::Requester,
+        "it has heard the other once"
+    );
+    street.pass(100);
+    assert_eq!(
         (street[ARI].role(), street[GO2].role()),
         (Role::Requester, Role::Helper)
     );
@@ -38,7 +44,7 @@ fn the_lower_station_id_goes_before_among_equals() {
     );
     assert_eq!(
         street[GO2].farewell(),
-        Some(Farewell::Ended(withdrawn.number))
+        Some(Farewell::Ended(withdrawn.number, Ending::Aborted))
     );
     street.pass(400);
     assert_eq!(
@@ -55,7 +61,7 @@ fn urgency_goes_before_station_id() {
         (Urgency::High, Urgency::Emergency),
     ] {
         let mut street = both_ask(first, second);
-        street.pass(500);
+        street.pass(600);
         assert_eq!(
             (street[ARI].role(), street[GO2].role()),
             (Role::Follower, Role::Leader)
@@ -94,17 +100,11 @@ fn a_helper_of_the_withdrawn_request_becomes_free_for_the_other() {
 #[test]
 fn a_leader_that_has_confirmed_somebody_does_not_withdraw() {
     let mut street = Street::with_roles(&[GO2, SPOT]);
-    let preceding = Ram {
-        station: ARI,
-        coordination: Coordination::NeedHelp {
-            number: SessionNumber(UniqueNumber { boot: 1, count: 0 }),
-            request: HelpRequest {
-                urgency: Urgency::Emergency,
-                ..escort(1)
-            },
-        },
-        farewell: None,
+    let urgent = HelpRequest {
+        urgency: Urgency::Emergency,
+        ..escort(1)
     };
+    let preceding = need_help(ARI, 0, 0, urgent);
     assert_eq!(
         street.hears_ram(GO2, preceding).ignored(),
         Some(Ignored::InSession)
@@ -121,15 +121,10 @@ fn a_requester_that_cannot_help_withdraws_all_the_same() {
     };
     let mut street = Street::with_settings(&[GO2], settings);
     street.tell(GO2, Event::PedestrianDetected(escort(1)));
-    let preceding = Ram {
-        station: ARI,
-        coordination: Coordination::NeedHelp {
-            number: SessionNumber(UniqueNumber { boot: 1, count: 0 }),
-            request: escort(1),
-        },
-        farewell: None,
-    };
-    assert_eq!(street.hears_ram(GO2, preceding).ignored(), None);
+    for heartbeat in [0, 1] {
+        let preceding = need_help(ARI, 0, heartbeat, escort(1));
+        assert_eq!(street.hears_ram(GO2, preceding).ignored(), None);
+    }
     assert_eq!(street[GO2].role(), Role::None);
 }
 

@@ -20,6 +20,7 @@ fn request() -> HelpRequest {
         urgency: Urgency::High,
         followers: 2,
         tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]),
+        place: Place(0x0005_0007),
     }
 }
 
@@ -28,6 +29,7 @@ fn ram(coordination: Coordination, farewell: Option<Farewell>) -> Ram {
         station: ARI,
         coordination,
         farewell,
+        on_duty: false,
     }
 }
 
@@ -50,7 +52,9 @@ fn numbers_and_quantities() {
         Millis(250) => "250 ms",
         Decimetres(42) => "4.2 m",
         Decimetres::UNKNOWN => "unknown distance",
-        request() => "2 x initialPos+move, high urgency",
+        request() => "2 x initialPos+move, high urgency, at 5:7",
+        HelpRequest { place: Place::UNKNOWN, ..request() } => "2 x initialPos+move, high urgency",
+        Place::UNKNOWN => "an unknown place",
         Availability::Available => "available",
         Availability::Unavailable(Unavailability::LowBattery) => "low battery",
     );
@@ -65,6 +69,14 @@ fn messages() {
         station,
         offer: OfferNumber(NUMBER),
     });
+    let leader = |yields| Coordination::Leader {
+        number,
+        heartbeat,
+        followers: followers.into_iter().collect(),
+        urgency: Urgency::High,
+        place: Place::UNKNOWN,
+        yields,
+    };
     let last = Report {
         request: RequestId(7),
         progress: Progress::SafeIdle,
@@ -81,22 +93,27 @@ fn messages() {
     assert_reads!(
         last => "request 7 safe idle",
         ram(Coordination::None, None) => "RAM none",
-        ram(Coordination::None, Some(Farewell::Ended(number))) => "RAM none, ended 1#3.4",
-        ram(Coordination::None, Some(Farewell::Left(session))) => "RAM none, left 1#3.4",
-        ram(Coordination::NeedHelp { number, request: request() }, None)
-            => "RAM needHelp 1#3.4 (2 x initialPos+move, high urgency)",
+        ram(Coordination::None, Some(Farewell::Ended(number, Ending::Completed)))
+            => "RAM none, ended 1#3.4, completed",
+        ram(Coordination::None, Some(Farewell::Ended(number, Ending::Aborted)))
+            => "RAM none, ended 1#3.4, aborted",
+        ram(Coordination::None, Some(Farewell::Left(session, OfferNumber(NUMBER))))
+            => "RAM none, left 1#3.4 by offer 3.4",
+        Ram { on_duty: true, ..ram(Coordination::None, None) } => "RAM none, on duty",
+        ram(Coordination::NeedHelp { number, heartbeat, request: request() }, None)
+            => "RAM needHelp 1#3.4 (2 x initialPos+move, high urgency, at 5:7), heartbeat 9",
         ram(
             Coordination::OfferHelp {
                 session,
                 offer: OfferNumber(NUMBER),
                 capabilities: TaskSet::of(&[TaskType::BLOCK]),
+                echo: heartbeat,
+                t_safety: Millis(2_000),
             },
             None,
-        ) => "RAM offerHelp 1#3.4 (block)",
-        ram(
-            Coordination::Leader { number, heartbeat, followers: followers.into_iter().collect() },
-            None,
-        ) => "RAM leader 1#3.4 of 2 3, heartbeat 9",
+        ) => "RAM offerHelp 1#3.4 (block), echo 9",
+        ram(leader(false), None) => "RAM leader 1#3.4 of 2 3, heartbeat 9",
+        ram(leader(true), None) => "RAM leader 1#3.4 of 2 3, heartbeat 9, yields the place",
         ram(Coordination::Follower { session, echo: heartbeat, last: None }, None)
             => "RAM follower 1#3.4, echo 9",
         ram(Coordination::Follower { session, echo: heartbeat, last: Some(last) }, None)
@@ -116,7 +133,11 @@ fn inputs() {
     let distance = Decimetres(42);
     assert_reads!(
         tells(Event::PedestrianDetected(request()))
-            => "pedestrian detected (2 x initialPos+move, high urgency)",
+            => "pedestrian detected (2 x initialPos+move, high urgency, at 5:7)",
+        tells(Event::InPosition(MANEUVER)) => "maneuver 1#3.4/7 in position",
+        tells(Event::RoadClear) => "road clear",
+        tells(Event::AllAnswered) => "all have answered",
+        tells(Event::EpochRenewed(4)) => "boot counter renewed to 4",
         tells(Event::CommandManeuver { follower, task }) => "command 2 move",
         tells(Event::ManeuverCompleted(MANEUVER)) => "maneuver 1#3.4/7 completed",
         tells(Event::ManeuverFailed(MANEUVER)) => "maneuver 1#3.4/7 failed",
@@ -145,7 +166,9 @@ fn outputs() {
         Output::StartManeuver(maneuver) => "start move 1#3.4/7",
         Output::FallBack(maneuver, FallbackPolicy::GoToSafePosition)
             => "fall back from move 1#3.4/7: go to safe position",
-        Output::CorridorOpened => "corridor opened",
+        Output::CorridorOpened(Millis(1_900)) => "corridor opened for 1900 ms",
+        Output::CorridorExtended(Millis(1_800)) => "corridor open for another 1800 ms",
+        Output::RenewEpoch => "renew the boot counter",
         Output::CorridorClosed(engaged)
             => "corridor closed: station 2 is unable to do its task: execution limit",
         Output::LockIdentity => "lock identity",
@@ -154,6 +177,9 @@ fn outputs() {
         Output::Ignored(Ignored::Unavailable(Unavailability::NotSafe))
             => "ignored: unavailable, not safe",
         Notice::CommandAcknowledged(GO2, MANEUVER) => "2 acknowledged 1#3.4/7",
+        Notice::ManeuverInPosition(GO2, MANEUVER) => "2 in position for 1#3.4/7",
+        Notice::OfferLapsed(GO2) => "the offer of 2 has lapsed",
+        Notice::Yielded(GO2) => "place yielded to 2",
         Notice::FollowerSafeIdle(GO2, MANEUVER) => "2 fell back from 1#3.4/7",
     );
 }
@@ -167,6 +193,6 @@ fn a_robot_tells_its_state_and_what_it_says() {
     assert_eq!(
         robot.to_string(),
         "HelpRequested, requester, available, session 1#3.0; says: RAM needHelp 1#3.0 \
-         (2 x initialPos+move, high urgency)"
+         (2 x initialPos+move, high urgency, at 5:7), heartbeat 0"
     );
 }

@@ -4736,7 +4736,8 @@ pub mod crossguard_common {
     )]
     #[rasn(delegate, value("0..=4294967295"))]
     pub struct SessionNumber(pub u32);
-    /// How far a robot is with its task; safeIdle: it stopped because it lost contact with its leader.
+    /// How far a robot is with its task. executing: on the way; inPosition: it holds the place from which
+    /// it guards; safeIdle: it stopped because it lost contact with its leader.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
     )]
@@ -4745,9 +4746,10 @@ pub mod crossguard_common {
     pub enum TaskProgression {
         idle = 0,
         executing = 1,
-        completed = 2,
-        failed = 3,
-        safeIdle = 4,
+        inPosition = 2,
+        completed = 3,
+        failed = 4,
+        safeIdle = 5,
     }
     /// Set of task types: bit n stands for task type n.
     #[derive(
@@ -5617,7 +5619,8 @@ pub mod crossguard_ram {
             }
         }
     }
-    /// Every progress but executing is final for its command.
+    /// The maneuver runs while it is executing or inPosition: the robot is on the way, or it holds the
+    /// place from which it guards. Every other progress is final for its command.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5625,6 +5628,7 @@ pub mod crossguard_ram {
     #[non_exhaustive]
     pub enum CommandProgress {
         executing(()),
+        inPosition(()),
         completed(()),
         failed(FailureReason),
         safeIdle(()),
@@ -5682,6 +5686,46 @@ pub mod crossguard_ram {
         fault = 3,
         unavailable = 4,
     }
+    /// Crossing of a request and its session, named like an IntersectionReferenceID of ISO/TS 19091: the
+    /// authority that numbers intersections, and the intersection. Where it is absent the crossing is not
+    /// known and may be any. 0:0 is never present.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct CrossingReference {
+        #[rasn(value("0..=65535"))]
+        pub regulator: u16,
+        #[rasn(value("0..=65535"))]
+        pub intersection: u16,
+    }
+    impl CrossingReference {
+        pub fn new(regulator: u16, intersection: u16) -> Self {
+            Self {
+                regulator,
+                intersection,
+            }
+        }
+    }
+    /// The sender's own session of this number, and how it ended.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct EndedSession {
+        #[rasn(identifier = "sessionNumber")]
+        #[serde(rename = "sessionNumber")]
+        pub session_number: SessionNumber,
+        pub ending: SessionEnding,
+    }
+    impl EndedSession {
+        pub fn new(session_number: SessionNumber, ending: SessionEnding) -> Self {
+            Self {
+                session_number,
+                ending,
+            }
+        }
+    }
     /// Why a maneuver ended without success: it could not be done, or the robot became unavailable.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
@@ -5720,7 +5764,8 @@ pub mod crossguard_ram {
             }
         }
     }
-    /// Number that grows by one for every RAM period of a session: a serial number modulo 65536.
+    /// Number that grows by one for every RAM period of a session, from its request on: a serial number
+    /// modulo 65536.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5738,7 +5783,9 @@ pub mod crossguard_ram {
         offerHelp = 2,
         roleConfirmed = 3,
     }
-    /// Offers to join the session of a requester, with the tasks that it can do of those asked for.
+    /// Offers to join the session of a requester, with the tasks that it can do of those asked for and the
+    /// newest heartbeat of the request that it heard. safetyTimeout is the time without a heartbeat after
+    /// which it falls back; a requester whose lease is too long for it does not take the offer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5750,21 +5797,33 @@ pub mod crossguard_ram {
         #[serde(rename = "offerNumber")]
         pub offer_number: OfferNumber,
         pub capabilities: TaskSet,
+        #[rasn(identifier = "heartbeatEcho")]
+        #[serde(rename = "heartbeatEcho")]
+        pub heartbeat_echo: Heartbeat,
+        #[rasn(identifier = "safetyTimeout")]
+        #[serde(rename = "safetyTimeout")]
+        pub safety_timeout: SafetyTimeout,
     }
     impl HelperRole {
         pub fn new(
             session: CoordinationSession,
             offer_number: OfferNumber,
             capabilities: TaskSet,
+            heartbeat_echo: Heartbeat,
+            safety_timeout: SafetyTimeout,
         ) -> Self {
             Self {
                 session,
                 offer_number,
                 capabilities,
+                heartbeat_echo,
+                safety_timeout,
             }
         }
     }
-    /// Leads a session. Whoever is not among the followers has no part in it.
+    /// Leads a session. A robot that is not among the followers has no part in it. urgency and crossing
+    /// are those of the request; yields is TRUE once it has given the crossing up to another leader and
+    /// lets nobody cross any more.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5773,6 +5832,9 @@ pub mod crossguard_ram {
     pub struct LeaderRole {
         pub session: CoordinationSession,
         pub heartbeat: Heartbeat,
+        pub urgency: RequestUrgency,
+        pub crossing: Option<CrossingReference>,
+        pub yields: bool,
         #[rasn(size("1..=4"))]
         pub followers: SequenceOf<ConfirmedFollower>,
     }
@@ -5780,12 +5842,38 @@ pub mod crossguard_ram {
         pub fn new(
             session: CoordinationSession,
             heartbeat: Heartbeat,
+            urgency: RequestUrgency,
+            crossing: Option<CrossingReference>,
+            yields: bool,
             followers: SequenceOf<ConfirmedFollower>,
         ) -> Self {
             Self {
                 session,
                 heartbeat,
+                urgency,
+                crossing,
+                yields,
                 followers,
+            }
+        }
+    }
+    /// Another station's session, in which the sender has no part any more by this offer or an earlier
+    /// one. A later offer stands.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(automatic_tags)]
+    pub struct LeftSession {
+        pub session: CoordinationSession,
+        #[rasn(identifier = "offerNumber")]
+        #[serde(rename = "offerNumber")]
+        pub offer_number: OfferNumber,
+    }
+    impl LeftSession {
+        pub fn new(session: CoordinationSession, offer_number: OfferNumber) -> Self {
+            Self {
+                session,
+                offer_number,
             }
         }
     }
@@ -5897,7 +5985,8 @@ pub mod crossguard_ram {
         high = 2,
         emergency = 3,
     }
-    /// Has opened a session and asks for followers who can do these tasks.
+    /// Has opened a session and asks for followers that can do these tasks. A request whose heartbeat
+    /// does not grow does not stand any more.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5905,7 +5994,9 @@ pub mod crossguard_ram {
     #[non_exhaustive]
     pub struct RequesterRole {
         pub session: CoordinationSession,
+        pub heartbeat: Heartbeat,
         pub urgency: RequestUrgency,
+        pub crossing: Option<CrossingReference>,
         #[rasn(value("1..=4"), identifier = "followerCount")]
         #[serde(rename = "followerCount")]
         pub follower_count: u8,
@@ -5916,13 +6007,17 @@ pub mod crossguard_ram {
     impl RequesterRole {
         pub fn new(
             session: CoordinationSession,
+            heartbeat: Heartbeat,
             urgency: RequestUrgency,
+            crossing: Option<CrossingReference>,
             follower_count: u8,
             requested_tasks: TaskSet,
         ) -> Self {
             Self {
                 session,
+                heartbeat,
                 urgency,
+                crossing,
                 follower_count,
                 requested_tasks,
             }
@@ -6108,8 +6203,10 @@ pub mod crossguard_ram {
         }
     }
     /// What the robot is and how it is. unavailability is present while the robot takes no part in
-    /// coordination. helpStatus goes with the operation container: needHelp with a requester, offerHelp
-    /// with a helper, roleConfirmed with a leader or a follower, none with none of these.
+    /// coordination. onDuty is TRUE while the robot still has a duty on the road from a maneuver or
+    /// session that ended early: until the road is clear it offers no help and takes no command.
+    /// helpStatus goes with the operation container: needHelp with a requester, offerHelp with a helper,
+    /// roleConfirmed with a leader or a follower, none with none of these.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -6135,6 +6232,9 @@ pub mod crossguard_ram {
         #[serde(rename = "helpStatus")]
         pub help_status: HelpStatus,
         pub unavailability: Option<UnavailabilityReason>,
+        #[rasn(identifier = "onDuty")]
+        #[serde(rename = "onDuty")]
+        pub on_duty: bool,
     }
     impl RobotStatusContainer {
         pub fn new(
@@ -6145,6 +6245,7 @@ pub mod crossguard_ram {
             control_mode: ControlMode,
             help_status: HelpStatus,
             unavailability: Option<UnavailabilityReason>,
+            on_duty: bool,
         ) -> Self {
             Self {
                 robot_category,
@@ -6154,8 +6255,25 @@ pub mod crossguard_ram {
                 control_mode,
                 help_status,
                 unavailability,
+                on_duty,
             }
         }
+    }
+    /// 1 ms, up to one day.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
+    )]
+    #[rasn(delegate, value("1..=86400000"))]
+    pub struct SafetyTimeout(pub u32);
+    /// completed: the crossing is completed and the road is clear, followers are free. aborted: any other
+    /// end; people may be on the road, so followers fall back.
+    #[derive(
+        AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
+    )]
+    #[rasn(enumerated)]
+    pub enum SessionEnding {
+        completed = 0,
+        aborted = 1,
     }
     /// Names a session as over: the sender's own has ended, or it has left that of another station.
     #[derive(
@@ -6164,8 +6282,8 @@ pub mod crossguard_ram {
     #[rasn(choice, automatic_tags)]
     #[non_exhaustive]
     pub enum SessionFarewell {
-        ended(SessionNumber),
-        left(CoordinationSession),
+        ended(EndedSession),
+        left(LeftSession),
     }
     /// Part in a session. The session of a requester and of a leader is the sender's own.
     #[derive(
@@ -6427,7 +6545,8 @@ pub mod crossguard_rmcm {
             Self { header, rmcm }
         }
     }
-    /// Why a command is rejected: the robot cannot do such a task, or it is unavailable.
+    /// Why a command is rejected: the robot cannot do such a task, it is unavailable, or it has a duty on
+    /// the road from a maneuver or session that ended early.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -6436,6 +6555,7 @@ pub mod crossguard_rmcm {
     pub enum RejectionReason {
         unsupportedTask(()),
         unavailable(UnavailabilityReason),
+        onDuty(()),
     }
     /// Containers of an RMCM.
     #[derive(

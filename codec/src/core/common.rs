@@ -39,9 +39,9 @@ asn1! {
 }
 
 asn1! {
-    /// How far a robot is with its task; `safeIdle`: it stopped because it lost contact with its
-    /// leader.
-    TaskProgression ::= ENUMERATED { Idle, Executing, Completed, Failed, SafeIdle, ... }
+    /// How far a robot is with its task. `executing`: on the way; `inPosition`: it holds the place
+    /// from which it guards; `safeIdle`: it stopped because it lost contact with its leader.
+    TaskProgression ::= ENUMERATED { Idle, Executing, InPosition, Completed, Failed, SafeIdle, ... }
 }
 
 asn1! {

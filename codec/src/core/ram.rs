@@ -116,9 +116,10 @@ asn1! {
 
 asn1! {
     /// What the robot is and how it is. unavailability is present while the robot takes no part in
-    /// coordination. `helpStatus` goes with the operation container: `needHelp` with a requester,
-    /// `offerHelp` with a helper, `roleConfirmed` with a leader or a follower, none with none of
-    /// these.
+    /// coordination. `onDuty` is TRUE while the robot still has a duty on the road from a maneuver
+    /// or session that ended early: until the road is clear it offers no help and takes no command.
+    /// `helpStatus` goes with the operation container: `needHelp` with a requester, `offerHelp` with
+    /// a helper, `roleConfirmed` with a leader or a follower, none with none of these.
     RobotStatusContainer ::= SEQUENCE {
         robot_category       RobotCategory,
         operational_job_role OperationalJobRole,
@@ -127,6 +128,7 @@ asn1! {
         control_mode         ControlMode,
         help_status          HelpStatus,
         unavailability       UnavailabilityReason OPTIONAL,
+        on_duty              bool,
         ...
     }
 }
@@ -197,10 +199,13 @@ asn1! {
 }
 
 asn1! {
-    /// Has opened a session and asks for followers who can do these tasks.
+    /// Has opened a session and asks for followers that can do these tasks. A request whose
+    /// heartbeat does not grow does not stand any more.
     RequesterRole ::= SEQUENCE {
         session         CoordinationSession,
+        heartbeat       Heartbeat,
         urgency         RequestUrgency,
+        crossing        CrossingReference OPTIONAL,
         follower_count  RequestedFollowers,
         requested_tasks TaskSet,
         ...
@@ -214,13 +219,38 @@ asn1! {
 }
 
 asn1! {
-    /// Offers to join the session of a requester, with the tasks that it can do of those asked for.
+    /// Road regulator or intersection of a crossing.
+    CrossingNumber ::= INTEGER (0..65_535) is u16
+}
+
+asn1! {
+    /// Crossing of a request and its session, named like an `IntersectionReferenceID` of ISO/TS
+    /// 19091: the authority that numbers intersections, and the intersection. Where it is absent the
+    /// crossing is not known and may be any. 0:0 is never present.
+    CrossingReference ::= SEQUENCE {
+        regulator    CrossingNumber,
+        intersection CrossingNumber
+    }
+}
+
+asn1! {
+    /// Offers to join the session of a requester, with the tasks that it can do of those asked for
+    /// and the newest heartbeat of the request that it heard. `safetyTimeout` is the time without a
+    /// heartbeat after which it falls back; a requester whose lease is too long for it does not take
+    /// the offer.
     HelperRole ::= SEQUENCE {
-        session      CoordinationSession,
-        offer_number OfferNumber,
-        capabilities TaskSet,
+        session        CoordinationSession,
+        offer_number   OfferNumber,
+        capabilities   TaskSet,
+        heartbeat_echo Heartbeat,
+        safety_timeout SafetyTimeout,
         ...
     }
+}
+
+asn1! {
+    /// 1 ms, up to one day.
+    SafetyTimeout ::= INTEGER (1..86_400_000) as u32
 }
 
 asn1! {
@@ -229,17 +259,23 @@ asn1! {
 }
 
 asn1! {
-    /// Leads a session. Whoever is not among the followers has no part in it.
+    /// Leads a session. A robot that is not among the followers has no part in it. urgency and
+    /// crossing are those of the request; yields is TRUE once it has given the crossing up to
+    /// another leader and lets nobody cross any more.
     LeaderRole ::= SEQUENCE {
         session   CoordinationSession,
         heartbeat Heartbeat,
+        urgency   RequestUrgency,
+        crossing  CrossingReference OPTIONAL,
+        yields    bool,
         followers ConfirmedFollowers,
         ...
     }
 }
 
 asn1! {
-    /// Number that grows by one for every RAM period of a session: a serial number modulo 65536.
+    /// Number that grows by one for every RAM period of a session, from its request on: a serial
+    /// number modulo 65536.
     Heartbeat ::= INTEGER (0..65_535) is u16
 }
 
@@ -272,12 +308,14 @@ asn1! {
 }
 
 asn1! {
-    /// Every progress but executing is final for its command.
+    /// The maneuver runs while it is executing or `inPosition`: the robot is on the way, or it holds
+    /// the place from which it guards. Every other progress is final for its command.
     CommandProgress ::= CHOICE {
-        Executing Null,
-        Completed Null,
-        Failed    FailureReason,
-        SafeIdle  Null,
+        Executing  Null,
+        InPosition Null,
+        Completed  Null,
+        Failed     FailureReason,
+        SafeIdle   Null,
         ...
     }
 }
@@ -294,8 +332,31 @@ asn1! {
 asn1! {
     /// Names a session as over: the sender's own has ended, or it has left that of another station.
     SessionFarewell ::= CHOICE {
-        Ended SessionNumber,
-        Left  CoordinationSession,
+        Ended EndedSession,
+        Left  LeftSession,
         ...
+    }
+}
+
+asn1! {
+    /// The sender's own session of this number, and how it ended.
+    EndedSession ::= SEQUENCE {
+        session_number SessionNumber,
+        ending         SessionEnding
+    }
+}
+
+asn1! {
+    /// completed: the crossing is completed and the road is clear, followers are free. aborted: any
+    /// other end; people may be on the road, so followers fall back.
+    SessionEnding ::= ENUMERATED { Completed, Aborted }
+}
+
+asn1! {
+    /// Another station's session, in which the sender has no part any more by this offer or an
+    /// earlier one. A later offer stands.
+    LeftSession ::= SEQUENCE {
+        session      CoordinationSession,
+        offer_number OfferNumber
     }
 }

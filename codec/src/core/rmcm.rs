@@ -120,10 +120,12 @@ asn1! {
 }
 
 asn1! {
-    /// Why a command is rejected: the robot cannot do such a task, or it is unavailable.
+    /// Why a command is rejected: the robot cannot do such a task, it is unavailable, or it has a
+    /// duty on the road from a maneuver or session that ended early.
     RejectionReason ::= CHOICE {
         UnsupportedTask Null,
         Unavailable     UnavailabilityReason,
+        OnDuty          Null,
         ...
     }
 }

@@ -28,11 +28,11 @@ pub struct Request {
     pub traffic_class: TrafficClass,
     /// How long the packet may live.
     pub lifetime: Lifetime,
-    /// To whom it goes.
+    /// Its destination.
     pub destination: Destination,
 }
 
-/// To whom a message goes.
+/// Destination of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Destination {
     /// Everybody who hears it: single-hop broadcast.

@@ -95,7 +95,7 @@ fn heading_of(angle: &Wgs84AngleValue) -> Option<f64> {
 
 impl ItsMessage {
     /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
-    /// sender, unless it is a CPM, a DENM or an RMCM, the people whom a RAM announces, and what a CPM
+    /// sender, unless it is a CPM, a DENM or an RMCM, the people that a RAM announces, and what a CPM
     /// perceives, at most 255 objects.
     #[must_use]
     pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
@@ -169,7 +169,7 @@ fn of_robot(ram: &RAM, now: u64) -> RoadUser {
     }
 }
 
-/// The people around a robot whom its RAM announces: at the middle of their bounding shape.
+/// The people around a robot that its RAM announces: at the middle of their bounding shape.
 fn cluster_around(ram: &RAM, robot: &RoadUser) -> Option<RoadUser> {
     let container = ram.ram.ram_parameters.vru_cluster_information_container;
     let cluster = container?.vru_cluster_information;

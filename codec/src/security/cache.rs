@@ -33,8 +33,8 @@ struct Known {
     used: u64,
 }
 
-/// The first octets of a digest. Whoever could find two messages with the same could only have its
-/// own second one ignored.
+/// The first octets of a digest. A station that could find two messages with the same could only
+/// have its own second one ignored.
 fn short(digest: &Digest) -> [u8; 8] {
     let mut octets = [0; 8];
     octets.copy_from_slice(&digest[..8]);

@@ -92,7 +92,7 @@ pub fn ticket(
     Ok(ticket)
 }
 
-/// A certificate on these terms, whoever would take it.
+/// A certificate on these terms, without a check that a receiver would take it.
 ///
 /// # Errors
 /// When the terms cannot be expressed.

@@ -1,4 +1,4 @@
-//! One station's security: its pseudonyms, and whom it believes.
+//! One station's security: its pseudonyms, and the authorities that it trusts.
 
 use super::certificate::HashedId8;
 use super::envelope::SignedMessage;
@@ -84,7 +84,7 @@ impl Station {
                 }
                 self.answer(message);
             }
-            // Whoever is unknown here does not know this station either.
+            // A signer that is unknown here does not know this station either.
             Err(Rejected::UnknownSigner(_)) => self.sealer.introduce(),
             Err(_) => {}
         }

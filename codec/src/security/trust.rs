@@ -1,4 +1,4 @@
-//! Whom a station trusts: roots, and the authorities that they vouch for.
+//! What a station trusts: roots, and the authorities that they vouch for.
 
 use super::certificate::{Certificate, HashedId3, HashedId8, Issuer};
 use super::permissions::{not_to_be_delegated, not_to_be_given};

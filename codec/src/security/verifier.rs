@@ -66,7 +66,7 @@ impl Verifier {
         }
     }
 
-    /// Whom it trusts.
+    /// The authorities that it trusts.
     #[must_use]
     pub const fn trust(&self) -> &TrustStore {
         &self.trust

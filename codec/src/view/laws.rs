@@ -46,11 +46,18 @@ pub fn can_be_said(view: &Ram) -> bool {
     let is_foreign = |session: SessionId| session.leader != view.station;
     let (is_sound, present) = match view.coordination {
         Coordination::None => (true, None),
-        Coordination::NeedHelp { number, request } => {
+        Coordination::NeedHelp {
+            number, request, ..
+        } => {
             let count = usize::from(request.followers);
             (0 < count && count <= MAX_FOLLOWERS, Some(own(number)))
         }
-        Coordination::OfferHelp { session, .. } => (is_foreign(session), Some(session)),
+        Coordination::OfferHelp {
+            session, t_safety, ..
+        } => {
+            let can_be_told = Millis(0) < t_safety && t_safety <= Millis::MAX_TIMER;
+            (is_foreign(session) && can_be_told, Some(session))
+        }
         Coordination::Leader {
             number, followers, ..
         } => {
@@ -64,11 +71,11 @@ pub fn can_be_said(view: &Ram) -> bool {
         ),
     };
     let past = view.farewell.map(|farewell| match farewell {
-        Farewell::Ended(number) => own(number),
-        Farewell::Left(session) => session,
+        Farewell::Ended(number, _) => own(number),
+        Farewell::Left(session, _) => session,
     });
     let has_left_own =
-        matches!(view.farewell, Some(Farewell::Left(session)) if !is_foreign(session));
+        matches!(view.farewell, Some(Farewell::Left(session, _)) if !is_foreign(session));
     is_sound && !has_left_own && (past.is_none() || past != present)
 }
 
@@ -130,6 +137,7 @@ pub fn hearing_a_ram_is_total(ram: &RAM) {
         let (heard, said) = (&heard.robot_status_container, &said.robot_status_container);
         assert!(said.help_status == heard.help_status);
         assert!(said.unavailability == heard.unavailability);
+        assert!(said.on_duty == heard.on_duty);
     }
 }
 
@@ -160,6 +168,7 @@ fn retold(ram: &RAM) -> Option<RAM> {
         station: StationId(0),
         coordination: Coordination::None,
         farewell: None,
+        on_duty: false,
     };
     let (state, available) = (state_of(ram), Availability::Available);
     ram_from(&Identifiers::default(), &state, &view, available, 0, true).ok()

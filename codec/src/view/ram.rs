@@ -50,6 +50,7 @@ pub fn ram_from(
             Availability::Available => None,
             Availability::Unavailable(why) => Some(reason(why)),
         },
+        on_duty: view.on_duty,
     };
     let is_part = role.is_some() || farewell.is_some();
     let operation = is_part.then_some(RobotLeaderFollowerOperationContainer { role, farewell });
@@ -88,6 +89,7 @@ pub fn view_of_ram(ram: &RAM) -> Result<Ram, ViewError> {
         station: sender,
         coordination: role.map_or(Ok(Coordination::None), |role| role_of(role, sender))?,
         farewell: farewell.map(farewell_of),
+        on_duty: parameters.robot_status_container.on_duty,
     };
     check(&view)?;
     let status = &parameters.robot_status_container;
@@ -157,11 +159,11 @@ fn check(view: &Ram) -> Result<(), ViewError> {
     };
     let past = match view.farewell {
         None => return Ok(()),
-        Some(Farewell::Left(session)) if session.leader == sender => {
+        Some(Farewell::Left(session, _)) if session.leader == sender => {
             return Err(ViewError::OwnSession(sender));
         }
-        Some(Farewell::Left(session)) => session,
-        Some(Farewell::Ended(number)) => own_session(number),
+        Some(Farewell::Left(session, _)) => session,
+        Some(Farewell::Ended(number, _)) => own_session(number),
     };
     if present == Some(past) {
         return Err(ViewError::FarewellToPresent(past));
@@ -189,6 +191,7 @@ fn reported_progression(view: &Ram) -> Option<TaskProgression> {
     };
     Some(match report.progress {
         Progress::Executing => TaskProgression::Executing,
+        Progress::InPosition => TaskProgression::InPosition,
         Progress::Completed => TaskProgression::Completed,
         Progress::Failed(_) => TaskProgression::Failed,
         Progress::SafeIdle => TaskProgression::SafeIdle,

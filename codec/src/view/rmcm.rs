@@ -93,6 +93,9 @@ pub fn rmcm_from_answer(
         Verdict::Rejected(Rejection::Unavailable(why)) => {
             ManeuverResponse::Rejected(RejectionReason::Unavailable(reason(why)))
         }
+        Verdict::Rejected(Rejection::OnDuty) => {
+            ManeuverResponse::Rejected(RejectionReason::OnDuty(()))
+        }
     };
     let container = FollowerManeuverContainer {
         session: session(answer.session),
@@ -234,6 +237,9 @@ fn answer_of(container: &FollowerManeuverContainer, sender: StationId) -> Answer
         }
         ManeuverResponse::Rejected(RejectionReason::Unavailable(why)) => {
             Verdict::Rejected(Rejection::Unavailable(reason_of(why)))
+        }
+        ManeuverResponse::Rejected(RejectionReason::OnDuty(())) => {
+            Verdict::Rejected(Rejection::OnDuty)
         }
     };
     Answer {

@@ -1,14 +1,16 @@
 //! The operation container of a RAM: parts in a session, reports, farewells.
 
 use crossguard_protocol::{
-    Confirmation, Coordination, Failure, Farewell, Heartbeat, HelpRequest, MAX_FOLLOWERS,
-    OfferNumber, Progress, Ram, Report, RequestId, SessionId, StationId, UniqueNumber, Urgency,
+    Confirmation, Coordination, Ending, Failure, Farewell, Heartbeat, HelpRequest, MAX_FOLLOWERS,
+    Millis, OfferNumber, Place, Progress, Ram, Report, RequestId, SessionId, StationId,
+    UniqueNumber, Urgency,
 };
 
 use crate::core::common;
 use crate::core::ram::{
-    self, CommandProgress, CommandReport, ConfirmedFollower, ConfirmedFollowers, FailureReason,
-    FollowerRole, HelperRole, LeaderRole, RequestUrgency, RequestedFollowers, RequesterRole,
+    self, CommandProgress, CommandReport, ConfirmedFollower, ConfirmedFollowers, CrossingNumber,
+    CrossingReference, EndedSession, FailureReason, FollowerRole, HelperRole, LeaderRole,
+    LeftSession, RequestUrgency, RequestedFollowers, RequesterRole, SafetyTimeout, SessionEnding,
     SessionFarewell, SessionRole,
 };
 use crate::error::ViewError;
@@ -19,6 +21,7 @@ use crate::wire::{
 
 const _: () = assert!(ConfirmedFollowers::CAPACITY == MAX_FOLLOWERS);
 const _: () = assert!(RequestedFollowers::MAX as usize == MAX_FOLLOWERS);
+const _: () = assert!(SafetyTimeout::MAX == Millis::MAX_TIMER.0);
 
 /// The part in a session that `view` tells.
 pub(super) fn role_from(view: &Ram) -> Result<Option<SessionRole>, ViewError> {
@@ -30,9 +33,15 @@ pub(super) fn role_from(view: &Ram) -> Result<Option<SessionRole>, ViewError> {
     };
     Ok(Some(match view.coordination {
         Coordination::None => return Ok(None),
-        Coordination::NeedHelp { number, request } => SessionRole::Requester(RequesterRole {
+        Coordination::NeedHelp {
+            number,
+            heartbeat,
+            request,
+        } => SessionRole::Requester(RequesterRole {
             session: own_session(number),
+            heartbeat: ram::Heartbeat(heartbeat.0),
             urgency: urgency(request.urgency),
+            crossing: crossing(request.place),
             follower_count: RequestedFollowers::new(request.followers)
                 .ok_or(ViewError::FollowerCount(request.followers))?,
             requested_tasks: task_set(request.tasks),
@@ -41,18 +50,29 @@ pub(super) fn role_from(view: &Ram) -> Result<Option<SessionRole>, ViewError> {
             session: offered,
             offer,
             capabilities,
+            echo,
+            t_safety,
         } => SessionRole::Helper(HelperRole {
             session: session(offered),
             offer_number: offer_number(offer),
             capabilities: task_set(capabilities),
+            heartbeat_echo: ram::Heartbeat(echo.0),
+            safety_timeout: SafetyTimeout::new(t_safety.0)
+                .ok_or(ViewError::SafetyTimeout(t_safety))?,
         }),
         Coordination::Leader {
             number,
             heartbeat,
             followers,
+            urgency: of_request,
+            place,
+            yields,
         } => SessionRole::Leader(LeaderRole {
             session: own_session(number),
             heartbeat: ram::Heartbeat(heartbeat.0),
+            urgency: urgency(of_request),
+            crossing: crossing(place),
+            yields,
             followers: ConfirmedFollowers::collect(followers.iter().copied().map(confirmation))
                 .ok_or(ViewError::NoFollowers)?,
         }),
@@ -81,16 +101,20 @@ pub(super) fn role_of(role: &SessionRole, sender: StationId) -> Result<Coordinat
     Ok(match role {
         SessionRole::Requester(requester) => Coordination::NeedHelp {
             number: own(requester.session)?,
+            heartbeat: Heartbeat(requester.heartbeat.0),
             request: HelpRequest {
                 urgency: urgency_of(requester.urgency),
                 followers: requester.follower_count.get(),
                 tasks: tasks_of(requester.requested_tasks),
+                place: place_of(requester.crossing)?,
             },
         },
         SessionRole::Helper(helper) => Coordination::OfferHelp {
             session: session_of(helper.session),
             offer: offer_of(helper.offer_number),
             capabilities: tasks_of(helper.capabilities),
+            echo: Heartbeat(helper.heartbeat_echo.0),
+            t_safety: Millis(helper.safety_timeout.get()),
         },
         SessionRole::Leader(leader) => Coordination::Leader {
             number: own(leader.session)?,
@@ -101,6 +125,9 @@ pub(super) fn role_of(role: &SessionRole, sender: StationId) -> Result<Coordinat
                 .copied()
                 .map(confirmation_of)
                 .collect(),
+            urgency: urgency_of(leader.urgency),
+            place: place_of(leader.crossing)?,
+            yields: leader.yields,
         },
         SessionRole::Follower(follower) => Coordination::Follower {
             session: session_of(follower.session),
@@ -135,6 +162,7 @@ fn confirmation_of(follower: ConfirmedFollower) -> Confirmation {
 fn report(report: Report) -> Result<CommandReport, ViewError> {
     let progress = match report.progress {
         Progress::Executing => CommandProgress::Executing(()),
+        Progress::InPosition => CommandProgress::InPosition(()),
         Progress::Completed => CommandProgress::Completed(()),
         Progress::SafeIdle => CommandProgress::SafeIdle(()),
         Progress::Failed(failure) => CommandProgress::Failed(match failure {
@@ -152,6 +180,7 @@ fn report(report: Report) -> Result<CommandReport, ViewError> {
 fn report_of(report: CommandReport) -> Report {
     let progress = match report.progress {
         CommandProgress::Executing(()) => Progress::Executing,
+        CommandProgress::InPosition(()) => Progress::InPosition,
         CommandProgress::Completed(()) => Progress::Completed,
         CommandProgress::SafeIdle(()) => Progress::SafeIdle,
         CommandProgress::Failed(FailureReason::Maneuver(())) => Progress::Failed(Failure::Maneuver),
@@ -167,15 +196,53 @@ fn report_of(report: CommandReport) -> Report {
 
 pub(super) fn farewell_from(farewell: Farewell) -> SessionFarewell {
     match farewell {
-        Farewell::Ended(number) => SessionFarewell::Ended(session_number(number)),
-        Farewell::Left(left) => SessionFarewell::Left(session(left)),
+        Farewell::Ended(number, ending) => SessionFarewell::Ended(EndedSession {
+            session_number: session_number(number),
+            ending: match ending {
+                Ending::Completed => SessionEnding::Completed,
+                Ending::Aborted => SessionEnding::Aborted,
+            },
+        }),
+        Farewell::Left(left, offer) => SessionFarewell::Left(LeftSession {
+            session: session(left),
+            offer_number: offer_number(offer),
+        }),
     }
 }
 
 pub(super) fn farewell_of(farewell: SessionFarewell) -> Farewell {
     match farewell {
-        SessionFarewell::Ended(number) => Farewell::Ended(session_number_of(number)),
-        SessionFarewell::Left(left) => Farewell::Left(session_of(left)),
+        SessionFarewell::Ended(ended) => {
+            let ending = match ended.ending {
+                SessionEnding::Completed => Ending::Completed,
+                SessionEnding::Aborted => Ending::Aborted,
+            };
+            Farewell::Ended(session_number_of(ended.session_number), ending)
+        }
+        SessionFarewell::Left(left) => {
+            Farewell::Left(session_of(left.session), offer_of(left.offer_number))
+        }
+    }
+}
+
+/// An unknown place is left out.
+fn crossing(place: Place) -> Option<CrossingReference> {
+    let Place(number) = place;
+    (place != Place::UNKNOWN).then_some(CrossingReference {
+        regulator: CrossingNumber((number >> 16) as u16),
+        intersection: CrossingNumber((number & 0xffff) as u16),
+    })
+}
+
+/// The place of a message. One that spells the unknown place out is refused: there is one way to say it.
+fn place_of(crossing: Option<CrossingReference>) -> Result<Place, ViewError> {
+    let Some(crossing) = crossing else {
+        return Ok(Place::UNKNOWN);
+    };
+    let (regulator, intersection) = (crossing.regulator.0, crossing.intersection.0);
+    match Place(u32::from(regulator) << 16 | u32::from(intersection)) {
+        Place::UNKNOWN => Err(ViewError::UnknownCrossing),
+        place => Ok(place),
     }
 }
 

@@ -29,7 +29,7 @@ fn every_flipped_bit_is_noticed() {
             *causes.entry(rejected.cause()).or_default() += 1;
         }
     }
-    // Whoever changes the payload meets the signature, and nothing else.
+    // A changed payload breaks the signature, and nothing else.
     assert!(causes["wrong signature"] > 700, "{causes:?}");
     assert!(causes.len() > 5, "{causes:?}");
     for envelope in &said {

@@ -87,9 +87,10 @@ macro_rules! for_all_types {
                 RobotLowFrequencyContainer RobotCapabilities SignalsShown PublicSignal
                 SignalMeans RobotStatusContainer RobotCategory OperationalJobRole BatteryStatus
                 StateOfCharge ControlMode HelpStatus RobotLeaderFollowerOperationContainer
-                SessionRole RequesterRole RequestUrgency HelperRole LeaderRole Heartbeat
-                ConfirmedFollower FollowerRole CommandReport CommandProgress FailureReason
-                SessionFarewell;
+                SessionRole RequesterRole RequestUrgency CrossingReference HelperRole
+                SafetyTimeout LeaderRole Heartbeat ConfirmedFollower FollowerRole CommandReport
+                CommandProgress FailureReason SessionFarewell EndedSession SessionEnding
+                LeftSession;
             rmcm: RMCM RobotManeuverCoordination RmcmParameters ManeuverContainer
                 LeaderManeuverContainer ManeuverCommand ManeuverTarget ManeuverConstraints
                 ManeuverDuration FollowerManeuverContainer ManeuverResponse RejectionReason;

@@ -11,6 +11,22 @@ pub mod reference;
 pub mod samples;
 pub mod views;
 
+use crossguard_codec::its::ItsMessage;
+use crossguard_codec::{DecodeError, Identifiers};
+
+/// Decodes a message, whose encoding the octets are but for extension additions of newer senders.
+pub fn canonical(identifiers: &Identifiers, octets: &[u8]) -> Result<(), DecodeError> {
+    let received = ItsMessage::decode(identifiers, octets)?;
+    let encoded = received.message.encode(identifiers).unwrap();
+    if received.extended == 0 {
+        assert_eq!(encoded, octets);
+    } else {
+        let again = ItsMessage::decode(identifiers, &encoded).unwrap();
+        assert_eq!(again.message, received.message);
+    }
+    Ok(())
+}
+
 /// The octets that `text` stands for; white space is left out.
 pub fn from_hex(text: &str) -> Vec<u8> {
     let digits: Vec<u32> = text

@@ -23,9 +23,10 @@ use crossguard_codec::{
     rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Answer, Availability, Command, Confirmation, Coordination, Failure, Farewell, Heartbeat,
-    HelpRequest, Millis, OfferNumber, Progress, Ram, Report, RequestId, SessionId, SessionNumber,
-    StationId, TaskSet, TaskType, Unavailability, UniqueNumber, Urgency, Verdict,
+    Answer, Availability, Command, Confirmation, Coordination, Ending, Failure, Farewell,
+    Heartbeat, HelpRequest, Millis, OfferNumber, Place, Progress, Ram, Rejection, Report,
+    RequestId, SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability,
+    UniqueNumber, Urgency, Verdict,
 };
 
 pub const LEADER: StationId = StationId(123_456_789);
@@ -113,9 +114,14 @@ pub fn slow_state() -> SlowState {
 
 /// A follower that executes command 3.
 pub fn follower_view() -> Ram {
+    progress_view(Progress::Executing)
+}
+
+/// A follower with this progress of command 3.
+pub fn progress_view(progress: Progress) -> Ram {
     let last = Some(Report {
         request: RequestId(3),
-        progress: Progress::Executing,
+        progress,
     });
     let coordination = Coordination::Follower {
         session: session(),
@@ -126,6 +132,7 @@ pub fn follower_view() -> Ram {
         station: FOLLOWER,
         coordination,
         farewell: None,
+        on_duty: false,
     }
 }
 
@@ -180,15 +187,24 @@ pub fn typical_rmcm(identifiers: &Identifiers) -> RMCM {
 
 /// An acknowledgement.
 pub fn answer_rmcm(identifiers: &Identifiers) -> RMCM {
+    rmcm_of_verdict(identifiers, Verdict::Accepted, Some(Millis(21_600)))
+}
+
+/// The answer to command 3.
+fn rmcm_of_verdict(
+    identifiers: &Identifiers,
+    verdict: Verdict,
+    time_to_completion: Option<Millis>,
+) -> RMCM {
     let answer = Answer {
         from: FOLLOWER,
         session: session(),
         request: RequestId(3),
-        verdict: Verdict::Accepted,
+        verdict,
     };
     let status = crossguard_codec::ExecutionStatus {
         progression: TaskProgression::Idle,
-        time_to_completion: Some(Millis(21_600)),
+        time_to_completion,
     };
     rmcm_from_answer(
         identifiers,
@@ -220,16 +236,20 @@ pub fn largest_ram(identifiers: &Identifiers) -> RAM {
         number: session().number,
         heartbeat: Heartbeat(u16::MAX),
         followers: [1, 2, 3, u32::MAX].into_iter().map(follower).collect(),
+        urgency: Urgency::Emergency,
+        place: Place(u32::MAX),
+        yields: true,
     };
     let other = SessionId {
         leader: FOLLOWER,
         ..session()
     };
-    let farewell = Some(Farewell::Left(other));
+    let farewell = Some(Farewell::Left(other, OfferNumber(number(5, 1))));
     let view = Ram {
         station: LEADER,
         coordination,
         farewell,
+        on_duty: true,
     };
     let unavailable = Availability::Unavailable(Unavailability::NotSafe);
     let mut ram = ram_from(identifiers, &state, &view, unavailable, u16::MAX, true).unwrap();
@@ -255,6 +275,7 @@ pub fn failed_view() -> Ram {
         station: FOLLOWER,
         coordination,
         farewell: None,
+        on_duty: false,
     }
 }
 
@@ -393,20 +414,26 @@ pub fn golden(identifiers: &Identifiers) -> Vec<(&'static str, Message)> {
     let rmcms = [
         ("commands", typical_rmcm(identifiers)),
         ("acknowledges", answer_rmcm(identifiers)),
+        (
+            "rejects, since it is on duty",
+            rmcm_of_verdict(identifiers, Verdict::Rejected(Rejection::OnDuty), None),
+        ),
     ];
     let rmcms = rmcms.map(|(name, rmcm)| (name, Message::Rmcm(rmcm)));
     rams.chain(rmcms).collect()
 }
 
-fn golden_views() -> [(&'static str, Ram); 6] {
+fn golden_views() -> [(&'static str, Ram); 8] {
     let session = session();
     let number = session.number;
     let tasks = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]);
+    let place = Place(0x0031_04d2);
     let offer = OfferNumber(self::number(9, 4));
     let request = HelpRequest {
         urgency: Urgency::High,
         followers: 1,
         tasks,
+        place,
     };
     let followers = [Confirmation {
         station: FOLLOWER,
@@ -419,33 +446,54 @@ fn golden_views() -> [(&'static str, Ram); 6] {
         number,
         heartbeat,
         followers,
+        urgency: request.urgency,
+        place,
+        yields: false,
+    };
+    let asks = Coordination::NeedHelp {
+        number,
+        heartbeat: Heartbeat(12),
+        request,
     };
     let offers = Coordination::OfferHelp {
         session,
         offer,
         capabilities: tasks,
+        echo: Heartbeat(11),
+        t_safety: Millis(2_000),
     };
     let view = |station, coordination| Ram {
         station,
         coordination,
         farewell: None,
+        on_duty: false,
     };
     let idle = view(FOLLOWER, Coordination::None);
-    let ended = Some(Farewell::Ended(number));
+    let ended = Some(Farewell::Ended(number, Ending::Completed));
+    let left = Some(Farewell::Left(session, offer));
     [
         ("idle, with low-frequency container", idle),
-        (
-            "asks for help",
-            view(LEADER, Coordination::NeedHelp { number, request }),
-        ),
+        ("asks for help", view(LEADER, asks)),
         ("offers help", view(FOLLOWER, offers)),
         ("leads", view(LEADER, leads)),
         ("follows and executes", follower_view()),
+        (
+            "follows and is in position",
+            progress_view(Progress::InPosition),
+        ),
         (
             "has ended its session",
             Ram {
                 station: LEADER,
                 farewell: ended,
+                ..idle
+            },
+        ),
+        (
+            "has left, with a duty on the road",
+            Ram {
+                farewell: left,
+                on_duty: true,
                 ..idle
             },
         ),

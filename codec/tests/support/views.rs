@@ -59,6 +59,7 @@ fn progress() -> impl Strategy<Value = Progress> {
     prop_oneof![
         select(vec![
             Progress::Executing,
+            Progress::InPosition,
             Progress::Completed,
             Progress::SafeIdle
         ]),
@@ -68,18 +69,40 @@ fn progress() -> impl Strategy<Value = Progress> {
     ]
 }
 
-fn coordination() -> impl Strategy<Value = Coordination> {
-    let urgency = select(vec![
+fn urgency() -> impl Strategy<Value = Urgency> {
+    select(vec![
         Urgency::Low,
         Urgency::Medium,
         Urgency::High,
         Urgency::Emergency,
-    ]);
-    let request = (urgency, 0..6_u8, tasks()).prop_map(|(urgency, followers, tasks)| HelpRequest {
-        urgency,
-        followers,
-        tasks,
-    });
+    ])
+}
+
+/// The crossing of a request, which may be unknown.
+fn crossing() -> impl Strategy<Value = Place> {
+    prop_oneof![
+        select(vec![Place::UNKNOWN, Place(1), Place(1 << 16)]),
+        any::<u32>().prop_map(Place)
+    ]
+}
+
+fn coordination() -> impl Strategy<Value = Coordination> {
+    let request =
+        (urgency(), 0..6_u8, tasks(), crossing()).prop_map(|(urgency, followers, tasks, place)| {
+            HelpRequest {
+                urgency,
+                followers,
+                tasks,
+                place,
+            }
+        });
+    let day = Millis::MAX_TIMER.0;
+    let t_safety = prop_oneof![
+        select(vec![0, 1, 2_000, day, day + 1, u32::MAX]),
+        any::<u32>(),
+        1..=day,
+    ];
+    let t_safety = t_safety.prop_map(Millis);
     let followers = prop::collection::vec((station(), offer()), 0..=MAX_FOLLOWERS);
     let followers = followers.prop_map(|followers| {
         followers
@@ -94,22 +117,40 @@ fn coordination() -> impl Strategy<Value = Coordination> {
     let heartbeat = || any::<u16>().prop_map(Heartbeat);
     prop_oneof![
         Just(Coordination::None),
-        (number().prop_map(SessionNumber), request)
-            .prop_map(|(number, request)| Coordination::NeedHelp { number, request }),
-        (session(), offer(), tasks()).prop_map(|(session, offer, capabilities)| {
-            Coordination::OfferHelp {
+        (number().prop_map(SessionNumber), heartbeat(), request).prop_map(
+            |(number, heartbeat, request)| Coordination::NeedHelp {
+                number,
+                heartbeat,
+                request
+            }
+        ),
+        (session(), offer(), tasks(), heartbeat(), t_safety).prop_map(
+            |(session, offer, capabilities, echo, t_safety)| Coordination::OfferHelp {
                 session,
                 offer,
                 capabilities,
-            }
-        }),
-        (number().prop_map(SessionNumber), heartbeat(), followers).prop_map(
-            |(number, heartbeat, followers)| Coordination::Leader {
-                number,
-                heartbeat,
-                followers
+                echo,
+                t_safety,
             }
         ),
+        (
+            number().prop_map(SessionNumber),
+            heartbeat(),
+            followers,
+            urgency(),
+            crossing(),
+            any::<bool>()
+        )
+            .prop_map(|(number, heartbeat, followers, urgency, place, yields)| {
+                Coordination::Leader {
+                    number,
+                    heartbeat,
+                    followers,
+                    urgency,
+                    place,
+                    yields,
+                }
+            }),
         (session(), heartbeat(), option::of(report)).prop_map(|(session, echo, last)| {
             Coordination::Follower {
                 session,
@@ -121,17 +162,24 @@ fn coordination() -> impl Strategy<Value = Coordination> {
 }
 
 pub fn ram() -> impl Strategy<Value = Ram> {
+    let ending = select(vec![Ending::Completed, Ending::Aborted]);
     let farewell = prop_oneof![
-        number().prop_map(|number| Farewell::Ended(SessionNumber(number))),
-        session().prop_map(Farewell::Left),
+        (number(), ending)
+            .prop_map(|(number, ending)| Farewell::Ended(SessionNumber(number), ending)),
+        (session(), offer()).prop_map(|(session, offer)| Farewell::Left(session, offer)),
     ];
-    (station(), coordination(), option::of(farewell)).prop_map(
-        |(station, coordination, farewell)| Ram {
+    (
+        station(),
+        coordination(),
+        option::of(farewell),
+        any::<bool>(),
+    )
+        .prop_map(|(station, coordination, farewell, on_duty)| Ram {
             station,
             coordination,
             farewell,
-        },
-    )
+            on_duty,
+        })
 }
 
 pub fn command() -> impl Strategy<Value = Command> {
@@ -150,6 +198,7 @@ pub fn answer() -> impl Strategy<Value = Answer> {
     let verdict = prop_oneof![
         Just(Verdict::Accepted),
         Just(Verdict::Rejected(Rejection::UnsupportedTask)),
+        Just(Verdict::Rejected(Rejection::OnDuty)),
         unavailability().prop_map(|why| Verdict::Rejected(Rejection::Unavailable(why))),
     ];
     (station(), session(), any::<u8>(), verdict).prop_map(|(from, session, request, verdict)| {
@@ -247,6 +296,7 @@ pub fn progression() -> impl Strategy<Value = TaskProgression> {
     select(vec![
         TaskProgression::Idle,
         TaskProgression::Executing,
+        TaskProgression::InPosition,
         TaskProgression::Completed,
         TaskProgression::Failed,
         TaskProgression::SafeIdle,

@@ -30,7 +30,11 @@ fuzz_target!(|octets: &[u8]| {
     while let Some((length, behind)) = rest.split_first_chunk::<2>() {
         let length = usize::from(u16::from_be_bytes(*length)).min(behind.len());
         let (packet, behind) = behind.split_at(length);
-        handle(Stimulus::Datagram(packet));
+        handle(Stimulus::Datagram {
+            packet,
+            // Later than any moment here: nothing has waited.
+            arrived_ms: u64::MAX,
+        });
         rest = behind;
     }
 });

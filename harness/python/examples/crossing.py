@@ -2,6 +2,14 @@
 
 Usage: crossing.py leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
 
+Four things in it keep people alive; when you copy it, keep them and put your own robot behind them:
+
+1. The sign ends go by itself, also when this program hangs: `Sign`.
+2. `InPosition` is told when the body is there, and not before: `Application.move_body`.
+3. `RoadClear` is told when the fallback is finished and the road was seen to be clear:
+   `Application.finish_duty`.
+4. `TaskCompleted` is told when nobody is on the road any more: `Leader.live`.
+
 It talks UDP on 127.0.0.1 with a peer that may be `crossguard run`. It ends with 0 when the crossing was
 completed, with 1 when it was not, with 2 on wrong usage.
 """
@@ -9,11 +17,15 @@ completed, with 1 when it was not, with 2 on wrong usage.
 from __future__ import annotations
 
 import contextlib
+import enum
 import select
+import signal
 import socket
+import subprocess
 import sys
 from collections import deque
 from collections.abc import Callable
+from typing import Protocol
 
 from crossguard import (
     Boot,
@@ -43,20 +55,94 @@ PATIENCE_MS = 60_000
 PERIOD_MS = 20
 
 
+# The program of a sign. What it reads is until when it may show go, on the clock of `time.monotonic`.
+SIGN = """
+import os, select, time
+until_ms, shows_go, rest = 0, False, b""
+while True:
+    left_ms = until_ms - time.monotonic_ns() // 1_000_000
+    if (left_ms > 0) is not shows_go:
+        shows_go = left_ms > 0
+        print("sign shows", "go" if shows_go else "stop", flush=True)
+    if select.select([0], [], [], left_ms / 1_000 if shows_go else None)[0]:
+        octets = os.read(0, 4096)
+        if not octets:
+            break
+        *orders, rest = (rest + octets).split(b"\\n")
+        until_ms = int(orders[-1]) if orders else until_ms
+if shows_go:
+    print("sign shows stop", flush=True)
+"""
+
+
+class ShowsGo(Protocol):
+    """What a sign takes."""
+
+    def go_until(self, until_ms: int) -> None:
+        """Show go until this moment of `Moment.now_ms`, and then stop by itself. 0 is stop, at once."""
+
+
+class Sign:
+    """The sign. It is a process of its own, as it is a device of its own on your robot, because it ends go by
+    itself: when its time is over, and when the program that renews it hangs or is gone. What it is told is
+    the moment until which it may show go, so an order that comes late makes nothing longer."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen([sys.executable, "-c", SIGN], stdin=subprocess.PIPE, text=True)
+
+    def go_until(self, until_ms: int) -> None:
+        # A sign that does not take the order shows stop when its time is over.
+        orders = self._process.stdin
+        assert orders is not None
+        with contextlib.suppress(BrokenPipeError):
+            print(until_ms, file=orders, flush=True)
+
+    def close(self) -> None:
+        """Ends it, showing stop."""
+        self._process.communicate()
+
+
+class NoSign:
+    """The sign of a robot that nobody looks at."""
+
+    def go_until(self, until_ms: int) -> None:
+        """There is nothing to be seen."""
+
+
+class Doing(enum.Enum):
+    """What the simulated body does."""
+
+    STANDS = enum.auto()
+    UNDER_WAY = enum.auto()
+    HOLDS_PLACE = enum.auto()
+    FALLS_BACK = enum.auto()
+
+
 class Application:
     """A robot with a simulated body, whose maneuvers take a while and always work."""
 
     category = RobotCategory.UNKNOWN
 
-    def __init__(self, endpoint: Endpoint, send: Callable[[bytes], object], began_ms: int) -> None:
+    def __init__(
+        self,
+        endpoint: Endpoint,
+        send: Callable[[bytes], object],
+        began_ms: int,
+        sign: ShowsGo | None = None,
+        boot: Boot | None = None,
+    ) -> None:
         self.endpoint = endpoint
         self.send = send
         self.began_ms = began_ms
+        self.sign: ShowsGo = NoSign() if sign is None else sign
+        self.boot = boot
         self.is_over = False
         self.is_completed = False
         self.is_corridor_open = False
+        self.doing = Doing.STANDS
         self.maneuver: Maneuver | None = None
-        self.done_at_ms = 0
+        self.arrives_ms = 0
+        self.road_was_seen_clear = False
         # What is to be told, in this order.
         self.wishes: deque[tuple[events.Event, TaskParameters | None]] = deque()
 
@@ -68,15 +154,53 @@ class Application:
     def advance(self, at: Moment) -> None:
         """Time has passed."""
         self._carry_out(self.endpoint.elapse(at), at)
-        if self.maneuver is not None and at.now_ms >= self.done_at_ms:
-            self.wish(events.ManeuverCompleted(self.maneuver.id))
-            self.maneuver = None
+        self.move_body(at)
+        self.finish_duty(at)
         self.live(at)
         self._fulfil(at)
 
     def wish(self, event: events.Event, parameters: TaskParameters | None = None) -> None:
         """The application wants to tell an event."""
         self.wishes.append((event, parameters))
+
+    def road_is_clear(self) -> bool:
+        """STANDS FOR YOUR PERCEPTION: whether nobody is on the carriageway. It is to be seen; no clock and no
+        message says it. Here an operator says it: kill -USR1. What was seen before the last go or the
+        beginning of a fallback does not count."""
+        return self.road_was_seen_clear
+
+    def look_again(self) -> None:
+        """Something has begun, so what was seen before does not count."""
+        self.road_was_seen_clear = False
+
+    def move_body(self, at: Moment) -> None:
+        """The simulated body arrives. A guard that holds traffic says so and stays, until it is told to
+        stop."""
+        if self.maneuver is None or self.doing is not Doing.UNDER_WAY or at.now_ms < self.arrives_ms:
+            return
+        if self.maneuver.task is TaskType.BLOCK:
+            self.doing = Doing.HOLDS_PLACE
+            self.wish(events.InPosition(self.maneuver.id))
+        else:
+            self.doing = Doing.STANDS
+            self.wish(events.ManeuverCompleted(self.maneuver.id))
+
+    def finish_duty(self, at: Moment) -> None:
+        """`RoadClear`, once the body has finished its fallback and the road is seen to be clear."""
+        has_arrived = at.now_ms >= self.arrives_ms
+        if self.doing is Doing.FALLS_BACK and has_arrived and self.road_is_clear():
+            self.doing = Doing.STANDS
+        if self.doing is Doing.STANDS and self.road_is_clear() and self.is_bound:
+            self.wish(events.RoadClear())
+
+    @property
+    def is_bound(self) -> bool:
+        """Whether this robot is responsible for somebody who may be on the road."""
+        robot = self.endpoint.robot
+        match robot.phase:
+            case phases.Leading(corridor=phases.Corridor.CLEARING):
+                return True
+        return robot.duty is not None
 
     def live(self, at: Moment) -> None:
         """What the application does by the clock."""
@@ -89,7 +213,7 @@ class Application:
         """Whether its part is over, farewells included."""
         robot = self.endpoint.robot
         is_free = isinstance(robot.identity, phases.Unlocked)
-        return self.is_over and robot.state is State.IDLE and is_free
+        return self.is_over and robot.state is State.IDLE and is_free and robot.duty is None
 
     def _fulfil(self, at: Moment) -> None:
         while self.wishes:
@@ -103,20 +227,41 @@ class Application:
                     self.send(packet)
                 case outputs.StartManeuver(maneuver):
                     self.maneuver = maneuver
-                    self.done_at_ms = at.now_ms + MANEUVER_MS
+                    self.doing = Doing.UNDER_WAY
+                    self.arrives_ms = at.now_ms + MANEUVER_MS
                     self.say(f"starts {maneuver.task.name} of request {maneuver.id.request}")
-                case outputs.StopManeuver() | outputs.FallBack():
-                    self.maneuver = None
-                case outputs.CorridorOpened():
+                case outputs.StopManeuver():
+                    self.doing = Doing.STANDS
+                case outputs.FallBack(_, policy):
+                    # It stays at its person's side to the kerb, or holds the traffic. Never just stop.
+                    self.doing = Doing.FALLS_BACK
+                    self.arrives_ms = at.now_ms + MANEUVER_MS
+                    self.look_again()
+                    self.say(f"falls back: {policy.name}")
+                case outputs.CorridorOpened(open_ms):
                     self.is_corridor_open = True
+                    self.look_again()
+                    self.sign.go_until(at.now_ms + open_ms)
                     self.say("corridor open")
+                case outputs.CorridorExtended(open_ms):
+                    self.sign.go_until(at.now_ms + open_ms)
                 case outputs.CorridorClosed(why):
                     self.is_corridor_open = False
+                    self.sign.go_until(0)
                     self.say(f"corridor closed: {why}")
+                case outputs.RenewEpoch():
+                    self.renew_epoch()
                 case outputs.Dropped(cause):
                     self.say(f"dropped, {cause}")
                 case outputs.Notify(notice):
                     self.hear(notice, at)
+
+    def renew_epoch(self) -> None:
+        """A larger boot counter, on the disk before it is told. The disk may be slow: do it beside your
+        loop."""
+        if self.boot is not None:
+            with contextlib.suppress(BootError):
+                self.wish(events.EpochRenewed(self.boot.renew()))
 
     def say(self, what: str) -> None:
         """Tells people."""
@@ -127,16 +272,11 @@ class Follower(Application):
     """Helps, and does what it is told."""
 
     category = RobotCategory.QUADRUPED
-    completed = 0
 
     def hear(self, notice: notices.Notice, at: Moment) -> None:
         if isinstance(notice, notices.Released):
             self.is_over = True
-            self.is_completed = isinstance(notice.why, reasons.SessionEnded) and self.completed == 2
-
-    def wish(self, event: events.Event, parameters: TaskParameters | None = None) -> None:
-        super().wish(event, parameters)
-        self.completed += isinstance(event, events.ManeuverCompleted)
+            self.is_completed = isinstance(notice.why, reasons.TaskCompleted)
 
 
 class Leader(Application):
@@ -144,17 +284,29 @@ class Leader(Application):
 
     category = RobotCategory.HUMANOID
 
-    def __init__(self, endpoint: Endpoint, send: Callable[[bytes], object], began_ms: int) -> None:
-        super().__init__(endpoint, send, began_ms)
-        self.stage = "waits"
-        self.asked_ms = 0
-        self.corridor_was_open = False
+    stage = "waits"
+    asked_ms = 0
+    corridor_was_open = False
+    # The simulated pedestrian is across when its escort has arrived.
+    is_across = False
+
+    def road_is_clear(self) -> bool:
+        return self.is_across or super().road_is_clear()
+
+    def look_again(self) -> None:
+        super().look_again()
+        self.is_across = False
 
     def live(self, at: Moment) -> None:
         if self.stage == "waits" and at.now_ms - self.began_ms > 300:
             self.stage = "asks"
             request = HelpRequest(followers=1, tasks=TaskSet.INITIAL_POS | TaskSet.MOVE)
             self.wish(events.PedestrianDetected(request))
+        elif self.stage == "asks" and self.endpoint.all_have_answered:
+            self.wish(events.AllAnswered())
+        elif self.stage == "arrived" and self.road_is_clear():
+            self.stage = "done"
+            self.wish(events.TaskCompleted())
         if self.is_corridor_open:
             self.corridor_was_open = True
         elif self.stage == "escorts" and not self.is_over and at.now_ms - self.asked_ms > 200:
@@ -171,8 +323,12 @@ class Leader(Application):
                 self.stage = "escorts"
                 self.command(station, TaskType.MOVE, latitude_deg=49.010172)
             case notices.ManeuverCompleted():
+                self.stage = "arrived"
+                self.is_across = True
+            case notices.ManeuverFailed() | notices.FollowerSafeIdle():
+                # It gives up. If the corridor was open, its duty lasts until the road is seen to be clear.
                 self.stage = "done"
-                self.wish(events.TaskCompleted())
+                self.wish(events.LeaveRequested())
             case notices.SessionEnded(_, why):
                 self.is_over = True
                 self.is_completed = isinstance(why, reasons.TaskCompleted) and self.corridor_was_open
@@ -226,6 +382,8 @@ def main(arguments: list[str]) -> int:
             return 2
         link = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
         link.bind(("127.0.0.1", port))
+        sign = Sign()
+        stack.callback(sign.close)
 
         def send(packet: bytes) -> None:
             # A packet that the link does not take is as lost as one on the air.
@@ -242,7 +400,13 @@ def main(arguments: list[str]) -> int:
             body=at_the_kerb(role.category),
             log=log,
         )
-        completed = run(role(endpoint, send, began.now_ms), link)
+        application = role(endpoint, send, began.now_ms, sign, boot)
+
+        def see_road_clear(*_: object) -> None:
+            application.road_was_seen_clear = True
+
+        signal.signal(signal.SIGUSR1, see_road_clear)
+        completed = run(application, link)
     print("crossing completed" if completed else "crossing not completed")
     return 0 if completed else 1
 

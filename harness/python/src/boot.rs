@@ -36,7 +36,22 @@ impl Boot {
         })
     }
 
-    /// The counter of this boot, 1..65535.
+    /// Takes the next boot counter while the robot runs, as `outputs.RenewEpoch` asks; it is on the disk
+    /// when this returns. Then tell `events.EpochRenewed`.
+    ///
+    /// Raises `BootError` where there is none to be had, and after `close`; the counter is as before then.
+    fn renew(&mut self) -> PyResult<u16> {
+        let Some(taken) = &mut self.taken else {
+            return Err(BootError::new_err(
+                "the boot counter is not in use any more",
+            ));
+        };
+        let renewed = taken.renew();
+        self.counter = renewed.map_err(|error| BootError::new_err(error.to_string()))?;
+        Ok(self.counter)
+    }
+
+    /// The newest counter of this boot, 1..65535.
     #[getter]
     fn counter(&self) -> u16 {
         self.counter

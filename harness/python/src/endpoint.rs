@@ -6,10 +6,10 @@ use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{RobotState, TaskParameters};
 use crossguard_harness::endpoint::{self, Act, Effect, Moment, Stimulus};
 use crossguard_harness::ras::generation::Trigger;
-use crossguard_harness::trace::{self, Entry, Record, recorded};
+use crossguard_harness::trace::{self, Entry, Reception, Record, recorded};
 use crossguard_harness::wire::{MessageKind, Wire};
 use crossguard_protocol::{
-    Config, CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Notice, StationId,
+    Config, CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, StationId,
     StopReason,
 };
 use pyo3::exceptions::PyValueError;
@@ -35,10 +35,12 @@ enum Told<'a> {
     StartManeuver(&'a Maneuver, &'a TaskParameters),
     StopManeuver(&'a Maneuver, &'a StopReason),
     FallBack(&'a Maneuver, &'a FallbackPolicy),
-    CorridorOpened,
+    CorridorOpened(&'a Millis),
+    CorridorExtended(&'a Millis),
     CorridorClosed(&'a CorridorClosure),
     LockIdentity,
     UnlockIdentity,
+    RenewEpoch,
     Notify(&'a Notice),
     Ignored(&'a Ignored),
     Heard {
@@ -58,7 +60,9 @@ impl<'a> Told<'a> {
     fn of(effect: &'a Effect) -> Option<Self> {
         Some(match effect {
             Effect::Stepped { .. } => return None,
-            Effect::Heard { kind, from, octets } => Self::Heard {
+            Effect::Heard {
+                kind, from, octets, ..
+            } => Self::Heard {
                 service: *kind,
                 station: *from,
                 message: octets,
@@ -82,10 +86,12 @@ impl<'a> Told<'a> {
                 Act::Start(maneuver, parameters) => Self::StartManeuver(maneuver, parameters),
                 Act::Stop(maneuver, why) => Self::StopManeuver(maneuver, why),
                 Act::FallBack(maneuver, policy) => Self::FallBack(maneuver, policy),
-                Act::OpenCorridor => Self::CorridorOpened,
+                Act::OpenCorridor(time) => Self::CorridorOpened(time),
+                Act::ExtendCorridor(time) => Self::CorridorExtended(time),
                 Act::CloseCorridor(why) => Self::CorridorClosed(why),
                 Act::LockIdentity(true) => Self::LockIdentity,
                 Act::LockIdentity(false) => Self::UnlockIdentity,
+                Act::RenewEpoch => Self::RenewEpoch,
                 Act::Notice(notice) => Self::Notify(notice),
                 Act::Ignored(_, why) => Self::Ignored(why),
             },
@@ -147,8 +153,15 @@ impl Endpoint {
         Ok(())
     }
 
-    fn receive(&mut self, packet: &[u8], now_ms: u64, unix_ms: u64) -> PyResult<String> {
-        self.handle(now_ms, unix_ms, Stimulus::Datagram(packet))
+    fn receive(
+        &mut self,
+        packet: &[u8],
+        arrived_ms: u64,
+        now_ms: u64,
+        unix_ms: u64,
+    ) -> PyResult<String> {
+        let datagram = Stimulus::Datagram { packet, arrived_ms };
+        self.handle(now_ms, unix_ms, datagram)
     }
 
     fn tell(
@@ -203,6 +216,11 @@ impl Endpoint {
     }
 
     #[getter]
+    fn all_have_answered(&self) -> bool {
+        self.inner.all_have_answered()
+    }
+
+    #[getter]
     fn next_wakeup_ms(&self) -> u64 {
         self.inner.next_wakeup_ms()
     }
@@ -218,7 +236,15 @@ impl Endpoint {
         let effects = self.inner.handle(moment, &self.body, stimulus);
         let told: Vec<_> = effects.iter().filter_map(Told::of).collect();
         let told = to_json(&told)?;
-        for entry in effects.into_iter().filter_map(recorded) {
+        for mut entry in effects.into_iter().filter_map(recorded) {
+            if let Entry::Heard { reception, .. } = &mut entry {
+                // The log's clock shows 0 where the endpoint began.
+                let began_us = self.began_ms.saturating_mul(1_000);
+                *reception = reception.map(|shown| Reception {
+                    arrived_us: shown.arrived_us.saturating_sub(began_us),
+                    told_us: shown.told_us.saturating_sub(began_us),
+                });
+            }
             self.write(entry)?;
         }
         Ok(told)

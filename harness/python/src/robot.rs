@@ -66,6 +66,10 @@ impl Robot {
         to_json(&self.machine.identity())
     }
 
+    fn duty(&self) -> PyResult<String> {
+        to_json(&self.machine.duty())
+    }
+
     fn farewell(&self) -> PyResult<String> {
         to_json(&self.machine.farewell())
     }

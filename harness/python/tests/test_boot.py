@@ -18,6 +18,15 @@ def test_each_boot_takes_the_next_counter(tmp_path: Path) -> None:
             assert repr(boot) == f"<Boot {expected}>"
 
 
+def test_a_counter_is_renewed_while_it_is_in_use(tmp_path: Path) -> None:
+    path = tmp_path / "robot.boot"
+    with Boot.take(path) as boot:
+        assert boot.renew() == boot.counter == 2
+    with pytest.raises(BootError, match="not in use any more"):
+        boot.renew()
+    assert Boot.take(path).counter == 3
+
+
 def test_one_robot_one_process(tmp_path: Path) -> None:
     path = tmp_path / "robot.boot"
     take = [sys.executable, "-c", "import crossguard, sys; crossguard.Boot.take(sys.argv[1])"]

@@ -125,7 +125,7 @@ def test_a_crossing_in_virtual_time_is_valid_and_an_altered_log_is_not(tmp_path:
     assert validation.validated.robots == 2
     assert "I11" in validation.validated.properties
 
-    altered = text.replace('"corridorOpened"', '"unlockIdentity"')
+    altered = text.replace('{"corridorOpened":', '{"corridorExtended":')
     validation = validate([io.StringIO(altered)])
     assert not validation and validation.fault is not None
     fault = validation.fault

@@ -61,7 +61,7 @@ def test_two_robots_take_their_roles() -> None:
         case other_phase:
             pytest.fail(repr(other_phase))
     match go2.ram().coordination:
-        case messages.Follower(session, echo=0, last=None):
+        case messages.Follower(session, echo=3, last=None):
             assert session == ari.session
         case other:
             pytest.fail(repr(other))
@@ -88,13 +88,59 @@ def test_a_command_is_acknowledged_before_it_is_started() -> None:
     refused = ari.step(events.OpenCorridor())
     assert refused == [outputs.Ignored(reasons.NotEngaged(2, reasons.NotExecuting()))]
     ari.step(inputs.Ram(go2.ram()))
-    assert ari.step(events.OpenCorridor()) == [outputs.CorridorOpened()]
+    (opened,) = ari.step(events.OpenCorridor())
+    # The sign shows go for what is left of the lease, and is extended when that is renewed.
+    assert opened == outputs.CorridorOpened(1_900)
+    ari.step(inputs.Elapsed(100))
+    go2.step(inputs.Ram(ari.ram()))
+    assert outputs.CorridorExtended(1_900) in ari.step(inputs.Ram(go2.ram()))
 
     go2.step(inputs.Elapsed(2_000))
     assert go2.phase.contact == phases.Lost(5_000)  # type: ignore[union-attr]
     fell_back = ari.step(inputs.Ram(go2.ram()))
     closed = reasons.NotEngaged(2, reasons.SafeIdle())
     assert outputs.CorridorClosed(closed) in fell_back
+    assert ari.phase.corridor is phases.Corridor.CLEARING  # type: ignore[union-attr]
+
+    # Its duty lasts until it is told that the road is clear; until then it does nothing new.
+    assert isinstance(go2.duty, phases.FallingBack) and go2.ram().on_duty
+    rejected = rmcm(go2.step(inputs.Rmcm(rmcm(ari.step(events.CommandManeuver(2, TaskType.MOVE))))))
+    assert rejected == messages.Answer(2, session, 1, messages.Rejected(reasons.OnDuty()))
+    go2.step(events.RoadClear())
+    assert go2.duty is None and not go2.ram().on_duty
+
+
+def test_a_corridor_waits_for_guards_that_hold_a_place() -> None:
+    ari, go2 = pair()
+    step = go2.step(inputs.Rmcm(rmcm(ari.step(events.CommandManeuver(2, TaskType.BLOCK)))))
+    (start,) = [output for output in step if isinstance(output, outputs.StartManeuver)]
+    ari.step(inputs.Rmcm(rmcm(step)))
+    ari.step(inputs.Ram(go2.ram()))
+    refused = ari.step(events.OpenCorridor())
+    assert refused == [outputs.Ignored(reasons.NotEngaged(2, reasons.NotInPosition()))]
+    go2.step(events.InPosition(start.maneuver.id))
+    step = ari.step(inputs.Ram(go2.ram()))
+    assert outputs.Notify(notices.ManeuverInPosition(2, start.maneuver.id)) in step
+    assert isinstance(ari.step(events.OpenCorridor())[0], outputs.CorridorOpened)
+
+
+def test_a_crossing_that_is_completed_frees_its_followers() -> None:
+    ari, go2 = pair()
+    go2.step(inputs.Rmcm(rmcm(ari.step(events.CommandManeuver(2, TaskType.MOVE)))))
+    ari.step(events.TaskCompleted())
+    (ended,) = [ari.ram().farewell]
+    assert isinstance(ended, messages.Ended) and ended.how is messages.Ending.COMPLETED
+    step = go2.step(inputs.Ram(ari.ram()))
+    (stop,) = [output for output in step if isinstance(output, outputs.StopManeuver)]
+    assert stop.why == reasons.Released(reasons.TaskCompleted())
+    assert go2.duty is None
+
+
+def test_a_new_epoch_has_a_larger_boot_counter() -> None:
+    robot = Robot(1, 1)
+    assert robot.step(events.EpochRenewed(1)) == [outputs.Ignored(reasons.NothingNew())]
+    assert robot.step(events.EpochRenewed(2)) == []
+    assert robot.boot == 2
 
 
 def test_a_follower_falls_back_by_the_policy_of_its_task() -> None:
@@ -172,12 +218,13 @@ def test_the_documented_defaults_are_those_of_the_core() -> None:
     assert (config.ram_period_ms, config.t_select_ms, config.t_offer_ms) == (100, 300, 3_000)
     assert (config.t_help_ms, config.t_ack_ms, config.n_ack) == (10_000, 600, 3)
     assert (config.t_safety_ms, config.t_lease_ms, config.t_leave_ms) == (2_000, 1_900, 5_000)
-    assert (config.t_farewell_ms, config.t_lock_ms) == (1_000, 300_000)
+    assert (config.t_farewell_ms, config.t_lock_ms, config.t_cross_ms) == (1_000, 300_000, 30_000)
     assert (config.drift_ppm, config.delay_max_ms) == (1_000, 50)
     assert config.guarding == TaskSet.MOVE | TaskSet.BLOCK
+    assert config.holding == TaskSet.BLOCK
     assert config.t_exec_ms[TaskType.TASK15] == 60_000
     assert config.fallback[TaskType.INITIAL_POS] is FallbackPolicy.STOP_IN_PLACE
-    assert config.fallback[TaskType.MOVE] is FallbackPolicy.GO_TO_SAFE_POSITION
+    assert config.fallback[TaskType.MOVE] is FallbackPolicy.ESCORT_TO_KERB
     assert config.fallback[TaskType.BLOCK] is FallbackPolicy.HOLD_UNTIL_CLEAR
 
 
@@ -204,20 +251,26 @@ unavailable = st.builds(reasons.Unavailable, st.sampled_from(reasons.Unavailabil
 failures = st.one_of(st.builds(reasons.Maneuver), unavailable)
 progresses = st.one_of(
     st.builds(messages.Executing),
+    st.builds(messages.InPosition),
     st.builds(reasons.Completed),
     st.builds(reasons.Failed, failures),
     st.builds(reasons.SafeIdle),
 )
-help_requests = st.builds(HelpRequest, st.sampled_from(types.Urgency), st.integers(0, 5), task_sets)
+urgencies = st.sampled_from(types.Urgency)
+places = st.integers(0, 2)
+help_requests = st.builds(HelpRequest, urgencies, st.integers(0, 5), task_sets, places)
 coordinations = st.one_of(
     st.builds(messages.NoPart),
-    st.builds(messages.NeedHelp, numbers, help_requests),
-    st.builds(messages.OfferHelp, sessions, numbers, task_sets),
+    st.builds(messages.NeedHelp, numbers, heartbeats, help_requests),
+    st.builds(messages.OfferHelp, sessions, numbers, task_sets, heartbeats, st.integers(0, 3_000)),
     st.builds(
         messages.Leader,
         numbers,
         heartbeats,
         st.lists(st.builds(messages.Confirmation, stations, numbers), max_size=4).map(tuple),
+        urgencies,
+        places,
+        st.booleans(),
     ),
     st.builds(
         messages.Follower,
@@ -226,10 +279,15 @@ coordinations = st.one_of(
         st.none() | st.builds(messages.Report, requests, progresses),
     ),
 )
-farewells = st.none() | st.builds(messages.Ended, numbers) | st.builds(messages.Left, sessions)
-rams = st.builds(messages.Ram, stations, coordinations, farewells)
+farewells = st.one_of(
+    st.none(),
+    st.builds(messages.Ended, numbers, st.sampled_from(messages.Ending)),
+    st.builds(messages.Left, sessions, numbers),
+)
+rams = st.builds(messages.Ram, stations, coordinations, farewells, st.booleans())
 verdicts = st.builds(messages.Accepted) | st.builds(
-    messages.Rejected, st.builds(reasons.UnsupportedTask) | unavailable
+    messages.Rejected,
+    st.builds(reasons.UnsupportedTask) | st.builds(reasons.OnDuty) | unavailable,
 )
 rmcms = st.one_of(
     st.builds(messages.Command, sessions, stations, requests, tasks),
@@ -239,17 +297,21 @@ maneuver_ids = st.builds(types.ManeuverId, sessions, requests)
 told = st.one_of(
     st.builds(events.PedestrianDetected, help_requests),
     st.builds(events.CommandManeuver, stations, tasks),
+    st.builds(events.InPosition, maneuver_ids),
     st.builds(events.ManeuverCompleted, maneuver_ids),
     st.builds(events.ManeuverFailed, maneuver_ids),
     st.builds(events.TaskCompleted),
+    st.builds(events.RoadClear),
+    st.builds(events.AllAnswered),
     st.builds(events.LeaveRequested),
     st.builds(events.AvailabilityChanged, st.builds(types.Available) | unavailable),
     st.builds(events.OpenCorridor),
     st.builds(events.CloseCorridor),
     st.builds(events.IdentityChanged, stations),
+    st.builds(events.EpochRenewed, st.integers(0, 3)),
 )
 expired = st.one_of(
-    *[st.builds(kind, stations) for kind in (timers.Lease, timers.Lost, timers.Execution)],
+    *[st.builds(kind, stations) for kind in (timers.Lease, timers.Lost, timers.Execution, timers.Offer)],
     *[st.builds(kind) for kind in (timers.Safety, timers.Help, timers.Selection, timers.Ram)],
 )
 anything = st.one_of(
@@ -277,3 +339,4 @@ def test_any_inputs_keep_the_state_valid_and_every_output_has_its_class(
         # All of it can be looked at.
         assert isinstance(robot.phase, phases.Phase)
         assert isinstance(robot.ram(), messages.Ram)
+        assert robot.duty is None or isinstance(robot.duty, phases.Duty)

@@ -8,12 +8,14 @@ use crossguard_harness::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_harness::runtime::Order;
 use crossguard_harness::site::{Place, Site};
 use crossguard_protocol::{
-    Availability, Event, HelpRequest, MAX_FOLLOWERS, ManeuverId, NoSuchTask, RequestId, SessionId,
-    SessionNumber, StationId, TaskSet, TaskType, Unavailability, UniqueNumber, Urgency,
+    self as protocol, Availability, Event, HelpRequest, MAX_FOLLOWERS, ManeuverId, NoSuchTask,
+    RequestId, SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability,
+    UniqueNumber, Urgency,
 };
 
 use crate::msgs::{Command, Person, Session, Status, Task};
 use crate::report::SITE_FRAME;
+use crate::robot::BodyKind;
 use crate::standard::{Point, PoseStamped, Quaternion, Time};
 
 /// Why a message tells nothing.
@@ -78,13 +80,13 @@ impl Refused {
     }
 }
 
-/// What a command orders. Places in it are on `site`.
+/// What a command orders a robot with such a body. Places in it are on `site`.
 ///
 /// # Errors
 /// Why it orders nothing.
-pub fn order(command: &Command, site: &Site) -> Result<Order, Refused> {
+pub fn order(command: &Command, site: &Site, body: BodyKind) -> Result<Order, Refused> {
     let event = match command.kind {
-        Command::DETECT => Event::PedestrianDetected(request(command)?),
+        Command::DETECT => Event::PedestrianDetected(request(command, site)?),
         Command::ORDER => {
             return Ok(Order::Wish(Wish::Order {
                 follower: StationId(command.follower),
@@ -92,6 +94,10 @@ pub fn order(command: &Command, site: &Site) -> Result<Order, Refused> {
                 parameters: parameters(command, site)?,
             }));
         }
+        Command::IN_POSITION => Event::InPosition(maneuver(command)),
+        // Of a simulated body the robot itself knows when it has finished its fallback.
+        Command::ROAD_CLEAR if body == BodyKind::Simulated => return Ok(Order::Clear),
+        Command::ROAD_CLEAR => Event::RoadClear,
         Command::DONE => Event::ManeuverCompleted(maneuver(command)),
         Command::FAIL => Event::ManeuverFailed(maneuver(command)),
         Command::OPEN_CORRIDOR => Event::OpenCorridor,
@@ -104,7 +110,7 @@ pub fn order(command: &Command, site: &Site) -> Result<Order, Refused> {
     Ok(Order::Wish(Wish::Tell(event)))
 }
 
-fn request(command: &Command) -> Result<HelpRequest, Refused> {
+fn request(command: &Command, site: &Site) -> Result<HelpRequest, Refused> {
     let followers = command.followers;
     if !(1..=MAX_FOLLOWERS).contains(&usize::from(followers)) {
         return Err(Refused::Followers(followers));
@@ -130,6 +136,10 @@ fn request(command: &Command) -> Result<HelpRequest, Refused> {
         urgency,
         followers,
         tasks,
+        place: match protocol::Place(command.place) {
+            protocol::Place::UNKNOWN => site.crossing,
+            place => place,
+        },
     })
 }
 
@@ -259,7 +269,7 @@ mod tests {
     use super::*;
 
     fn told(command: &Command) -> Result<Event, String> {
-        match order(command, &Site::default()) {
+        match order(command, &Site::default(), BodyKind::External) {
             Ok(Order::Wish(Wish::Tell(event))) => Ok(event),
             Ok(other) => panic!("{other:?}"),
             Err(error) => Err(error.to_string()),
@@ -321,6 +331,39 @@ mod tests {
             ..done
         };
         assert_eq!(told(&fail), Ok(Event::ManeuverFailed(id)));
+        let there = Command {
+            kind: Command::IN_POSITION,
+            ..fail
+        };
+        assert_eq!(told(&there), Ok(Event::InPosition(id)));
+    }
+
+    #[test]
+    fn who_moves_a_body_says_that_it_has_finished_and_the_road_is_clear() {
+        let clear = of(Command::ROAD_CLEAR);
+        assert_eq!(told(&clear), Ok(Event::RoadClear));
+        let simulated = order(&clear, &Site::default(), BodyKind::Simulated);
+        assert!(matches!(simulated, Ok(Order::Clear)));
+    }
+
+    #[test]
+    fn a_detection_is_at_the_crossing_of_the_site_unless_it_names_another() {
+        let site = Site {
+            crossing: protocol::Place(7),
+            ..Site::default()
+        };
+        for (place, expected) in [(0, 7), (9, 9)] {
+            let detect = Command {
+                followers: 1,
+                place,
+                ..of(Command::DETECT)
+            };
+            let ordered = order(&detect, &site, BodyKind::Simulated);
+            let Ok(Order::Wish(Wish::Tell(Event::PedestrianDetected(request)))) = ordered else {
+                panic!("{ordered:?}")
+            };
+            assert_eq!(request.place, protocol::Place(expected));
+        }
     }
 
     #[test]
@@ -342,7 +385,7 @@ mod tests {
             follower,
             task,
             parameters,
-        })) = order(&command, &site)
+        })) = order(&command, &site, BodyKind::Simulated)
         else {
             panic!()
         };

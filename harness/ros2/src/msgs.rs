@@ -48,7 +48,12 @@ pub struct Status {
     pub session: Session,
     pub followers: Vec<Follower>,
     pub executes: Task,
-    pub corridor_open: bool,
+    pub corridor: u8,
+    pub has_yielded: bool,
+    pub yields_to: u32,
+    pub duty: u8,
+    pub duty_session: Session,
+    pub duty_request: u8,
 }
 
 /// Whether a pedestrian may cross.
@@ -60,6 +65,8 @@ pub struct Corridor {
     pub valid_for: Duration,
     pub reason: u8,
     pub follower: u32,
+    pub leader: u32,
+    pub road_occupied: bool,
     pub in_session: bool,
     pub session: Session,
     pub text: String,
@@ -89,6 +96,7 @@ pub struct Command {
     pub followers: u8,
     pub urgency: u8,
     pub tasks: Vec<Task>,
+    pub place: u32,
     pub follower: u32,
     pub task: Task,
     pub has_target: bool,
@@ -133,7 +141,7 @@ messages! {
     }
     Follower => "Follower" {
         PROGRESS_NONE = 0, PROGRESS_EXECUTING = 1, PROGRESS_COMPLETED = 2, PROGRESS_FAILED = 3,
-        PROGRESS_SAFE_IDLE = 4,
+        PROGRESS_SAFE_IDLE = 4, PROGRESS_IN_POSITION = 5,
     }
     Status => "Status" {
         STATE_INACTIVE = 0, STATE_IDLE = 1, STATE_HELP_REQUESTED = 2, STATE_ROLE_ESTABLISHED = 3,
@@ -141,25 +149,28 @@ messages! {
         ROLE_NONE = 0, ROLE_REQUESTER = 1, ROLE_HELPER = 2, ROLE_LEADER = 3, ROLE_FOLLOWER = 4,
         AVAILABLE = 0, LOW_BATTERY = 1, TELEOPERATED = 2, EMERGENCY_STOP = 3, LOCAL_FAULT = 4,
         NOT_SAFE = 5,
+        CORRIDOR_CLEAR = 0, CORRIDOR_OPEN = 1, CORRIDOR_CLEARING = 2,
+        DUTY_NONE = 0, DUTY_FALLING_BACK = 1, DUTY_CROSSING = 2,
     }
     Corridor => "Corridor" {
         REASON_NONE = 0, REASON_INACTIVE = 1, REASON_NOT_LEADING = 2, REASON_NOT_OPENED = 3,
         REASON_NOT_ENGAGED = 4, REASON_FOLLOWER_MISSING = 5, REASON_SESSION_ENDED = 6,
-        REASON_APPLICATION = 7, REASON_STALE = 8,
+        REASON_APPLICATION = 7, REASON_STALE = 8, REASON_YIELDED = 9,
     }
     Event => "Event" {
         START_MANEUVER = 1, STOP_MANEUVER = 2, FALL_BACK = 3, LOCK_IDENTITY = 4, UNLOCK_IDENTITY = 5,
         ROLES_ESTABLISHED = 20, FOLLOWER_JOINED = 21, FOLLOWER_GONE = 22, LEASE_GRANTED = 23,
         LEASE_EXPIRED = 24, COMMAND_ACKNOWLEDGED = 25, COMMAND_REJECTED = 26, MANEUVER_REPORTED = 27,
         MANEUVER_COMPLETED = 28, MANEUVER_FAILED = 29, FOLLOWER_SAFE_IDLE = 30, SESSION_ENDED = 31,
+        MANEUVER_IN_POSITION = 32, OFFER_LAPSED = 33, YIELDED = 34,
         OFFERING = 40, JOINED = 41, RELEASED = 42, CONTACT_LOST = 43, CONTACT_REGAINED = 44,
         COMMAND_IGNORED = 60, COMMAND_REFUSED = 61,
         POLICY_NONE = 0, POLICY_STOP_IN_PLACE = 1, POLICY_GO_TO_SAFE_POSITION = 2,
-        POLICY_HOLD_UNTIL_CLEAR = 3,
+        POLICY_HOLD_UNTIL_CLEAR = 3, POLICY_ESCORT_TO_KERB = 4,
     }
     Command => "Command" {
         DETECT = 1, ORDER = 2, DONE = 3, FAIL = 4, OPEN_CORRIDOR = 5, CLOSE_CORRIDOR = 6,
-        TASK_COMPLETED = 7, LEAVE = 8, SET_AVAILABILITY = 9,
+        TASK_COMPLETED = 7, LEAVE = 8, SET_AVAILABILITY = 9, IN_POSITION = 10, ROAD_CLEAR = 11,
         URGENCY_LOW = 0, URGENCY_MEDIUM = 1, URGENCY_HIGH = 2, URGENCY_EMERGENCY = 3,
     }
     Person => "Person" {

@@ -23,7 +23,6 @@ use std::time::{Duration, Instant};
 use crossguard_harness::robot_file::RobotFile;
 use crossguard_harness::runtime::Order;
 use crossguard_harness::trace::Record;
-use crossguard_harness::wire::Wire;
 
 use crate::command;
 use crate::entity::NodeName;
@@ -289,7 +288,7 @@ impl Turn {
 
     fn command(&mut self, message: &Command) {
         let done = self.commanded().and_then(|(active, file)| {
-            active.order(command::order(message, &file.site)?);
+            active.order(command::order(message, &file.site, self.robot.body)?);
             Ok(())
         });
         if let Err(refused) = done {
@@ -387,10 +386,7 @@ impl Turn {
     }
 
     fn reporter(file: &RobotFile) -> Reporter {
-        let wire = Wire {
-            identifiers: file.identifiers,
-        };
-        Reporter::new(&file.name, file.station, file.site, wire)
+        Reporter::new(&file.name, file.station, file.site, file.wire())
     }
 
     fn activate(&mut self) -> Result<(), NoRobot> {

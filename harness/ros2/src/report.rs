@@ -8,8 +8,9 @@ use crossguard_harness::tally::{Tally, Way};
 use crossguard_harness::trace::{Entry, Record};
 use crossguard_harness::wire::{MessageKind, Wire};
 use crossguard_protocol::{
-    Availability, CorridorClosure, FallbackPolicy, Input, Leading, ManeuverId, Member, Notice,
-    Output, Phase, Progress, Robot, Role, SessionId, State, StationId, TaskType, Unavailability,
+    self as protocol, Availability, CorridorClosure, Duty, FallbackPolicy, Input, Leading,
+    ManeuverId, Member, Notice, Output, Phase, Progress, Robot, Role, SessionId, State, StationId,
+    TaskType, Unavailability,
 };
 
 use crate::msgs::{Corridor, Event, Follower, Session, Status, Task};
@@ -27,6 +28,8 @@ pub(crate) struct Reporter {
     tally: Tally,
     /// Parameters of the newest command to this robot.
     parameters: Option<TaskParameters>,
+    /// Until when the pedestrian may cross, by the leases that stand, in µs on the clock of the robot.
+    go_ends_us: u64,
     /// Why the corridor was closed last, while that is news.
     closure: Option<CorridorClosure>,
     /// How much had come to nothing, but for what was ignored, when diagnostics were told last.
@@ -44,6 +47,7 @@ impl Reporter {
                 ..Tally::default()
             },
             parameters: None,
+            go_ends_us: 0,
             closure: None,
             dropped_before: 0,
         }
@@ -72,6 +76,11 @@ impl Reporter {
                 if !matches!(state.phase(), Phase::Leading(_)) {
                     self.closure = None;
                 }
+                for output in outputs.iter() {
+                    if let Output::CorridorOpened(left) | Output::CorridorExtended(left) = output {
+                        self.go_ends_us = record.at_us + u64::from(left.0) * 1_000;
+                    }
+                }
                 let told = outputs.iter();
                 told.filter_map(|output| self.event(input, output))
                     .collect()
@@ -92,6 +101,7 @@ impl Reporter {
                 policy: match policy {
                     FallbackPolicy::StopInPlace => Event::POLICY_STOP_IN_PLACE,
                     FallbackPolicy::GoToSafePosition => Event::POLICY_GO_TO_SAFE_POSITION,
+                    FallbackPolicy::EscortToKerb => Event::POLICY_ESCORT_TO_KERB,
                     FallbackPolicy::HoldUntilClear => Event::POLICY_HOLD_UNTIL_CLEAR,
                 },
                 ..about(Event::FALL_BACK, maneuver.id, maneuver.task)
@@ -99,7 +109,7 @@ impl Reporter {
             Output::LockIdentity => of(Event::LOCK_IDENTITY),
             Output::UnlockIdentity => of(Event::UNLOCK_IDENTITY),
             Output::Notify(notice) => news(*notice),
-            Output::CorridorOpened => {
+            Output::CorridorOpened(_) => {
                 self.closure = None;
                 return None;
             }
@@ -116,7 +126,11 @@ impl Reporter {
                     ..of(Event::COMMAND_IGNORED)
                 });
             }
-            Output::SendRam | Output::SendRmcm(_) => return None,
+            // The node renews the boot counter by itself.
+            Output::CorridorExtended(_)
+            | Output::RenewEpoch
+            | Output::SendRam
+            | Output::SendRmcm(_) => return None,
         };
         Some(Event {
             text: output.to_string(),
@@ -167,6 +181,8 @@ impl Reporter {
             _ => None,
         };
         let leading = leading(robot);
+        let yields_to = leading.and_then(|it| it.yields_to);
+        let duty = robot.duty();
         let followers = leading.into_iter().flat_map(|it| it.members.iter());
         Status {
             header,
@@ -191,45 +207,77 @@ impl Reporter {
             session: robot.session().map_or_else(Session::default, session),
             followers: followers.map(follower).collect(),
             executes: executes.map_or_else(Task::default, task),
-            corridor_open: self.tally.corridor_open(),
+            corridor: match leading.map(|it| it.corridor) {
+                None | Some(protocol::Corridor::Clear) => Status::CORRIDOR_CLEAR,
+                Some(protocol::Corridor::Open) => Status::CORRIDOR_OPEN,
+                Some(protocol::Corridor::Clearing) => Status::CORRIDOR_CLEARING,
+            },
+            has_yielded: yields_to.is_some(),
+            yields_to: yields_to.map_or(0, |station| station.0),
+            duty: match duty {
+                None => Status::DUTY_NONE,
+                Some(Duty::FallingBack(_)) => Status::DUTY_FALLING_BACK,
+                Some(Duty::Crossing(_)) => Status::DUTY_CROSSING,
+            },
+            duty_session: match duty {
+                None => Session::default(),
+                Some(Duty::FallingBack(maneuver)) => session(maneuver.id.session),
+                Some(Duty::Crossing(led)) => session(led),
+            },
+            duty_request: match duty {
+                Some(Duty::FallingBack(maneuver)) => maneuver.id.request.0,
+                None | Some(Duty::Crossing(_)) => 0,
+            },
         }
     }
 
-    /// Whether the pedestrian may cross. Of a robot of which nothing was heard for too long, nobody
-    /// knows that.
-    pub(crate) fn corridor(&self, header: Header, valid_for: Duration, is_fresh: bool) -> Corridor {
+    /// Whether the pedestrian may cross, at `now_us` on the clock of the robot, for how long at most. Of a
+    /// robot of which nothing was heard for too long, nobody knows that.
+    pub(crate) fn corridor(
+        &self,
+        header: Header,
+        valid_for: Duration,
+        now_us: u64,
+        is_fresh: bool,
+    ) -> Corridor {
+        let left = Duration::from_micros(self.go_ends_us.saturating_sub(now_us));
+        let is_fresh = is_fresh && !left.is_zero();
         let robot = self.tally.state.as_ref();
         let leading = robot.filter(|robot| leading(robot).is_some());
-        let (reason, follower, text) = match (self.tally.corridor_open(), is_fresh, self.closure) {
-            (true, true, _) => (Corridor::REASON_NONE, 0, String::new()),
+        let (reason, text) = match (self.tally.corridor_open(), is_fresh, self.closure) {
+            (true, true, _) => (Corridor::REASON_NONE, String::new()),
             (true, false, _) => (
                 Corridor::REASON_STALE,
-                0,
                 "nothing was heard of the robot for too long".to_owned(),
             ),
-            (false, _, Some(why)) => {
-                let (reason, follower) = closed(why);
-                (reason, follower, why.to_string())
-            }
+            (false, _, Some(why)) => (closed(why), why.to_string()),
             (false, _, None) if leading.is_some() => (
                 Corridor::REASON_NOT_OPENED,
-                0,
                 "not opened in this session yet".to_owned(),
             ),
             (false, _, None) => (
                 Corridor::REASON_NOT_LEADING,
-                0,
                 "the robot leads no session".to_owned(),
             ),
         };
+        let (follower, leader) = match (reason, self.closure) {
+            (Corridor::REASON_NOT_ENGAGED, Some(CorridorClosure::NotEngaged(station, _))) => {
+                (station.0, 0)
+            }
+            (Corridor::REASON_YIELDED, Some(CorridorClosure::Yielded(station))) => (0, station.0),
+            _ => (0, 0),
+        };
+        let open = reason == Corridor::REASON_NONE;
         let session_led = leading.and_then(Robot::session);
         Corridor {
             header,
             station: self.station.0,
-            open: reason == Corridor::REASON_NONE,
-            valid_for: duration(valid_for),
+            open,
+            valid_for: duration(if open { valid_for.min(left) } else { valid_for }),
             reason,
             follower,
+            leader,
+            road_occupied: robot.is_some_and(is_road_occupied),
             in_session: session_led.is_some(),
             session: session_led.map_or_else(Session::default, session),
             text,
@@ -310,6 +358,12 @@ const fn leading(robot: &Robot) -> Option<&Leading> {
     }
 }
 
+/// Whether people may be on the road by what this robot showed.
+fn is_road_occupied(robot: &Robot) -> bool {
+    let shown = leading(robot).is_some_and(|it| it.corridor != protocol::Corridor::Clear);
+    shown || matches!(robot.duty(), Some(Duty::Crossing(_)))
+}
+
 const fn session(session: SessionId) -> Session {
     Session {
         leader: session.leader.0,
@@ -332,6 +386,7 @@ fn follower(member: &Member) -> Follower {
         progress: match member.order.and_then(|it| it.progress) {
             None => Follower::PROGRESS_NONE,
             Some(Progress::Executing) => Follower::PROGRESS_EXECUTING,
+            Some(Progress::InPosition) => Follower::PROGRESS_IN_POSITION,
             Some(Progress::Completed) => Follower::PROGRESS_COMPLETED,
             Some(Progress::Failed(_)) => Follower::PROGRESS_FAILED,
             Some(Progress::SafeIdle) => Follower::PROGRESS_SAFE_IDLE,
@@ -351,12 +406,13 @@ const fn availability(availability: Availability) -> u8 {
     }
 }
 
-const fn closed(why: CorridorClosure) -> (u8, u32) {
+const fn closed(why: CorridorClosure) -> u8 {
     match why {
-        CorridorClosure::NotEngaged(follower, _) => (Corridor::REASON_NOT_ENGAGED, follower.0),
-        CorridorClosure::FollowerMissing => (Corridor::REASON_FOLLOWER_MISSING, 0),
-        CorridorClosure::SessionEnded => (Corridor::REASON_SESSION_ENDED, 0),
-        CorridorClosure::Application => (Corridor::REASON_APPLICATION, 0),
+        CorridorClosure::NotEngaged(..) => Corridor::REASON_NOT_ENGAGED,
+        CorridorClosure::FollowerMissing => Corridor::REASON_FOLLOWER_MISSING,
+        CorridorClosure::SessionEnded => Corridor::REASON_SESSION_ENDED,
+        CorridorClosure::Yielded(_) => Corridor::REASON_YIELDED,
+        CorridorClosure::Application => Corridor::REASON_APPLICATION,
     }
 }
 
@@ -417,6 +473,9 @@ fn news(notice: Notice) -> Event {
         Notice::ManeuverReported(follower, id) => {
             to_follower(Event::MANEUVER_REPORTED, follower, id)
         }
+        Notice::ManeuverInPosition(follower, id) => {
+            to_follower(Event::MANEUVER_IN_POSITION, follower, id)
+        }
         Notice::ManeuverCompleted(follower, id) => {
             to_follower(Event::MANEUVER_COMPLETED, follower, id)
         }
@@ -426,6 +485,8 @@ fn news(notice: Notice) -> Event {
         Notice::FollowerSafeIdle(follower, id) => {
             to_follower(Event::FOLLOWER_SAFE_IDLE, follower, id)
         }
+        Notice::OfferLapsed(helper) => with(Event::OFFER_LAPSED, helper),
+        Notice::Yielded(leader) => with(Event::YIELDED, leader),
         Notice::SessionEnded(session, _) => in_session(Event::SESSION_ENDED, session),
         Notice::Offering(session) => in_session(Event::OFFERING, session),
         Notice::Joined(session) => in_session(Event::JOINED, session),
@@ -436,134 +497,4 @@ fn news(notice: Notice) -> Event {
 }
 
 #[cfg(test)]
-mod tests {
-    use crossguard_protocol::{
-        Config, Decimetres, Event as Local, HelpRequest, Millis, Outputs, Settings, TaskSet,
-        Urgency,
-    };
-
-    use super::*;
-
-    /// A leader and its follower, who hear each other.
-    struct Team {
-        config: Config,
-        robots: [Robot; 2],
-        told: Vec<(Input, Outputs, Robot)>,
-    }
-
-    impl Team {
-        /// One robot takes something in; the other hears what it says to that.
-        fn step(&mut self, who: usize, input: Input) {
-            let outputs = self.robots[who].step(&self.config, input);
-            if who == 0 {
-                self.told.push((input, outputs, self.robots[0].clone()));
-            }
-            for output in outputs.iter() {
-                match output {
-                    Output::SendRam => {
-                        let ram = self.robots[who].ram();
-                        let distance = Decimetres(10);
-                        self.step(1 - who, Input::Ram { ram, distance });
-                    }
-                    Output::SendRmcm(rmcm) => self.step(1 - who, Input::Rmcm(*rmcm)),
-                    _ => {}
-                }
-            }
-        }
-
-        fn let_pass(&mut self, periods: usize) {
-            for _ in 0..periods {
-                for who in 0..2 {
-                    self.step(who, Input::Elapsed(Millis(100)));
-                }
-            }
-        }
-    }
-
-    /// The records of a leader from detection to an open corridor.
-    fn opening() -> Vec<Record> {
-        let mut team = Team {
-            config: Config::new(Settings::default()).unwrap(),
-            robots: [1, 2].map(|station| Robot::new(StationId(station), 1)),
-            told: Vec::new(),
-        };
-        let request = HelpRequest {
-            urgency: Urgency::Medium,
-            followers: 1,
-            tasks: TaskSet::of(&[TaskType::MOVE]),
-        };
-        team.step(0, Input::Local(Local::PedestrianDetected(request)));
-        team.let_pass(10);
-        let command = Local::CommandManeuver {
-            follower: StationId(2),
-            task: TaskType::MOVE,
-        };
-        team.step(0, Input::Local(command));
-        team.let_pass(5);
-        team.step(0, Input::Local(Local::OpenCorridor));
-        let of_step =
-            |(number, (input, outputs, state)): (usize, (Input, Outputs, Robot))| Record {
-                at_us: number as u64,
-                robot: "ARI".to_owned(),
-                entry: Entry::Step {
-                    input,
-                    outputs: Box::new(outputs),
-                    state: Box::new(state),
-                },
-            };
-        team.told.into_iter().enumerate().map(of_step).collect()
-    }
-
-    fn reporter() -> Reporter {
-        Reporter::new("ARI", StationId(1), Site::default(), Wire::default())
-    }
-
-    #[test]
-    fn a_corridor_is_open_while_the_robot_says_so_and_is_heard_of() {
-        let mut reporter = reporter();
-        let corridor = |reporter: &Reporter, is_fresh| {
-            let told = reporter.corridor(Header::default(), Duration::from_millis(300), is_fresh);
-            (told.open, told.reason)
-        };
-        let first = corridor(&reporter, true);
-        assert_eq!(first, (false, Corridor::REASON_NOT_LEADING));
-        let mut reasons = Vec::new();
-        for record in opening() {
-            let _ = reporter.take(&record);
-            reasons.push(corridor(&reporter, true).1);
-        }
-        reasons.dedup();
-        let expected = [
-            Corridor::REASON_NOT_LEADING,
-            Corridor::REASON_NOT_OPENED,
-            Corridor::REASON_NONE,
-        ];
-        assert_eq!(reasons, expected);
-        assert_eq!(corridor(&reporter, true), (true, Corridor::REASON_NONE));
-        // It still says so, but nobody knows how long ago.
-        assert_eq!(corridor(&reporter, false), (false, Corridor::REASON_STALE));
-        assert_eq!(reporter.diagnostic(String::new(), false).level, STALE);
-    }
-
-    #[test]
-    fn the_news_of_a_leader_are_events_with_the_follower_and_the_session() {
-        let mut reporter = reporter();
-        let events: Vec<_> = opening().iter().flat_map(|it| reporter.take(it)).collect();
-        let of_kind = |kind| events.iter().find(|it| it.kind == kind).unwrap();
-        assert_eq!(of_kind(Event::FOLLOWER_JOINED).station, 2);
-        let session = of_kind(Event::ROLES_ESTABLISHED).session;
-        let told = of_kind(Event::MANEUVER_REPORTED);
-        assert_eq!((told.station, told.session), (2, session));
-        assert!(!told.text.is_empty());
-        let status = reporter.status(Header::default());
-        assert_eq!(
-            (status.role, status.session),
-            (Status::ROLE_LEADER, session)
-        );
-        let [follower] = status.followers.as_slice() else {
-            panic!("{status:?}")
-        };
-        assert_eq!(follower.progress, Follower::PROGRESS_EXECUTING);
-        assert!(follower.has_lease && follower.has_joined && status.corridor_open);
-    }
-}
+mod tests;

@@ -1,30 +1,23 @@
 //! The robot of an active node: its endpoint, link, body and log.
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError};
+use std::sync::mpsc::Receiver;
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crossguard_codec::security::Unsigned;
-use crossguard_harness::application::Application;
-use crossguard_harness::body::Body;
-use crossguard_harness::boot::{self, Boot, BootError};
+use crossguard_harness::boot::{self, BootError};
 use crossguard_harness::counters::Cause;
-use crossguard_harness::journal::{Journal, WhenFull};
+use crossguard_harness::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_harness::pki::{self, PkiError};
-use crossguard_harness::plan::Plan;
 use crossguard_harness::robot_file::{RobotFile, RobotFileError};
-use crossguard_harness::runtime::{Clock, Order, Running, Setup};
+use crossguard_harness::runtime::{Clock, Order, Running};
 use crossguard_harness::station::{Mode, Security};
 use crossguard_harness::trace::{self, Record};
 use crossguard_harness::transport::{LinkError, Reopening, Transport};
-use crossguard_harness::wire::Wire;
-
-/// How many records wait for each of their readers: about ten seconds of a busy robot.
-const RECORDS: usize = 4_096;
 
 /// After how many milliseconds a pseudonym changes, outside of sessions.
 const PSEUDONYM_PERIOD_MS: u64 = 300_000;
@@ -92,8 +85,6 @@ pub enum NoRobot {
 pub(crate) struct Active {
     running: Running,
     clock: Clock,
-    /// Held so that no other process takes the same counter.
-    _boot: Boot,
     log: Option<JoinHandle<()>>,
 }
 
@@ -116,33 +107,16 @@ impl Active {
         };
         // The counter is taken last, when nothing else can go wrong, and before anything is sent.
         let boot = boot::take(&file.boot_file)?;
-        let body = Body::new(file.build, file.site, file.place, file.speed, robot.seed);
         let body = match robot.body {
-            BodyKind::Simulated => body,
-            BodyKind::External => body.moved_by_others(),
+            BodyKind::Simulated => file.body(robot.seed),
+            BodyKind::External => file.body(robot.seed).moved_by_others(),
         };
-        let plan = file.autopilot.then(|| Plan::crossing(file.site));
-        let clock = Clock::start();
-        let running = Setup {
-            name: file.name.clone(),
-            station: file.station,
-            boot: boot.counter,
-            config: file.config.clone(),
-            wire: Wire {
-                identifiers: file.identifiers,
-            },
-            security,
-            awareness: file.awareness,
-            application: Application::new(body, plan),
-            link,
-            journal,
-            clock,
-        }
-        .start();
+        let setup = file.setup(boot, body, security, link, journal);
+        let clock = setup.clock;
+        let running = setup.start();
         let active = Self {
             running,
             clock,
-            _boot: boot,
             log,
         };
         Ok((active, records))
@@ -153,9 +127,14 @@ impl Active {
         self.running.order(order);
     }
 
+    /// The time on the robot's clock, in µs.
+    pub(crate) fn now_us(&self) -> u64 {
+        self.clock.now_us()
+    }
+
     /// How long ago it was so many µs on the robot's clock.
     pub(crate) fn age(&self, at_us: u64) -> Duration {
-        Duration::from_micros(self.clock.now_us().saturating_sub(at_us))
+        Duration::from_micros(self.now_us().saturating_sub(at_us))
     }
 
     /// How many datagrams found no place.
@@ -188,8 +167,7 @@ fn security(robot: &Robot, name: &str) -> Result<Security, NoRobot> {
     )?)
 }
 
-/// Writes records to a file, in a thread that ends with them. What is written is not kept back while
-/// nothing comes.
+/// Writes records to a file, in a thread that ends with them.
 fn write_log(path: &Path, records: Receiver<Arc<Record>>) -> Result<JoinHandle<()>, NoRobot> {
     let file = File::create(path).map_err(|cause| NoRobot::Log {
         path: path.to_owned(),
@@ -197,25 +175,9 @@ fn write_log(path: &Path, records: Receiver<Arc<Record>>) -> Result<JoinHandle<(
     })?;
     let path = path.to_owned();
     Ok(std::thread::spawn(move || {
-        if let Err(error) = write_all(&records, &mut BufWriter::new(file)) {
+        let write = |to: &mut _, record: &Arc<_>| trace::write(to, record);
+        if let Err(error) = journal::write_out(&records, &mut BufWriter::new(file), write) {
             tracing::error!(path = %path.display(), %error, "the log ends");
         }
     }))
-}
-
-fn write_all(records: &Receiver<Arc<Record>>, to: &mut impl Write) -> std::io::Result<()> {
-    loop {
-        let next = match records.try_recv() {
-            Ok(record) => record,
-            Err(TryRecvError::Disconnected) => return to.flush(),
-            Err(TryRecvError::Empty) => {
-                to.flush()?;
-                match records.recv() {
-                    Ok(record) => record,
-                    Err(_) => return Ok(()),
-                }
-            }
-        };
-        trace::write(to, &next)?;
-    }
 }

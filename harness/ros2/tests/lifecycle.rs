@@ -2,10 +2,12 @@
 
 mod support;
 
+use std::path::Path;
 use std::time::Duration;
 
 use crossguard_ros2::entity::ADMIN_SPACE;
 use crossguard_ros2::msgs::{Command, Corridor, Event, Person, Status};
+use crossguard_ros2::node::Running;
 use crossguard_ros2::qos::Qos;
 use crossguard_ros2::standard::{
     Empty, GetAvailableStates, GetAvailableTransitions, TransitionEvent,
@@ -18,6 +20,13 @@ fn of(kind: u8) -> Command {
         kind,
         ..Command::default()
     }
+}
+
+/// ARI as a node of this namespace, and where it can be met.
+fn ari(folder: &Path, namespace: &str) -> (Running, String) {
+    let ([port, peer], first) = (two_free_ports(), free_endpoint());
+    let alone = robot(folder, "ARI", 1, port, peer);
+    (node(meeting(&first, &[]), namespace, alone), first)
 }
 
 #[test]
@@ -81,12 +90,7 @@ fn what_is_not_possible_now_is_refused_and_said() {
 #[test]
 fn a_robot_that_is_deactivated_leaves_its_request_and_says_that_the_corridor_is_closed() {
     let folder = tempfile::tempdir().unwrap();
-    let ([port, peer], first) = (two_free_ports(), free_endpoint());
-    let running = node(
-        meeting(&first, &[]),
-        "/ari",
-        robot(folder.path(), "ARI", 1, port, peer),
-    );
+    let (running, first) = ari(folder.path(), "/ari");
     let observer = Observer::at(&meeting("tcp/127.0.0.1:0", &[&first]));
     let lifecycle = observer.lifecycle("/ari");
     let status = observer.hear::<Status>("/ari/crossguard/status");
@@ -115,12 +119,7 @@ fn a_robot_that_is_deactivated_leaves_its_request_and_says_that_the_corridor_is_
 #[test]
 fn the_graph_has_the_node_with_all_its_parts_until_it_ends() {
     let folder = tempfile::tempdir().unwrap();
-    let ([port, peer], first) = (two_free_ports(), free_endpoint());
-    let running = node(
-        meeting(&first, &[]),
-        "/ari",
-        robot(folder.path(), "ARI", 1, port, peer),
-    );
+    let (running, first) = ari(folder.path(), "/ari");
     let mut config = zenoh::Config::default();
     config
         .insert_json5("connect/endpoints", &format!("[{first:?}]"))
@@ -190,12 +189,7 @@ fn the_graph_has_the_node_with_all_its_parts_until_it_ends() {
 #[test]
 fn states_and_transitions_are_told() {
     let folder = tempfile::tempdir().unwrap();
-    let ([port, peer], first) = (two_free_ports(), free_endpoint());
-    let running = node(
-        meeting(&first, &[]),
-        "/",
-        robot(folder.path(), "ARI", 1, port, peer),
-    );
+    let (running, first) = ari(folder.path(), "/");
     let observer = Observer::at(&meeting("tcp/127.0.0.1:0", &[&first]));
     assert_eq!(observer.lifecycle("").get(), "unconfigured");
     let states = observer

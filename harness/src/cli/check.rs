@@ -357,8 +357,8 @@ fn print_figures(figures: &[Figure]) -> Result<(), Failure> {
             .ms
             .map_or_else(|| "none".to_owned(), |ms| format!("{ms} ms"));
         print(format_args!(
-            "  {:<54} {found:>7}, by calculation at most {} ms",
-            figure.name, figure.bound_ms
+            "  {:<8} {:<54} {found:>7}, by calculation at most {} ms",
+            figure.id, figure.name, figure.bound_ms
         ))?;
     }
     Ok(())

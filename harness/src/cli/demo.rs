@@ -148,6 +148,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
                 Seen::PowerLoss { at_us, robot } => {
                     Vec::from_iter(chart.note(at_us, robot, "! loses power"))
                 }
+                Seen::Pedestrian { at_us, is_on_road } => {
+                    let text = if is_on_road {
+                        "~ the pedestrian sees go and steps on the road"
+                    } else {
+                        "~ the pedestrian is across"
+                    };
+                    Vec::from_iter(chart.note(at_us, names[0], text))
+                }
             };
             reads = lines.iter().all(|line| print(line).is_ok());
         }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crossguard_harness::sim::{Files, Fuzz, Longest, Totals, Worst, write_failure};
+use crossguard_harness::sim::{Files, Fuzz, Longest, Measure, Totals, write_failure};
 use crossguard_harness::transport::Faults;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
@@ -43,9 +43,9 @@ pub(super) struct Arguments {
 
 const AFTER_HELP: &str = "\
 Whole endpoints with real packets run in virtual time. From each seed is drawn who there is, which \
-faults the radio has, who detects, crashes and boots again. At first there are faults, then the \
-network is healed: no property may break, and all robots must come to rest. The same seed gives the \
-same run.";
+faults the radio has, who detects, crashes, hangs and boots again, who crosses the road. At first there \
+are faults, then the network is healed: no property may break, where a team can exist a crossing must be \
+completed, and all robots must come to rest. The same seed gives the same run.";
 
 /// The results as JSON.
 #[derive(Serialize)]
@@ -159,23 +159,32 @@ fn tell(totals: &Totals, seconds: Duration) -> Result<(), Failure> {
         "Runs in which a property had something to say: {}.",
         premises.join(", ")
     ))?;
-    let Worst {
-        roles,
-        stopped,
-        left,
-        corridor_closed,
-    } = totals.worst;
-    let time = |longest: Option<Longest>| match longest {
-        None => "never measured".to_owned(),
-        Some(Longest { ms, bound_ms }) => format!("{ms} ms (at most {bound_ms})"),
-    };
+    let seeds = |counts: Vec<String>| counts.join(", ");
+    let hazards = totals.hazards.iter();
+    let hazards = hazards.map(|(hazard, runs)| format!("{hazard} {runs}"));
     print(format_args!(
-        "Longest times, and what the timers of that run allow: request to roles or giving up {}; leader's \
-         crash to follower stopped {}, to follower idle {}; follower's failure to corridor closed {}.",
-        time(roles),
-        time(stopped),
-        time(left),
-        time(corridor_closed)
+        "Runs with each hazard: {}.",
+        seeds(hazards.collect())
     ))?;
+    let left_out = totals.left_out.iter();
+    let left_out = left_out.map(|(name, runs)| format!("{name} {runs}"));
+    print(format_args!(
+        "Runs whose faults leave a property open: {}.",
+        seeds(left_out.collect())
+    ))?;
+    print(format_args!(
+        "Longest times, and what the timers of that run allow:"
+    ))?;
+    for measure in Measure::ALL {
+        let (id, name) = (measure.property(), measure.name());
+        match totals.worst.of(measure) {
+            None => print(format_args!("  {id:>3} {name}: never measured"))?,
+            Some(Longest { ms, bound_ms }) => {
+                print(format_args!(
+                    "  {id:>3} {name}: {ms} ms (at most {bound_ms})"
+                ))?;
+            }
+        }
+    }
     print(format_args!("Violations: {}.", totals.violations))
 }

@@ -21,19 +21,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_harness::application::Application;
-use crossguard_harness::body::Body;
 use crossguard_harness::boot;
 use crossguard_harness::counters::Cause;
 use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_harness::perception::{Announced, Feed};
-use crossguard_harness::plan::Plan;
 use crossguard_harness::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_harness::robot_file::RobotFile;
-use crossguard_harness::runtime::{Clock, Order, Running, Setup};
+use crossguard_harness::runtime::{Order, Running};
 use crossguard_harness::trace::{Entry, Record};
 use crossguard_harness::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
-use crossguard_harness::wire::{MessageKind, Wire, overhear};
+use crossguard_harness::wire::{MessageKind, overhear};
 use crossguard_protocol::{Input, Output, Robot, State};
 
 use super::Failure;
@@ -128,48 +125,27 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
     let security = arguments.security.of_robot(&file.name)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
-    let mut awareness = file.awareness;
-    if arguments.cluster_vam {
-        awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);
-    }
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
     let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
-    let body = Body::new(
-        file.build,
-        file.site,
-        file.place,
-        file.speed,
-        arguments.seed,
-    );
-    let plan = file.autopilot.then(|| Plan::crossing(file.site));
-    let running = Setup {
-        name: file.name.clone(),
-        station: file.station,
-        boot: boot.counter,
-        config: file.config.clone(),
-        wire: Wire {
-            identifiers: file.identifiers,
-        },
-        security,
-        awareness,
-        application: Application::new(body, plan),
-        link,
-        journal: outputs.journal,
-        clock: Clock::start(),
+    let counter = boot.counter;
+    let body = file.body(arguments.seed);
+    let mut setup = file.setup(boot, body, security, link, outputs.journal);
+    if arguments.cluster_vam {
+        setup.awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);
     }
-    .start();
+    let running = setup.start();
     let mut console = Console {
         file: &file,
         lines: outputs.lines,
         watch,
-        robot: Robot::new(file.station, boot.counter),
+        robot: Robot::new(file.station, counter),
         pending: VecDeque::new(),
         hold: None,
         perceived,
         announced: Announced::default(),
         missing: 0,
     };
-    let (name, station, counter) = (&file.name, file.station, boot.counter);
+    let (name, station) = (&file.name, file.station);
     console.say(&format!(
         "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
     ));
@@ -321,7 +297,9 @@ impl Console<'_> {
                         (Output::Ignored(reason), Input::Local(event)) => {
                             texts.push(format!("{event}: ignored, {reason}"));
                         }
-                        (Output::SendRam | Output::Ignored(_), _) => {}
+                        // It is extended with every message of a follower.
+                        (Output::SendRam | Output::CorridorExtended(_) | Output::Ignored(_), _) => {
+                        }
                         (output, _) => texts.push(output.to_string()),
                     }
                 }

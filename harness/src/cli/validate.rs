@@ -20,9 +20,11 @@ pub(super) struct Arguments {
 
 const AFTER_HELP: &str = "\
 Replays every step through the transition function, matches every reception with its transmission, \
-and judges every step by the properties that the model checker verifies. The first record that does \
+judges every step by the properties that the model checker verifies, and holds the time that each \
+robot was told against the clock of its log. The first record that does \
 not fit is named with its line and the reason. Of a station whose log is not among those given, \
-nothing is known; what was heard from it is counted.";
+nothing is known; what was heard from it is counted. I10 is judged among robots that share a log, and so a \
+clock. How long messages were under way is in no log.";
 
 /// The results as JSON.
 #[derive(Serialize)]
@@ -100,9 +102,23 @@ fn tell(result: &Result<Validated, Invalid>) -> Result<(), Failure> {
             validated.beyond_logs,
             "messages came from robots after the end of their logs",
         ),
+        (
+            validated.of_unknown_age,
+            "messages were taken in of which the logs do not say how long they had waited",
+        ),
     ];
     for (count, remark) in remarks.into_iter().filter(|(count, _)| *count > 0) {
         print(format_args!("{count} {remark}."))?;
+    }
+    if validated.late.steps > 0 {
+        print(format_args!(
+            "{} steps came later than delay_max after they were due, the latest by {} ms: the process hung, or \
+             its machine was too slow.",
+            validated.late.steps, validated.late.longest_ms
+        ))?;
+    }
+    for what in &validated.not_judged {
+        print(format_args!("Not judged: {what}."))?;
     }
     for robot in &validated.cut_off {
         print(format_args!(

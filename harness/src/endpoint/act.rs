@@ -2,7 +2,7 @@
 
 use crossguard_codec::TaskParameters;
 use crossguard_protocol::{
-    CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Notice, Output, StopReason,
+    CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, Output, StopReason,
 };
 
 /// What the application is to do or to know.
@@ -12,14 +12,19 @@ pub enum Act {
     Start(Maneuver, TaskParameters),
     /// Stop a maneuver.
     Stop(Maneuver, StopReason),
-    /// Stop a maneuver by the policy of its task.
+    /// Stop a maneuver by the policy of its task. The robot is on duty until it is told that the road is
+    /// clear.
     FallBack(Maneuver, FallbackPolicy),
-    /// Let the pedestrian cross.
-    OpenCorridor,
+    /// Show *go* for this long, and no longer unless it is extended.
+    OpenCorridor(Millis),
+    /// Show *go* for this long from now on.
+    ExtendCorridor(Millis),
     /// Hold the pedestrian back.
     CloseCorridor(CorridorClosure),
     /// Keep the pseudonym, or let it change.
     LockIdentity(bool),
+    /// Persist a larger boot counter, and tell [`Event::EpochRenewed`].
+    RenewEpoch,
     /// Know this.
     Notice(Notice),
     /// Know that the event that was told had no effect.
@@ -32,10 +37,12 @@ pub(super) fn act(output: Output, parameters: TaskParameters) -> Option<Act> {
         Output::StartManeuver(maneuver) => Act::Start(maneuver, parameters),
         Output::StopManeuver(maneuver, why) => Act::Stop(maneuver, why),
         Output::FallBack(maneuver, policy) => Act::FallBack(maneuver, policy),
-        Output::CorridorOpened => Act::OpenCorridor,
+        Output::CorridorOpened(time) => Act::OpenCorridor(time),
+        Output::CorridorExtended(time) => Act::ExtendCorridor(time),
         Output::CorridorClosed(why) => Act::CloseCorridor(why),
         Output::LockIdentity => Act::LockIdentity(true),
         Output::UnlockIdentity => Act::LockIdentity(false),
+        Output::RenewEpoch => Act::RenewEpoch,
         Output::Notify(notice) => Act::Notice(notice),
         Output::SendRam | Output::SendRmcm(_) | Output::Ignored(_) => return None,
     })

@@ -191,6 +191,7 @@ impl<'a> Robot<'a> {
                 station: StationId(self.station),
                 coordination: Coordination::None,
                 farewell: None,
+                on_duty: false,
             },
             availability: Availability::Available,
             progression: TaskProgression::Idle,

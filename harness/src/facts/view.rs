@@ -1,6 +1,8 @@
 //! A robot's part in a session, as far as people and plots want to know it.
 
-use crossguard_protocol::{Phase, Robot, Role, SessionId, State, StationId, TaskType};
+use crossguard_protocol::{
+    Corridor, Duty, Phase, Place, Robot, Role, SessionId, State, StationId, TaskType,
+};
 
 /// A robot's part in a session.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -21,6 +23,10 @@ pub struct View {
     pub executes: Option<TaskType>,
     /// Whether the pedestrian may cross, as far as this robot says.
     pub corridor_open: bool,
+    /// The crossing that a requester or leader asks help for, empty where it is not known.
+    pub place: String,
+    /// What it still has to do on the road, empty where that is nothing.
+    pub duty: String,
     /// Whether it is available, and if not, why.
     pub availability: String,
 }
@@ -70,8 +76,37 @@ impl View {
             session: robot.session(),
             followers: followers.collect(),
             executes,
-            corridor_open: leading.is_some_and(|leading| leading.corridor_open),
+            corridor_open: leading.is_some_and(|leading| leading.corridor == Corridor::Open),
+            place: place_of(robot),
+            duty: match leading {
+                Some(leading) if leading.corridor == Corridor::Clearing => {
+                    "waits for the road to be clear".to_owned()
+                }
+                _ => robot.duty().map_or_else(String::new, duty_text),
+            },
             availability: robot.availability().to_string(),
         }
+    }
+}
+
+/// The crossing that a robot asks help for.
+fn place_of(robot: &Robot) -> String {
+    let place = match robot.phase() {
+        Phase::Requesting(requesting) => requesting.request.place,
+        Phase::Leading(leading) => leading.request.place,
+        _ => Place::UNKNOWN,
+    };
+    if place == Place::UNKNOWN {
+        return String::new();
+    }
+    place.to_string()
+}
+
+/// A duty on the road in a few words.
+#[must_use]
+pub fn duty_text(duty: Duty) -> String {
+    match duty {
+        Duty::FallingBack(maneuver) => format!("on duty: falls back from {maneuver}"),
+        Duty::Crossing(session) => format!("on duty: people of {session} may be on the road"),
     }
 }

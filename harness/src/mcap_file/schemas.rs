@@ -79,6 +79,10 @@ pub(super) struct State {
     pub(super) followers: Vec<Follower>,
     /// Whether the pedestrian may cross, as far as this robot says.
     pub(super) corridor_open: bool,
+    /// The crossing that it asks help for, empty where it is not known.
+    pub(super) place: String,
+    /// What it still has to do on the road, empty where that is nothing.
+    pub(super) duty: String,
     /// `available`, or why it is not.
     pub(super) availability: String,
 }

@@ -210,7 +210,10 @@ impl Generation {
             Some(Trigger::HelpStatus)
         } else if before.availability != now.availability {
             Some(Trigger::Availability)
-        } else if report(then_in) != report(now_in) || before.progression != now.progression {
+        } else if report(then_in) != report(now_in)
+            || before.view.on_duty != now.view.on_duty
+            || before.progression != now.progression
+        {
             Some(Trigger::Task)
         } else {
             None
@@ -245,20 +248,25 @@ impl Generation {
 fn role(coordination: &Coordination) -> impl PartialEq + use<> {
     match *coordination {
         Coordination::Leader {
-            number, followers, ..
-        } => Some((Some((number, followers)), None)),
+            number,
+            followers,
+            yields,
+            ..
+        } => Some((Some((number, followers, yields)), None)),
         Coordination::Follower { session, .. } => Some((None, Some(session))),
         _ => None,
     }
 }
 
-/// What is asked for or offered.
-fn help(coordination: &Coordination) -> Option<Coordination> {
-    let is_help = matches!(
-        coordination,
-        Coordination::NeedHelp { .. } | Coordination::OfferHelp { .. }
-    );
-    is_help.then_some(*coordination)
+/// What is asked for or offered, without what changes at every heartbeat.
+fn help(coordination: &Coordination) -> impl PartialEq + use<> {
+    match *coordination {
+        Coordination::NeedHelp {
+            number, request, ..
+        } => Some((Some((number, request)), None)),
+        Coordination::OfferHelp { session, offer, .. } => Some((None, Some((session, offer)))),
+        _ => None,
+    }
 }
 
 /// What a follower reports of its command.
@@ -273,7 +281,7 @@ fn report(coordination: &Coordination) -> impl PartialEq + use<> {
 mod tests {
     use crossguard_codec::Position;
     use crossguard_protocol::{
-        Farewell, Heartbeat, SessionId, SessionNumber, StationId, UniqueNumber,
+        Farewell, Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber,
     };
     use proptest::prelude::*;
 
@@ -294,6 +302,7 @@ mod tests {
                 station: StationId(7),
                 coordination,
                 farewell: None,
+                on_duty: false,
             },
             availability: Availability::Available,
             progression: TaskProgression::Idle,
@@ -386,10 +395,10 @@ mod tests {
     fn every_event_has_its_name() {
         let state = at(49.0, 0.0, 0.0);
         let generation = after_one(&state);
-        let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+        let number = UniqueNumber { boot: 1, count: 0 };
         let session = SessionId {
             leader: StationId(9),
-            number,
+            number: SessionNumber(number),
         };
         let follower = status(Coordination::Follower {
             session,
@@ -398,11 +407,14 @@ mod tests {
         });
         assert_eq!(generation.event(&follower), Some(Trigger::Role));
         let mut offer = status(Coordination::None);
-        offer.view.farewell = Some(Farewell::Left(session));
+        offer.view.farewell = Some(Farewell::Left(session, OfferNumber(number)));
         assert_eq!(generation.event(&offer), Some(Trigger::Role));
         let mut task = status(Coordination::None);
         task.progression = TaskProgression::Executing;
         assert_eq!(generation.event(&task), Some(Trigger::Task));
+        let mut duty = status(Coordination::None);
+        duty.view.on_duty = true;
+        assert_eq!(generation.event(&duty), Some(Trigger::Task));
         assert_eq!(generation.event(&status(Coordination::None)), None);
 
         let mut following = generation;

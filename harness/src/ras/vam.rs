@@ -79,6 +79,7 @@ pub fn vam(
         station: crossguard_protocol::StationId(station),
         coordination: Coordination::None,
         farewell: None,
+        on_duty: false,
     };
     let time = crossguard_codec::si::generation_delta_time(now_ms);
     let mut shared = ram_from(&ids, state, &view, Availability::Available, time, false)?;

@@ -173,7 +173,11 @@ impl RobotRun {
                 Direction::Heard => self.heard += 1,
                 Direction::Lost => self.lost += 1,
             },
-            Fact::Corridor { is_open, why } => self.corridor(at_us, is_open, why),
+            Fact::Corridor {
+                is_open,
+                since_us,
+                why,
+            } => self.corridor(since_us, is_open, why),
             Fact::Counted { cause, count } => {
                 let before = self.counters_before.get(&cause).copied().unwrap_or(0);
                 self.counters.insert(cause, before + count);

@@ -104,6 +104,9 @@ fn verdict(report: &Report) -> Markup {
                     " properties put to the test and kept."
                     @if valid.from_strangers > 0 { " " (valid.from_strangers) " messages came from stations whose logs are not here." }
                     @if valid.beyond_logs > 0 { " " (valid.beyond_logs) " messages came from robots after the end of their logs." }
+                    @if valid.of_unknown_age > 0 { " " (valid.of_unknown_age) " messages were taken in of which the logs do not say how long they had waited." }
+                    @if valid.late.steps > 0 { " " (valid.late.steps) " steps came later than they may, the latest by " (valid.late.longest_ms) " ms." }
+                    @for what in &valid.not_judged { " Not judged: " (what) "." }
                     @if valid.missing > 0 { " " (valid.missing) " records are missing by the robots' own account." }
                     @for robot in &valid.cut_off { " The log of " (robot) " ends in the middle of a run." }
                 }

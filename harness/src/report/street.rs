@@ -37,6 +37,7 @@ impl View {
         let site = Site {
             latitude,
             longitude,
+            ..Site::default()
         };
         let places: Vec<_> = points.iter().map(|at| site.place(at.0, at.1)).collect();
         let range = |of: fn(&Place) -> f64| {
@@ -135,6 +136,7 @@ fn length(way: &[(f64, f64)]) -> f64 {
         let site = Site {
             latitude: pair[0].0,
             longitude: pair[0].1,
+            ..Site::default()
         };
         site.place(pair[1].0, pair[1].1).distance(Place::default())
     });

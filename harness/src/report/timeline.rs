@@ -109,6 +109,7 @@ fn class(state: State) -> &'static str {
 fn words(view: &View) -> String {
     match (view.executes, view.role) {
         (Some(task), _) => format!("{task}"),
+        (None, Role::None) if !view.duty.is_empty() => "on duty".to_owned(),
         (None, Role::None) => String::new(),
         (None, role) => role.to_string(),
     }
@@ -118,9 +119,11 @@ fn state(axis: Axis, span: &Span<View>) -> Markup {
     let view = &span.what;
     let (from, to) = (axis.seconds(span.from_us), axis.seconds(span.to_us));
     let title = format!(
-        "{from:.3} s to {to:.3} s: {:?}, {}",
+        "{from:.3} s to {to:.3} s: {:?}, {}{}{}",
         view.state,
-        words(view)
+        words(view),
+        if view.duty.is_empty() { "" } else { "; " },
+        view.duty
     );
     html! {
         div.state.(class(view.state)) style=(axis.place(span)) title=(title) { span { (words(view)) } }
@@ -147,6 +150,7 @@ fn table(run: &Run, axis: Axis) -> Markup {
             thead { tr {
                 th scope="col" { "robot" } th.n scope="col" { "from [s]" } th.n scope="col" { "to [s]" }
                 th scope="col" { "state" } th scope="col" { "role" } th scope="col" { "session" } th scope="col" { "executes" }
+                th scope="col" { "on the road" }
             } }
             tbody {
                 @for robot in &run.robots {
@@ -159,10 +163,11 @@ fn table(run: &Run, axis: Axis) -> Markup {
                             td { (span.what.role) }
                             td { @if let Some(session) = span.what.session { (session) } }
                             td { @if let Some(task) = span.what.executes { (task) } }
+                            td { (span.what.duty) }
                         }
                     }
                     @let more = more(robot);
-                    @if more > 0 { tr { th scope="row" { (robot.name) } td colspan="6" { (more) " more are left out" } } }
+                    @if more > 0 { tr { th scope="row" { (robot.name) } td colspan="7" { (more) " more are left out" } } }
                 }
             }
         }

@@ -6,10 +6,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crossguard_model_check::node::{Protocol, Rules};
-use crossguard_model_check::properties::PropertyId;
 use serde::Serialize;
 
-use super::swarm::Swarm;
+use super::swarm::{Hazard, Swarm};
 use super::times::Worst;
 use super::world::{Finding, Outcome, run_with};
 use crate::transport::Faults;
@@ -58,8 +57,12 @@ pub struct Totals {
     pub packets: u64,
     /// How long the runs were together, in seconds of virtual time.
     pub virtual_s: u64,
-    /// In how many runs the premise of each property was met.
+    /// In how many runs the premise of each property was met, or a time of it measured.
     pub premises: BTreeMap<PropertyName, u64>,
+    /// How many runs had each hazard.
+    pub hazards: BTreeMap<Hazard, u64>,
+    /// In how many runs each of these was not judged, because the faults of the run leave it open.
+    pub left_out: BTreeMap<&'static str, u64>,
     /// The longest times in any run.
     pub worst: Worst,
 }
@@ -76,7 +79,13 @@ impl Totals {
         self.virtual_s += outcome.virtual_ms / 1_000;
         self.worst.add(outcome.worst);
         for id in &outcome.premises {
-            *self.premises.entry(PropertyId::to_string(id)).or_default() += 1;
+            *self.premises.entry(id.clone()).or_default() += 1;
+        }
+        for hazard in &outcome.hazards {
+            *self.hazards.entry(*hazard).or_default() += 1;
+        }
+        for name in &outcome.left_out {
+            *self.left_out.entry(name).or_default() += 1;
         }
         if let Some(finding) = &outcome.finding {
             let finding = finding.clone();
@@ -161,6 +170,8 @@ impl Fuzz<'_> {
             steps: 0,
             packets: 0,
             premises: std::collections::BTreeSet::new(),
+            hazards: swarm.hazards().collect(),
+            left_out: Vec::new(),
             worst: Worst::default(),
         })
     }

@@ -4,27 +4,30 @@
 //! faults goes far into a session, one with many goes astray in every way. A run that has a little of
 //! everything would do neither.
 
-use crossguard_protocol::{
-    Availability, Config, Heartbeat, Millis, RequestId, Settings, StationId, TaskSet, TaskType,
-    Unavailability, Urgency,
-};
-use rand::seq::IndexedRandom;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+mod draws;
+mod hazards;
 
-use super::script::{Deed, Happening};
+use crossguard_model_check::timed::longest;
+use crossguard_protocol::{Config, Millis, Settings, StationId};
+
+use self::draws::Draws;
+pub use self::hazards::Hazard;
+use super::script::Happening;
 use crate::body::Build;
-use crate::plan::{Leg, Plan, Stage};
-use crate::site::{Place, Site};
-use crate::transport::{Burst, Delay, Faults, Outage};
+use crate::plan::Plan;
+use crate::site::Place;
+use crate::transport::Faults;
 
 /// By how much a station id grows when the robot changes its pseudonym.
 pub(super) const PSEUDONYM_STEP: u32 = 100;
 
-const SECOND_US: u64 = 1_000_000;
+pub(super) const SECOND_US: u64 = 1_000_000;
+
+/// How long a message takes at most once the network is healed, in milliseconds.
+pub(super) const HEALED_DELAY_MS: u32 = 50;
 
 /// All that a run is made of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Swarm {
     /// The seed that it was drawn from.
     pub seed: u64,
@@ -36,8 +39,16 @@ pub struct Swarm {
     pub script: Vec<Happening>,
     /// When the network is healed, in microseconds.
     pub heals_us: u64,
-    /// By how much endpoints are late to be told of time at most, in microseconds.
+    /// By how much endpoints are late to be told of time at most, in microseconds, until the network is healed.
     pub late_max_us: u64,
+    /// How probable it is that something happens to the team of a sign that begins to show *go*.
+    pub strikes: f64,
+    /// Which packets are sent once more, by somebody who has recorded them.
+    pub replays: Vec<Replay>,
+    /// Whether robots sign what they send, and take in nothing without a signature.
+    pub is_secured: bool,
+    /// The corner at which somebody waits once the network is healed, where a team can exist.
+    pub waits_at: Option<usize>,
 }
 
 /// What is drawn for one robot.
@@ -53,6 +64,9 @@ pub struct RobotDraw {
     pub config: Config,
     /// What it does when it leads.
     pub plan: Plan,
+    /// The corner at which it notices people, by number. The same crossing has the same number, whatever its
+    /// reference says.
+    pub corner: usize,
     /// Its body.
     pub build: Build,
     /// Where it begins.
@@ -61,6 +75,19 @@ pub struct RobotDraw {
     pub time_scale: f64,
     /// By how much its clock is off, in parts per million.
     pub drift_ppm: i64,
+}
+
+/// Packets that are sent once more, to everybody.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Replay {
+    /// When, in microseconds since the run began.
+    pub at_us: u64,
+    /// Where it begins among the packets so far: 0 is the oldest, 1 the newest.
+    pub begins: f64,
+    /// How many packets.
+    pub packets: usize,
+    /// The time from one to the next, in microseconds.
+    pub every_us: u64,
 }
 
 impl Swarm {
@@ -82,267 +109,71 @@ impl Swarm {
     /// Draws a run of 2 to `robots` robots. With `faults`, every way has these instead of its own.
     #[must_use]
     pub fn draw(seed: u64, robots: usize, faults: Option<&Faults>) -> Self {
-        let mut draws = Draws(ChaCha8Rng::seed_from_u64(seed));
-        let robots = draws.0.random_range(2..=robots.max(2));
-        let heals_us = draws.0.random_range(8 * SECOND_US..=60 * SECOND_US);
-        let settings = draws.settings();
-        let time_scale = draws.0.random_range(3.0..30.0);
-        let members: Vec<_> = (0..robots)
-            .map(|place| draws.robot(place, robots, &settings, time_scale))
-            .collect();
-        let script = draws.script(&members, heals_us);
-        let mut ways = match faults {
-            Some(faults) => vec![faults.clone(); robots * robots],
-            None => draws.ways(robots),
+        Draws::new(seed).swarm(seed, robots, faults)
+    }
+
+    /// The longest time that a message is under way, in milliseconds.
+    pub(super) fn delay_max(&self) -> Millis {
+        let delays = self.ways.iter().map(Faults::delay_max_ms);
+        Millis(delays.max().unwrap_or(0))
+    }
+
+    /// Whether endpoints are told of time within `delay_max`. A millisecond is lost to clocks that are read to
+    /// the millisecond.
+    pub(super) fn is_in_time(&self) -> bool {
+        let in_time = |robot: &RobotDraw| {
+            let delay_max = u64::from(robot.config.settings().delay_max.0);
+            self.late_max_us <= (delay_max * 1_000).saturating_sub(1_000)
         };
-        for cut in draws.partitions(robots, heals_us) {
-            for (from, to) in (0..robots).flat_map(|from| (0..robots).map(move |to| (from, to))) {
-                if (cut.0 >> from & 1) != (cut.0 >> to & 1) {
-                    ways[from * robots + to].outages.push(cut.1);
-                }
-            }
-        }
-        let delay_max_us = u64::from(settings.delay_max.0) * 1_000;
-        Self {
-            seed,
-            robots: members,
-            ways,
-            script,
-            heals_us,
-            // A millisecond is lost to clocks that are read to the millisecond.
-            late_max_us: draws.0.random_range(0..=delay_max_us.saturating_sub(2_000)),
-        }
-    }
-}
-
-struct Draws(ChaCha8Rng);
-
-impl Draws {
-    /// Whether a run has something at all, and then how much of it.
-    fn perhaps(&mut self, max: f64) -> f64 {
-        if self.0.random_bool(0.5) {
-            self.0.random_range(0.0..max)
-        } else {
-            0.0
-        }
+        self.robots.iter().all(in_time)
     }
 
-    fn time(&mut self, until_us: u64) -> u64 {
-        self.0.random_range(0..until_us)
+    /// The robots that may notice somebody at a corner and can have a team: helpers enough, each of
+    /// which can do all that the plan asks for and has timers that fit.
+    pub(super) fn who_can_lead(&self, corner: usize) -> Vec<usize> {
+        let robots = self.robots.iter().enumerate();
+        let can = robots.filter(|(place, robot)| robot.corner == corner && self.can_lead(*place));
+        can.map(|(place, _)| place).collect()
     }
 
-    /// Timers, the same for all robots.
-    fn settings(&mut self) -> Settings {
-        let [in_use, short] = Swarm::timers();
-        let mut settings = if self.0.random_bool(0.3) {
-            short
-        } else {
-            in_use
+    fn can_lead(&self, place: usize) -> bool {
+        let leader = &self.robots[place];
+        let tasks = leader.plan.request().tasks;
+        let helps = |(other, helper): &(usize, &RobotDraw)| {
+            let settings = helper.config.settings();
+            *other != place
+                && settings.capabilities.intersection(tasks) == tasks
+                && leader.config.lease_fits(settings.t_safety)
         };
-        settings.t_exec[usize::from(TaskType::INITIAL_POS.value())].0 = 20_000;
-        settings.n_ack = self.0.random_range(1..=4);
-        settings
+        let helpers = self.robots.iter().enumerate().filter(helps).count();
+        helpers >= usize::from(leader.plan.followers)
+            && leader.plan.lets_cross(leader.config.settings().guarding)
     }
 
-    /// One robot; its counters may be close to wrapping round.
-    fn robot(
-        &mut self,
-        place: usize,
-        robots: usize,
-        settings: &Settings,
-        time_scale: f64,
-    ) -> RobotDraw {
-        let all = [TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK];
-        let can = |draws: &mut Self| {
-            let can: Vec<_> = all
-                .into_iter()
-                .filter(|_| draws.0.random_bool(0.85))
-                .collect();
-            TaskSet::of(&can)
+    /// How long after healing a crossing is completed (W7): what went on before has ended, with people on the
+    /// road and duties of their guards, and so has one try that failed because of it.
+    pub(super) fn crossing_bound(&self) -> Millis {
+        let bound = |robot: &RobotDraw| {
+            let settings = robot.config.settings();
+            let parts = [
+                settings.t_help,
+                settings.t_cross,
+                settings.t_safety,
+                settings.t_leave,
+                settings.t_farewell,
+            ];
+            let patience = Millis(draws::PATIENCE_MS);
+            let one = parts.into_iter().fold(patience, Millis::saturating_add);
+            longest(one.saturating_add(one), settings)
         };
-        let settings = Settings {
-            capabilities: can(self),
-            first_request: RequestId(self.0.random()),
-            first_heartbeat: Heartbeat(self.0.random()),
-            ..settings.clone()
-        };
-        let drift_ppm = i64::from(settings.drift_ppm);
-        let station = StationId(u32::try_from(place).unwrap_or(0) + 1);
-        RobotDraw {
-            name: format!("R{station}"),
-            station,
-            boot: self.0.random_range(1..60_000),
-            config: Config::new(settings).expect("drawn within the inequalities"),
-            plan: self.plan(robots),
-            build: if self.0.random() {
-                Build::Humanoid
-            } else {
-                Build::Quadruped
-            },
-            place: self.place(),
-            time_scale,
-            drift_ppm: self.0.random_range(-drift_ppm..=drift_ppm),
-        }
-    }
-
-    fn place(&mut self) -> Place {
-        let mut metres = || self.0.random_range(-10.0..10.0);
-        Place::new(metres(), metres())
-    }
-
-    fn plan(&mut self, robots: usize) -> Plan {
-        let site = Site::default();
-        let tasks = [TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK];
-        let stages = (0..self.0.random_range(1..=4)).map(|_| {
-            let task = *tasks.choose(&mut self.0).expect("there are tasks");
-            Stage::everybody(Leg::new(task, self.place()))
-        });
-        let stages = stages.collect();
-        let most = (robots - 1).min(crossguard_protocol::MAX_FOLLOWERS);
-        let urgencies = [Urgency::Low, Urgency::Medium, Urgency::High];
-        Plan {
-            followers: u8::try_from(self.0.random_range(1..=most)).unwrap_or(1),
-            urgency: *urgencies.choose(&mut self.0).expect("there are urgencies"),
-            stages,
-            crossing_s: 6.0,
-            patience_s: 40.0,
-            ..Plan::crossing(site)
-        }
-    }
-
-    /// The faults of every way: alike in both directions, or each with its own.
-    fn ways(&mut self, robots: usize) -> Vec<Faults> {
-        let common = self.faults();
-        let is_uneven = self.0.random_bool(0.3);
-        let mut way = || {
-            if is_uneven {
-                let share = self.0.random_range(0.0..1.0);
-                Faults {
-                    loss: common.loss * share,
-                    burst: common.burst.filter(|_| self.0.random_bool(share)),
-                    delay: common.delay,
-                    ..common.clone()
-                }
-            } else {
-                common.clone()
-            }
-        };
-        (0..robots * robots).map(|_| way()).collect()
-    }
-
-    fn faults(&mut self) -> Faults {
-        let burst = self.0.random_bool(0.5).then(|| Burst {
-            loss: self.0.random_range(0.05..=0.4),
-            length: self.0.random_range(1.0..20.0),
-        });
-        // Quick, slow, or so slow that messages outlive the session that they belong to.
-        let longest = *[10, 300, 4_000]
-            .choose(&mut self.0)
-            .expect("there are three");
-        let max_ms = self.0.random_range(0..longest);
-        Faults {
-            loss: self.perhaps(0.4),
-            burst,
-            duplication: self.perhaps(0.3),
-            reordering: self.perhaps(0.3),
-            delay: Delay {
-                min_ms: 0,
-                max_ms,
-                mean_ms: self.0.random_bool(0.3).then_some(30.0),
-            },
-            outages: Vec::new(),
-        }
-    }
-
-    /// Times in which one group of robots does not hear the other, by one bit for each robot.
-    fn partitions(&mut self, robots: usize, heals_us: u64) -> Vec<(u64, Outage)> {
-        let partitions = self.0.random_range(0..=4);
-        let partition = |_| {
-            let group = self.0.random_range(1..(1 << robots) - 1);
-            let from_us = self.time(heals_us);
-            let until_us = (from_us + self.0.random_range(0..10 * SECOND_US)).min(heals_us);
-            let outage = Outage {
-                from_ms: from_us / 1_000,
-                until_ms: until_us / 1_000,
-            };
-            (group, outage)
-        };
-        (0..partitions).map(partition).collect()
-    }
-
-    fn script(&mut self, robots: &[RobotDraw], heals_us: u64) -> Vec<Happening> {
-        let mut script = Vec::new();
-        let mut add = |at_us, place, deed| script.push(Happening { at_us, place, deed });
-        let any = |draws: &mut Self| draws.0.random_range(0..robots.len());
-        for place in 0..robots.len() {
-            add(self.time(SECOND_US / 4), place, Deed::Boot);
-        }
-        for _ in 0..self.0.random_range(1..=8) {
-            let first = self.time(heals_us);
-            add(first, any(self), Deed::Detect);
-            if self.0.random_bool(0.3) {
-                // Another robot sees the same pedestrian.
-                add(first + self.time(SECOND_US / 5), any(self), Deed::Detect);
-            }
-        }
-        for _ in 0..self.0.random_range(0..=5) {
-            let (at, place) = (self.time(heals_us), any(self));
-            add(at, place, Deed::Crash);
-            // One in four stays down until the network is healed.
-            let stays_down = self.0.random_bool(0.25);
-            let up = if stays_down {
-                heals_us
-            } else {
-                at + self.time(6 * SECOND_US)
-            };
-            add(up, place, Deed::Boot);
-        }
-        let mischief = self.0.random_range(0..=12) * u32::from(self.0.random_bool(0.6));
-        for _ in 0..mischief {
-            let deed = self.mischief(robots);
-            add(self.time(heals_us), any(self), deed);
-        }
-        for place in 0..robots.len() {
-            // What was broken is repaired in the end.
-            add(heals_us, place, Deed::Availability(Availability::Available));
-        }
-        script.sort_by_key(|happening| happening.at_us);
-        script
-    }
-
-    fn mischief(&mut self, robots: &[RobotDraw]) -> Deed {
-        let reasons = [
-            Unavailability::LowBattery,
-            Unavailability::Teleoperated,
-            Unavailability::EmergencyStop,
-            Unavailability::LocalFault,
-            Unavailability::NotSafe,
-        ];
-        match self.0.random_range(0..9) {
-            0 => Deed::Fail,
-            1 => Deed::Leave,
-            2 => {
-                let reason = *reasons.choose(&mut self.0).expect("there are reasons");
-                Deed::Availability(Availability::Unavailable(reason))
-            }
-            3 => Deed::Availability(Availability::Available),
-            4 => Deed::OpenCorridor,
-            5 => Deed::CloseCorridor,
-            6 => {
-                let to = robots.choose(&mut self.0).expect("there are robots");
-                let tasks = [TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK];
-                let task = *tasks.choose(&mut self.0).expect("there are tasks");
-                Deed::Command(to.station, task)
-            }
-            7 => Deed::TaskCompleted,
-            _ => Deed::ChangeIdentity,
-        }
+        self.robots.iter().map(bound).max().unwrap_or(Millis::ZERO)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::Deed;
 
     #[test]
     fn a_seed_draws_the_same_run_every_time_and_another_one_another() {

@@ -17,6 +17,22 @@ pub enum Measure {
     Left,
     /// From a follower's own failure to the corridor closed (I11).
     CorridorClosed,
+    /// For how long a required guard has been gone when somebody steps on the road (W1).
+    GuardGone,
+    /// From a follower's fallback for lack of contact to the sign at stop (W1).
+    Unguarded,
+    /// From two leaders at one place that hear each other to one sign at stop (W3).
+    TwoSigns,
+    /// From a guard that fails, falls back, finishes, hangs or loses power to the sign at stop (W5).
+    SignAfterGuard,
+    /// From a leader that hangs or loses power to its sign at stop (W5).
+    SignAfterLeader,
+    /// From a guard that is gone to the leader's application told so (W6).
+    Untold,
+    /// From the network healed to a crossing completed (W7).
+    Crossed,
+    /// From somebody noticed to go, or to a reason for the application (W8).
+    Served,
 }
 
 /// The longest time that was observed, with what it is held against.
@@ -29,20 +45,34 @@ pub struct Longest {
     pub bound_ms: u32,
 }
 
-/// The longest times that were observed; `None` where nothing was to be measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
-pub struct Worst {
-    /// Of [`Measure::Roles`].
-    pub roles: Option<Longest>,
-    /// Of [`Measure::Stopped`].
-    pub stopped: Option<Longest>,
-    /// Of [`Measure::Left`].
-    pub left: Option<Longest>,
-    /// Of [`Measure::CorridorClosed`].
-    pub corridor_closed: Option<Longest>,
+/// The longest times that were observed, in the order of [`Measure::ALL`]; `None` where nothing was to be
+/// measured.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Worst([Option<Longest>; Measure::ALL.len()]);
+
+impl Serialize for Worst {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(Measure::ALL.map(|measure| (measure, self.of(measure))))
+    }
 }
 
 impl Measure {
+    /// All of them.
+    pub const ALL: [Self; 12] = [
+        Self::Roles,
+        Self::Stopped,
+        Self::Left,
+        Self::CorridorClosed,
+        Self::GuardGone,
+        Self::Unguarded,
+        Self::TwoSigns,
+        Self::SignAfterGuard,
+        Self::SignAfterLeader,
+        Self::Untold,
+        Self::Crossed,
+        Self::Served,
+    ];
+
     /// The property that bounds it.
     #[must_use]
     pub const fn property(self) -> &'static str {
@@ -50,6 +80,12 @@ impl Measure {
             Self::Roles => "L1",
             Self::Stopped | Self::Left => "L5",
             Self::CorridorClosed => "I11",
+            Self::GuardGone | Self::Unguarded => "W1",
+            Self::TwoSigns => "W3",
+            Self::SignAfterGuard | Self::SignAfterLeader => "W5",
+            Self::Untold => "W6",
+            Self::Crossed => "W7",
+            Self::Served => "W8",
         }
     }
 
@@ -63,63 +99,107 @@ impl Measure {
             Self::CorridorClosed => {
                 "after a follower's own failure the corridor closes within the bound"
             }
+            Self::GuardGone => {
+                "who steps on the road finds every required guard in place, or gone for less than the bound"
+            }
+            Self::Unguarded => "no follower falls back for lack of contact while the sign shows go",
+            Self::TwoSigns => {
+                "two leaders at one place that hear each other show go for no longer than the bound"
+            }
+            Self::SignAfterGuard => {
+                "after a guard has failed, fallen back, hung or lost power the sign shows stop within the bound"
+            }
+            Self::SignAfterLeader => {
+                "after a leader has hung or lost power its sign shows stop within the bound"
+            }
+            Self::Untold => "a leader's application knows of a guard that is gone within the bound",
+            Self::Crossed => {
+                "once the network is healed and a team can exist, a crossing is completed within the bound"
+            }
+            Self::Served => {
+                "who was noticed gets go, or the application gets a reason, within the bound"
+            }
         }
     }
 
+    /// What is measured, for a person.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Roles => "request to roles or giving up",
+            Self::Stopped => "leader's crash to follower stopped",
+            Self::Left => "leader's crash to follower idle",
+            Self::CorridorClosed => "follower's failure to corridor closed",
+            Self::GuardGone => "guard gone when somebody steps on the road",
+            Self::Unguarded => "follower's fallback to sign at stop",
+            Self::TwoSigns => "two leaders that hear each other to one sign at stop",
+            Self::SignAfterGuard => "guard gone to sign at stop",
+            Self::SignAfterLeader => "leader hung or without power to its sign at stop",
+            Self::Untold => "guard gone to leader's application told",
+            Self::Crossed => "network healed to crossing completed",
+            Self::Served => "somebody noticed to go or a reason",
+        }
+    }
+
+    /// The limit, where the timed model has one.
     const fn limit(self, limits: &Limits) -> Millis {
         match self {
             Self::Roles => limits.roles,
             Self::Stopped => limits.stopped,
             Self::Left => limits.left,
-            Self::CorridorClosed => limits.corridor_closed,
+            _ => limits.corridor_closed,
         }
     }
 }
 
 impl Worst {
-    fn slot(&mut self, measure: Measure) -> &mut Option<Longest> {
-        match measure {
-            Measure::Roles => &mut self.roles,
-            Measure::Stopped => &mut self.stopped,
-            Measure::Left => &mut self.left,
-            Measure::CorridorClosed => &mut self.corridor_closed,
-        }
+    /// The longest time of a measure.
+    #[must_use]
+    pub const fn of(&self, measure: Measure) -> Option<Longest> {
+        self.0[measure as usize]
     }
 
-    fn note(&mut self, measure: Measure, limits: &Limits, us: u64) {
+    pub(super) fn note(&mut self, measure: Measure, bound_ms: u32, us: u64) {
         let ms = u32::try_from(us.div_ceil(1_000)).unwrap_or(u32::MAX);
-        let bound_ms = measure.limit(limits).0;
         self.note_longest(measure, Longest { ms, bound_ms });
     }
 
-    fn note_longest(&mut self, measure: Measure, observed: Longest) {
-        let slot = self.slot(measure);
+    pub(super) fn note_longest(&mut self, measure: Measure, observed: Longest) {
+        let slot = &mut self.0[measure as usize];
         if slot.is_none_or(|known| known.ms < observed.ms) {
             *slot = Some(observed);
         }
     }
 
-    /// Takes in what another run has observed.
-    pub fn add(&mut self, mut other: Self) {
-        for measure in [
-            Measure::Roles,
-            Measure::Stopped,
-            Measure::Left,
-            Measure::CorridorClosed,
-        ] {
-            if let Some(observed) = *other.slot(measure) {
+    /// Takes in what another run, or another judge of it, has observed.
+    pub fn add(&mut self, other: Self) {
+        for measure in Measure::ALL {
+            if let Some(observed) = other.of(measure) {
                 self.note_longest(measure, observed);
             }
         }
     }
 }
 
+/// Which times the faults of a run leave bounded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Judged {
+    /// Endpoints are told of time within `delay_max`.
+    pub(super) is_in_time: bool,
+    /// Messages take no longer than the ways say.
+    pub(super) delay_is_bounded: bool,
+}
+
 /// The stop-watches of a run. Places are those of the robots.
 #[derive(Debug)]
 pub(super) struct Times {
-    limits: Limits,
+    /// Of each robot, whose timers may differ.
+    limits: Vec<Limits>,
+    judged: Judged,
     worst: Worst,
     requests: Vec<Option<(SessionNumber, u64)>>,
+    /// Who hangs: nothing in time is asked of such a robot.
+    hung: Vec<bool>,
     running: Vec<Running>,
 }
 
@@ -133,17 +213,31 @@ struct Running {
 }
 
 impl Times {
-    pub(super) fn new(limits: Limits, robots: usize) -> Self {
+    pub(super) fn new(limits: Vec<Limits>, judged: Judged) -> Self {
         Self {
-            limits,
             worst: Worst::default(),
-            requests: vec![None; robots],
+            requests: vec![None; limits.len()],
+            hung: vec![false; limits.len()],
+            limits,
+            judged,
             running: Vec::new(),
         }
     }
 
     pub(super) const fn worst(&self) -> Worst {
         self.worst
+    }
+
+    /// A robot hangs: what it was to do in time is not asked of it.
+    pub(super) fn hang(&mut self, place: usize) {
+        self.hung[place] = true;
+        self.requests[place] = None;
+        self.running.retain(|running| running.place != place);
+    }
+
+    /// A robot that hung goes on.
+    pub(super) fn go_on(&mut self, place: usize) {
+        self.hung[place] = false;
     }
 
     /// A robot is about to crash.
@@ -154,14 +248,17 @@ impl Times {
         nodes: impl Iterator<Item = &'a Node> + Clone,
     ) {
         self.fail(now_us, place, nodes.clone());
-        self.requests[place] = None;
+        (self.requests[place], self.hung[place]) = (None, false);
         // A robot that is down has nothing open and does nothing.
         self.running.retain(|running| running.place != place);
         let Some(session) = nodes.clone().nth(place).and_then(led_by) else {
             return;
         };
+        if !self.judged.is_in_time || !self.judged.delay_is_bounded {
+            return;
+        }
         for (follower, node) in nodes.enumerate() {
-            if is_following(node, session) {
+            if is_following(node, session) && !self.hung[follower] {
                 let running = |measure| Running {
                     measure,
                     place: follower,
@@ -183,6 +280,9 @@ impl Times {
         place: usize,
         nodes: impl Iterator<Item = &'a Node> + Clone,
     ) {
+        if !self.judged.is_in_time {
+            return;
+        }
         let Some(maneuver) = nodes
             .clone()
             .nth(place)
@@ -193,7 +293,9 @@ impl Times {
         let session = maneuver.session;
         let mut places = nodes.enumerate();
         let leader = places.find(|(_, node)| led_by(node) == Some(session));
-        if let Some((leader, _)) = leader.filter(|(_, node)| node.actuation.corridor_open) {
+        let is_asked =
+            |leader: usize, node: &Node| node.actuation.corridor_open && !self.hung[leader];
+        if let Some((leader, _)) = leader.filter(|(leader, node)| is_asked(*leader, node)) {
             self.running.push(Running {
                 measure: Measure::CorridorClosed,
                 place: leader,
@@ -206,7 +308,7 @@ impl Times {
     /// Looks at a robot after a step. What took too long, if anything did.
     pub(super) fn look(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
         let mut late = self.look_at_request(now_us, place, node);
-        let (limits, worst) = (&self.limits, &mut self.worst);
+        let (limits, worst) = (&self.limits[place], &mut self.worst);
         self.running.retain(|running| {
             if running.place != place {
                 return true;
@@ -215,11 +317,11 @@ impl Times {
                 Measure::Stopped => node.actuation.running.is_none(),
                 Measure::Left => !is_following(node, running.session),
                 Measure::CorridorClosed => !node.actuation.corridor_open,
-                Measure::Roles => true,
+                _ => true,
             };
             let took_us = now_us - running.since_us;
             if is_over {
-                worst.note(running.measure, limits, took_us);
+                worst.note(running.measure, running.measure.limit(limits).0, took_us);
             }
             if took_us > u64::from(running.measure.limit(limits).0) * 1_000 {
                 late = late.or(Some(running.measure));
@@ -231,6 +333,10 @@ impl Times {
     }
 
     fn look_at_request(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
+        if !self.judged.is_in_time {
+            return None;
+        }
+        let bound_ms = self.limits[place].roles.0;
         let asks_for = node.robot.as_ref().and_then(|robot| match robot.phase() {
             Phase::Requesting(requesting) => Some(requesting.number),
             _ => None,
@@ -242,12 +348,12 @@ impl Times {
             (Some(number), Some((known, _))) if number == known => {}
             (Some(number), None) => *request = Some((number, now_us)),
             (asks_for, Some(_)) => {
-                self.worst.note(Measure::Roles, &self.limits, took_us);
+                self.worst.note(Measure::Roles, bound_ms, took_us);
                 *request = asks_for.map(|number| (number, now_us));
             }
             (None, None) => {}
         }
-        let is_late = took_us > u64::from(self.limits.roles.0) * 1_000;
+        let is_late = took_us > u64::from(bound_ms) * 1_000;
         is_late.then_some(Measure::Roles)
     }
 }

@@ -1,38 +1,41 @@
 //! One run: robots, the radio between them, and time.
 
+mod deeds;
+mod people;
+mod radio;
+
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::rc::Rc;
 use std::time::Duration;
 
-use crossguard_codec::TaskParameters;
 use crossguard_codec::si::timestamp_its;
-use crossguard_model_check::monitor::Monitor;
+use crossguard_model_check::monitor::{Broken, Monitor};
 use crossguard_model_check::node::{Protocol, Rules};
-use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::timed::Limits;
-use crossguard_protocol::{Availability, Event, Millis, Robot, StationId};
+use crossguard_protocol::{Event, Phase, Robot, StationId};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
+use self::people::{Corner, OnRoad, Progress};
+use self::radio::Arrival;
 use super::clock::Drifting;
-use super::script::{Deed, Happening};
-use super::swarm::{PSEUDONYM_STEP, RobotDraw, Swarm};
-use super::times::{Measure, Times, Worst};
-use crate::application::Application;
-use crate::body::Body;
-use crate::endpoint::{Effect, Endpoint, Moment, Stimulus};
+use super::road::{Late, Post, Road, Sight};
+use super::swarm::{HEALED_DELAY_MS, Hazard, RobotDraw, Swarm};
+use super::times::{Judged, Measure, Times, Worst};
+use crate::endpoint::{Act, Effect, Moment, Stimulus};
 use crate::machine::Machine;
-use crate::trace::{Entry, Record, recorded};
-use crate::transport::{Channel, Fate};
-use crate::wire::Wire;
+use crate::sign::Sign;
+use crate::trace::{Entry, Reception, Record, recorded};
+use crate::transport::Channel;
+use crate::wire::MessageKind;
 
 /// When runs begin, in milliseconds since 1970: 2026-01-01. Any moment does.
-const EPOCH_UNIX_MS: i64 = 1_767_225_600_000;
+pub(super) const EPOCH_UNIX_MS: i64 = 1_767_225_600_000;
 
-/// How long after the network was healed all robots are at rest at the latest: a leader gives up
-/// after its patience of 40 s, and what it has set off takes as long again.
+/// How long after the network was healed, and a crossing was to be completed, all robots are at rest at the
+/// latest: a leader gives up after its patience of 40 s, and what it has set off takes as long again.
 const REST_US: u64 = 120_000_000;
 
 /// How long all robots must have been at rest for a run to be over, in microseconds. Messages that
@@ -65,8 +68,12 @@ pub struct Outcome {
     pub steps: u64,
     /// How many packets were sent.
     pub packets: u64,
-    /// The properties whose premise was met.
-    pub premises: BTreeSet<PropertyId>,
+    /// The properties whose premise was met, or of which a time was measured.
+    pub premises: BTreeSet<String>,
+    /// What made the run hard.
+    pub hazards: Vec<Hazard>,
+    /// What was not judged, because the run's own faults leave it open.
+    pub left_out: Vec<&'static str>,
     /// The longest times.
     pub worst: Worst,
 }
@@ -100,15 +107,39 @@ pub fn run_with<'a>(
 ) -> Outcome {
     let mut world = World::new(swarm, rules, watch);
     let finding = world.go_on().err();
+    let mut worst = world.times.worst();
+    worst.add(world.road.worst());
+    let met = world.monitor.premises_met().map(|id| id.to_string());
+    let measured = Measure::ALL.into_iter();
+    let measured = measured.filter(|measure| worst.of(*measure).is_some());
+    let mut premises: BTreeSet<_> = met.collect();
+    premises.extend(measured.map(|measure| measure.property().to_owned()));
     Outcome {
         finding,
         virtual_ms: world.now_us / 1_000,
         robots: swarm.robots.len(),
         steps: world.steps,
         packets: world.packets,
-        premises: world.monitor.premises_met().collect(),
-        worst: world.times.worst(),
+        premises,
+        hazards: swarm.hazards().collect(),
+        left_out: left_out(swarm),
+        worst,
     }
+}
+
+/// What the faults of a run leave open, so that it is not judged.
+fn left_out(swarm: &Swarm) -> Vec<&'static str> {
+    let mut left_out = Vec::new();
+    if !swarm.is_in_time() {
+        left_out.extend(["I10", "I11 in ms", "L1 in ms", "W3 in ms", "W6", "W8"]);
+    }
+    if !swarm.is_in_time() || !swarm.replays.is_empty() {
+        left_out.push("L5 in ms");
+    }
+    if swarm.waits_at.is_none() {
+        left_out.push("W7");
+    }
+    left_out
 }
 
 /// What happens next somewhere.
@@ -119,21 +150,43 @@ enum Next {
     /// The network is healed.
     Heals,
     /// A packet arrives.
-    Arrives { to: usize, packet: Rc<[u8]> },
+    Arrives(Arrival),
+    /// Recorded packets are sent once more, by the place in the swarm's list.
+    Replays(usize),
+    /// Somebody who waits at a corner looks at the signs.
+    Looks(usize),
+    /// Something happens to a robot whose team lets people cross.
+    Strikes(usize),
+    /// A robot that was struck boots again.
+    Boots(usize),
+    /// Robots notice who waits after the network was healed.
+    Notices,
     /// A robot is told of time.
     Wakes(usize),
+    /// A robot that hung goes on.
+    GoesOn(usize),
 }
 
 struct Seat<'a> {
     draw: &'a RobotDraw,
+    /// The corner at which it is.
+    corner: usize,
     clock: Drifting,
     /// Its newest boot counter: what its boot file holds.
     boot: u16,
     machine: Option<Machine>,
+    /// What people see of it; that of a robot that is down ends by itself.
+    sign: Sign,
+    /// Whether it has asked for the next boot counter.
+    is_to_renew: bool,
     /// How often it has changed its pseudonym.
     changes: u32,
     /// When it wakes up next.
     wakes_us: Option<u64>,
+    /// Until when it hangs.
+    hangs_until_us: Option<u64>,
+    /// What has arrived meanwhile.
+    inbox: Vec<Arrival>,
 }
 
 struct World<'a> {
@@ -142,12 +195,22 @@ struct World<'a> {
     watch: Option<&'a mut dyn Watch>,
     now_us: u64,
     seats: Vec<Seat<'a>>,
+    corners: Vec<Corner>,
+    people: Vec<OnRoad>,
+    progress: Option<Progress>,
+    road: Road,
+    /// The robots by the station ids that they have had.
+    names: BTreeMap<StationId, usize>,
     ways: Vec<Channel>,
     queue: BinaryHeap<Reverse<(u64, u64, Next)>>,
     queued: u64,
     draws: ChaCha8Rng,
     monitor: Monitor,
     times: Times,
+    /// Whether the packet that arrived last was understood as a RAM.
+    has_heard_ram: bool,
+    /// What was sent so far, with its sender, where it is to be sent once more.
+    aired: Vec<(usize, Rc<[u8]>)>,
     is_healed: bool,
     rests_since_us: Option<u64>,
     steps: u64,
@@ -157,16 +220,21 @@ struct World<'a> {
 impl<'a> World<'a> {
     fn new(swarm: &'a Swarm, rules: &'static dyn Rules, watch: Option<&'a mut dyn Watch>) -> Self {
         let mut draws = ChaCha8Rng::seed_from_u64(swarm.seed ^ 0x5741_4553);
-        let mut monitor = Monitor::new(true);
+        let mut monitor = Monitor::new(swarm.is_in_time());
         let seats = swarm.robots.iter().map(|draw| {
             monitor.add(draw.station);
             Seat {
                 draw,
+                corner: draw.corner,
                 clock: Drifting::new(draw.drift_ppm),
                 boot: draw.boot,
                 machine: None,
+                sign: Sign::default(),
+                is_to_renew: false,
                 changes: 0,
                 wakes_us: None,
+                hangs_until_us: None,
+                inbox: Vec::new(),
             }
         });
         let seats: Vec<_> = seats.collect();
@@ -174,7 +242,14 @@ impl<'a> World<'a> {
         let ways = ways.map(|faults| Channel::new(faults.clone(), draws.random()));
         let mut world = Self {
             ways: ways.collect(),
-            times: Times::new(limits(swarm), seats.len()),
+            times: Times::new(limits(swarm), judged(swarm)),
+            corners: people::corners(swarm),
+            people: Vec::new(),
+            progress: None,
+            road: Road::new(posts(swarm), swarm.delay_max(), swarm.is_in_time()),
+            names: BTreeMap::new(),
+            has_heard_ram: false,
+            aired: Vec::new(),
             swarm,
             rules,
             watch,
@@ -192,6 +267,9 @@ impl<'a> World<'a> {
         for (i, happening) in swarm.script.iter().enumerate() {
             world.at(happening.at_us, Next::Happens(i));
         }
+        for (i, replay) in swarm.replays.iter().enumerate() {
+            world.at(replay.at_us, Next::Replays(i));
+        }
         world.at(swarm.heals_us, Next::Heals);
         world
     }
@@ -204,20 +282,15 @@ impl<'a> World<'a> {
     fn go_on(&mut self) -> Result<(), Finding> {
         while let Some(Reverse((at_us, _, next))) = self.queue.pop() {
             self.now_us = at_us;
-            if at_us > self.swarm.heals_us + REST_US {
+            if let Err(late) = self.road.pass(at_us) {
+                return Err(self.too_late(late));
+            }
+            self.get_across();
+            self.demand_progress()?;
+            if at_us > self.swarm.heals_us + self.crossing_us() + REST_US {
                 return Err(self.not_at_rest());
             }
-            match next {
-                Next::Happens(i) => self.happen(self.swarm.script[i])?,
-                Next::Heals => self.heal(),
-                Next::Arrives { to, packet } => self.handle(to, Stimulus::Datagram(&packet))?,
-                Next::Wakes(place) => {
-                    if self.seats[place].wakes_us == Some(at_us) {
-                        self.seats[place].wakes_us = None;
-                        self.handle(place, Stimulus::Time)?;
-                    }
-                }
-            }
+            self.take(next)?;
             if self.is_over() {
                 break;
             }
@@ -225,17 +298,61 @@ impl<'a> World<'a> {
         Ok(())
     }
 
+    fn take(&mut self, next: Next) -> Result<(), Finding> {
+        match next {
+            Next::Happens(i) => self.happen(self.swarm.script[i]),
+            Next::Heals => {
+                self.heal();
+                Ok(())
+            }
+            Next::Arrives(arrival) => self.arrive(arrival),
+            Next::Replays(i) => {
+                self.replay(self.swarm.replays[i]);
+                Ok(())
+            }
+            Next::Looks(corner) => self.look(corner),
+            Next::Strikes(place) => self.strike(place),
+            Next::Boots(place) => self.boot(place),
+            Next::Notices => self.notice_again(),
+            Next::Wakes(place) => {
+                let seat = &mut self.seats[place];
+                if seat.wakes_us != Some(self.now_us) {
+                    return Ok(());
+                }
+                seat.wakes_us = None;
+                if seat.hangs_until_us.is_some() {
+                    return Ok(());
+                }
+                self.handle(place, Stimulus::Time)
+            }
+            Next::GoesOn(place) => {
+                if self.seats[place].hangs_until_us != Some(self.now_us) {
+                    return Ok(());
+                }
+                self.go_on_after_hanging(place)
+            }
+        }
+    }
+
+    /// Whether the sign of a robot shows go.
+    fn shows_go(&self, place: usize) -> bool {
+        let seat = &self.seats[place];
+        seat.sign.shows_go(seat.clock.shows_us(self.now_us))
+    }
+
     fn heal(&mut self) {
         self.is_healed = true;
         for way in &mut self.ways {
-            way.heal();
+            way.heal(HEALED_DELAY_MS);
         }
+        self.begin_progress();
     }
 
     /// Whether all robots have been at rest for a while since the network was healed.
     fn is_over(&mut self) -> bool {
         let at_rest = |seat: &Seat| seat.machine.as_ref().is_none_or(Machine::is_at_rest);
-        if !self.is_healed || !self.seats.iter().all(at_rest) {
+        let is_asked = self.progress.as_ref().is_some_and(|it| !it.is_done);
+        if !self.is_healed || is_asked || !self.seats.iter().all(at_rest) {
             self.rests_since_us = None;
             return false;
         }
@@ -258,107 +375,6 @@ impl<'a> World<'a> {
         }
     }
 
-    fn happen(&mut self, Happening { place, deed, .. }: Happening) -> Result<(), Finding> {
-        match deed {
-            Deed::Crash => self.crash(place),
-            Deed::Boot => return self.boot(place),
-            _ => {}
-        }
-        let Some(event) = self.event(place, deed) else {
-            return Ok(());
-        };
-        let is_own_failure = match event {
-            Event::ManeuverFailed(_) => true,
-            Event::AvailabilityChanged(availability) => availability != Availability::Available,
-            _ => false,
-        };
-        if is_own_failure {
-            let nodes = (0..self.seats.len()).map(|place| self.monitor.node(place));
-            self.times.fail(self.now_us, place, nodes);
-        }
-        match event {
-            Event::CommandManeuver { follower, task } => {
-                let parameters = TaskParameters::default();
-                let order = Stimulus::Order {
-                    follower,
-                    task,
-                    parameters,
-                };
-                self.handle(place, order)
-            }
-            event => self.handle(place, Stimulus::Event(event)),
-        }
-    }
-
-    /// What a robot that is up is told.
-    fn event(&mut self, place: usize, deed: Deed) -> Option<Event> {
-        let seat = &mut self.seats[place];
-        let machine = seat.machine.as_mut()?;
-        Some(match deed {
-            Deed::Detect => Event::PedestrianDetected(seat.draw.plan.request()),
-            Deed::Fail => machine.finish(false)?,
-            Deed::Leave => Event::LeaveRequested,
-            Deed::Availability(availability) => Event::AvailabilityChanged(availability),
-            Deed::OpenCorridor => Event::OpenCorridor,
-            Deed::CloseCorridor => Event::CloseCorridor,
-            Deed::Command(follower, task) => Event::CommandManeuver { follower, task },
-            Deed::TaskCompleted => Event::TaskCompleted,
-            Deed::ChangeIdentity => {
-                seat.changes += 1;
-                let station = seat.draw.station.0 + seat.changes * PSEUDONYM_STEP;
-                Event::IdentityChanged(StationId(station))
-            }
-            Deed::Crash | Deed::Boot => return None,
-        })
-    }
-
-    fn crash(&mut self, place: usize) {
-        let nodes = (0..self.seats.len()).map(|place| self.monitor.node(place));
-        self.times.crash(self.now_us, place, nodes);
-        self.monitor.crash(place);
-        self.seats[place].machine = None;
-        self.seats[place].wakes_us = None;
-    }
-
-    /// Boots a robot that is down, with the next boot counter.
-    fn boot(&mut self, place: usize) -> Result<(), Finding> {
-        let seat = &mut self.seats[place];
-        if seat.machine.is_some() {
-            return Ok(());
-        }
-        let draw = seat.draw;
-        seat.boot += 1;
-        let robot = Robot::new(draw.station, seat.boot);
-        self.monitor.boot(place, &robot, &draw.config);
-        let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
-        let endpoint = Endpoint::with_rules(
-            robot,
-            draw.config.clone(),
-            Wire::default(),
-            now_ms,
-            self.rules,
-        );
-        let gait = self.swarm.seed.wrapping_add(place as u64);
-        let body = Body::new(
-            draw.build,
-            draw.plan.site,
-            draw.place,
-            draw.time_scale,
-            gait,
-        );
-        let application = Application::new(body, Some(draw.plan.clone()));
-        seat.machine = Some(Machine::new(endpoint, application));
-        let entry = Entry::Started {
-            station: draw.station,
-            boot: self.seats[place].boot,
-            settings: Box::new(draw.config.settings().clone()),
-            identifiers: Wire::default().identifiers,
-            unix_ms: u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_us / 1_000,
-        };
-        self.record(place, entry);
-        self.handle(place, Stimulus::Time)
-    }
-
     /// Hands something to a robot, and carries out what it wants; nothing if the robot is down.
     fn handle(&mut self, place: usize, stimulus: Stimulus<'_>) -> Result<(), Finding> {
         let seat = &mut self.seats[place];
@@ -366,7 +382,8 @@ impl<'a> World<'a> {
             return Ok(());
         };
         let shows_us = seat.clock.shows_us(self.now_us);
-        let since_ms = i64::try_from(shows_us / 1_000).unwrap_or(i64::MAX);
+        // That of satellites, whatever the robot's own clock does.
+        let since_ms = i64::try_from(self.now_us / 1_000).unwrap_or(i64::MAX);
         let moment = Moment {
             now_ms: shows_us / 1_000,
             timestamp_its: timestamp_its(EPOCH_UNIX_MS + since_ms),
@@ -376,17 +393,45 @@ impl<'a> World<'a> {
         for effect in machine.handle(moment, now_s, stimulus) {
             self.carry_out(place, effect)?;
         }
+        let seat = &mut self.seats[place];
+        if std::mem::take(&mut seat.is_to_renew) {
+            seat.boot = seat.boot.saturating_add(1);
+            let renewed = Event::EpochRenewed(seat.boot);
+            return self.handle(place, Stimulus::Event(renewed));
+        }
         let late = self
             .times
             .look(self.now_us, place, self.monitor.node(place));
         self.plan_wakeup(place);
-        match late {
-            None => Ok(()),
-            Some(measure) => Err(self.too_late(place, measure)),
+        if let Some(measure) = late {
+            return Err(self.too_late((measure, place)));
         }
+        self.see(place)
     }
 
-    fn too_late(&self, place: usize, measure: Measure) -> Finding {
+    /// The road looks at a robot.
+    fn see(&mut self, place: usize) -> Result<(), Finding> {
+        let seat = &self.seats[place];
+        let robot = seat.machine.as_ref().map(|it| it.endpoint().robot());
+        let ends_us = seat.sign.ends_us(seat.clock.shows_us(self.now_us));
+        let sight = Sight {
+            go_ends_us: ends_us.map(|shown_us| seat.clock.true_us(shown_us)),
+            leads: robot
+                .filter(|robot| matches!(robot.phase(), Phase::Leading(_)))
+                .and_then(Robot::session),
+            guards: self.monitor.guards(place).map(|it| it.id.session),
+            is_awake: seat.machine.is_some() && seat.hangs_until_us.is_none(),
+        };
+        let showed_go = self.road.shows_go(place);
+        let seen = self.road.see(self.now_us, place, sight);
+        seen.map_err(|late| self.too_late(late))?;
+        if !showed_go && self.road.shows_go(place) {
+            self.plan_strike(place);
+        }
+        Ok(())
+    }
+
+    fn too_late(&self, (measure, place): Late) -> Finding {
         Finding {
             property: measure.property().to_owned(),
             statement: measure.statement().to_owned(),
@@ -395,71 +440,65 @@ impl<'a> World<'a> {
         }
     }
 
+    fn finding(&self, broken: Broken, place: usize) -> Finding {
+        Finding {
+            property: broken.name(),
+            statement: broken.statement().to_owned(),
+            at_ms: self.now_us / 1_000,
+            robot: self.seats[place].draw.name.clone(),
+        }
+    }
+
     fn carry_out(&mut self, place: usize, effect: Effect) -> Result<(), Finding> {
-        let broken = match &effect {
+        match &effect {
             Effect::Stepped {
                 input,
                 outputs,
                 state,
             } => {
                 self.steps += 1;
-                self.monitor.step(place, *input, outputs, state)
+                self.names.insert(state.station(), place);
+                if let Some(broken) = self.monitor.step(place, *input, outputs, state) {
+                    let finding = self.finding(broken, place);
+                    self.log(place, effect);
+                    return Err(finding);
+                }
+                let told = self.tell_road(place, *input, outputs);
+                told.map_err(|late| self.too_late(late))?;
             }
-            _ => None,
-        };
-        if let Effect::Transmit { packet, .. } = &effect {
-            let packet = Rc::from(packet.as_slice());
-            self.transmit(place, &packet);
+            Effect::Transmit { kind, packet, .. } => {
+                let packet = Rc::from(packet.as_slice());
+                self.transmit(place, &packet, *kind == MessageKind::Ram);
+            }
+            Effect::Heard { kind, .. } => self.has_heard_ram |= *kind == MessageKind::Ram,
+            Effect::Act(Act::RenewEpoch) => self.seats[place].is_to_renew = true,
+            _ => {}
         }
-        if self.watch.is_some()
-            && let Some(entry) = recorded(effect)
-        {
-            self.record(place, entry);
-        }
-        match broken {
-            None => Ok(()),
-            Some(broken) => Err(Finding {
-                property: broken.name(),
-                statement: broken.statement().to_owned(),
-                at_ms: self.now_us / 1_000,
-                robot: self.seats[place].draw.name.clone(),
-            }),
-        }
+        self.log(place, effect);
+        Ok(())
     }
 
-    fn transmit(&mut self, from: usize, packet: &Rc<[u8]>) {
-        self.packets += 1;
-        if let Some(watch) = &mut self.watch {
-            let epoch = Duration::from_millis(EPOCH_UNIX_MS.unsigned_abs());
-            watch.packet(epoch + Duration::from_micros(self.now_us), packet);
+    fn log(&mut self, place: usize, effect: Effect) {
+        if self.watch.is_none() {
+            return;
         }
-        for to in (0..self.seats.len()).filter(|&to| to != from) {
-            match self.ways[from * self.seats.len() + to].fate(self.now_us) {
-                Fate::Lost(how) => {
-                    if self.seats[to].machine.is_some() && self.watch.is_some() {
-                        let entry = Entry::Dropped {
-                            cause: how.name().to_owned(),
-                            detail: "by the simulator".to_owned(),
-                            octets: packet.to_vec(),
-                        };
-                        self.record(to, entry);
-                    }
-                }
-                Fate::Arrives {
-                    after_us,
-                    again_after_us,
-                } => {
-                    for after_us in [Some(after_us), again_after_us].into_iter().flatten() {
-                        let packet = Rc::clone(packet);
-                        self.at(self.now_us + after_us, Next::Arrives { to, packet });
-                    }
-                }
-            }
+        let Some(mut entry) = recorded(effect) else {
+            return;
+        };
+        if let Entry::Heard { reception, .. } = &mut entry {
+            // The log's clock shows the true time, the robot's does not.
+            let clock = self.seats[place].clock;
+            *reception = reception.map(|shown| Reception {
+                arrived_us: clock.true_us(shown.arrived_us),
+                told_us: clock.true_us(shown.told_us),
+            });
         }
+        self.record(place, entry);
     }
 
     /// Wakes the robot when it is to be told of time, give or take its lateness.
     fn plan_wakeup(&mut self, place: usize) {
+        let late_max_us = self.late_max_us(place);
         let seat = &mut self.seats[place];
         let Some(machine) = &seat.machine else { return };
         let shown_ms = machine.endpoint().next_wakeup_ms();
@@ -470,9 +509,21 @@ impl<'a> World<'a> {
         if seat.wakes_us.is_some_and(|wakes_us| wakes_us <= due_us) {
             return;
         }
-        let wakes_us = due_us + self.draws.random_range(0..=self.swarm.late_max_us);
+        let wakes_us = due_us + self.draws.random_range(0..=late_max_us);
         seat.wakes_us = Some(wakes_us);
         self.at(wakes_us, Next::Wakes(place));
+    }
+
+    /// By how much an endpoint is late at most.
+    fn late_max_us(&self, place: usize) -> u64 {
+        let delay_max = self.seats[place].draw.config.settings().delay_max;
+        let in_time_us = (u64::from(delay_max.0) * 1_000).saturating_sub(2_000);
+        let late_max_us = self.swarm.late_max_us;
+        if self.is_healed {
+            late_max_us.min(in_time_us)
+        } else {
+            late_max_us
+        }
     }
 
     fn record(&mut self, place: usize, entry: Entry) {
@@ -486,14 +537,27 @@ impl<'a> World<'a> {
     }
 }
 
-/// The longest times for the robots of a swarm, which all have the same timers.
-fn limits(swarm: &Swarm) -> Limits {
-    let delay_max = swarm
-        .ways
-        .iter()
-        .map(crate::transport::Faults::delay_max_ms);
-    Limits::new(
-        &swarm.robots[0].config,
-        Millis(delay_max.max().unwrap_or(0)),
-    )
+/// The longest times for each robot of a swarm.
+fn limits(swarm: &Swarm) -> Vec<Limits> {
+    let delay = swarm.delay_max();
+    let robots = swarm.robots.iter();
+    robots
+        .map(|robot| Limits::new(&robot.config, delay))
+        .collect()
+}
+
+fn judged(swarm: &Swarm) -> Judged {
+    Judged {
+        is_in_time: swarm.is_in_time(),
+        delay_is_bounded: swarm.replays.is_empty(),
+    }
+}
+
+fn posts(swarm: &Swarm) -> impl Iterator<Item = Post> + '_ {
+    let of_robots = swarm.robots.iter().zip(limits(swarm));
+    of_robots.map(|(robot, limits)| {
+        let (plan, settings) = (&robot.plan, robot.config.settings());
+        let required = usize::from(plan.followers);
+        Post::new(robot.corner, required, plan.patience_s, settings, &limits)
+    })
 }

@@ -6,7 +6,10 @@ use std::io::BufRead;
 use super::{Entry, Record};
 
 /// How long a record is held back for one that is late in its log, in µs.
-const HELD_US: u64 = 1_000_000;
+pub(crate) const HELD_US: u64 = 1_000_000;
+
+/// By how much two robots that share a clock may disagree about when that showed 0, in µs.
+pub(crate) const SAME_CLOCK_US: u128 = 10_000;
 
 /// A log to be read.
 pub struct Log<'a> {
@@ -103,12 +106,17 @@ impl<'a> Records<'a> {
         Ok(Some(record))
     }
 
-    /// All records of a file have one clock, unless it goes back: then another run was appended.
+    /// All records of a file have one clock, unless it goes back: then another run was appended. Robots that
+    /// share a log begin at their own moments, so that the first record of one may be somewhat late in it.
     fn follow_clock(&mut self, record: &Record) {
-        if let Entry::Started { unix_ms, .. } = record.entry
-            && (self.began_us.is_none() || record.at_us < self.at_us)
-        {
-            self.began_us = Some(i128::from(unix_ms) * 1_000 - i128::from(record.at_us));
+        if let Entry::Started { unix_ms, .. } = record.entry {
+            let began_us = i128::from(unix_ms) * 1_000 - i128::from(record.at_us);
+            let is_of_another = |known: i128| {
+                record.at_us < self.at_us && (known - began_us).unsigned_abs() > SAME_CLOCK_US
+            };
+            if self.began_us.is_none_or(is_of_another) {
+                self.began_us = Some(began_us);
+            }
         }
         self.at_us = record.at_us;
     }

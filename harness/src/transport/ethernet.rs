@@ -6,7 +6,7 @@
 use std::io::ErrorKind;
 use std::os::fd::{AsRawFd, OwnedFd};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossguard_codec::geonet::ethernet;
 use nix::errno::Errno;
@@ -17,6 +17,7 @@ use nix::sys::socket::{
 };
 use nix::sys::time::TimeVal;
 
+use super::attention::Attention;
 use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 use crate::station::link_layer_of;
 
@@ -42,6 +43,7 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
         socket: Arc::clone(&socket),
         buffer: Box::new([0; DATAGRAM_MAX]),
         wait: Duration::ZERO,
+        attention: Attention::new(Instant::now()),
     };
     Ok(Halves {
         sender: Box::new(EthernetSender { socket }),
@@ -95,6 +97,7 @@ struct EthernetReceiver {
     buffer: Box<[u8; DATAGRAM_MAX]>,
     /// For how long the socket waits.
     wait: Duration,
+    attention: Attention,
 }
 
 impl Receiver for EthernetReceiver {
@@ -108,23 +111,35 @@ impl Receiver for EthernetReceiver {
             self.wait = wait;
         }
         let fd = self.socket.as_raw_fd();
-        let length = match recv(fd, &mut *self.buffer, MsgFlags::empty()) {
+        let called = Instant::now();
+        let (flags, waited) = if self.attention.is_unsure() {
+            (MsgFlags::MSG_DONTWAIT, Duration::ZERO)
+        } else {
+            (MsgFlags::empty(), wait)
+        };
+        let received = recv(fd, &mut *self.buffer, flags);
+        let now = Instant::now();
+        let length = match received {
             Ok(length) => length,
             Err(errno) => {
                 let error = std::io::Error::from(errno);
                 return match error.kind() {
-                    ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted => {
+                    ErrorKind::WouldBlock | ErrorKind::TimedOut => {
+                        self.attention.saw_empty(called, waited, now);
                         Ok(None)
                     }
+                    ErrorKind::Interrupted => Ok(None),
                     _ => Err(error),
                 };
             }
         };
+        let at = self.attention.took(wait, now);
         // What is not for the service is not looked at, and not worth a count.
         Ok(
             ethernet::packet(&self.buffer[..length]).map(|(source, packet)| Arrival::Datagram {
                 from: Source::LinkLayer(source),
                 octets: packet.to_vec(),
+                at,
             }),
         )
     }

@@ -121,9 +121,11 @@ impl Channel {
         }
     }
 
-    /// The way without faults from now on, but for the time that datagrams take.
-    pub fn heal(&mut self) {
-        let delay = self.faults.delay;
+    /// The way without faults from now on. Datagrams take as long as before, and this long at most.
+    pub fn heal(&mut self, max_ms: u32) {
+        let mut delay = self.faults.delay;
+        delay.max_ms = delay.max_ms.min(max_ms);
+        delay.min_ms = delay.min_ms.min(max_ms);
         self.faults = Faults {
             delay,
             ..Faults::default()

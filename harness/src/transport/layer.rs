@@ -1,4 +1,6 @@
 //! The fault layer: any transport, with faults on the way in.
+//!
+//! A datagram that is held back is still on its way: it arrives when its delay is over, and waits from then on.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::time::{Duration, Instant};
@@ -78,9 +80,10 @@ impl Faulty {
         u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX)
     }
 
-    /// Decides what becomes of a datagram that has just come in.
-    fn take(&mut self, from: Source, octets: Vec<u8>) {
-        let now_us = self.now_us();
+    /// Decides what becomes of a datagram that came in `at` this time.
+    fn take(&mut self, from: Source, octets: Vec<u8>, at: Instant) {
+        let came = at.saturating_duration_since(self.began);
+        let came_us = u64::try_from(came.as_micros()).unwrap_or(u64::MAX);
         let known = self.channels.contains_key(&Some(from));
         let key = (known || self.channels.len() < SOURCES_MAX).then_some(from);
         let seed = self.seed.wrapping_add(self.channels.len() as u64);
@@ -89,16 +92,16 @@ impl Faulty {
             .channels
             .entry(key)
             .or_insert_with(|| Channel::new(by_source.get(&from).unwrap_or(faults).clone(), seed));
-        match channel.fate(now_us) {
+        match channel.fate(came_us) {
             Fate::Lost(how) => self.lose(octets, how),
             Fate::Arrives {
                 after_us,
                 again_after_us,
             } => {
                 if let Some(after_us) = again_after_us {
-                    self.hold(now_us + after_us, from, octets.clone());
+                    self.hold(came_us + after_us, from, octets.clone());
                 }
-                self.hold(now_us + after_us, from, octets);
+                self.hold(came_us + after_us, from, octets);
             }
         }
     }
@@ -123,9 +126,11 @@ impl Faulty {
         }
         let now_us = self.now_us();
         let first = self.under_way.first_entry()?;
-        (first.key().0 <= now_us).then(|| {
+        let due_us = first.key().0;
+        (due_us <= now_us).then(|| {
+            let at = self.began + Duration::from_micros(due_us);
             let (from, octets) = first.remove();
-            Arrival::Datagram { from, octets }
+            Arrival::Datagram { from, octets, at }
         })
     }
 
@@ -146,8 +151,8 @@ impl Receiver for Faulty {
         }
         let patience = self.patience(at_most);
         match self.receiver.receive(patience)? {
-            Some(Arrival::Datagram { from, octets }) => {
-                self.take(from, octets);
+            Some(Arrival::Datagram { from, octets, at }) => {
+                self.take(from, octets, at);
                 Ok(self.due())
             }
             Some(other) => Ok(Some(other)),
@@ -205,6 +210,27 @@ mod tests {
         let (arrived, lost) = arrivals("delay=1..20,duplication=1", &[]);
         assert_eq!((arrived.len(), lost), (400, 0));
         assert!(!arrived.is_sorted(), "some have overtaken others");
+    }
+
+    #[test]
+    fn a_delayed_datagram_is_on_its_way_until_it_is_due_and_waits_from_then_on() {
+        let air = Air::new(2);
+        let receiving = WithFaults::new(air.port(1), "delay=60..60".parse().unwrap(), 7);
+        let mut receiver = receiving.open().unwrap().receiver;
+        let mut sender = air.port(0).open().unwrap().sender;
+        let before = Instant::now();
+        sender.send(b"hello").unwrap();
+        let after = Instant::now();
+        assert_eq!(receiver.receive(Duration::from_millis(1)).unwrap(), None);
+        // It is taken late.
+        std::thread::sleep(Duration::from_millis(120));
+        let heard = receiver.receive(Duration::from_millis(1)).unwrap();
+        let Some(Arrival::Datagram { at, .. }) = heard else {
+            panic!("nothing has arrived");
+        };
+        // Times are kept to the microsecond here.
+        let (delay, rounding) = (Duration::from_millis(60), Duration::from_micros(2));
+        assert!(at + rounding >= before + delay && at <= after + delay + rounding);
     }
 
     #[test]

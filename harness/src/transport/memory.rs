@@ -3,14 +3,15 @@
 use std::io::{Error, ErrorKind};
 use std::sync::mpsc::{RecvTimeoutError, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, mpsc};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Source, Transport};
 
 /// How many datagrams may wait for one robot; more are not taken, and its sender is told.
 const QUEUE: usize = 256;
 
-type Datagram = (usize, Vec<u8>);
+/// From which port, what, and when.
+type Datagram = (usize, Vec<u8>, Instant);
 
 /// The radio channel of one process. Clones are the same channel.
 #[derive(Clone, Debug)]
@@ -78,7 +79,8 @@ impl Sender for Port {
         let others = self.air.0.iter().enumerate();
         let others = others.filter(|(number, _)| *number != self.number);
         let failures = others.filter_map(|(_, seat)| {
-            match seat.queue.try_send((self.number, octets.to_vec())) {
+            let datagram = (self.number, octets.to_vec(), Instant::now());
+            match seat.queue.try_send(datagram) {
                 Err(TrySendError::Full(_)) => Some(ErrorKind::WouldBlock),
                 // A closed queue is like the air over a robot that is switched off.
                 Ok(()) | Err(TrySendError::Disconnected(_)) => None,
@@ -100,9 +102,10 @@ struct MemoryReceiver(mpsc::Receiver<Datagram>);
 impl Receiver for MemoryReceiver {
     fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
         match self.0.recv_timeout(at_most) {
-            Ok((port, octets)) => Ok(Some(Arrival::Datagram {
+            Ok((port, octets, at)) => Ok(Some(Arrival::Datagram {
                 from: Source::Port(port),
                 octets,
+                at,
             })),
             Err(RecvTimeoutError::Timeout) => Ok(None),
             Err(RecvTimeoutError::Disconnected) => Err(ErrorKind::NotConnected.into()),
@@ -120,13 +123,27 @@ mod tests {
         let mut ports: Vec<_> = (0..3).map(|n| air.port(n).open().unwrap()).collect();
         ports[0].sender.send(b"hello").unwrap();
         let mut heard = |port: usize| ports[port].receiver.receive(Duration::from_millis(1));
-        let expected = Arrival::Datagram {
-            from: Source::Port(0),
-            octets: b"hello".to_vec(),
-        };
         assert_eq!(heard(0).unwrap(), None);
-        assert_eq!(heard(1).unwrap(), Some(expected.clone()));
-        assert_eq!(heard(2).unwrap(), Some(expected));
+        for port in [1, 2] {
+            let Some(Arrival::Datagram { from, octets, .. }) = heard(port).unwrap() else {
+                panic!("port {port} heard nothing");
+            };
+            assert_eq!((from, &octets[..]), (Source::Port(0), &b"hello"[..]));
+        }
+    }
+
+    #[test]
+    fn a_datagram_that_waits_in_the_queue_has_arrived_when_it_was_sent() {
+        let air = Air::new(2);
+        let (mut sender, mut receiver) = (
+            air.port(0).open().unwrap().sender,
+            air.port(1).open().unwrap().receiver,
+        );
+        sender.send(b"hello").unwrap();
+        let sent = Instant::now();
+        std::thread::sleep(Duration::from_millis(20));
+        let heard = receiver.receive(Duration::from_millis(1)).unwrap();
+        assert!(matches!(heard, Some(Arrival::Datagram { at, .. }) if at <= sent));
     }
 
     #[test]

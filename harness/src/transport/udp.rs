@@ -2,11 +2,12 @@
 
 use std::io::ErrorKind;
 use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use nix::sys::socket::MsgFlags;
 use socket2::{Domain, InterfaceIndexOrAddress, Protocol, SockRef, Socket, Type};
 
+use super::attention::Attention;
 use super::link::interface_of;
 use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
@@ -24,6 +25,9 @@ struct UdpReceiver {
     buffer: Box<[u8; DATAGRAM_MAX]>,
     /// For how long the socket waits.
     wait: Duration,
+    /// Whether it waits at all.
+    waits: bool,
+    attention: Attention,
 }
 
 /// Opens a socket of this address, with these peers.
@@ -70,6 +74,8 @@ fn halves(
         socket: socket.try_clone().map_err(unusable)?,
         buffer: Box::new([0; DATAGRAM_MAX]),
         wait: Duration::ZERO,
+        waits: true,
+        attention: Attention::new(Instant::now()),
     };
     Ok(Halves {
         sender: Box::new(UdpSender { socket, to }),
@@ -110,10 +116,19 @@ impl Receiver for UdpReceiver {
             self.socket.set_read_timeout(Some(wait))?;
             self.wait = wait;
         }
-        match self.socket.recv_from(&mut *self.buffer) {
+        let waits = !self.attention.is_unsure();
+        if waits != self.waits {
+            self.socket.set_nonblocking(!waits)?;
+            self.waits = waits;
+        }
+        let called = Instant::now();
+        let received = self.socket.recv_from(&mut *self.buffer);
+        let now = Instant::now();
+        match received {
             Ok((length, address)) => Ok(Some(Arrival::Datagram {
                 from: Source::Address(address),
                 octets: self.buffer[..length].to_vec(),
+                at: self.attention.took(wait, now),
             })),
             // A peer that is gone answers with ICMP, which shows up as a refused connection.
             Err(error)
@@ -126,6 +141,10 @@ impl Receiver for UdpReceiver {
                         | ErrorKind::ConnectionReset
                 ) =>
             {
+                if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) {
+                    let waited = if waits { wait } else { Duration::ZERO };
+                    self.attention.saw_empty(called, waited, now);
+                }
                 Ok(None)
             }
             Err(error) => Err(error),

@@ -42,6 +42,44 @@ pub enum Fault {
         /// What has passed.
         passed_ms: u64,
     },
+    /// The robot was told of less time than had passed when its record before was written.
+    #[error(
+        "was told that {told_ms} ms passed since it was started, and it had been {passed_ms} ms at its record before"
+    )]
+    TimeLost {
+        /// What it was told.
+        told_ms: u64,
+        /// What had passed.
+        passed_ms: u64,
+    },
+    /// The robot took in a message without having been told of the time before it.
+    #[error("took in a message at {taken_us} µs, and was told of the time until {told_us} µs")]
+    NotToldFirst {
+        /// When it took the message in.
+        taken_us: u64,
+        /// Until when it had been told of time.
+        told_us: u64,
+    },
+    /// The times of a reception are not in their order.
+    #[error(
+        "heard a message that arrived at {arrived_us} µs, took it in at {told_us} µs and recorded it at {at_us} µs"
+    )]
+    ReceivedBefore {
+        /// When it arrived.
+        arrived_us: u64,
+        /// When the robot was told of it.
+        told_us: u64,
+        /// When that was recorded.
+        at_us: u64,
+    },
+    /// The robot took in a message that had waited for too long.
+    #[error("took in a message that had waited for {waited_ms} ms; delay_max is {delay_max_ms} ms")]
+    TooOld {
+        /// For how long it waited.
+        waited_ms: u64,
+        /// For how long it may.
+        delay_max_ms: u64,
+    },
     /// A step puts out something else.
     #[error("on '{input}' put out [{found}]; the protocol puts out [{expected}]")]
     Outputs {

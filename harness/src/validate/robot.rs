@@ -9,12 +9,10 @@ use crossguard_protocol::{
 };
 
 use super::fault::Fault;
+use super::time::Time;
 use crate::counters::Cause;
+use crate::trace::Reception;
 use crate::wire::{MessageKind, Unheard, overhear};
-
-/// By how much the time that a robot is told may be ahead of the log's clock, in ms, besides a
-/// hundredth for the drift of either.
-const AHEAD_MAX_MS: u64 = 1_000;
 
 /// A message that a step put out and that is to be sent.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -30,9 +28,7 @@ pub(super) struct Follow {
     robot: Robot,
     config: Config,
     identifiers: Identifiers,
-    started_us: u64,
-    at_us: u64,
-    told_ms: u64,
+    time: Time,
     owed: VecDeque<Owed>,
     heard: VecDeque<Input>,
     counted: BTreeMap<String, u64>,
@@ -48,14 +44,13 @@ impl Follow {
         settings: Settings,
         identifiers: Identifiers,
     ) -> Result<Self, Fault> {
+        let time = Time::new(&settings, at_us);
         Ok(Self {
             place,
             robot: Robot::new(station, boot),
             config: Config::new(settings).map_err(Fault::Settings)?,
             identifiers,
-            started_us: at_us,
-            at_us,
-            told_ms: 0,
+            time,
             owed: VecDeque::new(),
             heard: VecDeque::new(),
             counted: BTreeMap::new(),
@@ -90,25 +85,30 @@ impl Follow {
 
     /// The robot's clock goes on.
     pub(super) fn tick(&mut self, at_us: u64) -> Result<(), Fault> {
-        let before_us = std::mem::replace(&mut self.at_us, at_us);
-        if at_us < before_us {
-            return Err(Fault::ClockWentBack { before_us, at_us });
-        }
-        Ok(())
+        self.time.tick(at_us)
     }
 
+    /// When the robot's next step comes too late, on the log's clock.
+    pub(super) fn overdue_us(&self) -> Option<u64> {
+        self.time.overdue_us(self.robot.next_due())
+    }
+
+    /// The robot takes a step. By how many µs it comes too late, if it does.
     pub(super) fn step(
         &mut self,
         input: Input,
         outputs: &Outputs,
         after: &Robot,
-    ) -> Result<(), Fault> {
+    ) -> Result<Option<u64>, Fault> {
         self.settle_sending()?;
         match input {
             Input::Ram { .. } | Input::Rmcm(_) => self.take_in(input)?,
-            Input::Elapsed(elapsed) => self.tell(u64::from(elapsed.0))?,
-            Input::Expired(_) | Input::Local(_) => self.settle_hearing()?,
+            Input::Elapsed(_) | Input::Expired(_) | Input::Local(_) => self.settle_hearing()?,
         }
+        let late = match input {
+            Input::Elapsed(elapsed) => self.time.elapse(elapsed, self.robot.next_due())?,
+            _ => self.time.take_in(),
+        };
         let expected = self.robot.step(&self.config, input);
         let input = || input.to_string();
         if expected != *outputs {
@@ -129,18 +129,7 @@ impl Follow {
                 _ => {}
             }
         }
-        Ok(())
-    }
-
-    fn tell(&mut self, elapsed_ms: u64) -> Result<(), Fault> {
-        self.settle_hearing()?;
-        self.told_ms += elapsed_ms;
-        let passed_ms = (self.at_us - self.started_us) / 1_000;
-        if self.told_ms > passed_ms + passed_ms / 100 + AHEAD_MAX_MS {
-            let told_ms = self.told_ms;
-            return Err(Fault::TimeFromNowhere { told_ms, passed_ms });
-        }
-        Ok(())
+        Ok(late)
     }
 
     /// What was heard is taken in at once.
@@ -216,8 +205,12 @@ impl Follow {
         &mut self,
         kind: MessageKind,
         from: StationId,
+        reception: Option<Reception>,
         octets: &[u8],
     ) -> Result<(), Fault> {
+        if let Some(reception) = reception {
+            self.time.receive(reception)?;
+        }
         self.settle_hearing()?;
         self.settle_sending()?;
         let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;

@@ -80,7 +80,10 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
                     state: state.clone(),
                 })
             };
-            let one_more = outputs.iter().copied().chain([Output::CorridorOpened]);
+            let one_more = outputs
+                .iter()
+                .copied()
+                .chain([Output::CorridorOpened(Millis(1))]);
             let one_less = outputs.iter().copied().skip(1);
             let mut all = vec![step(*input, one_more.collect())];
             if !outputs.is_empty() {
@@ -105,9 +108,15 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
             };
             kinds.map(sent).into()
         }
-        Entry::Heard { message, from, .. } => vec![with(Entry::Heard {
+        Entry::Heard {
+            message,
+            from,
+            reception,
+            ..
+        } => vec![with(Entry::Heard {
             message: *message,
             from: *from,
+            reception: *reception,
             octets: other_octets.to_vec(),
         })],
         Entry::Started { .. } | Entry::Dropped { .. } | Entry::Stopped { .. } => Vec::new(),

@@ -13,8 +13,8 @@ use crossguard_harness::validate::{self, Validated};
 use crossguard_harness::wire::{MessageKind, Wire, overhear};
 use crossguard_model_check::paper::{Happening, Link, Message, Step, Story};
 use crossguard_protocol::{
-    Config, Event, HelpRequest, Ignored, Input, Leading, Maneuver, ManeuverId, Phase, Progress,
-    Rmcm, Robot, StationId, TaskSet, TaskType, Urgency,
+    Config, Corridor, Event, HelpRequest, Ignored, Input, Leading, Maneuver, ManeuverId, Phase,
+    Place, Progress, Rmcm, Robot, StationId, TaskSet, TaskType, Urgency,
 };
 
 /// How far time moves at once; less than the endpoint may be late.
@@ -180,7 +180,9 @@ impl Street {
                 self.handle(station, Stimulus::Time);
             }
             for &station in &stations {
-                let wants = self.leading(station).is_some_and(|l| !l.corridor_open);
+                let wants = self
+                    .leading(station)
+                    .is_some_and(|l| l.corridor != Corridor::Open);
                 if wants && self.now_ms.is_multiple_of(5 * TICK_MS) {
                     self.tell(station, Event::OpenCorridor);
                 }
@@ -203,7 +205,15 @@ impl Street {
     }
 
     fn deliver(&mut self, to: u32, octets: &[u8]) {
-        self.handle(to, Stimulus::Datagram(octets));
+        self.handle(to, self.arriving(octets));
+    }
+
+    /// A packet that arrives now, whatever it was held back on its way.
+    const fn arriving<'a>(&self, packet: &'a [u8]) -> Stimulus<'a> {
+        Stimulus::Datagram {
+            packet,
+            arrived_ms: self.now_ms,
+        }
     }
 
     /// Tells a robot something, and carries on until the radio is quiet.
@@ -214,7 +224,7 @@ impl Street {
             let others: Vec<_> = self.actors.keys().copied().filter(|s| *s != from).collect();
             for to in others {
                 if self.passes(Link { from, to }, kind, &octets) {
-                    self.handle_one(to, Stimulus::Datagram(&octets), &mut on_air);
+                    self.handle_one(to, self.arriving(&octets), &mut on_air);
                 }
             }
         }
@@ -321,6 +331,7 @@ fn escort() -> HelpRequest {
         urgency: Urgency::Medium,
         followers: 1,
         tasks: TaskSet::of(&[TaskType::MOVE]),
+        place: Place::UNKNOWN,
     }
 }
 
@@ -403,7 +414,7 @@ impl Street {
                 }
                 let guards = actor.running.is_some() || self.has_just_ended(actor);
                 assert!(
-                    !leading.corridor_open || guards,
+                    leading.corridor != Corridor::Open || guards,
                     "nobody guards the corridor"
                 );
             }

@@ -182,3 +182,38 @@ pub fn records(log: &str) -> Vec<Value> {
         .map(|line| serde_json::from_str(line).unwrap())
         .collect()
 }
+
+/// Replaces texts in a robot's configuration.
+pub fn edit(config: &str, changes: &[(&str, &str)]) {
+    let mut text = std::fs::read_to_string(config).unwrap();
+    for (from, to) in changes {
+        assert!(text.contains(from), "'{from}' is not in:\n{text}");
+        text = text.replace(from, to);
+    }
+    std::fs::write(config, text).unwrap();
+}
+
+/// What happened in a log, with the time by the machine's clock in ms: the outputs of steps, and their
+/// inputs under the key `input`.
+pub fn happenings(log: &str) -> Vec<(f64, Value)> {
+    let records = records(log);
+    let started = &records[0];
+    let zero_ms = started["unixMs"].as_f64().unwrap() - started["atUs"].as_f64().unwrap() / 1e3;
+    let mut happenings = Vec::new();
+    for record in &records {
+        let at_ms = zero_ms + record["atUs"].as_f64().unwrap() / 1e3;
+        if let Some(input) = record.get("input") {
+            happenings.push((at_ms, serde_json::json!({ "input": input })));
+        }
+        for output in record["outputs"].as_array().into_iter().flatten() {
+            happenings.push((at_ms, output.clone()));
+        }
+    }
+    happenings
+}
+
+/// When something happened first.
+pub fn first(happenings: &[(f64, Value)], is: impl Fn(&Value) -> bool) -> Option<f64> {
+    let found = happenings.iter().find(|(_, what)| is(what));
+    found.map(|(at_ms, _)| *at_ms)
+}

@@ -133,8 +133,8 @@ fn concerns(message: &Message, receiver: StationId) -> bool {
             ..
         }) => match (coordination, farewell) {
             (Coordination::NeedHelp { .. } | Coordination::Leader { .. }, _)
-            | (_, Some(Farewell::Ended(_))) => true,
-            (_, Some(Farewell::Left(session)))
+            | (_, Some(Farewell::Ended(..))) => true,
+            (_, Some(Farewell::Left(session, _)))
             | (
                 Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. },
                 None,
@@ -156,7 +156,7 @@ fn happenings(scenario: &Scenario, place: usize, state: &RobotState) -> Vec<Happ
         .collect();
     let mut local = |event| all.push(Happening::Local(event));
     if state.detections > 0 && scenario.robots[place].detects {
-        local(Event::PedestrianDetected(scenario.request));
+        local(Event::PedestrianDetected(scenario.request_of(place)));
     }
     match robot.phase() {
         Phase::Leading(leading) => {

@@ -188,7 +188,7 @@ fn spin() -> Result<Measured, &'static str> {
     run(Command::new("gcc").args(["-O2", "-w", "-DSAFETY", "-DNOREDUCE", "-o", "pan", "pan.c"]));
     let spent = || processor_time(Of::Children).expect("Linux");
     let start = spent();
-    let printed = run(Command::new("./pan").args(["-m20000", "-n", "-c0"]));
+    let printed = run(Command::new("./pan").args(["-m40000", "-n", "-c0"]));
     let seconds = spent().saturating_sub(start).as_secs_f64();
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
     let figure = |what: &str| -> f64 {

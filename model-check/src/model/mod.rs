@@ -4,26 +4,26 @@
 //! settings. Nothing of the protocol is written here a second time; a robot's part of a step is one
 //! call of [`Robot::step`](crossguard_protocol::Robot::step).
 
+mod actions;
 mod canonical;
+mod successor;
 mod world;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crossguard_protocol::{
-    Availability, Event, Input, Member, Outputs, Phase, Robot, StationId, Timer, Unavailability,
-};
-use smallvec::SmallVec;
+use crossguard_protocol::{Event, Input, Outputs, Timer};
 
 use crate::canonical::{Ranks, Renamings};
 use crate::check::Stop;
 use crate::history::History;
 use crate::intern::Interner;
-use crate::network::{Message, Network, Transmission, concerns};
+use crate::monotone::Sets;
+use crate::network::{Message, Network, Transmission};
 use crate::node::{Node, Protocol, Rules};
-use crate::properties::{PropertyId, StepView};
-use crate::scenario::{Bounds, MAX_ROBOTS, PSEUDONYM_STEP, Scenario};
-use crate::steps::{Cause, Step, Steps, judge_historic};
+use crate::properties::PropertyId;
+use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
+use crate::steps::{Cause, Step, Steps};
 use crate::symmetry::Symmetry;
 use crate::transitions::Transitions;
 
@@ -35,6 +35,8 @@ pub struct State {
     /// One bit per step property that the step into this state broke.
     broken: u32,
     left: Bounds,
+    /// One bit per robot that hangs.
+    hung: u8,
     network: u32,
 }
 
@@ -49,6 +51,12 @@ impl State {
     #[must_use]
     pub const fn left(&self) -> Bounds {
         self.left
+    }
+
+    /// Whether the robot at this place hangs.
+    #[must_use]
+    pub const fn hangs(&self, place: usize) -> bool {
+        self.hung & 1 << place != 0
     }
 
     /// Whether the step into this state broke a step property. What might come after it is not
@@ -81,6 +89,15 @@ pub enum Action {
     Crash(u8),
     /// A robot boots again.
     Restart(u8),
+    /// The pedestrian steps on the road, because the sign of this robot shows go.
+    StepOnRoad(u8),
+    /// The pedestrian who stepped on the road at this robot's sign is off it.
+    Across(u8),
+    /// A robot stops: it hears nothing, no timer expires, its application does nothing. Its state stays,
+    /// and its body goes on with what it was last told.
+    Hang(u8),
+    /// A robot that hangs goes on.
+    Resume(u8),
 }
 
 /// How a message arrives.
@@ -92,6 +109,8 @@ pub enum Delivery {
     Late,
     /// Late, and it will arrive once more or get lost.
     LateAndAgain,
+    /// At any time after it was sent, and it may arrive again: the channel is monotone.
+    AnyTime,
 }
 
 /// The model of one scenario. Clones share what has been found out. Somebody may ask to give up.
@@ -104,6 +123,8 @@ struct Shared {
     steps: Steps,
     histories: Interner<History>,
     networks: Interner<Network>,
+    /// Sets of messages on a monotone channel.
+    sets: Sets,
     renamings: Arc<Renamings>,
     /// One bit per property whose premise has been met.
     premises_met: AtomicU32,
@@ -153,6 +174,7 @@ impl Model {
             steps: Steps::new(Box::new(rules), &renamings),
             histories: Interner::new(&renamings),
             networks: Interner::new(&renamings),
+            sets: Sets::new(&renamings),
             renamings,
             premises_met: AtomicU32::new(0),
         };
@@ -187,6 +209,7 @@ impl Model {
             history: self.0.histories.number(History::default()),
             broken: 0,
             left: self.0.scenario.bounds,
+            hung: 0,
             network: self.0.networks.number_nameless(Network::EMPTY),
         }
     }
@@ -235,7 +258,9 @@ impl Model {
         })
     }
 
-    /// Whether some message or timer changes the state, without any application's help.
+    /// Whether some message or timer changes the state, without any application's help and leaving aside
+    /// the timer of periodic RAM. A robot that hangs goes on at some time, so its timers count; that a
+    /// message of a monotone channel arrives at all is not sure, so it does not.
     #[must_use]
     pub fn can_progress(&self, state: &State) -> bool {
         let Shared {
@@ -252,9 +277,10 @@ impl Model {
         };
         let by_timer = self.nodes(state).enumerate().any(|(i, node)| {
             node.robot.as_ref().is_some_and(|robot| {
-                robot
-                    .timers()
-                    .iter()
+                let timers = robot.timers();
+                let others = timers.iter().filter(|(timer, _)| *timer != Timer::Ram);
+                others
+                    .into_iter()
                     .any(|(timer, _)| effective(i, Cause::Timer(*timer)))
             })
         });
@@ -266,286 +292,10 @@ impl Model {
                 .any(|t| effective(t.to.into(), Cause::Message(t.message)))
     }
 
-    /// The messages on air of which any may be the next whose fate is decided.
-    fn next_on_air(&self, state: &State) -> SmallVec<[Transmission; MAX_ROBOTS]> {
-        let network = self.network(state);
-        if self.0.symmetry.is_trivial() {
-            network.next_on_air().into_iter().collect()
-        } else {
-            network.first_broadcast().collect()
-        }
-    }
-
     /// Whether the premise of a property has been met so far.
     #[must_use]
     pub fn premise_met(&self, property: PropertyId) -> bool {
         self.0.premises_met.load(Ordering::Relaxed) & property.bit() != 0
-    }
-
-    /// Everything that may happen in `state`. An application's event may turn out to be ignored.
-    pub fn actions_in(&self, state: &State, actions: &mut Vec<Action>) {
-        if state.broken != 0 {
-            return;
-        }
-        let on_air = self.next_on_air(state);
-        if on_air.is_empty() {
-            self.actions_off_air(state, actions);
-        }
-        for transmission in on_air {
-            self.fates(state, transmission, actions);
-        }
-    }
-
-    /// Whether the fate of some message is to be decided before anything else.
-    pub(crate) fn is_on_air(&self, state: &State) -> bool {
-        self.network(state).next_on_air().is_some()
-    }
-
-    /// Everything that may happen in `state` once nothing is on air any more.
-    pub(crate) fn actions_off_air(&self, state: &State, actions: &mut Vec<Action>) {
-        for transmission in self.network(state).delayed() {
-            for how in [Delivery::Late, Delivery::LateAndAgain] {
-                actions.push(Action::Deliver { transmission, how });
-            }
-            if state.left.losses != Some(0) {
-                actions.push(Action::Lose(transmission));
-            }
-        }
-        for (i, node) in (0..).zip(self.nodes(state)) {
-            match &node.robot {
-                Some(robot) => {
-                    for (timer, _) in robot.timers().iter() {
-                        if !self.0.scenario.cooperative || !guards_against_silence(*timer) {
-                            actions.push(Action::Expire(i, *timer));
-                        }
-                    }
-                    self.local_events(state, i, robot, actions);
-                    if state.left.crashes > 0 {
-                        actions.push(Action::Crash(i));
-                    }
-                }
-                None if state.left.restarts > 0 => actions.push(Action::Restart(i)),
-                None => {}
-            }
-        }
-    }
-
-    /// What may become of a message on air.
-    fn fates(&self, state: &State, transmission: Transmission, actions: &mut Vec<Action>) {
-        let channel = self.0.scenario.channel;
-        actions.push(Action::Deliver {
-            transmission,
-            how: Delivery::AtOnce,
-        });
-        let is_rmcm = matches!(self.message(transmission.message), Message::Rmcm(_));
-        if self.0.scenario.cooperative && is_rmcm {
-            return;
-        }
-        if channel.loss && state.left.losses != Some(0) {
-            actions.push(Action::Lose(transmission));
-        }
-        if self
-            .network(state)
-            .can_delay(transmission, usize::from(channel.delayed))
-        {
-            actions.push(Action::Delay(transmission));
-        }
-    }
-
-    /// Every event that the application of a robot could come up with.
-    fn local_events(&self, state: &State, i: u8, robot: &Robot, actions: &mut Vec<Action>) {
-        let mut push = |event| actions.push(Action::Local(i, event));
-        let (scenario, left) = (&self.0.scenario, &state.left);
-        if left.detections > 0 && scenario.robots[usize::from(i)].detects {
-            push(Event::PedestrianDetected(scenario.request));
-        }
-        if left.disturbances > 0 {
-            let reason = Unavailability::LocalFault;
-            push(Event::AvailabilityChanged(Availability::Unavailable(
-                reason,
-            )));
-        }
-        if robot.availability() != Availability::Available {
-            push(Event::AvailabilityChanged(Availability::Available));
-        }
-        if left.disturbances > 0 {
-            push(Event::IdentityChanged(StationId(
-                robot.station().0 + PSEUDONYM_STEP,
-            )));
-        }
-        match robot.phase() {
-            Phase::Idle => {}
-            Phase::Leading(leading) => {
-                if left.disturbances > 0 {
-                    push(Event::LeaveRequested);
-                }
-                let is_completed = leading.members.iter().any(Member::has_completed);
-                if is_completed || !scenario.cooperative {
-                    push(Event::TaskCompleted);
-                }
-                if left.commands > 0 {
-                    for member in leading.members.iter() {
-                        for task in scenario.request.tasks.iter() {
-                            push(Event::CommandManeuver {
-                                follower: member.station,
-                                task,
-                            });
-                        }
-                    }
-                }
-                if scenario.corridor {
-                    push(Event::OpenCorridor);
-                    push(Event::CloseCorridor);
-                }
-            }
-            Phase::Requesting(_) | Phase::Offering(_) | Phase::Following(_) => {
-                if let Phase::Following(following) = robot.phase()
-                    && let Some(maneuver) = following.executing()
-                {
-                    push(Event::ManeuverCompleted(maneuver.id));
-                    if left.disturbances > 0 {
-                        push(Event::ManeuverFailed(maneuver.id));
-                    }
-                }
-                if matches!(robot.phase(), Phase::Requesting(_)) && !scenario.cooperative {
-                    push(Event::TaskCompleted);
-                }
-                if left.disturbances > 0 {
-                    push(Event::LeaveRequested);
-                }
-            }
-        }
-    }
-
-    /// What comes of `action` in `state`, with the robot's step if one takes a step; `None` if the
-    /// action changes nothing.
-    #[must_use]
-    pub fn successor(
-        &self,
-        state: &State,
-        action: Action,
-    ) -> Option<(State, Option<RobotStep<'_>>)> {
-        let (next, step) = self.take(state, action)?;
-        Some((self.interned(next), step))
-    }
-
-    /// The same, with the state that stands for all those that differ from the successor in which of the
-    /// symmetric robots is which.
-    #[must_use]
-    pub fn successor_up_to_symmetry(
-        &self,
-        state: &State,
-        action: Action,
-    ) -> Option<(State, Option<RobotStep<'_>>)> {
-        let (next, step) = self.take(state, action)?;
-        Some((self.interned(self.representative_of(next)), step))
-    }
-
-    fn take(&self, state: &State, action: Action) -> Option<(Draft, Option<RobotStep<'_>>)> {
-        let mut next = Draft {
-            state: state.clone(),
-            network: *self.network(state),
-        };
-        let step = match action {
-            Action::Deliver { transmission, how } => {
-                match how {
-                    Delivery::AtOnce => next.network.take_off_air(transmission),
-                    Delivery::Late => next.network.forget(transmission),
-                    Delivery::LateAndAgain => {}
-                }
-                let cause = Cause::Message(transmission.message);
-                let step = self.robot_step(&mut next, transmission.to.into(), cause)?;
-                if how == Delivery::LateAndAgain && step.step.is_ignored {
-                    return None;
-                }
-                Some(step)
-            }
-            Action::Lose(transmission) => {
-                if let Some(left) = &mut next.state.left.losses {
-                    *left -= 1;
-                }
-                if next.network.next_on_air().is_some() {
-                    next.network.take_off_air(transmission);
-                } else {
-                    next.network.forget(transmission);
-                }
-                None
-            }
-            Action::Delay(transmission) => {
-                next.network.take_off_air(transmission);
-                next.network.delay(transmission);
-                None
-            }
-            Action::Expire(i, timer) => {
-                Some(self.robot_step(&mut next, i.into(), Cause::Timer(timer))?)
-            }
-            Action::Local(i, event) => {
-                next.state.left.spend(event);
-                let step = self.robot_step(&mut next, i.into(), Cause::Event(event))?;
-                if step.step.is_ignored {
-                    return None;
-                }
-                Some(step)
-            }
-            Action::Crash(i) => {
-                next.state.left.crashes -= 1;
-                self.crash(&mut next.state, i.into());
-                None
-            }
-            Action::Restart(i) => {
-                next.state.left.restarts -= 1;
-                let node = self
-                    .0
-                    .steps
-                    .nodes
-                    .value(next.state.nodes[usize::from(i)])
-                    .restarted();
-                next.state.nodes[usize::from(i)] = self.0.steps.nodes.number(node);
-                None
-            }
-        };
-        Some((self.ranked(next), step))
-    }
-
-    fn crash(&self, next: &mut State, i: usize) {
-        let node = self.0.steps.nodes.value(next.nodes[i]);
-        if let Some(robot) = &node.robot {
-            let mut history = self.history(next).clone();
-            history.record_crash(robot);
-            next.history = self.0.histories.number(history);
-        }
-        next.nodes[i] = self.0.steps.nodes.number(node.crashed());
-    }
-
-    fn robot_step(&self, next: &mut Draft, i: usize, cause: Cause) -> Option<RobotStep<'_>> {
-        let Shared {
-            scenario, steps, ..
-        } = &*self.0;
-        let before = next.state.nodes[i];
-        let step = steps.step(&scenario.config, &scenario.properties, before, cause)?;
-        let (mut premises, mut broken) = (step.premises, step.broken);
-        if step.is_historic {
-            let view = StepView {
-                config: &scenario.config,
-                history: self.0.histories.value(next.state.history),
-                before: steps.nodes.value(before),
-                after: steps.nodes.value(step.after),
-                input: step.input,
-                outputs: &step.outputs,
-            };
-            let historic = judge_historic(&scenario.properties, &view);
-            premises |= historic.0;
-            broken |= historic.1;
-            next.state.history = self.0.histories.number(view.history_after());
-        }
-        next.state.broken |= broken;
-        if !step.taken.load(Ordering::Relaxed) {
-            step.taken.store(true, Ordering::Relaxed);
-        }
-        self.note_premises(premises);
-        self.transmit(next, i, step);
-        next.state.nodes[i] = step.after;
-        Some(RobotStep { robot: i, step })
     }
 
     /// The transitions of the state diagram that robots have taken so far.
@@ -569,28 +319,4 @@ impl Model {
             self.0.premises_met.fetch_or(met, Ordering::Relaxed);
         }
     }
-
-    fn transmit(&self, next: &mut Draft, from: usize, step: &Step) {
-        for &number in &step.sends {
-            let message = self.message(number);
-            for to in (0..self.0.scenario.robots.len()).filter(|&to| to != from) {
-                let receiver = self.0.steps.nodes.value(next.state.nodes[to]);
-                if receiver.robot.is_some() && concerns(message, receiver.persisted.station) {
-                    let place = |i: usize| u8::try_from(i).expect("at most MAX_ROBOTS");
-                    let (from, to) = (place(from), place(to));
-                    next.network.send(Transmission {
-                        from,
-                        to,
-                        message: number,
-                    });
-                }
-            }
-        }
-    }
-}
-
-/// Whether a timer does not run out when what is sent arrives and everybody does their part. The
-/// others pace the robot's own work.
-const fn guards_against_silence(timer: Timer) -> bool {
-    !matches!(timer, Timer::Ram | Timer::Selection | Timer::Farewell)
 }

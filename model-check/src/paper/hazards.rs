@@ -6,6 +6,7 @@ use stateright::Property;
 use crossguard_protocol::State as Stage;
 
 use super::model::{Question, World};
+use super::road;
 use super::robot::{Command, HelpStatus, Input, Place, Progression, Rmcm, Robot};
 
 /// A property of the paper's wording.
@@ -105,6 +106,8 @@ impl Hazard {
 pub(super) const HOLDS: &str = "P0";
 /// The premise of P0.
 pub(super) const PREMISE: &str = "P0-premise";
+/// What is asked about the road.
+pub(super) const ON_ROAD: &str = "W";
 const HOLDS_BIT: u16 = 1 << Hazard::ALL.len();
 
 /// What stateright looks at to answer a question.
@@ -120,7 +123,11 @@ pub(super) fn properties(question: &Question) -> Vec<Property<Question>> {
             world.memory.brought_about & HOLDS_BIT == 0
         }),
     }];
-    if question.hazard.is_none() && question.cast.commands > 1 {
+    if question.road.is_some_and(|road| road.property.is_some()) {
+        let holds = |question: &Question, world: &World| !road::is_found(question, world);
+        properties = vec![Property::always(ON_ROAD, holds)];
+    }
+    if question.hazard.is_none() && question.road.is_none() && question.cast.commands > 1 {
         let is_met = |_: &Question, world: &World| is_crossed(world);
         properties.push(Property::sometimes(PREMISE, is_met));
     }

@@ -9,7 +9,11 @@
 //!   robot ──► model ──► stateright ──► counterexamples ──┬──► report
 //!               ▲                                        ├──► page (doc/paper-literal.md)
 //!            hazards (P0..P12) ◄── texts                 └──► story (stories/*.json)
+//!            road (W1..W4, W7)
 //! ```
+//!
+//! With the road around it, bodies, a sign and a pedestrian, the same model shows what the wording means for
+//! a person: the road properties that it breaks.
 //!
 //! Where the text leaves something open, the model takes the most literal reading:
 //!
@@ -22,11 +26,14 @@
 //! - the safety timeout of a follower is held off by RMCM, takes it to Idle, and stops its maneuver;
 //! - a leader in `ManeuverExecuting` that hears `completed` from its follower takes its command as
 //!   completed; nothing else in a follower's RAM changes a leader;
+//! - on the road, a leader invites the pedestrian as long as it is in `ManeuverExecuting`, and a follower guards
+//!   by what it executes, either at the pedestrian's side or from a place that it has to reach first;
 //! - only a robot in Idle answers a `needHelp`; no time limit is given for any state.
 
 mod hazards;
 mod model;
 mod page;
+mod road;
 mod robot;
 mod story;
 mod texts;
@@ -43,6 +50,7 @@ use crate::cost::Meter;
 use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
 use crate::transitions::Transitions;
 use model::{Action, Cast, Question, World};
+use road::{Inquiry, Task};
 
 /// The name of the report.
 pub const NAME: &str = "paper-literal";
@@ -71,9 +79,23 @@ const TRIO: Cast = Cast {
     delay: false,
 };
 
-/// A run that brings a hazard about.
+/// What it takes to let somebody cross, and everything that can happen meanwhile.
+const CROSSING: Cast = Cast {
+    commands: 1,
+    ..PAIR
+};
+
+/// The same three, with a command each: two leaders of one helper.
+const RIVALS: Cast = Cast {
+    commands: 2,
+    ..TRIO
+};
+
+/// A run that brings a hazard about, or breaks a property of the road.
 struct Counterexample {
-    hazard: Hazard,
+    text: Text,
+    /// Somebody waits for ever: after the last step nothing happens any more.
+    is_without_end: bool,
     cast: Cast,
     /// Each action with the world before and after it.
     steps: Vec<Transition>,
@@ -100,13 +122,25 @@ struct Exploration {
 #[must_use]
 pub fn check() -> ScenarioReport {
     let (start, meter) = (Instant::now(), Meter::start());
-    let explored = [PAIR, TRIO].map(explore);
-    let found = counterexamples();
+    let explored = [
+        explore(PAIR, None),
+        explore(TRIO, None),
+        explore(CROSSING, Some(Task::Move)),
+        explore(CROSSING, Some(Task::Block)),
+    ];
+    let (found, on_road) = (counterexamples(), broken_on_road());
     let is_p0_broken = explored.iter().any(|e| e.is_p0_broken);
     let sum = |count: fn(&Exploration) -> usize| explored.iter().map(count).sum();
     let is_crossing_found = explored.iter().any(|e| e.is_crossing_found);
     let mut properties = what_holds(is_p0_broken, is_crossing_found);
-    properties.extend(Hazard::ALL.map(|hazard| hazard_report(hazard, &found)));
+    properties.extend(Hazard::ALL.map(|hazard| {
+        let kind = if hazard.is_without_end() { "L" } else { "S" };
+        must_fail_report(hazard.text(), kind, &found)
+    }));
+    properties.extend(road::Property::ALL.map(|property| {
+        let kind = if property.is_without_end() { "L" } else { "S" };
+        must_fail_report(property.text(), kind, &on_road)
+    }));
     ScenarioReport {
         name: NAME.to_owned(),
         summary: SUMMARY.to_owned(),
@@ -134,12 +168,15 @@ pub fn made(report: &ScenarioReport) -> bool {
     report.verdict(hazards::HOLDS).is_some()
 }
 
-/// Whether exactly P1 to P12 are violated in a report of [`check`], as they must be.
+/// Whether exactly P1 to P12 and the properties of the road are violated in a report of [`check`], as they
+/// must be.
 #[must_use]
 pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
     let fine = [hazards::HOLDS, hazards::PREMISE].map(|id| report.verdict(id))
         == [Some(Verdict::Holds), Some(Verdict::Reachable)];
-    let must_fail = Hazard::ALL.map(|hazard| hazard.text().id);
+    let hazards = Hazard::ALL.map(|hazard| hazard.text().id);
+    let on_road = road::Property::ALL.map(|property| property.text().id);
+    let must_fail = hazards.into_iter().chain(on_road);
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
 
@@ -169,12 +206,11 @@ fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport
     ]
 }
 
-fn hazard_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport {
-    let text = hazard.text();
-    let counterexample = found.iter().find(|found| found.hazard == hazard);
+fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> PropertyReport {
+    let counterexample = found.iter().find(|found| found.text.id == text.id);
     PropertyReport {
         id: text.id.to_owned(),
-        kind: if hazard.is_without_end() { "L" } else { "S" }.to_owned(),
+        kind: kind.to_owned(),
         verdict: Verdict::of_property(counterexample.is_some(), None),
         statement: text.statement.to_owned(),
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
@@ -184,15 +220,22 @@ fn hazard_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport {
 
 fn assumptions() -> Vec<String> {
     let mut assumptions = vec![
-        "P1 to P12 must be violated: each is why the protocol has a rule that the paper's text lacks"
+        "P1 to P12, W1 to W4 and W7 must be violated: each is why the protocol has a rule that the paper's text lacks"
             .to_owned(),
         "the paper's text as the kit's design retells it; what that leaves open is read literally"
             .to_owned(),
+        "on the road: a leader invites the pedestrian as long as it is in ManeuverExecuting".to_owned(),
         "untimed: the safety timeout of a follower may run out at any moment".to_owned(),
     ];
-    for cast in [PAIR, TRIO] {
+    let casts = [
+        ("", PAIR),
+        ("", TRIO),
+        ("on the road, ", CROSSING),
+        ("on the road, ", RIVALS),
+    ];
+    for (place, cast) in casts {
         assumptions.push(format!(
-            "{}: at most {} detections, {} commands, {} breakdowns; {} RAM delayed at a time",
+            "{place}{}: at most {} detections, {} commands, {} breakdowns; {} RAM delayed at a time",
             cast.names.join(", "),
             cast.detections,
             cast.commands,
@@ -203,9 +246,17 @@ fn assumptions() -> Vec<String> {
     assumptions
 }
 
-fn explore(cast: Cast) -> Exploration {
-    let hazard = None;
-    let checker = Question { cast, hazard }.checker().spawn_bfs().join();
+fn explore(cast: Cast, guards: Option<Task>) -> Exploration {
+    let road = guards.map(|task| Inquiry {
+        task,
+        property: None,
+    });
+    let question = Question {
+        cast,
+        hazard: None,
+        road,
+    };
+    let checker = question.checker().spawn_bfs().join();
     Exploration {
         unique_states: checker.unique_state_count(),
         // What stateright counts has the initial state in it.
@@ -229,10 +280,58 @@ fn find(hazard: Hazard) -> Option<Counterexample> {
     let question = Question {
         cast,
         hazard: Some(hazard),
+        road: None,
     };
+    let text = hazard.text();
+    Some(Counterexample {
+        text,
+        is_without_end: hazard.is_without_end(),
+        cast,
+        steps: shortest(question, text.id)?,
+    })
+}
+
+/// The shortest run that breaks each property of the road, in order; W1 by either kind of guard.
+fn broken_on_road() -> Vec<Counterexample> {
+    use road::Property::{W1, W2, W3, W4, W7};
+    let inquiries = [
+        (W1, Task::Block),
+        (W1, Task::Move),
+        (W2, Task::Move),
+        (W3, Task::Move),
+        (W4, Task::Move),
+        (W7, Task::Move),
+    ];
+    let found = inquiries.map(|(property, task)| find_on_road(property, task));
+    found.into_iter().flatten().collect()
+}
+
+fn find_on_road(property: road::Property, task: Task) -> Option<Counterexample> {
+    let cast = match property {
+        road::Property::W3 => RIVALS,
+        _ => CROSSING,
+    };
+    let question = Question {
+        cast,
+        hazard: None,
+        road: Some(Inquiry {
+            task,
+            property: Some(property),
+        }),
+    };
+    Some(Counterexample {
+        text: texts::on_road(property, task),
+        is_without_end: property.is_without_end(),
+        cast,
+        steps: shortest(question, hazards::ON_ROAD)?,
+    })
+}
+
+/// The shortest run that breaks what is asked for.
+fn shortest(question: Question, name: &'static str) -> Option<Vec<Transition>> {
     // One thread: of equally short counterexamples it always finds the same.
     let checker = question.checker().threads(1).spawn_bfs().join();
-    let path = checker.discovery(hazard.text().id)?.into_vec();
+    let path = checker.discovery(name)?.into_vec();
     let transition = |pair: &[(World, Option<Action>)]| {
         Some(Transition {
             before: pair[0].0.clone(),
@@ -240,16 +339,12 @@ fn find(hazard: Hazard) -> Option<Counterexample> {
             after: pair[1].0.clone(),
         })
     };
-    Some(Counterexample {
-        hazard,
-        cast,
-        steps: path.windows(2).filter_map(transition).collect(),
-    })
+    Some(path.windows(2).filter_map(transition).collect())
 }
 
 impl Counterexample {
     /// Where it is that somebody waits for ever: after the last step nothing happens any more.
     fn repeats_after(&self) -> Option<usize> {
-        self.hazard.is_without_end().then_some(self.steps.len())
+        self.is_without_end.then_some(self.steps.len())
     }
 }

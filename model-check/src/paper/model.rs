@@ -10,6 +10,7 @@ use crossguard_protocol::State as Stage;
 use stateright::Property;
 
 use super::hazards::{self, Hazard};
+use super::road::{Inquiry, Move, Road};
 use super::robot::{Command, Input, Place, Ram, Rmcm, Robot};
 
 /// Robots, and how often what may happen to them in one run.
@@ -34,6 +35,8 @@ pub(super) struct Question {
     pub(super) cast: Cast,
     /// The hazard to find, or what holds.
     pub(super) hazard: Option<Hazard>,
+    /// What to ask about the road; without, there is none.
+    pub(super) road: Option<Inquiry>,
 }
 
 /// A message under way.
@@ -84,6 +87,8 @@ pub(super) enum Action {
     },
     Lose(Flight),
     Crash(Place),
+    /// On the road, by itself.
+    Road(Move),
 }
 
 /// Robots, messages under way, and what the properties remember.
@@ -94,6 +99,8 @@ pub(super) struct World {
     /// In order, at most one for each flight.
     pub(super) flying: Vec<(Flight, Content)>,
     pub(super) memory: Memory,
+    /// `None` where nothing is asked about the road.
+    pub(super) road: Option<Road>,
     detections: u8,
     crashes: u8,
 }
@@ -185,6 +192,9 @@ impl World {
         }
         self.memory.brought_about = hazards::brought_about(&before, place, input, &after);
         self.remember(&before, place, input, sent);
+        if let (Some(road), Some(robot)) = (&mut self.road, before.robot(place)) {
+            road.observe(robot, place, input, &after);
+        }
         Some(())
     }
 
@@ -222,6 +232,8 @@ impl fmt::Display for Content {
 
 impl Cast {
     fn local_actions(&self, world: &World, actions: &mut Vec<Action>) {
+        // Applications are truthful: while somebody is on the road nothing is finished.
+        let is_road_free = world.road.as_ref().is_none_or(Road::is_free);
         for (place, robot) in world.robots() {
             if robot.state == Stage::Idle
                 && place < self.detecting
@@ -232,10 +244,10 @@ impl Cast {
             if robot.may_command() && world.memory.given < self.commands {
                 actions.push(Action::Command(place));
             }
-            if robot.executing().is_some() {
+            if robot.executing().is_some() && is_road_free {
                 actions.push(Action::Finish(place));
             }
-            if robot.may_complete_task() {
+            if robot.may_complete_task() && is_road_free {
                 actions.push(Action::CompleteTask(place));
             }
             if robot.leader().is_some() {
@@ -247,6 +259,12 @@ impl Cast {
     fn channel_actions(&self, world: &World, actions: &mut Vec<Action>) {
         let hears = |(from, to)| Action::Hear { from, to };
         actions.extend(world.telling_links().map(hears));
+        if let Some(road) = &world.road {
+            let is_noted = |&(from, to): &(Place, Place)| {
+                world.told(from, to) == world.robots[to] && road.notes(world, from, to)
+            };
+            actions.extend(world.links().filter(is_noted).map(hears));
+        }
         for &(flight, _) in &world.flying {
             if world.robot(flight.to).is_some() {
                 let arrive = |again| Action::Arrive { flight, again };
@@ -269,6 +287,9 @@ impl Cast {
 fn successor(world: &World, action: Action) -> Option<World> {
     let mut next = world.clone();
     next.memory.brought_about = 0;
+    if let Some(road) = &mut next.road {
+        road.forget_broken();
+    }
     match action {
         Action::Detect(place) => {
             next.detections += 1;
@@ -296,7 +317,11 @@ fn successor(world: &World, action: Action) -> Option<World> {
         Action::Crash(place) => {
             next.crashes += 1;
             next.robots[place] = None;
+            if let Some(road) = &mut next.road {
+                road.end(place);
+            }
         }
+        Action::Road(what) => next.road.as_mut()?.happen(what),
     }
     Some(next)
 }
@@ -319,6 +344,9 @@ impl stateright::Model for Question {
             robots: vec![Some(Robot::IDLE); self.cast.names.len()],
             flying: Vec::new(),
             memory: Memory::default(),
+            road: self
+                .road
+                .map(|inquiry| Road::new(self.cast.names.len(), inquiry.task)),
             detections: 0,
             crashes: 0,
         }]
@@ -330,6 +358,11 @@ impl stateright::Model for Question {
         self.cast.local_actions(world, actions);
         if world.crashes < self.cast.crashes {
             actions.extend(world.robots().map(|(place, _)| Action::Crash(place)));
+        }
+        if let Some(road) = &world.road {
+            let mut moves = Vec::new();
+            road.moves(world, &mut moves);
+            actions.extend(moves.into_iter().map(Action::Road));
         }
     }
 

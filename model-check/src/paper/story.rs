@@ -113,7 +113,7 @@ pub fn stories() -> Vec<Story> {
 
 impl Counterexample {
     fn story(&self) -> Story {
-        let text = self.hazard.text();
+        let text = self.text;
         let steps = self.steps.iter().enumerate().map(|(i, step)| Step {
             what: happening(&step.before, step.action),
             silent: self.silent(i),
@@ -198,5 +198,6 @@ fn happening(before: &World, action: Action) -> Happening {
         Action::CompleteTask(place) => Happening::CompleteTask(station(place)),
         Action::SafetyTimeout(place) => Happening::SafetyTimeout(station(place)),
         Action::Crash(place) => Happening::Crash(station(place)),
+        Action::Road(_) => unreachable!("stories are told of runs without a road"),
     }
 }

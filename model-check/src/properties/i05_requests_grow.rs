@@ -1,5 +1,7 @@
 //! I5: the executed requestID only grows within a session.
 
+use crate::serial::request_is_newer;
+
 use super::{StepRule, StepView};
 
 pub(super) const RULE: StepRule = StepRule {
@@ -16,7 +18,7 @@ fn newest_before(step: &StepView) -> Option<crossguard_protocol::RequestId> {
 
 fn holds(step: &StepView) -> bool {
     match (step.started(), newest_before(step)) {
-        (Some(maneuver), Some(newest)) => maneuver.id.request.is_newer_than(newest),
+        (Some(maneuver), Some(newest)) => request_is_newer(maneuver.id.request, newest),
         _ => true,
     }
 }

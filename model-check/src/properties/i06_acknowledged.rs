@@ -1,11 +1,43 @@
 //! I6: the leader counts `(s,q)` as acknowledged only if the follower accepted it; a follower
-//! executes only what it acknowledged.
+//! executes only what it acknowledged, and acknowledges it first.
 
-use crossguard_protocol::{ManeuverId, StationId};
+use crossguard_protocol::{Answer, ManeuverId, Output, Rmcm, StationId, Verdict};
 
-use super::{StateRule, View};
+use super::{StateRule, StepRule, StepView, View};
 
 pub(super) const RULE: StateRule = StateRule { holds, premise };
+
+pub(super) const STEP_RULE: StepRule = StepRule {
+    holds: says_so_first,
+    premise: |step| step.started().is_some(),
+    looks_back: true,
+};
+
+/// Whether each start comes after its acknowledgement, in the outputs of one step too.
+fn says_so_first(step: &StepView) -> bool {
+    let station = step.after.persisted.station;
+    let accepts = |output: &Output, id: ManeuverId| match output {
+        Output::SendRmcm(Rmcm::Answer(Answer {
+            session,
+            request,
+            verdict: Verdict::Accepted,
+            ..
+        })) => (*session, *request) == (id.session, id.request),
+        _ => false,
+    };
+    step.outputs.iter().enumerate().all(|(i, output)| {
+        let Output::StartManeuver(maneuver) = output else {
+            return true;
+        };
+        let before = step.history.command(station, maneuver.id);
+        before.is_some_and(|command| command.accepted)
+            || step
+                .outputs
+                .iter()
+                .take(i)
+                .any(|output| accepts(output, maneuver.id))
+    })
+}
 
 fn acknowledged<'a>(view: &View<'a>) -> impl Iterator<Item = (StationId, ManeuverId)> + use<'a> {
     view.leaders().flat_map(|(session, leading)| {

@@ -1,34 +1,40 @@
-//! I8: the leader counts `(s,q)` as completed only if the follower finished it.
+//! I8: the leader counts `(s,q)` as completed or in position only if the follower's body has done that.
 
-use crossguard_protocol::{ManeuverId, StationId};
+use crossguard_protocol::{ManeuverId, Progress, StationId};
 
 use super::{StateRule, View};
 
 pub(super) const RULE: StateRule = StateRule { holds, premise };
 
-fn completed<'a>(view: &View<'a>) -> impl Iterator<Item = (StationId, ManeuverId)> + use<'a> {
+/// What leaders count as completed or in position.
+fn counted<'a>(
+    view: &View<'a>,
+) -> impl Iterator<Item = (StationId, ManeuverId, Progress)> + use<'a> {
     view.leaders().flat_map(|(session, leading)| {
         leading.members.iter().filter_map(move |member| {
-            let order = member.order.filter(|_| member.has_completed())?;
+            let order = member.order?;
+            let request = order.request;
             Some((
                 member.station,
-                ManeuverId {
-                    session,
-                    request: order.request,
-                },
+                ManeuverId { session, request },
+                order.progress?,
             ))
         })
     })
 }
 
 fn holds(view: &View) -> bool {
-    completed(view).all(|(station, id)| {
-        view.history()
-            .command(station, id)
-            .is_some_and(|command| command.finished)
+    counted(view).all(|(station, id, progress)| {
+        let command = view.history().command(station, id);
+        match progress {
+            Progress::Completed => command.is_some_and(|command| command.finished),
+            Progress::InPosition => command.is_some_and(|command| command.in_position),
+            _ => true,
+        }
     })
 }
 
 fn premise(view: &View) -> bool {
-    completed(view).next().is_some()
+    let counts = |progress| matches!(progress, Progress::Completed | Progress::InPosition);
+    counted(view).any(|(_, _, progress)| counts(progress))
 }

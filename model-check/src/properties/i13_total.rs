@@ -14,8 +14,14 @@ fn holds(step: &StepView) -> bool {
         .robot
         .as_ref()
         .is_none_or(|robot| robot.is_valid(step.config));
+    // What it has heard all the same is not its own.
+    let changes = || {
+        let mut after = step.after.clone();
+        after.actuation.heard = step.before.actuation.heard;
+        after != *step.before
+    };
     let ignored_in_silence =
-        step.outputs.ignored().is_none() || (step.outputs.len() == 1 && step.after == step.before);
+        step.outputs.ignored().is_none() || (step.outputs.len() == 1 && !changes());
     valid && ignored_in_silence
 }
 

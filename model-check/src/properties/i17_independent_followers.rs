@@ -1,6 +1,6 @@
 //! I17: dropping one follower leaves the others' records unchanged.
 
-use crossguard_protocol::{Countdown, Input, Lease, Member, Millis, Notice, StationId};
+use crossguard_protocol::{Countdown, EndReason, Input, Lease, Member, Millis, Notice, StationId};
 
 use super::{StepRule, StepView, leading_of};
 
@@ -17,7 +17,17 @@ fn dropped(step: &StepView) -> Option<StationId> {
     })
 }
 
+/// Whether the session ends for another leader: a RAM may say both, that its sender has left and that it leads.
+fn withdraws(step: &StepView) -> bool {
+    let is_for_another =
+        |notice| matches!(notice, Notice::SessionEnded(_, EndReason::Withdrawn(_)));
+    step.notices().any(is_for_another)
+}
+
 fn holds(step: &StepView) -> bool {
+    if withdraws(step) {
+        return true;
+    }
     let (Some(dropped), Some(before)) = (dropped(step), leading_of(step.before)) else {
         return true;
     };
@@ -58,5 +68,7 @@ fn aged(member: &Member, elapsed: Millis) -> Option<Member> {
 
 /// A follower is dropped and another one stays.
 fn premise(step: &StepView) -> bool {
-    dropped(step).is_some() && leading_of(step.before).is_some_and(|l| l.members.len() > 1)
+    dropped(step).is_some()
+        && !withdraws(step)
+        && leading_of(step.before).is_some_and(|l| l.members.len() > 1)
 }

@@ -1,19 +1,22 @@
-//! L6: two simultaneous requesters: one of them gets to lead, or both return to `Idle`.
+//! L6: two robots that both ask or lead at one place: at some time at most one of them does.
+//!
+//! The robots of a scenario ask for one place. Two that both lead there for ever would be two teams at one
+//! crossing.
 
 use crossguard_protocol::Phase;
 
-use super::{LivenessRule, Subject, Subjects, View, leading_of};
+use super::{LivenessRule, Subject, Subjects, View};
 
 pub(super) const RULE: LivenessRule = LivenessRule {
     subjects: Subjects::Pairs,
-    from: |view, Subject { robot, other }| asks(view, robot) && asks(view, other),
-    to: |view, Subject { robot, other }| {
-        let both = [view.node(robot), view.node(other)];
-        both.iter().any(|node| leading_of(node).is_some()) || both.iter().all(|node| node.is_idle())
-    },
+    from: both_claim,
+    to: |view, subject| !both_claim(view, subject),
 };
 
-fn asks(view: &View, robot: usize) -> bool {
-    let robot = view.node(robot).robot.as_ref();
-    robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
+fn both_claim(view: &View, Subject { robot, other }: Subject) -> bool {
+    let claims = |place: usize| {
+        let robot = view.node(place).robot.as_ref();
+        robot.is_some_and(|r| matches!(r.phase(), Phase::Requesting(_) | Phase::Leading(_)))
+    };
+    claims(robot) && claims(other)
 }

@@ -32,13 +32,14 @@ use std::fmt;
 use std::str::FromStr;
 
 use crossguard_protocol::{
-    Config, Event, Following, Input, Leading, Maneuver, ManeuverId, Notice, Output, Outputs, Phase,
-    Robot, SessionId, StationId,
+    Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Robot,
+    SessionId, StationId,
 };
 use serde::Serialize;
 
-use crate::history::History;
+use crate::history::{History, told_end};
 use crate::node::Node;
+use crate::road::{w2_guards_stay, w3_one_sign, w4_nothing_new_on_duty, w7_crossing_gets_done};
 
 /// A property's id.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
@@ -68,6 +69,11 @@ pub enum PropertyId {
     L5,
     L6,
     L7,
+    W1,
+    W2,
+    W3,
+    W4,
+    W7,
 }
 
 /// What a property speaks about.
@@ -136,7 +142,7 @@ pub(crate) struct LivenessRule {
 
 impl PropertyId {
     /// All properties, in order.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 29] = [
         Self::I1,
         Self::I2,
         Self::I3,
@@ -161,14 +167,19 @@ impl PropertyId {
         Self::L5,
         Self::L6,
         Self::L7,
+        Self::W1,
+        Self::W2,
+        Self::W3,
+        Self::W4,
+        Self::W7,
     ];
 
     /// What the property speaks about.
     #[must_use]
     pub const fn kind(self) -> Kind {
         match self {
-            Self::I5 | Self::I7 | Self::I17 => Kind::T,
-            Self::L1 | Self::L2 | Self::L3 | Self::L4 | Self::L5 | Self::L6 => Kind::L,
+            Self::I5 | Self::I7 | Self::I17 | Self::W1 | Self::W2 | Self::W4 => Kind::T,
+            Self::L1 | Self::L2 | Self::L3 | Self::L4 | Self::L5 | Self::L6 | Self::W7 => Kind::L,
             _ => Kind::S,
         }
     }
@@ -182,25 +193,38 @@ impl PropertyId {
             Self::I3 => "a follower starts only what its leader commanded it",
             Self::I4 => "a command is started at most once",
             Self::I5 => "the started requestID only grows within a session",
-            Self::I6 => "what a leader counts as acknowledged, the follower accepted",
+            Self::I6 => {
+                "what a leader counts as acknowledged, the follower accepted; who starts has said so before"
+            }
             Self::I7 => "an answer that is not for the outstanding command changes nothing",
-            Self::I8 => "what a leader counts as completed, the follower finished",
+            Self::I8 => {
+                "what a leader counts as completed or in position, the follower's body has done"
+            }
             Self::I9 => "after fallback a command is never executed again",
             Self::I11 => "the corridor is open only while every required follower is engaged",
-            Self::I12 => "whoever has a part in a session can make progress",
+            Self::I12 => {
+                "who has a part in a session can make progress, by more than a periodic RAM"
+            }
             Self::I13 => "every input in every state yields a valid state",
             Self::I14 => "a released or idle robot executes nothing",
             Self::I15 => "a rebooted robot takes part in no session from before",
             Self::I16 => "commands are repeated at most N_ack times",
             Self::I17 => "dropping one follower leaves the others' records unchanged",
-            Self::I18 => "members of a session differ in station id; the identity is locked",
+            Self::I18 => "the identity is locked while in a session",
             Self::L1 => "HelpRequested leads to RoleEstablished or Idle",
             Self::L2 => "an outstanding command leads to acknowledged or given up",
             Self::L3 => "where all around it cooperate, a request leads to a completed task",
             Self::L4 => "an ended session leads to every former member being idle",
             Self::L5 => "a leader's crash for good leads to its followers being stopped and idle",
-            Self::L6 => "two requesters at once lead to one that leads, or to both being idle",
-            Self::L7 => "from every state, all robots idle can be reached",
+            Self::L6 => "two that ask or lead at one place lead to at most one of them doing so",
+            Self::L7 => "from every state some run leads to all robots being idle",
+            Self::W1 => {
+                "who steps on the road finds every guard in place, or one is gone and the leader was not told"
+            }
+            Self::W2 => "while somebody is on the road, no guard that is able to stays away",
+            Self::W3 => "of two leaders at one place that hear each other, one alone shows go",
+            Self::W4 => "a robot begins nothing new before its duty on the road is over",
+            Self::W7 => "where all around it cooperate, a request leads to a finished crossing",
         }
     }
 
@@ -214,7 +238,7 @@ impl PropertyId {
             Self::I5 => "a follower starts a second maneuver in the same session",
             Self::I6 => "a leader counts a command as acknowledged",
             Self::I7 => "an answer arrives that is not for the outstanding command",
-            Self::I8 => "a leader counts a command as completed",
+            Self::I8 => "a leader counts a command as completed or in position",
             Self::I9 => "a follower has fallen back",
             Self::I11 => "the corridor is open",
             Self::I12 => "a robot has a part in a session",
@@ -225,10 +249,14 @@ impl PropertyId {
             Self::I17 => "a follower is dropped while another one stays",
             Self::L1 => "a robot is in HelpRequested",
             Self::L2 => "a command is outstanding",
-            Self::L3 => "a robot asks for help",
+            Self::L3 | Self::W7 => "a robot asks for help",
             Self::L4 => "a robot follows in a session that nobody leads",
             Self::L5 => "a robot follows one that has crashed for good",
-            Self::L6 => "two robots ask for help",
+            Self::L6 => "two robots ask or lead",
+            Self::W1 => "somebody steps on the road",
+            Self::W2 => "a guard's maneuver ends while somebody is on the road",
+            Self::W3 => "a leader has heard one that goes before it, twice",
+            Self::W4 => "a robot has a duty on the road",
         })
     }
 
@@ -245,6 +273,7 @@ impl PropertyId {
             Self::I15 => Some(i15_reboot::RULE),
             Self::I16 => Some(i16_limits::RULE),
             Self::I18 => Some(i18_identity::RULE),
+            Self::W3 => Some(w3_one_sign::RULE),
             _ => None,
         }
     }
@@ -254,9 +283,12 @@ impl PropertyId {
             Self::I3 => Some(i03_commanded::RULE),
             Self::I4 => Some(i04_started_once::RULE),
             Self::I5 => Some(i05_requests_grow::RULE),
+            Self::I6 => Some(i06_acknowledged::STEP_RULE),
             Self::I7 => Some(i07_stray_answer::RULE),
             Self::I13 => Some(i13_total::RULE),
             Self::I17 => Some(i17_independent_followers::RULE),
+            Self::W2 => Some(w2_guards_stay::RULE),
+            Self::W4 => Some(w4_nothing_new_on_duty::RULE),
             _ => None,
         }
     }
@@ -269,6 +301,7 @@ impl PropertyId {
             Self::L4 => Some(l4_ended_is_left::RULE),
             Self::L5 => Some(l5_crash_is_survived::RULE),
             Self::L6 => Some(l6_requesters_agree::RULE),
+            Self::W7 => Some(w7_crossing_gets_done::RULE),
             _ => None,
         }
     }
@@ -311,6 +344,11 @@ impl fmt::Display for PropertyId {
             Self::L5 => "L5",
             Self::L6 => "L6",
             Self::L7 => "L7",
+            Self::W1 => "W1",
+            Self::W2 => "W2",
+            Self::W3 => "W3",
+            Self::W4 => "W4",
+            Self::W7 => "W7",
         })
     }
 }
@@ -351,29 +389,33 @@ pub(crate) trait World {
 }
 
 impl<'a> View<'a> {
-    fn nodes(&self) -> impl Iterator<Item = &'a Node> + Clone + use<'a> {
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = &'a Node> + Clone + use<'a> {
         self.nodes.iter().copied()
     }
 
     /// The robots with their configurations.
-    fn configured(&self) -> impl Iterator<Item = (&'a Node, &'a Config)> + Clone + use<'a> {
+    pub(crate) fn configured(
+        &self,
+    ) -> impl Iterator<Item = (&'a Node, &'a Config)> + Clone + use<'a> {
         let world = self.world;
         let places = self.nodes.iter().enumerate();
         places.map(move |(place, node)| (*node, world.config(place)))
     }
 
     /// The robot at this place of the scenario.
-    fn node(&self, place: usize) -> &'a Node {
+    pub(crate) fn node(&self, place: usize) -> &'a Node {
         self.nodes[place]
     }
 
     /// The robots that are up.
-    fn robots(&self) -> impl Iterator<Item = &'a Robot> + Clone + use<'a> {
+    pub(crate) fn robots(&self) -> impl Iterator<Item = &'a Robot> + Clone + use<'a> {
         self.nodes().filter_map(|node| node.robot.as_ref())
     }
 
     /// The robots that lead, with their sessions.
-    fn leaders(&self) -> impl Iterator<Item = (SessionId, &'a Leading)> + Clone + use<'a> {
+    pub(crate) fn leaders(
+        &self,
+    ) -> impl Iterator<Item = (SessionId, &'a Leading)> + Clone + use<'a> {
         self.robots().filter_map(|robot| match robot.phase() {
             Phase::Leading(leading) => Some((robot.session()?, leading)),
             _ => None,
@@ -381,7 +423,9 @@ impl<'a> View<'a> {
     }
 
     /// The robots that follow.
-    fn followers(&self) -> impl Iterator<Item = (&'a Robot, &'a Following)> + Clone + use<'a> {
+    pub(crate) fn followers(
+        &self,
+    ) -> impl Iterator<Item = (&'a Robot, &'a Following)> + Clone + use<'a> {
         self.robots().filter_map(|robot| match robot.phase() {
             Phase::Following(following) => Some((robot, following)),
             _ => None,
@@ -416,33 +460,29 @@ impl<'a> StepView<'a> {
 
     /// Whether the step is one that the history records, or that a rule may look back from.
     pub(crate) fn is_historic(&self) -> bool {
-        let finishes = matches!(self.input, Input::Local(Event::ManeuverCompleted(_)));
-        finishes
+        let reports = matches!(
+            self.input,
+            Input::Local(Event::ManeuverCompleted(_) | Event::InPosition(_))
+        );
+        reports
+            || told_end(self.before.persisted.station, self.input).is_some()
             || self.outputs.iter().any(|output| {
                 matches!(
                     output,
                     Output::SendRmcm(_)
                         | Output::StartManeuver(_)
+                        | Output::StopManeuver(..)
                         | Output::FallBack(..)
-                        | Output::Notify(Notice::RolesEstablished(_))
+                        | Output::Notify(Notice::RolesEstablished(_) | Notice::FollowerGone(..))
                 )
             })
-    }
-
-    /// The maneuver that the follower's application has finished.
-    pub(crate) const fn finished(&self) -> Option<ManeuverId> {
-        match self.input {
-            Input::Local(Event::ManeuverCompleted(id)) => Some(id),
-            _ => None,
-        }
     }
 
     /// The history after the step.
     pub(crate) fn history_after(&self) -> History {
         let mut history = self.history.clone();
-        let finished = self.finished();
         if let (Some(before), Some(after)) = (&self.before.robot, &self.after.robot) {
-            history.record_step(before, after, finished, self.outputs);
+            history.record_step(before, after, self.input, self.outputs);
         }
         history
     }

@@ -5,8 +5,10 @@ use std::time::Instant;
 use crossguard_protocol::Outputs;
 
 use super::explore::Explored;
-use super::model::{Action, Model, State};
+use super::model::Model;
 use super::rules::TimedProperty;
+use super::section::{Looks, Rates};
+use super::state::{Action, Cause, State};
 use super::watch::Longest;
 use crate::check::{Options, Progress, names};
 use crate::cost::Meter;
@@ -46,9 +48,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
             .flat_map(|&id| [Some(rule(model, &explored, id)), premise(&explored, id)])
             .flatten()
             .collect(),
-        figures: explored
-            .longest
-            .figures(&timed.clock, &scenario.config, timed.delay),
+        figures: explored.longest.figures(timed, model.limits()),
         assumptions: assumptions(model),
         transitions_taken: Transitions::default(),
         seconds: start.elapsed().as_secs_f64(),
@@ -101,77 +101,117 @@ fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
     steps
 }
 
-/// What an action is in a chart; a tick is a step of each robot.
+/// What an action is in a chart: what each robot takes in, and what it puts out.
 fn steps_of(model: &Model, state: &State, action: Action, time: u32) -> Vec<ChartStep> {
     let at = |robot: u8, what: String, outputs: &[String]| ChartStep {
         place: Place::At(robot.into()),
         action: format!("at {time} ms: {what}"),
         outputs: outputs.to_vec(),
     };
-    let lines = |outputs: &Outputs| outputs.iter().map(ToString::to_string).collect::<Vec<_>>();
-    let steps = model.outputs(state, action).into_iter();
-    let step = |(robot, outputs): (u8, Outputs)| match action {
-        Action::Deliver(flight) => {
-            let Transmission { from, to, message } = flight.transmission;
-            let delay = model.timed().clock.millis(flight.ticks).0;
-            let input = model.message(message).input();
-            let fate = if delay == 0 {
-                Fate::Arrives
-            } else {
-                Fate::ArrivesLate
-            };
-            ChartStep {
-                place: Place::Between {
-                    from: from.into(),
-                    to: to.into(),
-                    fate,
-                },
-                action: format!("at {time} ms, after {delay} ms: {input}"),
-                outputs: lines(&outputs),
+    let fault = match action {
+        Action::Crash(robot) => Some(at(robot, "crashes for good".to_owned(), &[])),
+        Action::Hang(robot) => Some(at(robot, "begins to hang".to_owned(), &[])),
+        Action::GoOn(robot) => Some(at(robot, "goes on".to_owned(), &[])),
+        Action::Meet => Some(at(
+            0,
+            "its team and the other reach each other from now on".to_owned(),
+            &[],
+        )),
+        _ => None,
+    };
+    let step = |(robot, cause, outputs): (u8, Cause, Outputs)| {
+        let lines: Vec<_> = outputs.iter().map(ToString::to_string).collect();
+        match (cause, action) {
+            (Cause::Elapsed(elapsed), _) => at(
+                robot,
+                format!("its clock shows {} ms more", elapsed.0),
+                &lines,
+            ),
+            (Cause::Event(event), _) => at(robot, event.to_string(), &lines),
+            (Cause::Message(number), Action::Deliver(flight)) => {
+                let Transmission { from, to, .. } = flight.transmission;
+                let delay = model.timed().clock.millis(flight.ticks).0;
+                let input = model.message(number).input();
+                let fate = if delay == 0 {
+                    Fate::Arrives
+                } else {
+                    Fate::ArrivesLate
+                };
+                ChartStep {
+                    place: Place::Between {
+                        from: from.into(),
+                        to: to.into(),
+                        fate,
+                    },
+                    action: format!("at {time} ms, after {delay} ms: {input}"),
+                    outputs: lines,
+                }
+            }
+            (Cause::Message(number), _) => {
+                at(robot, model.message(number).input().to_string(), &lines)
             }
         }
-        Action::Local(_, event) => at(robot, event.to_string(), &lines(&outputs)),
-        Action::Tick(fast) => {
-            let elapsed = model.timed().clock.elapsed(fast, robot).0;
-            let what = format!("its clock shows {elapsed} ms more");
-            at(robot, what, &lines(&outputs))
-        }
-        Action::Crash(_) => at(robot, "crashes for good".to_owned(), &[]),
     };
-    steps.map(step).collect()
+    let steps = model.outputs(state, action).into_iter().map(step);
+    fault.into_iter().chain(steps).collect()
 }
 
 fn assumptions(model: &Model) -> Vec<String> {
     let (scenario, timed) = (model.scenario(), model.timed());
     let clock = &timed.clock;
     let drift = if clock.drifts() {
-        format!(
-            "clocks: each shows {} or {} ms of each tick, in any order; that is every clock within {} ppm, read to {} ms",
-            clock.slow.0,
-            clock.fast.0,
-            scenario.config.settings().drift_ppm,
-            clock.fast.0 - clock.slow.0,
-        )
+        let (slow, fast) = (clock.slow.0, clock.fast.0);
+        match timed.rates {
+            Rates::Changing => format!(
+                "clocks: each shows {slow} or {fast} ms of each tick, in any order; that is every clock within {} ppm, read to {} ms",
+                scenario.config.settings().drift_ppm,
+                fast - slow,
+            ),
+            Rates::Constant => format!(
+                "clocks: each shows {slow} ms of every tick of a run, or {fast} ms of every tick; a clock in between, or that changes its rate, is not covered",
+            ),
+        }
     } else {
         "clocks do not drift".to_owned()
     };
-    vec![
-        format!(
+    let looks = match timed.looks {
+        Looks::EachTick => format!(
             "timed: every robot looks once a tick of {} ms; what is due fires then",
             clock.tick.0
         ),
+        Looks::Within(late) => format!(
+            "timed: each robot looks when it likes, at the latest {} ms after a timer became due, at whole ticks of {} ms",
+            late.0, clock.tick.0
+        ),
+    };
+    let fate = if scenario.channel.loss {
+        ", or gets lost, per receiver"
+    } else {
+        ", and arrives"
+    };
+    let (teams, failures) = if timed.teams.are_two() {
+        let apart =
+            "two teams reach each other at some time after both signs show go, and not before";
+        (Some(apart.to_owned()), "nobody fails")
+    } else {
+        (None, "one failure in a run, after the request")
+    };
+    let mut assumptions = vec![
+        looks,
         drift,
         format!(
-            "channel: each message is under way from 0 to {} ms, in any order, or gets lost, per receiver",
+            "channel: each message is under way from 0 to {} ms, in any order{fate}",
             timed.delay.0,
         ),
-        format!("at most: {}; one failure in a run, after the request", scenario.bounds),
+        format!("at most: {}; {failures}", scenario.bounds),
         "applications command, and open the corridor, as soon as they may; none ends a session or closes the corridor, and no maneuver ends by itself"
             .to_owned(),
         "no run lasts as long as T_lock or T_exec".to_owned(),
-        "figures and bounds are true time, and of these timers; a crash stops the robot's body".to_owned(),
+        "figures and bounds are true time, and of these timers; a crash stops the robot's body and its sign, a hang neither".to_owned(),
         "one exploration, by the kit itself, which tells states apart exactly".to_owned(),
         "heartbeats are counted from the oldest one in a state; states that differ in the names of sessions and offers alone count as one"
             .to_owned(),
-    ]
+    ];
+    assumptions.extend(teams);
+    assumptions
 }

@@ -50,14 +50,18 @@ impl Clock {
     }
 }
 
-/// The longest true time in which a timer of `timer` runs out and its robot is told so: the clock
-/// may be slow by the drift, and the robot told late by `delay_max`.
+/// The longest true time in which a timer of `timer` runs out and its robot is told so: the robot may be
+/// told late by `delay_max`, and its clock may be slow by the drift.
+///
+/// Both times are on the robot's own clock, here as in
+/// [`Inequality::LeaseWithinSafety`](crossguard_protocol::Inequality::LeaseWithinSafety): an endpoint has no other
+/// clock to keep `delay_max` by, and on a slow one that is longer in true time.
 #[must_use]
 pub fn longest(timer: Millis, settings: &Settings) -> Millis {
     let million = 1_000_000;
-    let on_slow_clock = u64::from(timer.0) * million / (million - u64::from(settings.drift_ppm));
-    let on_slow_clock = u32::try_from(on_slow_clock).unwrap_or(u32::MAX);
-    Millis(on_slow_clock).saturating_add(settings.delay_max)
+    let shown = u64::from(timer.saturating_add(settings.delay_max).0);
+    let on_slow_clock = (shown * million).div_ceil(million - u64::from(settings.drift_ppm));
+    Millis(u32::try_from(on_slow_clock).unwrap_or(u32::MAX))
 }
 
 #[cfg(test)]
@@ -81,6 +85,8 @@ mod tests {
             delay_max: Millis(50),
             ..Settings::default()
         };
-        assert_eq!(longest(Millis(980), &settings), Millis(1_050));
+        // 930 ms and 50 ms late, by a clock that shows 98 ms of 100.
+        assert_eq!(longest(Millis(930), &settings), Millis(1_000));
+        assert_eq!(longest(Millis(931), &settings), Millis(1_002));
     }
 }

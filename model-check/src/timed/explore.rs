@@ -4,8 +4,9 @@ use std::collections::{HashMap, VecDeque};
 
 use rustc_hash::FxBuildHasher;
 
-use super::model::{Action, Model, State};
+use super::model::Model;
 use super::rules::{Premises, TimedProperty};
+use super::state::{Action, State};
 use super::watch::Longest;
 use crate::check::{Limits, Progress};
 use crate::report::CutOff;

@@ -3,8 +3,10 @@
 //! ```text
 //!   at a tick                     between two ticks, in no time and any order
 //!   ┌───────────────────────┐     ┌────────────────────────────────────────────┐
-//!   │ every robot: Elapsed, │ ──► │ messages arrive, or not yet, or never      │ ──► next tick
-//!   │ slow clock or fast    │     │ applications command, open; robots fail    │
+//!   │ every clock runs on,  │     │ messages arrive, or not yet, or never      │
+//!   │ slow or fast; each    │ ──► │ free endpoints look: Elapsed               │ ──► next tick
+//!   │ robot: Elapsed, unless│     │ applications command, open; robots fail,   │
+//!   │ it looks when it likes│     │ hang, go on                                │
 //!   └───────────────────────┘     └────────────────────────────────────────────┘
 //! ```
 //!
@@ -15,75 +17,50 @@
 use std::sync::Arc;
 
 use crossguard_protocol::{
-    Config, Event, Input, Member, Millis, Output, Outputs, Phase, Renaming, Robot, Timer,
+    Config, Event, Input, Millis, Output, Outputs, Phase, Renaming, Robot, StationId, Timer,
 };
 use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
 use super::Timed;
-use super::channel::{Channel, Flight};
-use super::rules::{self, Broken};
-use super::watch::{Longest, Measure, Watch};
+use super::channel::Channel;
+use super::limits::Limits;
+use super::quiet::Contact;
+use super::rules::{Broken, TimedProperty};
+use super::section::MAX_TEAMS;
+use super::sign::Sign;
+use super::state::{Cause, State};
+use super::told::{Telling, Told};
+use super::watch::Watch;
 use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
 use crate::intern::Interner;
-use crate::network::{Message, Transmission, concerns};
+use crate::network::Message;
 use crate::node::{Node, Protocol, Rules};
-use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
-
-/// A global state between two ticks.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub struct State {
-    nodes: [u32; MAX_ROBOTS],
-    channel: Channel,
-    left: Bounds,
-    watch: Watch,
-    /// What the step into this state broke.
-    pub(super) broken: Broken,
-}
-
-impl State {
-    pub(super) const fn watch(&self) -> Watch {
-        self.watch
-    }
-}
-
-/// One thing that can happen.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Action {
-    /// A tick passes. One bit per robot: whether its clock is fast.
-    Tick(u8),
-    /// A message arrives.
-    Deliver(Flight),
-    /// A robot's application does something.
-    Local(u8, Event),
-    /// A robot crashes for good.
-    Crash(u8),
-}
-
-/// What a robot takes in.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-enum Cause {
-    Elapsed(Millis),
-    Message(u16),
-    Event(Event),
-}
+use crate::scenario::{MAX_ROBOTS, Scenario};
 
 /// What comes of a robot's step.
 #[derive(Clone, Debug)]
-struct Step {
-    after: u32,
-    sends: SmallVec<[u16; 2]>,
-    is_ignored: bool,
-    is_valid: bool,
+pub(super) struct Step {
+    pub(super) after: u32,
+    pub(super) sends: SmallVec<[u16; 2]>,
+    /// What the sign shows from then on, if it was told anything.
+    pub(super) sign: Option<Sign>,
+    /// What it tells the application.
+    pub(super) telling: Telling,
+    /// What it has to do with the contact to a leader.
+    pub(super) contact: Contact,
+    pub(super) is_ignored: bool,
+    pub(super) is_valid: bool,
 }
 
 /// The timed model of one scenario.
 pub struct Model {
-    scenario: Scenario,
-    timed: Timed,
+    pub(super) scenario: Scenario,
+    pub(super) timed: Timed,
+    limits: Limits,
     rules: Box<dyn Rules>,
-    nodes: Interner<Node>,
+    pub(super) nodes: Interner<Node>,
     messages: Interner<Message>,
     renamings: Arc<Renamings>,
     /// Each step of a robot is computed once.
@@ -101,8 +78,10 @@ impl Model {
     #[must_use]
     pub fn with_rules(scenario: Scenario, rules: impl Rules + 'static) -> Option<Self> {
         let renamings = Arc::new(Renamings::new(Ranks::rank_keeping_distances));
+        let timed = scenario.timed.clone()?;
         Some(Self {
-            timed: scenario.timed.clone()?,
+            limits: Limits::new(&scenario.config, timed.delay),
+            timed,
             scenario,
             rules: Box::new(rules),
             nodes: Interner::new(&renamings),
@@ -122,7 +101,12 @@ impl Model {
         &self.timed
     }
 
-    /// The state in which every run begins: all are idle, and one has just detected a pedestrian.
+    pub(super) const fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// The state in which every run begins: all are idle, and one of each team has just detected a pedestrian.
+    /// Two teams do not reach each other yet.
     #[must_use]
     pub fn initial(&self) -> State {
         let mut nodes = [0; MAX_ROBOTS];
@@ -133,11 +117,24 @@ impl Model {
             nodes,
             channel: Channel::EMPTY,
             left: self.scenario.bounds,
-            watch: Watch::Request(0),
+            watch: if self.timed.teams.are_two() {
+                Watch::Apart
+            } else {
+                Watch::Request(0)
+            },
+            untold: [Millis::ZERO; MAX_ROBOTS],
+            rates: None,
+            signs: [Sign::Stop; MAX_TEAMS],
+            unguarded: [None; MAX_TEAMS],
+            waiting: self.timed.claims(TimedProperty::W8).then_some(0),
+            told: Told::NOTHING,
+            quiet: [None; MAX_ROBOTS],
             broken: Broken::NOTHING,
         };
-        let detected = Event::PedestrianDetected(self.scenario.request);
-        self.robot_step(&mut state, self.timed.leader, Cause::Event(detected));
+        for &leader in self.timed.teams.leaders() {
+            let detected = Event::PedestrianDetected(self.scenario.request_of(leader.into()));
+            let _ = self.robot_step(&mut state, leader, Cause::Event(detected));
+        }
         self.canonicalize(&mut state);
         state
     }
@@ -159,184 +156,7 @@ impl Model {
         self.messages.value(number.into())
     }
 
-    /// Everything that may happen in `state`.
-    pub fn actions_in(&self, state: &State, actions: &mut Vec<Action>) {
-        if rules::is_over(self, state) {
-            return;
-        }
-        if let Some(event) = self.leader_event(state) {
-            actions.push(Action::Local(self.timed.leader, event));
-            return;
-        }
-        let robots = self.scenario.robots.len();
-        let corners = if self.timed.clock.drifts() {
-            1 << robots
-        } else {
-            1
-        };
-        let must_arrive = |flight: Flight| flight.ticks == self.timed.delay_ticks;
-        if self.scenario.channel.loss || !state.channel.flights().any(must_arrive) {
-            actions.extend((0..corners).map(Action::Tick));
-        }
-        actions.extend(state.channel.flights().map(Action::Deliver));
-        if state.watch == Watch::Off {
-            self.failures(state, actions);
-        }
-    }
-
-    /// What the application of the leader does at once: it commands a follower as soon as that has
-    /// joined, and opens the corridor as soon as it may.
-    fn leader_event(&self, state: &State) -> Option<Event> {
-        let robot = self.node(state, self.timed.leader).robot.as_ref()?;
-        let Phase::Leading(leading) = robot.phase() else {
-            return None;
-        };
-        if state.left.commands > 0 {
-            let free = |member: &&Member| {
-                member.has_joined() && member.outstanding.is_none() && member.order.is_none()
-            };
-            if let (Some(member), Some(task)) = (
-                leading.members.iter().find(free),
-                self.scenario.request.tasks.iter().next(),
-            ) {
-                return Some(Event::CommandManeuver {
-                    follower: member.station,
-                    task,
-                });
-            }
-        }
-        let may_open = self.scenario.corridor
-            && !leading.corridor_open
-            && leading.corridor_obstacle(&self.scenario.config).is_none();
-        may_open.then_some(Event::OpenCorridor)
-    }
-
-    /// One robot fails: the leader crashes, or a follower crashes or fails its maneuver while it
-    /// executes.
-    fn failures(&self, state: &State, actions: &mut Vec<Action>) {
-        for (i, node) in (0..).zip(self.nodes(state)) {
-            let (leads, running) = (i == self.timed.leader, node.actuation.running);
-            if state.left.crashes > 0 && node.robot.is_some() && (leads || running.is_some()) {
-                actions.push(Action::Crash(i));
-            }
-            if state.left.disturbances > 0
-                && let Some(maneuver) = running
-            {
-                actions.push(Action::Local(i, Event::ManeuverFailed(maneuver)));
-            }
-        }
-    }
-
-    /// What comes of `action` in `state`; `None` if the action changes nothing. The stop-watches
-    /// that it stops are noted in `longest`.
-    pub(super) fn successor(
-        &self,
-        state: &State,
-        action: Action,
-        longest: &mut Longest,
-    ) -> Option<State> {
-        let mut next = state.clone();
-        next.broken = Broken::NOTHING;
-        match action {
-            Action::Tick(fast) => self.tick(&mut next, fast),
-            Action::Deliver(flight) => {
-                next.channel.take(flight);
-                let Transmission { to, message, .. } = flight.transmission;
-                let is_ignored = self.robot_step(&mut next, to, Cause::Message(message));
-                if is_ignored && self.scenario.channel.loss {
-                    // It might as well never have arrived.
-                    return None;
-                }
-            }
-            Action::Local(i, event) => {
-                spend(&mut next, event);
-                if self.robot_step(&mut next, i, Cause::Event(event)) {
-                    return None;
-                }
-            }
-            Action::Crash(i) => {
-                next.left.crashes -= 1;
-                next.watch = if i == self.timed.leader {
-                    Watch::LeaderDown(0)
-                } else {
-                    Watch::FollowerFailed(0)
-                };
-                next.nodes[usize::from(i)] = self.nodes.number(self.node(state, i).crashed());
-                next.channel.forget_receiver(i);
-            }
-        }
-        self.measure(state, &mut next, longest);
-        next.broken.add(rules::broken(self, state, &next));
-        self.canonicalize(&mut next);
-        Some(next)
-    }
-
-    /// A tick passes: messages grow older, every robot is told of the time by its own clock.
-    fn tick(&self, next: &mut State, fast: u8) {
-        next.watch.tick();
-        next.channel.tick(self.timed.delay_ticks);
-        for i in (0..).take(self.scenario.robots.len()) {
-            let elapsed = self.timed.clock.elapsed(fast, i);
-            self.robot_step(next, i, Cause::Elapsed(elapsed));
-        }
-    }
-
-    /// Stops the stop-watches.
-    fn measure(&self, before: &State, next: &mut State, longest: &mut Longest) {
-        let robots = || self.nodes(before).zip(self.nodes(next));
-        match next.watch {
-            Watch::Off => {}
-            Watch::Request(ticks) => {
-                if !rules::is_requesting(self.node(next, self.timed.leader)) {
-                    longest.note(Measure::Roles, ticks);
-                    next.watch = Watch::Off;
-                }
-            }
-            Watch::LeaderDown(ticks) => {
-                if robots()
-                    .any(|(b, n)| b.actuation.running.is_some() && n.actuation.running.is_none())
-                {
-                    longest.note(Measure::Stopped, ticks);
-                }
-                if robots().any(|(b, n)| rules::is_following(b) && !rules::is_following(n)) {
-                    longest.note(Measure::Left, ticks);
-                }
-            }
-            Watch::FollowerFailed(ticks) => {
-                if robots().any(|(b, n)| b.actuation.corridor_open && !n.actuation.corridor_open) {
-                    longest.note(Measure::CorridorClosed, ticks);
-                }
-            }
-        }
-    }
-
-    /// Lets a robot take a step; whether that changed nothing.
-    fn robot_step(&self, next: &mut State, i: u8, cause: Cause) -> bool {
-        let Some(step) = self.step(next.nodes[usize::from(i)], cause) else {
-            return true;
-        };
-        next.nodes[usize::from(i)] = step.after;
-        if !step.is_valid {
-            next.broken.add(Broken::INVALID);
-        }
-        for &message in &step.sends {
-            for to in (0..).take(self.scenario.robots.len()).filter(|&to| to != i) {
-                let receiver = self.node(next, to);
-                if receiver.robot.is_some()
-                    && concerns(self.message(message), receiver.persisted.station)
-                {
-                    next.channel.send(Transmission {
-                        from: i,
-                        to,
-                        message,
-                    });
-                }
-            }
-        }
-        step.is_ignored
-    }
-
-    fn step(&self, node: u32, cause: Cause) -> Option<Step> {
+    pub(super) fn step(&self, node: u32, cause: Cause) -> Option<Step> {
         if let Some(known) = self.steps.get(&(node, cause)) {
             return Some(known.clone());
         }
@@ -347,12 +167,17 @@ impl Model {
             Output::SendRmcm(rmcm) => Some(Message::Rmcm(rmcm)),
             _ => None,
         });
+        let (input, before) = (self.input(cause), self.nodes.value(node));
+        let said = before.robot.as_ref()?.ram();
         let mut held = Held {
             config: &self.scenario.config,
             robot,
         };
         let step = Step {
             sends: sends.map(|message| self.message_number(message)).collect(),
+            sign: outputs.iter().filter_map(Sign::told).last(),
+            telling: Telling::of(&outputs, |station| self.bit_of(station)),
+            contact: Contact::of(&said, input, &outputs, &robot.ram()),
             is_ignored: outputs.ignored().is_some(),
             is_valid: robot.is_valid(&self.scenario.config),
             after: self.nodes.number(after.renamed(&mut held)),
@@ -361,15 +186,26 @@ impl Model {
         Some(step)
     }
 
-    fn compute(&self, node: u32, cause: Cause) -> Option<(Node, Outputs)> {
-        let input = match cause {
-            Cause::Elapsed(elapsed) => Input::Elapsed(elapsed),
-            Cause::Message(number) => self.message(number).input(),
-            Cause::Event(event) => Input::Local(event),
-        };
+    pub(super) fn compute(&self, node: u32, cause: Cause) -> Option<(Node, Outputs)> {
+        let input = self.input(cause);
         self.nodes
             .value(node)
             .step(&*self.rules, &self.scenario.config, input)
+    }
+
+    fn input(&self, cause: Cause) -> Input {
+        match cause {
+            Cause::Elapsed(elapsed) => Input::Elapsed(elapsed),
+            Cause::Message(number) => self.message(number).input(),
+            Cause::Event(event) => Input::Local(event),
+        }
+    }
+
+    /// One bit for the place of the robot with this station id.
+    fn bit_of(&self, station: StationId) -> u8 {
+        let mut robots = self.scenario.robots.iter();
+        let place = robots.position(|robot| robot.station == station);
+        place.map_or(0, |place| 1 << place)
     }
 
     /// The number of a message.
@@ -381,27 +217,7 @@ impl Model {
         u16::try_from(number).expect("fewer than 65,536 distinct messages")
     }
 
-    /// What each robot puts out when `action` happens in `state`, for a chart.
-    pub(super) fn outputs(&self, state: &State, action: Action) -> Vec<(u8, Outputs)> {
-        let all = (0..).take(self.scenario.robots.len());
-        let causes: Vec<(u8, Cause)> = match action {
-            Action::Tick(fast) => all
-                .map(|i| (i, Cause::Elapsed(self.timed.clock.elapsed(fast, i))))
-                .collect(),
-            Action::Deliver(flight) => {
-                vec![(
-                    flight.transmission.to,
-                    Cause::Message(flight.transmission.message),
-                )]
-            }
-            Action::Local(i, event) => vec![(i, Cause::Event(event))],
-            Action::Crash(i) => return vec![(i, Outputs::default())],
-        };
-        let outputs = |(i, cause)| Some((i, self.compute(state.nodes[usize::from(i)], cause)?.1));
-        causes.into_iter().filter_map(outputs).collect()
-    }
-
-    fn canonicalize(&self, state: &mut State) {
+    pub(super) fn canonicalize(&self, state: &mut State) {
         let robots = self.scenario.robots.len();
         let mut sets = NameSets::default();
         for &node in &state.nodes[..robots] {
@@ -420,18 +236,6 @@ impl Model {
             let renamed = self.messages.renamed(message.into(), renaming);
             u16::try_from(renamed).expect("fewer than 65,536 distinct messages")
         });
-    }
-}
-
-/// Takes an event off what may still happen, and starts the stop-watch of a failure.
-fn spend(next: &mut State, event: Event) {
-    match event {
-        Event::CommandManeuver { .. } => next.left.commands -= 1,
-        Event::ManeuverFailed(_) => {
-            next.left.disturbances -= 1;
-            next.watch = Watch::FollowerFailed(0);
-        }
-        _ => {}
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::clock::Clock;
 use super::rules::TimedProperty;
-use crate::scenario::{Bounds, Channel, RobotSetup};
+use crate::scenario::{Bounds, Channel, MAX_ROBOTS, RobotSetup};
 
 /// The file's form of the section.
 #[derive(Clone, Copy, Deserialize)]
@@ -15,6 +15,38 @@ pub(crate) struct Section {
     tick_ms: u32,
     /// The longest that a message is under way.
     delay_ms: u32,
+    /// Whether each endpoint looks when it likes, not all of them at every tick.
+    #[serde(default)]
+    free: bool,
+    /// How late free endpoints look; `delay_max` where nothing is said. Another value is an endpoint
+    /// that does not do what its settings say.
+    late_ms: Option<u32>,
+    /// Whether clocks change their rates.
+    #[serde(default)]
+    rates: Rates,
+    /// The longest that a robot hangs, on its own clock.
+    #[serde(default)]
+    hang_ms: u32,
+}
+
+/// When endpoints look at their clocks, and tell their robots.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Looks {
+    /// All of them at every tick.
+    EachTick,
+    /// Each when it likes, at the latest so long after a timer became due.
+    Within(Millis),
+}
+
+/// Whether clocks that drift change their rates.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rates {
+    /// Each clock is slow or fast at every tick anew.
+    #[default]
+    Changing,
+    /// Each clock is slow in a whole run, or fast in a whole run.
+    Constant,
 }
 
 /// What makes a scenario a timed one.
@@ -24,12 +56,77 @@ pub struct Timed {
     pub clock: Clock,
     /// The longest that a message is under way, a multiple of the tick.
     pub delay: Millis,
+    /// When endpoints look.
+    pub looks: Looks,
+    /// Whether clocks that drift change their rates.
+    pub rates: Rates,
+    /// The longest that a robot hangs, on its own clock.
+    pub hang: Millis,
     /// The properties to check.
     pub properties: Vec<TimedProperty>,
-    /// Place of the robot that detects.
-    pub(super) leader: u8,
+    /// The robots that detect, each with its helpers.
+    pub(super) teams: Teams,
     /// The delay in ticks.
     pub(super) delay_ticks: u8,
+}
+
+impl Timed {
+    /// Whether the scenario claims a property.
+    #[must_use]
+    pub fn claims(&self, property: TimedProperty) -> bool {
+        self.properties.contains(&property)
+    }
+}
+
+/// How many teams there may be.
+pub(super) const MAX_TEAMS: usize = 2;
+
+/// Which robots belong together. Where two detect, each leads a team of its own, which is itself and the
+/// robots that are listed after it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Teams {
+    leaders: Vec<u8>,
+    /// By place.
+    of: [usize; MAX_ROBOTS],
+}
+
+impl Teams {
+    fn of(robots: &[RobotSetup]) -> Option<Self> {
+        let detects = |place: &u8| robots[usize::from(*place)].detects;
+        let leaders: Vec<u8> = (0..).take(robots.len()).filter(detects).collect();
+        let begins = |place: u8| leaders.iter().filter(|leader| **leader <= place).count();
+        let mut of = [0; MAX_ROBOTS];
+        match leaders.len() {
+            1 => {}
+            2 if leaders[0] == 0 => {
+                for (place, team) in (0..).zip(&mut of) {
+                    *team = begins(place) - 1;
+                }
+            }
+            _ => return None,
+        }
+        Some(Self { leaders, of })
+    }
+
+    /// The places of the leaders, team by team.
+    pub(super) fn leaders(&self) -> &[u8] {
+        &self.leaders
+    }
+
+    /// Whether the robot at `place` leads.
+    pub(super) fn leads(&self, place: u8) -> bool {
+        self.leaders.contains(&place)
+    }
+
+    /// The team of the robot at `place`, from 0.
+    pub(super) const fn team_of(&self, place: u8) -> usize {
+        self.of[place as usize]
+    }
+
+    /// Whether there are two.
+    pub(super) const fn are_two(&self) -> bool {
+        self.leaders.len() == 2
+    }
 }
 
 /// What is wrong with a timed scenario.
@@ -65,16 +162,29 @@ pub enum TimedImpossibility {
         /// Of the section.
         tick: u32,
     },
-    /// Several robots detect.
-    #[error("a timed scenario has one robot that detects, not {0}")]
+    /// Endpoints that look each tick are never late.
+    #[error("'late_ms' is for endpoints that look when they like: 'free = true'")]
+    Late,
+    /// Hangs without a length, a length without hangs, or one that is no time of a model.
+    #[error(
+        "hangs of up to {0} ms: between 1 and 60000 ms are possible, with 'hangs' among the bounds"
+    )]
+    Hang(u32),
+    /// Nobody detects, or too many do, or the robots of no team come first.
+    #[error(
+        "{0} robots detect: in a timed scenario one does, or two that each begin a team, listed before its other robots"
+    )]
     Detectors(usize),
+    /// A failure where two teams meet.
+    #[error("'{0}' has no place in a timed scenario with two teams: nobody fails there")]
+    TwoTeams(&'static str),
     /// What the timed model has no use for.
     #[error(
         "'{0}' has no place in a timed scenario: 'delay_ms' bounds for how long messages are under way, messages get lost without number, a run begins with its one detection, and crashes are for good"
     )]
     Untimed(&'static str),
     /// An unknown property.
-    #[error("no timed property '{0}': I10, I11, I12, I16, L1, L5")]
+    #[error("no timed property '{0}': {list}", list = TimedProperty::list())]
     Property(String),
 }
 
@@ -99,16 +209,36 @@ impl Section {
         }
         let clock = Clock::new(Millis(tick), drift_ppm)
             .ok_or(("drift_ppm", I::Drift { drift_ppm, tick }))?;
-        let mut detectors = (0..).zip(robots).filter(|(_, robot)| robot.detects);
-        let (Some((leader, _)), None) = (detectors.next(), detectors.next()) else {
-            let detectors = robots.iter().filter(|robot| robot.detects).count();
-            return Err(("robots", I::Detectors(detectors)));
+        let looks = match (self.free, self.late_ms) {
+            (true, late) => Looks::Within(late.map_or(settings.delay_max, Millis)),
+            (false, None) => Looks::EachTick,
+            (false, Some(_)) => return Err(("late_ms", I::Late)),
         };
+        let hang = self.hang_ms;
+        if hang > 60_000 || (hang > 0) != (bounds.hangs > 0) {
+            let key = if hang > 0 { "hang_ms" } else { "hangs" };
+            return Err((key, I::Hang(hang)));
+        }
+        let teams = Teams::of(robots).ok_or_else(|| {
+            let detectors = robots.iter().filter(|robot| robot.detects).count();
+            ("robots", I::Detectors(detectors))
+        })?;
+        let failures = [
+            ("crashes", bounds.crashes),
+            ("disturbances", bounds.disturbances),
+            ("hangs", bounds.hangs),
+        ];
+        if teams.are_two()
+            && let Some((key, _)) = failures.into_iter().find(|(_, bound)| *bound > 0)
+        {
+            return Err((key, I::TwoTeams(key)));
+        }
         let without_meaning = [
             ("delayed", channel.delayed),
             ("detections", bounds.detections),
             ("restarts", bounds.restarts),
             ("losses", bounds.losses.map_or(0, |_| 1)),
+            ("monotone", channel.monotone.into()),
         ];
         if let Some((key, _)) = without_meaning.into_iter().find(|(_, bound)| *bound > 0) {
             return Err((key, I::Untimed(key)));
@@ -116,8 +246,11 @@ impl Section {
         Ok(Timed {
             clock,
             delay: Millis(delay),
+            looks,
+            rates: self.rates,
+            hang: Millis(hang),
             properties: Vec::new(),
-            leader,
+            teams,
             delay_ticks,
         })
     }

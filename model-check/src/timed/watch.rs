@@ -1,9 +1,11 @@
 //! Stop-watches, and the figures that are read off them.
 
-use crossguard_protocol::{Config, Millis};
+use crossguard_protocol::Millis;
 use serde::Serialize;
 
-use super::clock::{Clock, longest};
+use super::limits::Limits;
+use super::rules::TimedProperty;
+use super::section::Timed;
 
 /// The stop-watch of a run, in ticks. A run measures one thing at a time.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -14,16 +16,28 @@ pub enum Watch {
     Request(u8),
     /// Since the leader crashed for good.
     LeaderDown(u8),
-    /// Since a follower failed while it was executing.
-    FollowerFailed(u8),
+    /// Since the follower at this place failed while it was executing.
+    FollowerFailed(u8, u8),
+    /// Since the robot at this place began to hang; until it goes on.
+    Hung(u8, u8),
+    /// Two teams do not reach each other.
+    Apart,
+    /// Two teams reach each other, and neither leader has heard the other.
+    Near,
+    /// Since one of two leaders heard the other first; until one sign shows stop.
+    BothGo(u8),
 }
 
 impl Watch {
     /// One tick later.
     pub(super) fn tick(&mut self) {
         match self {
-            Self::Off => {}
-            Self::Request(ticks) | Self::LeaderDown(ticks) | Self::FollowerFailed(ticks) => {
+            Self::Off | Self::Apart | Self::Near => {}
+            Self::Request(ticks)
+            | Self::LeaderDown(ticks)
+            | Self::FollowerFailed(_, ticks)
+            | Self::Hung(_, ticks)
+            | Self::BothGo(ticks) => {
                 *ticks = ticks.saturating_add(1);
             }
         }
@@ -33,6 +47,8 @@ impl Watch {
 /// A figure: the longest time that something takes, over all runs.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Figure {
+    /// The properties that it is about.
+    pub id: String,
     /// What is measured.
     pub name: String,
     /// The longest time found, in milliseconds of true time; `None` when it was never measured.
@@ -48,11 +64,36 @@ pub(super) enum Measure {
     Stopped,
     Left,
     CorridorClosed,
+    LeaderHung,
+    FollowerHung,
+    Unguarded,
+    BothGo,
+    Unaware,
+    Waiting,
 }
 
 impl Measure {
-    pub(super) const ALL: [Self; 4] =
-        [Self::Roles, Self::Stopped, Self::Left, Self::CorridorClosed];
+    pub(super) const ALL: [Self; 10] = [
+        Self::Roles,
+        Self::Stopped,
+        Self::Left,
+        Self::CorridorClosed,
+        Self::LeaderHung,
+        Self::FollowerHung,
+        Self::Unguarded,
+        Self::BothGo,
+        Self::Unaware,
+        Self::Waiting,
+    ];
+
+    /// What is measured of a hang of the leader, or of a follower.
+    pub(super) const fn of_hang(leader: bool) -> Self {
+        if leader {
+            Self::LeaderHung
+        } else {
+            Self::FollowerHung
+        }
+    }
 
     pub(super) const fn name(self) -> &'static str {
         match self {
@@ -60,48 +101,42 @@ impl Measure {
             Self::Stopped => "from the leader's crash to the follower stopped",
             Self::Left => "from the leader's crash to the follower idle",
             Self::CorridorClosed => "from a follower's own failure to the corridor closed",
+            Self::LeaderHung => "from a hang of the leader to its sign at stop",
+            Self::FollowerHung => "from a hang of a follower to the leader's sign at stop",
+            Self::Unguarded => "from a follower's fallback to the leader's sign at stop",
+            Self::BothGo => "from two leaders' first hearing to one sign at stop",
+            Self::Unaware => "from a guard gone to the leader's application told",
+            Self::Waiting => "from a detection to go or a reason told",
         }
     }
 
-    /// The longest time by calculation, where a message takes at most `delay`.
-    pub(super) fn bound(self, config: &Config, delay: Millis) -> Millis {
-        let settings = config.settings();
+    /// The properties that the figure is about.
+    const fn properties(self) -> &'static [TimedProperty] {
+        use TimedProperty as P;
         match self {
-            Self::Roles => longest(settings.t_help, settings),
-            // The crashed leader's last heartbeat may still be under way.
-            Self::Stopped => delay.saturating_add(longest(settings.t_safety, settings)),
-            Self::Left => Self::Stopped
-                .bound(config, delay)
-                .saturating_add(longest(settings.t_leave, settings)),
-            Self::CorridorClosed => longest(settings.t_lease, settings),
+            Self::Roles => &[P::L1],
+            Self::Stopped | Self::Left => &[P::L5],
+            Self::CorridorClosed => &[P::I11, P::W1],
+            Self::LeaderHung => &[P::W5],
+            Self::FollowerHung => &[P::W5, P::W1],
+            Self::Unguarded => &[P::W1],
+            Self::BothGo => &[P::W3],
+            Self::Unaware => &[P::W6],
+            Self::Waiting => &[P::W8],
         }
     }
-}
 
-/// The longest times that the timers' values allow by calculation, in milliseconds of true time:
-/// those that the figures of a timed scenario are held against.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-pub struct Limits {
-    /// From a request to roles or to giving up (L1).
-    pub roles: Millis,
-    /// From the leader's crash to the follower stopped (L5).
-    pub stopped: Millis,
-    /// From the leader's crash to the follower idle (L5).
-    pub left: Millis,
-    /// From a follower's own failure to the corridor closed (I11).
-    pub corridor_closed: Millis,
-}
-
-impl Limits {
-    /// The limits of robots with these settings, where a message takes at most `delay`.
-    #[must_use]
-    pub fn new(config: &Config, delay: Millis) -> Self {
-        let bound = |measure: Measure| measure.bound(config, delay);
-        Self {
-            roles: bound(Measure::Roles),
-            stopped: bound(Measure::Stopped),
-            left: bound(Measure::Left),
-            corridor_closed: bound(Measure::CorridorClosed),
+    /// The longest time by calculation.
+    pub(super) const fn bound(self, limits: &Limits) -> Millis {
+        match self {
+            Self::Roles => limits.roles,
+            Self::Stopped => limits.stopped,
+            Self::Left => limits.left,
+            Self::CorridorClosed | Self::LeaderHung | Self::FollowerHung => limits.corridor_closed,
+            Self::Unguarded => limits.unguarded,
+            Self::BothGo => limits.both_go,
+            Self::Unaware => limits.unaware,
+            Self::Waiting => limits.waiting,
         }
     }
 }
@@ -116,13 +151,23 @@ impl Longest {
         *longest = Some(longest.map_or(ticks, |known| known.max(ticks)));
     }
 
-    /// The figures in milliseconds, with their bounds.
-    pub(super) fn figures(self, clock: &Clock, config: &Config, delay: Millis) -> Vec<Figure> {
+    /// The figures in milliseconds, with their bounds: those of the first property that each is about.
+    pub(super) fn figures(self, timed: &Timed, limits: &Limits) -> Vec<Figure> {
         let figure = |measure: Measure| Figure {
+            id: ids(measure),
             name: measure.name().to_owned(),
-            ms: self.0[measure as usize].map(|ticks| clock.millis(ticks).0),
-            bound_ms: measure.bound(config, delay).0,
+            ms: self.0[measure as usize].map(|ticks| timed.clock.millis(ticks).0),
+            bound_ms: measure.bound(limits).0,
         };
-        Measure::ALL.map(figure).into()
+        let asked = Measure::ALL.into_iter().filter(|measure| {
+            let first = measure.properties().first();
+            first.is_some_and(|property| timed.claims(*property))
+        });
+        asked.map(figure).collect()
     }
+}
+
+fn ids(measure: Measure) -> String {
+    let ids: Vec<_> = measure.properties().iter().map(|id| id.name()).collect();
+    ids.join(", ")
 }

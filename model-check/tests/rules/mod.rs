@@ -90,17 +90,23 @@ pub struct NeedsNoConfirmation;
 impl Rules for NeedsNoConfirmation {
     fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
         if let (Phase::Offering(offering), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
-            && let Coordination::NeedHelp { number, .. } = ram.coordination
+            && let Coordination::NeedHelp {
+                number,
+                heartbeat,
+                request,
+            } = ram.coordination
         {
             let me = Confirmation {
                 station: robot.station(),
                 offer: offering.number,
             };
-            let (heartbeat, followers) = (Heartbeat(0), [me].into_iter().collect());
             ram.coordination = Coordination::Leader {
                 number,
                 heartbeat,
-                followers,
+                followers: [me].into_iter().collect(),
+                urgency: request.urgency,
+                place: request.place,
+                yields: false,
             };
         }
         robot.step(config, input)
@@ -249,5 +255,124 @@ impl Rules for RepeatsOnceTooOften {
             ..config.settings().clone()
         };
         robot.step(&Config::new(patient).unwrap(), input)
+    }
+}
+
+/// The robot with one value of its state replaced, as it stands in a log.
+pub fn with_state(robot: &mut Robot, change: impl FnOnce(&mut serde_json::Value)) {
+    let mut state = serde_json::to_value(&*robot).unwrap();
+    change(&mut state);
+    *robot = serde_json::from_value(state).unwrap();
+}
+
+/// A leader overlooks some of what stands in the way of an open corridor.
+pub struct Overlooks(pub fn(CorridorClosure) -> bool);
+
+impl Rules for Overlooks {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let is_overlooked = |why: Ignored| match why {
+            Ignored::NotEngaged(station, why) => {
+                (self.0)(CorridorClosure::NotEngaged(station, why))
+            }
+            Ignored::FollowerMissing => (self.0)(CorridorClosure::FollowerMissing),
+            _ => false,
+        };
+        let is_open =
+            |output: &Output| matches!(output, Output::CorridorClosed(why) if (self.0)(*why));
+        let opens = outputs.ignored().is_some_and(is_overlooked);
+        if !opens && !outputs.iter().any(is_open) {
+            return outputs;
+        }
+        if !matches!(robot.phase(), Phase::Leading(_)) {
+            return outputs;
+        }
+        with_state(robot, |state| {
+            state["phase"]["leading"]["corridor"] = serde_json::to_value(Corridor::Open).unwrap();
+        });
+        if opens {
+            return [Output::CorridorOpened(Millis(1))].into_iter().collect();
+        }
+        let kept = outputs.iter().copied().filter(|output| !is_open(output));
+        kept.collect()
+    }
+}
+
+/// A requester asks for one follower fewer than its pedestrian needs.
+pub struct AsksForFewer;
+
+impl Rules for AsksForFewer {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let Input::Local(Event::PedestrianDetected(request)) = &mut input {
+            request.followers -= 1;
+        }
+        robot.step(config, input)
+    }
+}
+
+/// Every fallback is to stop where the robot is.
+pub struct StopsInPlace;
+
+impl Rules for StopsInPlace {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let stop = |output: &Output| match *output {
+            Output::FallBack(maneuver, _) => {
+                Output::FallBack(maneuver, FallbackPolicy::StopInPlace)
+            }
+            output => output,
+        };
+        outputs.iter().map(stop).collect()
+    }
+}
+
+/// A leader does not listen to other leaders.
+pub struct HearsNoLeader;
+
+impl Rules for HearsNoLeader {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let (Phase::Leading(_), Input::Ram { ram, .. }) = (robot.phase(), input)
+            && matches!(ram.coordination, Coordination::Leader { .. })
+        {
+            return [Output::Ignored(Ignored::LowerPrecedence)]
+                .into_iter()
+                .collect();
+        }
+        robot.step(config, input)
+    }
+}
+
+/// A robot has forgotten its duty as soon as somebody asks for help.
+pub struct ForgetsItsDuty;
+
+impl Rules for ForgetsItsDuty {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let (Phase::Idle, Some(_), Input::Ram { ram, .. }) = (robot.phase(), robot.duty(), input)
+            && matches!(ram.coordination, Coordination::NeedHelp { .. })
+        {
+            let mut forgetful = robot.clone();
+            with_state(&mut forgetful, |state| {
+                state["duty"] = serde_json::Value::Null;
+            });
+            let outputs = forgetful.step(config, input);
+            if outputs.ignored().is_none() {
+                *robot = forgetful;
+                return outputs;
+            }
+        }
+        robot.step(config, input)
+    }
+}
+
+/// A follower starts before it says that it does.
+pub struct StartsBeforeItSaysSo;
+
+impl Rules for StartsBeforeItSaysSo {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let is_start = |output: &&Output| matches!(output, Output::StartManeuver(_));
+        let starts = outputs.iter().filter(is_start);
+        let others = outputs.iter().filter(|output| !is_start(output));
+        starts.chain(others).copied().collect()
     }
 }

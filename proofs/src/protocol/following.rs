@@ -13,32 +13,37 @@ steps! { FROM, all;
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
         "is not listed any more": becomes(step, Role::None),
+        "falls back": step.said.has(Sort::FallBack),
         "hears a newer heartbeat": !step.is_ignored() && step.said.is_empty(),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a robot without a part in a session.
     hears_a_farewell(Kind::RamNone) |step| {
-        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
+        "falls back as the session is aborted": step.said.has(Sort::FallBack),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM that asks for help.
     hears_a_request(Kind::RamNeedHelp) |step| {
-        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
+        "falls back as the session is aborted": step.said.has(Sort::FallBack),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM that offers help.
     hears_an_offer(Kind::RamOfferHelp) |step| {
-        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
+        "falls back as the session is aborted": step.said.has(Sort::FallBack),
         "names a session as over": step.said.has(Sort::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
-        "stops as the session ends": step.said.has(Sort::StopManeuver),
+        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
+        "falls back as the session is aborted": step.said.has(Sort::FallBack),
         "names a session as over": step.said.has(Sort::SendRam),
         "ignored": step.is_ignored(),
     }
@@ -97,12 +102,14 @@ steps! { FROM, all;
     /// The robot is to leave.
     leaves(Kind::Local(Happening::LeaveRequested)) |step| {
         "leaves": becomes(step, Role::None),
+        "falls back": step.said.has(Sort::FallBack),
     }
 
     /// The robot becomes available or unavailable.
     changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
         "leaves": becomes(step, Role::None),
         "stops and stays": step.said.has(Sort::StopManeuver) && becomes(step, Role::Follower),
+        "falls back and stays": step.said.has(Sort::FallBack) && becomes(step, Role::Follower),
         "ignored": step.is_ignored(),
     }
 
@@ -115,6 +122,29 @@ steps! { FROM, all;
     fires_a_timer(Kind::Expired) |step| {
         "falls back": step.said.has(Sort::FallBack),
         "leaves": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The body holds its place.
+    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+        "reports": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The road is clear.
+    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+        "ends a duty": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// All robots nearby have answered.
+    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// A larger boot counter has been persisted.
+    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+        "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 }

@@ -41,7 +41,6 @@ steps! { FROM, all;
 
     /// A command.
     hears_a_command(Kind::Command) |step| {
-        "says farewell": step.said.has(Sort::LockIdentity),
         "ignored": step.is_ignored(),
     }
 
@@ -107,6 +106,28 @@ steps! { FROM, all;
     fires_a_timer(Kind::Expired) |step| {
         "unlocks": step.said.has(Sort::UnlockIdentity),
         "repeats its farewell": step.said.has(Sort::SendRam),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The body holds its place.
+    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The road is clear.
+    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+        "ends a duty": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// All robots nearby have answered.
+    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// A larger boot counter has been persisted.
+    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+        "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 }

@@ -38,6 +38,22 @@ harnesses! {
         kani::cover!(clocks.leader > settings.t_lease.0, "the lease has ended");
     }
 
+    /// All timers and clocks up to 8 s, with the default drift.
+    #[unwind(24)]
+    #[solver(cadical)]
+    fn an_offer_lapses_before_its_reservation() {
+        let settings = Settings {
+            t_offer: Millis(any_time()),
+            delay_max: Millis(any_time()),
+            ..Settings::default()
+        };
+        let clocks = Clocks { real: any_time(), leader: any_time(), follower: any_time() };
+        kani::assume(clocks.are_within(settings.drift_ppm));
+        let counts = laws::an_offer_lapses_before_its_reservation(&settings, clocks);
+        kani::cover!(counts, "the offer is counted on");
+        kani::cover!(!counts, "it is not");
+    }
+
     /// All leaders with the default configuration, all heartbeats, up to a second at once.
     #[unwind(6)]
     #[solver(cadical)]

@@ -50,4 +50,22 @@ harnesses! {
         kani::cover!(list.len() == 4, "full");
         kani::cover!(list.is_empty(), "empty");
     }
+
+    /// All slots.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_list_is_dense_without_gaps() {
+        let slots = kani::any::<[u8; 4]>().map(|slot| (slot % 2 == 1).then_some(slot));
+        laws::tells_of_gaps(slots);
+        kani::cover!(slots[0].is_none() && slots[2].is_some(), "a gap");
+        kani::cover!(slots[3].is_some(), "full");
+    }
+
+    /// Up to four outputs.
+    #[random_only("a list of outputs is most of a step")]
+    fn outputs_hold_one_ram() {
+        let rams = kani::any::<[u8; 4]>().map(|ram| ram % 2 == 1);
+        laws::outputs_hold_one_ram(rams, usize::from(kani::any::<u8>() % 5));
+        kani::cover!(rams == [true; 4], "all the same");
+    }
 }

@@ -37,6 +37,8 @@ harnesses! {
         laws::later_heartbeats_are_newer(a, b.0);
         kani::cover!(a.is_newer_than(b), "newer");
         kani::cover!(a.0 < b.0 && a.is_newer_than(b), "newer beyond the wrap");
+        kani::cover!(u32::from(a.distance_from(b)) == Heartbeat::HALF_SPACE, "half the space apart");
+        kani::cover!(u32::from(b.0) == Heartbeat::HALF_SPACE, "half the space later");
     }
 
     /// All triples of heartbeats of one session.

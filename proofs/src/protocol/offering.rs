@@ -25,6 +25,7 @@ steps! { FROM, all;
 
     /// A RAM that asks for help.
     hears_a_request(Kind::RamNeedHelp) |step| {
+        "stays reserved": !step.is_ignored() && step.said.is_empty(),
         "the session ended": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
@@ -45,7 +46,6 @@ steps! { FROM, all;
 
     /// A command.
     hears_a_command(Kind::Command) |step| {
-        "says farewell": step.said.has(Sort::SendRam),
         "ignored": step.is_ignored(),
     }
 
@@ -108,6 +108,27 @@ steps! { FROM, all;
     /// The expiry of any timer.
     fires_a_timer(Kind::Expired) |step| {
         "withdraws": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The body holds its place.
+    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The road is clear.
+    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// All robots nearby have answered.
+    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// A larger boot counter has been persisted.
+    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+        "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 }

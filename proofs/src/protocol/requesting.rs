@@ -21,6 +21,7 @@ steps! { FROM, all;
     hears_a_request(Kind::RamNeedHelp) |step| {
         "helps the one that goes before": becomes(step, Role::Helper),
         "withdraws": becomes(step, Role::None),
+        "notes a rival": !step.is_ignored() && step.said.is_empty(),
         "ignored": step.is_ignored(),
     }
 
@@ -39,6 +40,8 @@ steps! { FROM, all;
 
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
+        "withdraws": step.said.has(Sort::Withdrawn),
+        "notes a rival": !step.is_ignored() && step.said.is_empty(),
         "names a session as over": step.said.has(Sort::SendRam),
         "ignored": step.is_ignored(),
     }
@@ -51,7 +54,6 @@ steps! { FROM, all;
 
     /// A command.
     hears_a_command(Kind::Command) |step| {
-        "says farewell": step.said.has(Sort::SendRam),
         "ignored": step.is_ignored(),
     }
 
@@ -135,6 +137,34 @@ steps! { FROM, all;
     /// The end of a farewell.
     ends_a_farewell(Kind::Fires(Countdown::Farewell)) |step| {
         "ends it": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The body holds its place.
+    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The road is clear.
+    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// All robots nearby have answered.
+    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+        "establishes the roles": becomes(step, Role::Leader),
+        "ignored": step.is_ignored(),
+    }
+
+    /// A larger boot counter has been persisted.
+    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+        "renews it": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The end of an offer.
+    forgets_an_offer(Kind::Fires(Countdown::Offer)) |step| {
+        "it lapses": step.said.has(Sort::OfferLapsed),
         "ignored": step.is_ignored(),
     }
 }

@@ -2,14 +2,25 @@
 //
 // Usage: crossing_cpp leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
 //
+// Four things in it keep people alive; when you copy it, keep them and put your own robot behind them:
+//
+// 1. The sign ends go by itself, also when this program hangs: class `Sign`.
+// 2. `in_position` is told when the body is there, and not before: `move_body`.
+// 3. `road_clear` is told when the fallback is finished and the road was seen to be clear: `finish_duty`.
+// 4. `task_completed` is told when nobody is on the road any more: `live`.
+//
 // It ends with 0 when the crossing was completed, with 1 when it was not, with 2 on wrong usage.
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -74,15 +85,26 @@ public:
   }
   std::optional<crossguard::Octets> receive(milliseconds at_most) {
     pollfd readable{socket_, POLLIN, 0};
-    if (poll(&readable, 1, static_cast<int>(at_most.count())) <= 0) return std::nullopt;
+    const auto called = Clock::now();
+    int ready = poll(&readable, 1, 0);
+    // Only a link that has nothing at once is empty, and that when it was asked: this process may have been
+    // stopped since. A packet may have come as soon as the link was seen to be empty.
+    if (ready == 0) {
+      empty_ = called;
+      ready = poll(&readable, 1, static_cast<int>(at_most.count()));
+    }
+    if (ready <= 0) return std::nullopt;
     const ssize_t length = recv(socket_, packet_.data(), packet_.size(), MSG_DONTWAIT);
     if (length < 0) return std::nullopt;
     return crossguard::Octets{packet_.data(), static_cast<std::size_t>(length)};
   }
 
+  milliseconds waited() const { return duration_cast<milliseconds>(Clock::now() - empty_); }
+
 private:
   int socket_;
   bool is_open_ = false;
+  Clock::time_point empty_ = Clock::now();
   sockaddr_in peer_{};
   std::array<std::uint8_t, 2048> packet_{};
 
@@ -95,10 +117,69 @@ private:
   }
 };
 
+// The sign. It is a process of its own, as it is a device of its own on your robot, because it ends go by
+// itself: when its time is over, and when the program that renews it hangs or is gone. What it is sent is the
+// moment until which it may show go, so a message that comes late makes nothing longer.
+class Sign {
+public:
+  Sign() {
+    int ends[2];
+    if (pipe(ends) != 0 || fcntl(ends[1], F_SETFL, O_NONBLOCK) != 0 || (process_ = fork()) < 0) {
+      std::perror("sign");
+      std::exit(2);
+    }
+    if (process_ == 0) {
+      close(ends[1]);
+      show(ends[0]);
+    }
+    close(ends[0]);
+    orders_ = ends[1];
+  }
+  ~Sign() {
+    close(orders_);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {}
+  }
+  Sign(const Sign &) = delete;
+  Sign &operator=(const Sign &) = delete;
+
+  // A sign that does not take the order shows stop when its time is over.
+  void go_until(Clock::time_point until) const {
+    if (write(orders_, &until, sizeof until) < 0) std::cerr << "the sign is gone" << std::endl;
+  }
+  void stop() const { go_until({}); }
+
+private:
+  pid_t process_ = -1;
+  int orders_ = -1;
+
+  [[noreturn]] static void show(int orders) {
+    Clock::time_point until{};
+    bool shows_go = false;
+    for (;;) {
+      const auto left = duration_cast<milliseconds>(until - Clock::now());
+      const bool may = left > 0ms;
+      if (may != shows_go) std::cout << "sign shows " << (may ? "go" : "stop") << std::endl;
+      shows_go = may;
+      pollfd readable{orders, POLLIN, 0};
+      if (poll(&readable, 1, may ? static_cast<int>(left.count()) : -1) <= 0) continue;
+      if (read(orders, &until, sizeof until) != sizeof until) break;
+    }
+    if (shows_go) std::cout << "sign shows stop" << std::endl;
+    _exit(0);
+  }
+};
+
+// STANDS FOR YOUR PERCEPTION: whether somebody has seen that nobody is on the carriageway. No clock and no
+// message says it. Here an operator says it: kill -USR1.
+volatile std::sig_atomic_t road_was_seen_clear;
+void see_road_clear(int) { road_was_seen_clear = 1; }
+
 class Application {
 public:
-  Application(bool leads, crossguard::Robot robot, Link &link, std::ofstream *log)
-      : leads_{leads}, robot_{std::move(robot)}, link_{link}, log_{log} {
+  Application(bool leads, crossguard::Robot robot, Link &link, const Sign &sign, std::string boot_file,
+              std::ofstream *log)
+      : leads_{leads}, robot_{std::move(robot)}, link_{link}, sign_{sign},
+        boot_file_{std::move(boot_file)}, log_{log} {
     turn_.body().latitude_deg = 49.0101;
     turn_.body().longitude_deg = 8.4124;
     turn_.body().speed_mps = 0;
@@ -110,7 +191,9 @@ public:
   bool run() {
     while (Clock::now() - started_ < patience) {
       const auto view = robot_.view();
-      if (over_ && view.state == CROSSGUARD_STATE_IDLE && !view.is_locked) break;
+      if (over_ && view.state == CROSSGUARD_STATE_IDLE && !view.is_locked &&
+          view.duty == CROSSGUARD_DUTY_NONE)
+        break;
       const auto due = robot_.next_due().value_or(20ms);
       if (const auto packet = link_.receive(due < 20ms ? due : 20ms)) receive(*packet);
       let_time_pass();
@@ -132,17 +215,36 @@ public:
   void operator()(const crossguard::Send &send) { link_.send(send.packet); }
   void operator()(const crossguard::StartManeuver &start) {
     maneuver_ = start.maneuver;
-    done_at_ = Clock::now() + maneuver_time;
+    doing_ = Doing::under_way;
+    arrives_at_ = Clock::now() + maneuver_time;
     std::cout << "starts task " << int(start.maneuver.task) << " of request "
               << int(start.maneuver.request) << std::endl;
   }
-  void operator()(const crossguard::StopManeuver &) { maneuver_.reset(); }
-  void operator()(const crossguard::FallBack &) { maneuver_.reset(); }
-  void operator()(const crossguard::CorridorOpened &) {
+  void operator()(const crossguard::StopManeuver &) { doing_ = Doing::stands; }
+  // A body stays at its person's side to the kerb, or holds the traffic: see `policy`. Never just stop.
+  void operator()(const crossguard::FallBack &fallback) {
+    doing_ = Doing::falls_back;
+    arrives_at_ = Clock::now() + maneuver_time;
+    look_again();
+    std::cout << "falls back by policy " << int(fallback.policy) << std::endl;
+  }
+  void operator()(const crossguard::CorridorOpened &opened) {
     corridor_was_open_ = true;
+    look_again();
+    sign_.go_until(started_ + told_ + opened.open_for);
     std::cout << "corridor open" << std::endl;
   }
-  void operator()(const crossguard::CorridorClosed &) { std::cout << "corridor closed" << std::endl; }
+  void operator()(const crossguard::CorridorExtended &extended) {
+    sign_.go_until(started_ + told_ + extended.open_for);
+  }
+  void operator()(const crossguard::CorridorClosed &) {
+    sign_.stop();
+    std::cout << "corridor closed" << std::endl;
+  }
+  // A larger boot counter, on the disk before it is told. The disk may be slow: do it beside your loop.
+  void operator()(const crossguard::RenewEpoch &) {
+    if (const auto boot = next_boot(boot_file_)) wishes_.push_back(crossguard::Event::epoch_renewed(*boot));
+  }
   void operator()(const crossguard::LockIdentity &) {}
   void operator()(const crossguard::Ignored &) {}
   void operator()(const crossguard::Notice &notice) {
@@ -150,30 +252,42 @@ public:
       lead(notice);
     } else if (notice.kind == CROSSGUARD_NOTICE_RELEASED) {
       over_ = true;
-      completed_ = notice.why.reason == CROSSGUARD_REASON_SESSION_ENDED && maneuvers_done_ == 2;
+      completed_ = notice.why.reason == CROSSGUARD_REASON_TASK_COMPLETED;
     }
   }
 
 private:
-  enum class Stage { waits, asks, positions, escorts };
+  enum class Stage { waits, asks, positions, escorts, arrived, done };
+  enum class Doing { stands, under_way, holds_place, falls_back };
 
   bool leads_;
   crossguard::Robot robot_;
   Link &link_;
+  const Sign &sign_;
+  std::string boot_file_;
   std::ofstream *log_;
   crossguard::Turn turn_;
   Clock::time_point started_ = Clock::now();
   milliseconds told_{0};
-  Clock::time_point announced_{}, tried_{}, done_at_{};
+  Clock::time_point announced_{}, tried_{}, arrives_at_{};
   std::deque<crossguard::Event> wishes_;
-  std::optional<crossguard::Maneuver> maneuver_;
+  crossguard::Maneuver maneuver_{};
+  Doing doing_ = Doing::stands;
   Stage stage_ = Stage::waits;
   std::uint32_t follower_ = 0;
-  int maneuvers_done_ = 0;
-  bool corridor_was_open_ = false, over_ = false, completed_ = false;
+  bool corridor_was_open_ = false, is_across_ = false, over_ = false, completed_ = false;
 
+  // The leader's simulated pedestrian is across when its escort has arrived. What was seen before the last
+  // go or the beginning of a fallback does not count.
+  bool road_is_clear() const { return road_was_seen_clear || is_across_; }
+  void look_again() {
+    road_was_seen_clear = 0;
+    is_across_ = false;
+  }
+
+  // The log's clock shows the reading by which the robot was told of time: one reading for both.
   void prepare() {
-    const auto log_at = duration_cast<std::chrono::microseconds>(Clock::now() - started_);
+    const std::chrono::microseconds log_at = told_;
     turn_.at(timestamp_its(), static_cast<std::uint64_t>(log_at.count()));
   }
 
@@ -188,16 +302,16 @@ private:
 
   // Time first, then what happened in it.
   void let_time_pass() {
-    const auto passed = duration_cast<milliseconds>(Clock::now() - started_);
+    const auto before = told_;
+    told_ = duration_cast<milliseconds>(Clock::now() - started_);
     prepare();
-    const auto status = robot_.elapse(passed - told_, turn_);
-    told_ = passed;
-    finish("elapse", status);
+    finish("elapse", robot_.elapse(told_ - before, turn_));
   }
 
   void receive(crossguard::Octets packet) {
     let_time_pass();
     prepare();
+    turn_.waited(link_.waited());
     finish("receive", robot_.receive(packet, turn_));
     if (const auto why = turn_.dropped()) std::cout << "dropped, " << *why << std::endl;
   }
@@ -230,8 +344,15 @@ private:
         stage_ = Stage::escorts;
         command(crossguard::Task::move, 49.010172);
       } else {
-        wishes_.push_back(crossguard::Event::task_completed());
+        stage_ = Stage::arrived;
+        is_across_ = true;
       }
+      break;
+    case CROSSGUARD_NOTICE_MANEUVER_FAILED:
+    case CROSSGUARD_NOTICE_FOLLOWER_SAFE_IDLE:
+      // It gives up. If the corridor was open, its duty lasts until the road is seen to be clear.
+      stage_ = Stage::done;
+      wishes_.push_back(crossguard::Event::leave());
       break;
     case CROSSGUARD_NOTICE_SESSION_ENDED:
       over_ = true;
@@ -241,22 +362,46 @@ private:
     }
   }
 
+  // The simulated body arrives. A guard that holds traffic says so and stays, until it is told to stop.
+  void move_body() {
+    if (doing_ != Doing::under_way || Clock::now() < arrives_at_) return;
+    if (maneuver_.task == crossguard::Task::block) {
+      doing_ = Doing::holds_place;
+      wishes_.push_back(crossguard::Event::in_position(maneuver_));
+    } else {
+      doing_ = Doing::stands;
+      wishes_.push_back(crossguard::Event::completed(maneuver_));
+    }
+  }
+
+  // `road_clear`, once the body has finished its fallback and the road is seen to be clear.
+  void finish_duty(const crossguard::View &view) {
+    if (doing_ == Doing::falls_back && Clock::now() >= arrives_at_ && road_is_clear())
+      doing_ = Doing::stands;
+    const bool is_bound = view.duty != CROSSGUARD_DUTY_NONE ||
+                          (leads_ && view.corridor == CROSSGUARD_CORRIDOR_CLEARING);
+    if (is_bound && doing_ == Doing::stands && road_is_clear())
+      wishes_.push_back(crossguard::Event::road_clear());
+  }
+
   // What the application does by the clock.
   void live(const crossguard::View &view) {
     const auto now = Clock::now();
-    if (maneuver_ && now >= done_at_) {
-      wishes_.push_back(crossguard::Event::completed(*maneuver_));
-      maneuver_.reset();
-      ++maneuvers_done_;
-    }
+    move_body();
+    finish_duty(view);
     if (leads_ && stage_ == Stage::waits && now - started_ > 300ms) {
       using crossguard::Task;
       stage_ = Stage::asks;
       const auto tasks = crossguard::tasks(Task::initial_pos, Task::move);
       wishes_.push_back(crossguard::Event::pedestrian_detected(1, tasks));
     }
-    if (stage_ == Stage::escorts && !view.is_corridor_open && !over_ && now - tried_ > 200ms)
+    if (stage_ == Stage::escorts && view.corridor != CROSSGUARD_CORRIDOR_OPEN && !view.has_yielded &&
+        !over_ && now - tried_ > 200ms)
       open_corridor();
+    if (stage_ == Stage::arrived && road_is_clear()) {
+      stage_ = Stage::done;
+      wishes_.push_back(crossguard::Event::task_completed());
+    }
     if (robot_.announces_itself() && now - announced_ >= 1s) {
       announced_ = now;
       let_time_pass();
@@ -275,6 +420,9 @@ int main(int argc, char **argv) {
               << " leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]" << std::endl;
     return 2;
   }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGUSR1, see_road_clear);
+  std::optional<Sign> sign{std::in_place};
   const auto station = static_cast<std::uint32_t>(std::stoul(argv[2]));
   Link link{static_cast<std::uint16_t>(std::stoi(argv[3])),
             static_cast<std::uint16_t>(std::stoi(argv[4]))};
@@ -297,8 +445,9 @@ int main(int argc, char **argv) {
   }
   // An application is large: buffers for packets and log are in it.
   const auto application = std::make_unique<Application>(
-      role == "leader", std::move(*robot), link, log.is_open() ? &log : nullptr);
+      role == "leader", std::move(*robot), link, *sign, argv[5], log.is_open() ? &log : nullptr);
   const bool completed = application->run();
+  sign.reset();
   std::cout << "crossing " << (completed ? "completed" : "not completed") << std::endl;
   return completed ? 0 : 1;
 }

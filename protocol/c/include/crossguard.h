@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 // The version of this interface. It grows with every change that a program must be compiled for.
-#define CROSSGUARD_ABI_VERSION 1
+#define CROSSGUARD_ABI_VERSION 2
 
 // Eight-octet words in a `CrossguardRobot`.
 #define CROSSGUARD_ROBOT_WORDS 1280
@@ -204,7 +204,8 @@ typedef uint8_t CrossguardUnavailability;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a follower does with a running maneuver when it loses contact with its leader.
+// What a follower does with a running maneuver at every end but a completed crossing: contact lost,
+// session aborted, left, or not listed any more.
 enum CrossguardFallback
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
@@ -214,8 +215,10 @@ enum CrossguardFallback
   CROSSGUARD_FALLBACK_STOP_IN_PLACE = 0,
   // Leave the carriageway for the safe position that the application knows.
   CROSSGUARD_FALLBACK_GO_TO_SAFE_POSITION = 1,
+  // Stay at the side of the escorted person to the nearer kerb, then stop.
+  CROSSGUARD_FALLBACK_ESCORT_TO_KERB = 2,
   // Hold the position and the traffic until the carriageway is clear, then stop.
-  CROSSGUARD_FALLBACK_HOLD_UNTIL_CLEAR = 2,
+  CROSSGUARD_FALLBACK_HOLD_UNTIL_CLEAR = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -235,14 +238,16 @@ enum CrossguardProgress
   CROSSGUARD_PROGRESS_NONE = 0,
   // It is acknowledged, and nothing is reported yet.
   CROSSGUARD_PROGRESS_ACKNOWLEDGED = 1,
-  // The maneuver runs.
+  // The maneuver runs, and the body is under way.
   CROSSGUARD_PROGRESS_EXECUTING = 2,
+  // The maneuver runs, and the body holds the place from which it guards.
+  CROSSGUARD_PROGRESS_IN_POSITION = 3,
   // It was finished.
-  CROSSGUARD_PROGRESS_COMPLETED = 3,
+  CROSSGUARD_PROGRESS_COMPLETED = 4,
   // It ended without success.
-  CROSSGUARD_PROGRESS_FAILED = 4,
+  CROSSGUARD_PROGRESS_FAILED = 5,
   // It was stopped because contact with the leader was lost.
-  CROSSGUARD_PROGRESS_SAFE_IDLE = 5,
+  CROSSGUARD_PROGRESS_SAFE_IDLE = 6,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -273,32 +278,85 @@ typedef uint8_t CrossguardMessage;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// The corridor of a leader.
+enum CrossguardCorridor
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nobody may cross, and nobody is on the road.
+  CROSSGUARD_CORRIDOR_CLEAR = 0,
+  // The pedestrian may cross.
+  CROSSGUARD_CORRIDOR_OPEN = 1,
+  // Nobody may cross any more, and people may still be on the road.
+  CROSSGUARD_CORRIDOR_CLEARING = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum CrossguardCorridor CrossguardCorridor;
+#else
+typedef uint8_t CrossguardCorridor;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A duty on the road that outlives its command or its session. It ends with an event `RoadClear`.
+enum CrossguardDuty
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // None.
+  CROSSGUARD_DUTY_NONE = 0,
+  // The body carries out the fallback of a maneuver.
+  CROSSGUARD_DUTY_FALLING_BACK = 1,
+  // The robot led a session that ended while people may have been on the road.
+  CROSSGUARD_DUTY_CROSSING = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum CrossguardDuty CrossguardDuty;
+#else
+typedef uint8_t CrossguardDuty;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // What happened in the robot itself.
 enum CrossguardEventKind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // A pedestrian needs help that takes more robots than this one: `urgency`, `followers`, `tasks`.
+  // A pedestrian needs help that takes more robots than this one: `urgency`, `followers`, `tasks`,
+  // `place`.
   CROSSGUARD_EVENT_KIND_PEDESTRIAN_DETECTED = 0,
   // The leader's application wants a follower to do a maneuver: `station`, `task`, `parameters`.
   CROSSGUARD_EVENT_KIND_COMMAND_MANEUVER = 1,
+  // The body holds the place from which the maneuver that was started guards: `session`, `request`.
+  // To be told only when the body is there: the leader lets people on the road by it.
+  CROSSGUARD_EVENT_KIND_IN_POSITION = 2,
   // The maneuver that was started has been finished: `session`, `request`.
-  CROSSGUARD_EVENT_KIND_MANEUVER_COMPLETED = 2,
+  CROSSGUARD_EVENT_KIND_MANEUVER_COMPLETED = 3,
   // The maneuver that was started cannot be finished: `session`, `request`.
-  CROSSGUARD_EVENT_KIND_MANEUVER_FAILED = 3,
-  // The pedestrian has crossed; the session may end.
-  CROSSGUARD_EVENT_KIND_TASK_COMPLETED = 4,
+  CROSSGUARD_EVENT_KIND_MANEUVER_FAILED = 4,
+  // The pedestrian has crossed and nobody is on the road; the session may end.
+  CROSSGUARD_EVENT_KIND_TASK_COMPLETED = 5,
+  // The people that this robot guarded are off the road, and its body has finished its fallback. To be
+  // told only when both are so: it ends the robot's duty.
+  CROSSGUARD_EVENT_KIND_ROAD_CLEAR = 6,
+  // The requester knows of no robot nearby that has not answered its request.
+  CROSSGUARD_EVENT_KIND_ALL_ANSWERED = 7,
   // The robot wants to leave whatever session it is in.
-  CROSSGUARD_EVENT_KIND_LEAVE_REQUESTED = 5,
+  CROSSGUARD_EVENT_KIND_LEAVE_REQUESTED = 8,
   // The robot became available or unavailable: `unavailability`.
-  CROSSGUARD_EVENT_KIND_AVAILABILITY_CHANGED = 6,
+  CROSSGUARD_EVENT_KIND_AVAILABILITY_CHANGED = 9,
   // The leader's application wants to let the pedestrian cross.
-  CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR = 7,
+  CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR = 10,
   // The leader's application wants to hold the pedestrian back again.
-  CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR = 8,
+  CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR = 11,
   // The robot has changed its pseudonym: `station`. Only while the identity is not locked.
-  CROSSGUARD_EVENT_KIND_IDENTITY_CHANGED = 9,
+  CROSSGUARD_EVENT_KIND_IDENTITY_CHANGED = 12,
+  // A larger boot counter has been persisted, as an output `RenewEpoch` asked: `boot`.
+  CROSSGUARD_EVENT_KIND_EPOCH_RENEWED = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -320,20 +378,28 @@ enum CrossguardOutputKind
   CROSSGUARD_OUTPUT_KIND_START_MANEUVER = 1,
   // Stop a maneuver: `session`, `request`, `task`, `reason`.
   CROSSGUARD_OUTPUT_KIND_STOP_MANEUVER = 2,
-  // Stop a maneuver because contact with the leader is lost: as before, and `policy`.
+  // End a maneuver by its task's policy: as before, and `policy`. The robot is on duty until it is told
+  // `RoadClear`.
   CROSSGUARD_OUTPUT_KIND_FALL_BACK = 3,
-  // The pedestrian may cross from now on.
+  // The pedestrian may cross from now on, for `open_ms`. What shows it must end by itself then, without
+  // this robot's help.
   CROSSGUARD_OUTPUT_KIND_CORRIDOR_OPENED = 4,
-  // The pedestrian may not cross from now on: `reason`, and `station` where it is about one.
-  CROSSGUARD_OUTPUT_KIND_CORRIDOR_CLOSED = 5,
+  // The pedestrian may go on crossing, for `open_ms` from now.
+  CROSSGUARD_OUTPUT_KIND_CORRIDOR_EXTENDED = 5,
+  // The pedestrian may not cross from now on: `reason`, and `station` where it is about one. People may
+  // still be on the road.
+  CROSSGUARD_OUTPUT_KIND_CORRIDOR_CLOSED = 6,
   // Keep station id, certificate and link address from now on.
-  CROSSGUARD_OUTPUT_KIND_LOCK_IDENTITY = 6,
+  CROSSGUARD_OUTPUT_KIND_LOCK_IDENTITY = 7,
   // Station id, certificate and link address may change again.
-  CROSSGUARD_OUTPUT_KIND_UNLOCK_IDENTITY = 7,
+  CROSSGUARD_OUTPUT_KIND_UNLOCK_IDENTITY = 8,
+  // Half of this boot counter's numbers are given out: persist a larger one, and then tell
+  // `EpochRenewed`.
+  CROSSGUARD_OUTPUT_KIND_RENEW_EPOCH = 9,
   // Know this: `notice`, and what that says.
-  CROSSGUARD_OUTPUT_KIND_NOTICE = 8,
+  CROSSGUARD_OUTPUT_KIND_NOTICE = 10,
   // Know that what was told or heard changed nothing: `reason`, and `station` where it is about one.
-  CROSSGUARD_OUTPUT_KIND_IGNORED = 9,
+  CROSSGUARD_OUTPUT_KIND_IGNORED = 11,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -367,24 +433,30 @@ enum CrossguardNotice
   CROSSGUARD_NOTICE_COMMAND_REJECTED = 7,
   // Leader: a follower reports that it executes a command (`station`, `session`, `request`).
   CROSSGUARD_NOTICE_MANEUVER_REPORTED = 8,
+  // Leader: a follower reports that it guards from its place (`station`, `session`, `request`).
+  CROSSGUARD_NOTICE_MANEUVER_IN_POSITION = 9,
   // Leader: a follower finished a command (`station`, `session`, `request`).
-  CROSSGUARD_NOTICE_MANEUVER_COMPLETED = 9,
+  CROSSGUARD_NOTICE_MANEUVER_COMPLETED = 10,
   // Leader: a command failed (`station`, `session`, `request`, `reason`).
-  CROSSGUARD_NOTICE_MANEUVER_FAILED = 10,
+  CROSSGUARD_NOTICE_MANEUVER_FAILED = 11,
   // Leader: a follower fell back (`station`, `session`, `request`).
-  CROSSGUARD_NOTICE_FOLLOWER_SAFE_IDLE = 11,
+  CROSSGUARD_NOTICE_FOLLOWER_SAFE_IDLE = 12,
+  // Requester: the offer of a helper has lapsed (`station`).
+  CROSSGUARD_NOTICE_OFFER_LAPSED = 13,
+  // Leader: yields the place to another leader; the session ends once the road is clear (`station`).
+  CROSSGUARD_NOTICE_YIELDED = 14,
   // Requester or leader: the session is over (`session`, `reason`, `station` if withdrawn for one).
-  CROSSGUARD_NOTICE_SESSION_ENDED = 12,
+  CROSSGUARD_NOTICE_SESSION_ENDED = 15,
   // Helper: offers to take part in a session (`session`).
-  CROSSGUARD_NOTICE_OFFERING = 13,
+  CROSSGUARD_NOTICE_OFFERING = 16,
   // Follower: takes part in a session (`session`).
-  CROSSGUARD_NOTICE_JOINED = 14,
+  CROSSGUARD_NOTICE_JOINED = 17,
   // Helper or follower: has no part in a session any more (`session`, `reason`).
-  CROSSGUARD_NOTICE_RELEASED = 15,
+  CROSSGUARD_NOTICE_RELEASED = 18,
   // Follower: contact with the leader is lost (`session`).
-  CROSSGUARD_NOTICE_CONTACT_LOST = 16,
+  CROSSGUARD_NOTICE_CONTACT_LOST = 19,
   // Follower: contact with the leader is back (`session`).
-  CROSSGUARD_NOTICE_CONTACT_REGAINED = 17,
+  CROSSGUARD_NOTICE_CONTACT_REGAINED = 20,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -404,7 +476,7 @@ enum CrossguardReason
   CROSSGUARD_REASON_NONE = 0,
   // A newer command takes its place.
   CROSSGUARD_REASON_SUPERSEDED = 1,
-  // The session ended.
+  // The session ended otherwise than by a completed crossing.
   CROSSGUARD_REASON_SESSION_ENDED = 2,
   // The leader does not list this robot.
   CROSSGUARD_REASON_NOT_LISTED = 3,
@@ -418,11 +490,11 @@ enum CrossguardReason
   CROSSGUARD_REASON_UNAVAILABLE = 7,
   // The identity must be unlocked before anything else.
   CROSSGUARD_REASON_IDENTITY_LOCK_LIMIT = 8,
-  // The application said that the task is done.
+  // The crossing is completed, as the leader's application said.
   CROSSGUARD_REASON_TASK_COMPLETED = 9,
   // `T_help` ran out before enough helpers were found.
   CROSSGUARD_REASON_NO_HELP = 10,
-  // The request of `station` goes before.
+  // The request of `station` at the same place goes before, or it leads there already.
   CROSSGUARD_REASON_WITHDRAWN = 11,
   // No follower is left.
   CROSSGUARD_REASON_NO_FOLLOWERS = 12,
@@ -438,66 +510,91 @@ enum CrossguardReason
   CROSSGUARD_REASON_UNSUPPORTED_TASK = 17,
   // Fewer followers are left than the task requires.
   CROSSGUARD_REASON_FOLLOWER_MISSING = 18,
+  // The place is yielded to the leader `station`.
+  CROSSGUARD_REASON_YIELDED = 19,
   // The application asked for it.
-  CROSSGUARD_REASON_APPLICATION = 19,
+  CROSSGUARD_REASON_APPLICATION = 20,
   // The leader has no lease on the follower.
-  CROSSGUARD_REASON_NO_LEASE = 20,
+  CROSSGUARD_REASON_NO_LEASE = 21,
   // The follower has a command that it has not acknowledged.
-  CROSSGUARD_REASON_COMMAND_OUTSTANDING = 21,
+  CROSSGUARD_REASON_COMMAND_OUTSTANDING = 22,
   // The robot executes no such maneuver, or has not reported that it does.
-  CROSSGUARD_REASON_NOT_EXECUTING = 22,
+  CROSSGUARD_REASON_NOT_EXECUTING = 23,
   // The follower's task does not guard a pedestrian.
-  CROSSGUARD_REASON_NOT_GUARDING = 23,
+  CROSSGUARD_REASON_NOT_GUARDING = 24,
+  // The follower's task guards from a place, and it has not reported that it is there.
+  CROSSGUARD_REASON_NOT_IN_POSITION = 25,
   // The follower finished its task.
-  CROSSGUARD_REASON_COMPLETED = 24,
+  CROSSGUARD_REASON_COMPLETED = 26,
   // The robot could not do the maneuver.
-  CROSSGUARD_REASON_MANEUVER_FAILED = 25,
+  CROSSGUARD_REASON_MANEUVER_FAILED = 27,
   // The leader's execution limit `T_exec` ran out.
-  CROSSGUARD_REASON_EXECUTION_LIMIT = 26,
+  CROSSGUARD_REASON_EXECUTION_LIMIT = 28,
   // The follower fell back for lack of contact.
-  CROSSGUARD_REASON_SAFE_IDLE = 27,
+  CROSSGUARD_REASON_SAFE_IDLE = 29,
   // The message carries this robot's own station id.
-  CROSSGUARD_REASON_OWN_STATION = 28,
+  CROSSGUARD_REASON_OWN_STATION = 30,
   // The message is meant for another station.
-  CROSSGUARD_REASON_NOT_ADDRESSED = 29,
+  CROSSGUARD_REASON_NOT_ADDRESSED = 31,
   // The message names a session that this robot has no part in.
-  CROSSGUARD_REASON_OTHER_SESSION = 30,
+  CROSSGUARD_REASON_OTHER_SESSION = 32,
   // The message repeats what is known.
-  CROSSGUARD_REASON_NOTHING_NEW = 31,
+  CROSSGUARD_REASON_NOTHING_NEW = 33,
   // The heartbeat is not newer than the newest one heard.
-  CROSSGUARD_REASON_OLD_HEARTBEAT = 32,
+  CROSSGUARD_REASON_OLD_HEARTBEAT = 34,
   // The echo names a heartbeat that was never sent.
-  CROSSGUARD_REASON_ECHO_FROM_FUTURE = 33,
+  CROSSGUARD_REASON_ECHO_FROM_FUTURE = 35,
   // The command is older than the newest one of the session.
-  CROSSGUARD_REASON_OLD_COMMAND = 34,
+  CROSSGUARD_REASON_OLD_COMMAND = 36,
   // The station is not a follower in this session.
-  CROSSGUARD_REASON_NOT_A_FOLLOWER = 35,
+  CROSSGUARD_REASON_NOT_A_FOLLOWER = 37,
   // The followers are already confirmed.
-  CROSSGUARD_REASON_ROLES_ALREADY_ASSIGNED = 36,
+  CROSSGUARD_REASON_ROLES_ALREADY_ASSIGNED = 38,
   // The answer is not for the outstanding command.
-  CROSSGUARD_REASON_NOT_OUTSTANDING = 37,
-  // The request does not go before this robot's own.
-  CROSSGUARD_REASON_LOWER_PRECEDENCE = 38,
+  CROSSGUARD_REASON_NOT_OUTSTANDING = 39,
+  // The request or leader does not go before this robot's own.
+  CROSSGUARD_REASON_LOWER_PRECEDENCE = 40,
+  // The request or leader goes before, but does not count yet: it was not heard before with an older
+  // heartbeat, or another one was noted less than a period ago.
+  CROSSGUARD_REASON_FIRST_HEARD = 41,
+  // The request or leader is of another place.
+  CROSSGUARD_REASON_OTHER_PLACE = 42,
+  // The leader has yielded already.
+  CROSSGUARD_REASON_YIELDING = 43,
+  // The offer is older than the one that stands.
+  CROSSGUARD_REASON_OLD_OFFER = 44,
+  // The farewell names an older offer than the one that was confirmed.
+  CROSSGUARD_REASON_OTHER_OFFER = 45,
+  // The list names an offer that this robot never made.
+  CROSSGUARD_REASON_NEVER_OFFERED = 46,
+  // The helper's `t_safety_ms` is too short for this robot's lease.
+  CROSSGUARD_REASON_TIMERS_DO_NOT_FIT = 47,
+  // The robot has a duty on the road, of which its application has not said that it is over.
+  CROSSGUARD_REASON_ON_DUTY = 48,
+  // People may be on the road, so no guard is taken off it and no session is renewed.
+  CROSSGUARD_REASON_ROAD_OCCUPIED = 49,
+  // The identity lock or an execution limit leaves less time than `t_cross_ms`.
+  CROSSGUARD_REASON_NOT_ENOUGH_TIME = 50,
   // The robot has a part in a session already.
-  CROSSGUARD_REASON_IN_SESSION = 39,
+  CROSSGUARD_REASON_IN_SESSION = 51,
   // The robot leads no session.
-  CROSSGUARD_REASON_NOT_LEADING = 40,
+  CROSSGUARD_REASON_NOT_LEADING = 52,
   // The robot has no part in a session.
-  CROSSGUARD_REASON_NOT_IN_SESSION = 41,
+  CROSSGUARD_REASON_NOT_IN_SESSION = 53,
   // The number of followers is zero or above the limit, or no task is asked for.
-  CROSSGUARD_REASON_IMPOSSIBLE_REQUEST = 42,
+  CROSSGUARD_REASON_IMPOSSIBLE_REQUEST = 54,
   // The follower has not taken its role yet.
-  CROSSGUARD_REASON_NOT_JOINED = 43,
+  CROSSGUARD_REASON_NOT_JOINED = 55,
   // The corridor is open already.
-  CROSSGUARD_REASON_CORRIDOR_OPEN = 44,
+  CROSSGUARD_REASON_CORRIDOR_OPEN = 56,
   // The corridor is closed already.
-  CROSSGUARD_REASON_CORRIDOR_CLOSED = 45,
+  CROSSGUARD_REASON_CORRIDOR_CLOSED = 57,
   // The identity is locked.
-  CROSSGUARD_REASON_IDENTITY_LOCKED = 46,
-  // This boot's numbers for sessions and offers are used up; restart the robot.
-  CROSSGUARD_REASON_NUMBERS_EXHAUSTED = 47,
+  CROSSGUARD_REASON_IDENTITY_LOCKED = 58,
+  // This boot counter's numbers are used up; persist a larger one and tell `EpochRenewed`.
+  CROSSGUARD_REASON_NUMBERS_EXHAUSTED = 59,
   // No such timer is armed.
-  CROSSGUARD_REASON_TIMER_NOT_ARMED = 48,
+  CROSSGUARD_REASON_TIMER_NOT_ARMED = 60,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -525,7 +622,7 @@ typedef struct CrossguardSettings {
   uint32_t ram_period_ms;
   // How long a requester gathers offers, counted from the first.
   uint32_t t_select_ms;
-  // How long a helper reserves itself for one requester.
+  // How long a helper reserves itself for a requester of which it hears no newer heartbeat.
   uint32_t t_offer_ms;
   // How long a request for help stands.
   uint32_t t_help_ms;
@@ -541,6 +638,8 @@ typedef struct CrossguardSettings {
   uint32_t t_farewell_ms;
   // How long the identity may stay locked, farewells included.
   uint32_t t_lock_ms;
+  // How long a pedestrian needs to cross at most.
+  uint32_t t_cross_ms;
   // `T_exec` by task type: how long a maneuver may run.
   uint32_t t_exec_ms[CROSSGUARD_TASKS];
   // Largest error of the robot's clock rate, in parts per million.
@@ -551,12 +650,15 @@ typedef struct CrossguardSettings {
   uint16_t capabilities;
   // The maneuvers under which a pedestrian may cross.
   uint16_t guarding;
+  // The maneuvers that guard from a place: the corridor opens only once the follower has reported
+  // that it is in position.
+  uint16_t holding;
   // `CrossguardFallback` by task type.
   uint8_t fallback[CROSSGUARD_TASKS];
   // How often a leader repeats a command, 1..15.
   uint8_t n_ack;
   // Not used.
-  uint8_t reserved[3];
+  uint8_t reserved[1];
 } CrossguardSettings;
 
 // What a robot is started with.
@@ -674,6 +776,13 @@ typedef struct CrossguardEvent {
   uint32_t station;
   // Session of a maneuver.
   struct CrossguardSession session;
+  // The crossing that the help is for, as `IntersectionReferenceID` of ISO/TS 19091: road regulator in
+  // the upper 16 bits, intersection in the lower. 0 if it is not known, which may be any.
+  uint32_t place;
+  // A boot counter.
+  uint16_t boot;
+  // Not used.
+  uint8_t reserved[6];
   // Where and how.
   struct CrossguardTaskParameters parameters;
 } CrossguardEvent;
@@ -696,8 +805,10 @@ typedef struct CrossguardHeard {
   uint8_t message;
   // `CrossguardUnavailability` by its RAM.
   uint8_t unavailability;
+  // 1 where its RAM says that it still has a duty on the road.
+  uint8_t on_duty;
   // Not used.
-  uint8_t reserved[2];
+  uint8_t reserved[1];
 } CrossguardHeard;
 
 // One output; `kind` says which fields count.
@@ -734,6 +845,10 @@ typedef struct CrossguardOutput {
   uint16_t port;
   // Traffic class: 0..3 for DCC profiles DP0..DP3.
   uint16_t traffic_class;
+  // For how long from now the corridor may be shown open, in milliseconds.
+  uint32_t open_ms;
+  // Not used.
+  uint8_t reserved[4];
   // Where and how a maneuver is to be done.
   struct CrossguardTaskParameters parameters;
 } CrossguardOutput;
@@ -753,8 +868,14 @@ typedef struct CrossguardTurn {
   char *log;
   // In: octets there.
   size_t log_capacity;
-  // In: microseconds on the log's clock, which never goes back.
+  // In: microseconds on the log's clock, which never goes back. Give the reading by which the robot was
+  // told of time last: `crossguard validate` holds the log's clock against what the robot was told.
   uint64_t log_at_us;
+  // In: for how long the packet or message that is given has waited in this machine, in milliseconds;
+  // `CROSSGUARD_NONE_MS` if that is not known. One that waited for longer than `delay_max` is dropped.
+  uint32_t waited_ms;
+  // Not used.
+  uint32_t reserved;
   // Out: octets of packets.
   size_t packets_length;
   // Out: octets of log lines; each ends with a newline.
@@ -822,8 +943,10 @@ typedef struct CrossguardView {
   uint8_t is_locked;
   // 1 while it has a part in a session.
   uint8_t has_session;
-  // Leader: 1 while the pedestrian may cross.
-  uint8_t is_corridor_open;
+  // Leader: `CrossguardCorridor`.
+  uint8_t corridor;
+  // Leader: 1 once it has yielded the place to another leader.
+  uint8_t has_yielded;
   // Follower: 1 while contact with the leader is lost.
   uint8_t is_contact_lost;
   // Follower: `CrossguardProgress` of the newest accepted command.
@@ -832,6 +955,18 @@ typedef struct CrossguardView {
   uint8_t request;
   // Follower: its task type.
   uint8_t task;
+  // `CrossguardDuty`: what it still does on the road, or must find clear.
+  uint8_t duty;
+  // `requestID` of the maneuver whose fallback is its duty.
+  uint8_t duty_request;
+  // Task type of that maneuver.
+  uint8_t duty_task;
+  // Not used.
+  uint8_t reserved[1];
+  // Session of its duty.
+  struct CrossguardSession duty_session;
+  // Leader: the leader that it has yielded the place to, if `has_yielded`.
+  uint32_t yields_to;
   // Leader: how many followers there are.
   uint32_t followers_length;
   // Leader: the followers.
@@ -983,15 +1118,15 @@ CrossguardStatus crossguard_log_stop(struct CrossguardRobot *robot, struct Cross
 #endif
 CROSSGUARD_ASSERT_LEN(CrossguardRobot, 10240);
 CROSSGUARD_ASSERT_LEN(CrossguardSession, 8);
-CROSSGUARD_ASSERT_LEN(CrossguardSettings, 136);
-CROSSGUARD_ASSERT_LEN(CrossguardConfig, 192);
+CROSSGUARD_ASSERT_LEN(CrossguardSettings, 140);
+CROSSGUARD_ASSERT_LEN(CrossguardConfig, 196);
 CROSSGUARD_ASSERT_LEN(CrossguardBody, 112);
 CROSSGUARD_ASSERT_LEN(CrossguardTaskParameters, 56);
-CROSSGUARD_ASSERT_LEN(CrossguardEvent, 80);
-CROSSGUARD_ASSERT_LEN(CrossguardOutput, 96);
+CROSSGUARD_ASSERT_LEN(CrossguardEvent, 88);
+CROSSGUARD_ASSERT_LEN(CrossguardOutput, 104);
 CROSSGUARD_ASSERT_LEN(CrossguardHeard, 48);
 CROSSGUARD_ASSERT_LEN(CrossguardFollower, 12);
-CROSSGUARD_ASSERT_LEN(CrossguardView, 84);
+CROSSGUARD_ASSERT_LEN(CrossguardView, 104);
 #if UINTPTR_MAX == UINT64_MAX
-CROSSGUARD_ASSERT_LEN(CrossguardTurn, 3368);
+CROSSGUARD_ASSERT_LEN(CrossguardTurn, 3632);
 #endif

@@ -33,6 +33,7 @@ using Urgency = CrossguardUrgency;
 using Unavailability = CrossguardUnavailability;
 using Fallback = CrossguardFallback;
 using Progress = CrossguardProgress;
+using Corridor = CrossguardCorridor;
 using Message = CrossguardMessage;
 using NoticeKind = CrossguardNotice;
 using Reason = CrossguardReason;
@@ -135,9 +136,13 @@ struct Send {
 struct StartManeuver { Maneuver maneuver; TaskParameters parameters; };
 struct StopManeuver { Maneuver maneuver; Why why; };
 struct FallBack { Maneuver maneuver; Fallback policy; };
-struct CorridorOpened {};
+/// Show go for at most this long. The sign must end it by itself, without this program's help.
+struct CorridorOpened { std::chrono::milliseconds open_for; };
+/// Go on showing go, for at most this long from now.
+struct CorridorExtended { std::chrono::milliseconds open_for; };
 struct CorridorClosed { Why why; };
 struct LockIdentity { bool locked; };
+struct RenewEpoch {}; ///< persist a larger boot counter, and then tell `Event::epoch_renewed`
 struct Notice {
   NoticeKind kind;
   std::uint32_t station; ///< where it is about one
@@ -148,7 +153,7 @@ struct Notice {
 struct Ignored { Why why; };
 
 using What = std::variant<Send, StartManeuver, StopManeuver, FallBack, CorridorOpened,
-                          CorridorClosed, LockIdentity, Notice, Ignored>;
+                          CorridorExtended, CorridorClosed, LockIdentity, RenewEpoch, Notice, Ignored>;
 
 /// One output of a turn.
 class Output {
@@ -170,10 +175,12 @@ public:
     case CROSSGUARD_OUTPUT_KIND_STOP_MANEUVER: return StopManeuver{maneuver(), why()};
     case CROSSGUARD_OUTPUT_KIND_FALL_BACK:
       return FallBack{maneuver(), static_cast<Fallback>(it.policy)};
-    case CROSSGUARD_OUTPUT_KIND_CORRIDOR_OPENED: return CorridorOpened{};
+    case CROSSGUARD_OUTPUT_KIND_CORRIDOR_OPENED: return CorridorOpened{open_for()};
+    case CROSSGUARD_OUTPUT_KIND_CORRIDOR_EXTENDED: return CorridorExtended{open_for()};
     case CROSSGUARD_OUTPUT_KIND_CORRIDOR_CLOSED: return CorridorClosed{why()};
     case CROSSGUARD_OUTPUT_KIND_LOCK_IDENTITY: return LockIdentity{true};
     case CROSSGUARD_OUTPUT_KIND_UNLOCK_IDENTITY: return LockIdentity{false};
+    case CROSSGUARD_OUTPUT_KIND_RENEW_EPOCH: return RenewEpoch{};
     case CROSSGUARD_OUTPUT_KIND_NOTICE:
       return Notice{static_cast<NoticeKind>(it.notice), it.station, it.session, it.request, why()};
     default: return Ignored{why()};
@@ -193,6 +200,9 @@ private:
 
   Octets octets(std::uint32_t offset, std::uint32_t length) const {
     return {packets_ + offset, length};
+  }
+  std::chrono::milliseconds open_for() const {
+    return std::chrono::milliseconds{plain_->open_ms};
   }
   Maneuver maneuver() const {
     return {plain_->session, plain_->request, static_cast<Task>(plain_->task)};
@@ -244,6 +254,11 @@ public:
   void at(std::uint64_t timestamp_its, std::uint64_t log_us) noexcept {
     plain_.timestamp_its = timestamp_its;
     plain_.log_at_us = log_us;
+  }
+  /// For how long the next packet or message has waited in this machine; set before it is received. One that
+  /// waited for longer than `delay_max` is dropped.
+  void waited(std::chrono::milliseconds time) noexcept {
+    plain_.waited_ms = static_cast<std::uint32_t>(time.count());
   }
 
   /// Lines for `crossguard validate`, each with its newline.
@@ -299,11 +314,13 @@ private:
 class Event {
 public:
   static Event pedestrian_detected(std::uint8_t followers, std::uint16_t tasks,
-                                   Urgency urgency = CROSSGUARD_URGENCY_MEDIUM) noexcept {
+                                   Urgency urgency = CROSSGUARD_URGENCY_MEDIUM,
+                                   std::uint32_t place = 0) noexcept {
     Event event{CROSSGUARD_EVENT_KIND_PEDESTRIAN_DETECTED};
     event.plain_.followers = followers;
     event.plain_.tasks = tasks;
     event.plain_.urgency = static_cast<std::uint8_t>(urgency);
+    event.plain_.place = place;
     return event;
   }
   static Event command(std::uint32_t follower, Task task, const TaskParameters &parameters = {}) {
@@ -313,13 +330,22 @@ public:
     parameters.write(event.plain_.parameters);
     return event;
   }
+  /// Only when the body holds the place from which the maneuver guards: people step on the road by it.
+  static Event in_position(const Maneuver &maneuver) noexcept {
+    return of(CROSSGUARD_EVENT_KIND_IN_POSITION, maneuver);
+  }
   static Event completed(const Maneuver &maneuver) noexcept {
     return of(CROSSGUARD_EVENT_KIND_MANEUVER_COMPLETED, maneuver);
   }
   static Event failed(const Maneuver &maneuver) noexcept {
     return of(CROSSGUARD_EVENT_KIND_MANEUVER_FAILED, maneuver);
   }
+  /// Only when the pedestrian has crossed and nobody is on the road.
   static Event task_completed() noexcept { return Event{CROSSGUARD_EVENT_KIND_TASK_COMPLETED}; }
+  /// Only when nobody is on the road and the body has finished its fallback.
+  static Event road_clear() noexcept { return Event{CROSSGUARD_EVENT_KIND_ROAD_CLEAR}; }
+  /// No robot nearby is known that has not answered the request.
+  static Event all_answered() noexcept { return Event{CROSSGUARD_EVENT_KIND_ALL_ANSWERED}; }
   static Event leave() noexcept { return Event{CROSSGUARD_EVENT_KIND_LEAVE_REQUESTED}; }
   static Event open_corridor() noexcept { return Event{CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR}; }
   static Event close_corridor() noexcept { return Event{CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR}; }
@@ -331,6 +357,12 @@ public:
   static Event identity_changed(std::uint32_t station) noexcept {
     Event event{CROSSGUARD_EVENT_KIND_IDENTITY_CHANGED};
     event.plain_.station = station;
+    return event;
+  }
+  /// Only when this boot counter, larger than the one before, is on the disk.
+  static Event epoch_renewed(std::uint16_t boot) noexcept {
+    Event event{CROSSGUARD_EVENT_KIND_EPOCH_RENEWED};
+    event.plain_.boot = boot;
     return event;
   }
   const CrossguardEvent &plain() const noexcept { return plain_; }
@@ -409,6 +441,10 @@ public:
     const View it = view();
     return it.has_session ? std::optional<Session>{it.session} : std::nullopt;
   }
+  /// Leader: whether the pedestrian may cross, and whether the road is known to be clear.
+  Corridor corridor() const noexcept { return static_cast<Corridor>(view().corridor); }
+  /// Whether it is on duty on the road until `Event::road_clear()`, and takes part in nothing new.
+  bool is_on_duty() const noexcept { return view().duty != CROSSGUARD_DUTY_NONE; }
   /// When time must be told at the latest, if a timer is armed.
   std::optional<std::chrono::milliseconds> next_due() const noexcept {
     const View it = view();

@@ -1,13 +1,15 @@
 //! What crosses the boundary: numbers, and structs of numbers.
 //!
 //! Every pattern of bits is a value of these types, so nothing that C leaves in them can be wrong before
-//! it is looked at. Codes are octets, and their enumerations say what they mean. A quantity that is
+//! it is looked at. Codes are octets, and the enumerations of `codes` say what they mean. A quantity that is
 //! not known is NaN, a time that there is not `CROSSGUARD_NONE_MS`.
 
 use core::ffi::c_char;
 
+pub use crate::codes::*;
+
 /// The version of this interface. It grows with every change that a program must be compiled for.
-pub const CROSSGUARD_ABI_VERSION: u32 = 1;
+pub const CROSSGUARD_ABI_VERSION: u32 = 2;
 /// Eight-octet words in a `CrossguardRobot`.
 pub const CROSSGUARD_ROBOT_WORDS: usize = 1_280;
 /// How many outputs one call can have.
@@ -29,348 +31,6 @@ pub const CROSSGUARD_LOG_LEN: usize = 32_768;
 pub const CROSSGUARD_NONE_MS: u32 = 0xFFFF_FFFF;
 /// A lane that is not given.
 pub const CROSSGUARD_NO_LANE: i8 = -128;
-
-/// What became of a call.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u32)]
-pub enum CrossguardStatus {
-    /// It did what it is for.
-    Ok = 0,
-    /// A pointer that must point to something is null.
-    Null = 1,
-    /// A buffer is too short; nothing has happened.
-    ShortBuffer = 2,
-    /// Header and library are of different versions, or the robot was made by another version.
-    WrongVersion = 3,
-    /// The robot was never initialised, or its memory has been overwritten.
-    NotInitialised = 4,
-    /// The robot was finished.
-    Finished = 5,
-    /// A pointer is not aligned as its type demands.
-    Misaligned = 6,
-    /// A code is none of its enumeration, or a number is out of range; nothing has happened.
-    BadArgument = 7,
-    /// The settings break an inequality; `crossguard_config_check` says which.
-    BrokenSettings = 8,
-    /// There is no more.
-    End = 9,
-    /// The library was built without this.
-    Unsupported = 10,
-}
-
-/// The state of the paper's finite-state model.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardState {
-    /// No part in a session.
-    Idle = 0,
-    /// Asks for help, or offers it.
-    HelpRequested = 1,
-    /// Has a role; nothing is executed.
-    RoleEstablished = 2,
-    /// A maneuver is executed.
-    ManeuverExecuting = 3,
-}
-
-/// A robot's role in a session.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardRole {
-    /// No part in a session.
-    None = 0,
-    /// Asks for help.
-    Requester = 1,
-    /// Offers help.
-    Helper = 2,
-    /// Leads.
-    Leader = 3,
-    /// Follows.
-    Follower = 4,
-}
-
-/// Task types that have names; a robot may give meaning to the others, up to 15.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardTask {
-    /// Go to the place where the maneuver starts.
-    InitialPos = 0,
-    /// Escort: move along with the pedestrian.
-    Move = 1,
-    /// Hold back one direction of traffic.
-    Block = 2,
-}
-
-/// How urgent a request for help is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardUrgency {
-    /// Nobody waits at the kerb yet.
-    Low = 0,
-    /// A pedestrian waits.
-    Medium = 1,
-    /// A pedestrian who needs more help than others waits.
-    High = 2,
-    /// A pedestrian is on the road.
-    Emergency = 3,
-}
-
-/// Why a robot takes no part in coordination.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardUnavailability {
-    /// It takes part.
-    None = 0,
-    /// The battery is below the robot's limit.
-    LowBattery = 1,
-    /// A person steers the robot.
-    Teleoperated = 2,
-    /// The emergency stop is engaged.
-    EmergencyStop = 3,
-    /// A fault of the robot.
-    LocalFault = 4,
-    /// The application holds it unsafe to act.
-    NotSafe = 5,
-}
-
-/// What a follower does with a running maneuver when it loses contact with its leader.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardFallback {
-    /// Stop where it stands.
-    StopInPlace = 0,
-    /// Leave the carriageway for the safe position that the application knows.
-    GoToSafePosition = 1,
-    /// Hold the position and the traffic until the carriageway is clear, then stop.
-    HoldUntilClear = 2,
-}
-
-/// How far a command is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardProgress {
-    /// There is none, or it was not acknowledged.
-    None = 0,
-    /// It is acknowledged, and nothing is reported yet.
-    Acknowledged = 1,
-    /// The maneuver runs.
-    Executing = 2,
-    /// It was finished.
-    Completed = 3,
-    /// It ended without success.
-    Failed = 4,
-    /// It was stopped because contact with the leader was lost.
-    SafeIdle = 5,
-}
-
-/// A message of robots.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardMessage {
-    /// None.
-    None = 0,
-    /// Robot awareness message.
-    Ram = 1,
-    /// Robot maneuver coordination message.
-    Rmcm = 2,
-}
-
-/// What happened in the robot itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardEventKind {
-    /// A pedestrian needs help that takes more robots than this one: `urgency`, `followers`, `tasks`.
-    PedestrianDetected = 0,
-    /// The leader's application wants a follower to do a maneuver: `station`, `task`, `parameters`.
-    CommandManeuver = 1,
-    /// The maneuver that was started has been finished: `session`, `request`.
-    ManeuverCompleted = 2,
-    /// The maneuver that was started cannot be finished: `session`, `request`.
-    ManeuverFailed = 3,
-    /// The pedestrian has crossed; the session may end.
-    TaskCompleted = 4,
-    /// The robot wants to leave whatever session it is in.
-    LeaveRequested = 5,
-    /// The robot became available or unavailable: `unavailability`.
-    AvailabilityChanged = 6,
-    /// The leader's application wants to let the pedestrian cross.
-    OpenCorridor = 7,
-    /// The leader's application wants to hold the pedestrian back again.
-    CloseCorridor = 8,
-    /// The robot has changed its pseudonym: `station`. Only while the identity is not locked.
-    IdentityChanged = 9,
-}
-
-/// What the robot is to do.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardOutputKind {
-    /// Send a packet: `message`, and where packet and message are among the packets of the turn.
-    Send = 0,
-    /// Start a maneuver: `session`, `request`, `task`, `parameters`.
-    StartManeuver = 1,
-    /// Stop a maneuver: `session`, `request`, `task`, `reason`.
-    StopManeuver = 2,
-    /// Stop a maneuver because contact with the leader is lost: as before, and `policy`.
-    FallBack = 3,
-    /// The pedestrian may cross from now on.
-    CorridorOpened = 4,
-    /// The pedestrian may not cross from now on: `reason`, and `station` where it is about one.
-    CorridorClosed = 5,
-    /// Keep station id, certificate and link address from now on.
-    LockIdentity = 6,
-    /// Station id, certificate and link address may change again.
-    UnlockIdentity = 7,
-    /// Know this: `notice`, and what that says.
-    Notice = 8,
-    /// Know that what was told or heard changed nothing: `reason`, and `station` where it is about one.
-    Ignored = 9,
-}
-
-/// News for the application. In parentheses is which fields of the output are set besides.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardNotice {
-    /// None.
-    None = 0,
-    /// Leader: the followers are confirmed (`session`).
-    RolesEstablished = 1,
-    /// Leader: a follower has taken its role (`station`).
-    FollowerJoined = 2,
-    /// Leader: a follower has no part in the session any more (`station`, `reason`).
-    FollowerGone = 3,
-    /// Leader: the lease on a follower stands (`station`).
-    LeaseGranted = 4,
-    /// Leader: the lease on a follower has run out (`station`).
-    LeaseExpired = 5,
-    /// Leader: a command was acknowledged (`station`, `session`, `request`).
-    CommandAcknowledged = 6,
-    /// Leader: a command was rejected (`station`, `session`, `request`, `reason`).
-    CommandRejected = 7,
-    /// Leader: a follower reports that it executes a command (`station`, `session`, `request`).
-    ManeuverReported = 8,
-    /// Leader: a follower finished a command (`station`, `session`, `request`).
-    ManeuverCompleted = 9,
-    /// Leader: a command failed (`station`, `session`, `request`, `reason`).
-    ManeuverFailed = 10,
-    /// Leader: a follower fell back (`station`, `session`, `request`).
-    FollowerSafeIdle = 11,
-    /// Requester or leader: the session is over (`session`, `reason`, `station` if withdrawn for one).
-    SessionEnded = 12,
-    /// Helper: offers to take part in a session (`session`).
-    Offering = 13,
-    /// Follower: takes part in a session (`session`).
-    Joined = 14,
-    /// Helper or follower: has no part in a session any more (`session`, `reason`).
-    Released = 15,
-    /// Follower: contact with the leader is lost (`session`).
-    ContactLost = 16,
-    /// Follower: contact with the leader is back (`session`).
-    ContactRegained = 17,
-}
-
-/// Why something is as it is. With `Unavailable`, the output's `unavailability` says more.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardReason {
-    /// None is given.
-    None = 0,
-    /// A newer command takes its place.
-    Superseded = 1,
-    /// The session ended.
-    SessionEnded = 2,
-    /// The leader does not list this robot.
-    NotListed = 3,
-    /// `T_offer` ran out.
-    ReservationExpired = 4,
-    /// `T_leave` ran out without contact.
-    ContactLost = 5,
-    /// The application asked to leave.
-    LeaveRequested = 6,
-    /// The robot that it is about is unavailable.
-    Unavailable = 7,
-    /// The identity must be unlocked before anything else.
-    IdentityLockLimit = 8,
-    /// The application said that the task is done.
-    TaskCompleted = 9,
-    /// `T_help` ran out before enough helpers were found.
-    NoHelp = 10,
-    /// The request of `station` goes before.
-    Withdrawn = 11,
-    /// No follower is left.
-    NoFollowers = 12,
-    /// The request numbers are used up; a new session follows at once.
-    Renewed = 13,
-    /// The follower named the session as left.
-    Left = 14,
-    /// The follower did not acknowledge a command, however often it was repeated.
-    NoAcknowledgement = 15,
-    /// The follower was without a lease for too long.
-    NoContact = 16,
-    /// The robot cannot do such a task.
-    UnsupportedTask = 17,
-    /// Fewer followers are left than the task requires.
-    FollowerMissing = 18,
-    /// The application asked for it.
-    Application = 19,
-    /// The leader has no lease on the follower.
-    NoLease = 20,
-    /// The follower has a command that it has not acknowledged.
-    CommandOutstanding = 21,
-    /// The robot executes no such maneuver, or has not reported that it does.
-    NotExecuting = 22,
-    /// The follower's task does not guard a pedestrian.
-    NotGuarding = 23,
-    /// The follower finished its task.
-    Completed = 24,
-    /// The robot could not do the maneuver.
-    ManeuverFailed = 25,
-    /// The leader's execution limit `T_exec` ran out.
-    ExecutionLimit = 26,
-    /// The follower fell back for lack of contact.
-    SafeIdle = 27,
-    /// The message carries this robot's own station id.
-    OwnStation = 28,
-    /// The message is meant for another station.
-    NotAddressed = 29,
-    /// The message names a session that this robot has no part in.
-    OtherSession = 30,
-    /// The message repeats what is known.
-    NothingNew = 31,
-    /// The heartbeat is not newer than the newest one heard.
-    OldHeartbeat = 32,
-    /// The echo names a heartbeat that was never sent.
-    EchoFromFuture = 33,
-    /// The command is older than the newest one of the session.
-    OldCommand = 34,
-    /// The station is not a follower in this session.
-    NotAFollower = 35,
-    /// The followers are already confirmed.
-    RolesAlreadyAssigned = 36,
-    /// The answer is not for the outstanding command.
-    NotOutstanding = 37,
-    /// The request does not go before this robot's own.
-    LowerPrecedence = 38,
-    /// The robot has a part in a session already.
-    InSession = 39,
-    /// The robot leads no session.
-    NotLeading = 40,
-    /// The robot has no part in a session.
-    NotInSession = 41,
-    /// The number of followers is zero or above the limit, or no task is asked for.
-    ImpossibleRequest = 42,
-    /// The follower has not taken its role yet.
-    NotJoined = 43,
-    /// The corridor is open already.
-    CorridorOpen = 44,
-    /// The corridor is closed already.
-    CorridorClosed = 45,
-    /// The identity is locked.
-    IdentityLocked = 46,
-    /// This boot's numbers for sessions and offers are used up; restart the robot.
-    NumbersExhausted = 47,
-    /// No such timer is armed.
-    TimerNotArmed = 48,
-}
 
 /// The memory of one robot. It is the caller's, may be copied and moved, and holds no address; what is in it is
 /// the library's. Robots in different memory may be used from different threads at the same time.
@@ -398,7 +58,7 @@ pub struct CrossguardSettings {
     pub ram_period_ms: u32,
     /// How long a requester gathers offers, counted from the first.
     pub t_select_ms: u32,
-    /// How long a helper reserves itself for one requester.
+    /// How long a helper reserves itself for a requester of which it hears no newer heartbeat.
     pub t_offer_ms: u32,
     /// How long a request for help stands.
     pub t_help_ms: u32,
@@ -414,6 +74,8 @@ pub struct CrossguardSettings {
     pub t_farewell_ms: u32,
     /// How long the identity may stay locked, farewells included.
     pub t_lock_ms: u32,
+    /// How long a pedestrian needs to cross at most.
+    pub t_cross_ms: u32,
     /// `T_exec` by task type: how long a maneuver may run.
     pub t_exec_ms: [u32; CROSSGUARD_TASKS],
     /// Largest error of the robot's clock rate, in parts per million.
@@ -424,12 +86,15 @@ pub struct CrossguardSettings {
     pub capabilities: u16,
     /// The maneuvers under which a pedestrian may cross.
     pub guarding: u16,
+    /// The maneuvers that guard from a place: the corridor opens only once the follower has reported
+    /// that it is in position.
+    pub holding: u16,
     /// `CrossguardFallback` by task type.
     pub fallback: [u8; CROSSGUARD_TASKS],
     /// How often a leader repeats a command, 1..15.
     pub n_ack: u8,
     /// Not used.
-    pub reserved: [u8; 3],
+    pub reserved: [u8; 1],
 }
 
 /// The identifiers of one message, which no standard has assigned.
@@ -561,6 +226,13 @@ pub struct CrossguardEvent {
     pub station: u32,
     /// Session of a maneuver.
     pub session: CrossguardSession,
+    /// The crossing that the help is for, as `IntersectionReferenceID` of ISO/TS 19091: road regulator in
+    /// the upper 16 bits, intersection in the lower. 0 if it is not known, which may be any.
+    pub place: u32,
+    /// A boot counter.
+    pub boot: u16,
+    /// Not used.
+    pub reserved: [u8; 6],
     /// Where and how.
     pub parameters: CrossguardTaskParameters,
 }
@@ -601,6 +273,10 @@ pub struct CrossguardOutput {
     pub port: u16,
     /// Traffic class: 0..3 for DCC profiles DP0..DP3.
     pub traffic_class: u16,
+    /// For how long from now the corridor may be shown open, in milliseconds.
+    pub open_ms: u32,
+    /// Not used.
+    pub reserved: [u8; 4],
     /// Where and how a maneuver is to be done.
     pub parameters: CrossguardTaskParameters,
 }
@@ -625,8 +301,10 @@ pub struct CrossguardHeard {
     pub message: u8,
     /// `CrossguardUnavailability` by its RAM.
     pub unavailability: u8,
+    /// 1 where its RAM says that it still has a duty on the road.
+    pub on_duty: u8,
     /// Not used.
-    pub reserved: [u8; 2],
+    pub reserved: [u8; 1],
 }
 
 /// What a call works with: what the caller gives, and what the library gives back. Buffers are the
@@ -646,8 +324,14 @@ pub struct CrossguardTurn {
     pub log: *mut c_char,
     /// In: octets there.
     pub log_capacity: usize,
-    /// In: microseconds on the log's clock, which never goes back.
+    /// In: microseconds on the log's clock, which never goes back. Give the reading by which the robot was
+    /// told of time last: `crossguard validate` holds the log's clock against what the robot was told.
     pub log_at_us: u64,
+    /// In: for how long the packet or message that is given has waited in this machine, in milliseconds;
+    /// `CROSSGUARD_NONE_MS` if that is not known. One that waited for longer than `delay_max` is dropped.
+    pub waited_ms: u32,
+    /// Not used.
+    pub reserved: u32,
     /// Out: octets of packets.
     pub packets_length: usize,
     /// Out: octets of log lines; each ends with a newline.
@@ -712,8 +396,10 @@ pub struct CrossguardView {
     pub is_locked: u8,
     /// 1 while it has a part in a session.
     pub has_session: u8,
-    /// Leader: 1 while the pedestrian may cross.
-    pub is_corridor_open: u8,
+    /// Leader: `CrossguardCorridor`.
+    pub corridor: u8,
+    /// Leader: 1 once it has yielded the place to another leader.
+    pub has_yielded: u8,
     /// Follower: 1 while contact with the leader is lost.
     pub is_contact_lost: u8,
     /// Follower: `CrossguardProgress` of the newest accepted command.
@@ -722,6 +408,18 @@ pub struct CrossguardView {
     pub request: u8,
     /// Follower: its task type.
     pub task: u8,
+    /// `CrossguardDuty`: what it still does on the road, or must find clear.
+    pub duty: u8,
+    /// `requestID` of the maneuver whose fallback is its duty.
+    pub duty_request: u8,
+    /// Task type of that maneuver.
+    pub duty_task: u8,
+    /// Not used.
+    pub reserved: [u8; 1],
+    /// Session of its duty.
+    pub duty_session: CrossguardSession,
+    /// Leader: the leader that it has yielded the place to, if `has_yielded`.
+    pub yields_to: u32,
     /// Leader: how many followers there are.
     pub followers_length: u32,
     /// Leader: the followers.

@@ -29,7 +29,8 @@ pub(crate) const NOBODY: CrossguardHeard = CrossguardHeard {
     station: 0,
     message: 0,
     unavailability: 0,
-    reserved: [0; 2],
+    on_duty: 0,
+    reserved: [0; 1],
 };
 
 impl CrossguardHeard {
@@ -47,6 +48,10 @@ impl CrossguardHeard {
             Input::Ram { distance, .. } if *distance != Decimetres::UNKNOWN => Some(distance),
             _ => None,
         });
+        let on_duty = heard.inputs.iter().any(|input| match input {
+            Input::Ram { ram, .. } => ram.on_duty,
+            _ => false,
+        });
         Self {
             latitude_deg: or_nan(sender.position.latitude),
             longitude_deg: or_nan(sender.position.longitude),
@@ -59,7 +64,8 @@ impl CrossguardHeard {
                 Some(Availability::Unavailable(why)) => Some(why),
                 Some(Availability::Available) | None => None,
             }),
-            reserved: [0; 2],
+            on_duty: on_duty.into(),
+            reserved: [0; 1],
         }
     }
 }

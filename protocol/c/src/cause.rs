@@ -15,6 +15,8 @@ pub(crate) enum Cause {
     Rejected(&'static str),
     /// A message that this station has no use for.
     NoUse(Service),
+    /// It waited for longer than `delay_max` before it was given.
+    WaitedTooLong,
     /// Octets are not a message.
     Undecodable(&'static str),
     /// A message contradicts itself.
@@ -65,6 +67,7 @@ impl Display for Cause {
             Self::Discarded(why) => write!(f, "packet: {why}"),
             Self::Rejected(why) => write!(f, "security: {why}"),
             Self::NoUse(service) => write!(f, "no use for: {}", service.name()),
+            Self::WaitedTooLong => f.write_str("waited too long"),
             Self::Undecodable(why) => write!(f, "undecodable: {why}"),
             Self::Contradictory(why) => write!(f, "contradictory: {why}"),
             Self::Ignored(Ignored::NotEngaged(..)) => f.write_str("ignored: not engaged"),
@@ -76,7 +79,7 @@ impl Display for Cause {
 }
 
 /// More causes than there are.
-const CAUSES: usize = 80;
+const CAUSES: usize = 96;
 
 /// How often each cause occurred.
 #[derive(Clone)]

@@ -5,7 +5,7 @@ use core::ffi::c_char;
 use crossguard_codec::{Identifiers, MessageIdentifiers};
 use crossguard_protocol::{
     Availability, BrokenInequality, Config, Event, FallbackPolicy, HelpRequest, ManeuverId, Millis,
-    RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, Urgency,
+    Place, RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, Urgency,
 };
 
 use crate::abi::{
@@ -57,14 +57,16 @@ impl From<&Settings> for CrossguardSettings {
             t_leave_ms: settings.t_leave.0,
             t_farewell_ms: settings.t_farewell.0,
             t_lock_ms: settings.t_lock.0,
+            t_cross_ms: settings.t_cross.0,
             t_exec_ms: settings.t_exec.map(|time| time.0),
             drift_ppm: settings.drift_ppm,
             delay_max_ms: settings.delay_max.0,
             capabilities: settings.capabilities.0,
             guarding: settings.guarding.0,
+            holding: settings.holding.0,
             fallback,
             n_ack: settings.n_ack,
-            reserved: [0; 3],
+            reserved: [0; 1],
         }
     }
 }
@@ -87,11 +89,13 @@ impl CrossguardSettings {
             t_leave: Millis(self.t_leave_ms),
             t_farewell: Millis(self.t_farewell_ms),
             t_lock: Millis(self.t_lock_ms),
+            t_cross: Millis(self.t_cross_ms),
             t_exec: self.t_exec_ms.map(Millis),
             drift_ppm: self.drift_ppm,
             delay_max: Millis(self.delay_max_ms),
             capabilities: TaskSet(self.capabilities),
             guarding: TaskSet(self.guarding),
+            holding: TaskSet(self.holding),
             fallback,
             ..Settings::default()
         })
@@ -216,19 +220,24 @@ impl CrossguardEvent {
                 urgency: urgency(self.urgency)?,
                 followers: self.followers,
                 tasks: TaskSet(self.tasks),
+                place: Place(self.place),
             }),
             1 => Event::CommandManeuver {
                 follower: StationId(self.station),
                 task: TaskType::new(self.task)?,
             },
-            2 => Event::ManeuverCompleted(id),
-            3 => Event::ManeuverFailed(id),
-            4 => Event::TaskCompleted,
-            5 => Event::LeaveRequested,
-            6 => Event::AvailabilityChanged(availability(self.unavailability)?),
-            7 => Event::OpenCorridor,
-            8 => Event::CloseCorridor,
-            9 => Event::IdentityChanged(StationId(self.station)),
+            2 => Event::InPosition(id),
+            3 => Event::ManeuverCompleted(id),
+            4 => Event::ManeuverFailed(id),
+            5 => Event::TaskCompleted,
+            6 => Event::RoadClear,
+            7 => Event::AllAnswered,
+            8 => Event::LeaveRequested,
+            9 => Event::AvailabilityChanged(availability(self.unavailability)?),
+            10 => Event::OpenCorridor,
+            11 => Event::CloseCorridor,
+            12 => Event::IdentityChanged(StationId(self.station)),
+            13 => Event::EpochRenewed(self.boot),
             _ => return None,
         })
     }

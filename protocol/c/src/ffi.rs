@@ -14,8 +14,9 @@ use core::mem::{MaybeUninit, align_of, offset_of, size_of};
 use core::{ptr, slice};
 
 use crate::abi::{
-    CROSSGUARD_ABI_VERSION, CROSSGUARD_PACKETS_LEN, CrossguardBody, CrossguardConfig,
-    CrossguardEvent, CrossguardRobot, CrossguardStatus, CrossguardTurn, CrossguardView,
+    CROSSGUARD_ABI_VERSION, CROSSGUARD_NONE_MS, CROSSGUARD_PACKETS_LEN, CrossguardBody,
+    CrossguardConfig, CrossguardEvent, CrossguardRobot, CrossguardStatus, CrossguardTurn,
+    CrossguardView,
 };
 use crate::body::NOBODY;
 use crate::cause::Text;
@@ -292,6 +293,9 @@ pub unsafe extern "C" fn crossguard_event_init(
         unavailability: 0,
         station: 0,
         session: crate::abi::CrossguardSession::default(),
+        place: 0,
+        boot: 0,
+        reserved: [0; 6],
         parameters: OPEN,
     };
     // SAFETY: the contract of the pointer.
@@ -321,6 +325,7 @@ pub unsafe extern "C" fn crossguard_turn_init(
     turn.packets_capacity = packets_capacity;
     turn.log = log;
     turn.log_capacity = log_capacity;
+    turn.waited_ms = CROSSGUARD_NONE_MS;
     turn.body = CrossguardBody::UNKNOWN;
     turn.heard = NOBODY;
     CrossguardStatus::Ok
@@ -475,7 +480,7 @@ pub unsafe extern "C" fn crossguard_receive_message(
         Err(status) => return status,
     };
     let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        live.hear(message, None, turn);
+        live.hear(message, turn);
         CrossguardStatus::Ok
     };
     // SAFETY: the contracts of the pointers.

@@ -34,7 +34,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | `abi` | the types and constants of the header |
+//! | `abi`, `codes` | the types and constants of the header |
 //! | `ffi` | the functions; the only `unsafe` |
 //! | `live` | a robot: state machine, codec stack, log |
 //! | `config`, `body`, `output`, `view`, `why`, `cause` | Rust's types as plain numbers, and back |
@@ -53,6 +53,7 @@ extern crate std;
 mod abi;
 mod body;
 mod cause;
+mod codes;
 mod config;
 mod ffi;
 mod live;

@@ -21,8 +21,8 @@ use crossguard_protocol::{
 };
 
 use crate::abi::{
-    CROSSGUARD_FOLLOWERS_MAX, CROSSGUARD_OUTPUTS_MAX, CROSSGUARD_PACKETS_LEN, CrossguardHeard,
-    CrossguardMessage, CrossguardOutput, CrossguardOutputKind, CrossguardTurn,
+    CROSSGUARD_FOLLOWERS_MAX, CROSSGUARD_NONE_MS, CROSSGUARD_OUTPUTS_MAX, CROSSGUARD_PACKETS_LEN,
+    CrossguardHeard, CrossguardMessage, CrossguardOutput, CrossguardOutputKind, CrossguardTurn,
 };
 use crate::cause::{Cause, Counters, Text};
 use crate::config::{Checked, Name};
@@ -177,15 +177,18 @@ impl Live {
             .unwrap_or_default()
     }
 
-    /// Takes a packet in.
+    /// Takes a packet in, if it has not waited for too long.
     pub(crate) fn receive(&mut self, packet: &[u8], turn: &mut Turn<'_>) {
+        if self.has_waited_too_long(packet, turn) {
+            return;
+        }
         let indication = match self.stack.receive(&turn.ego(), packet) {
             Ok(indication) => indication,
             Err(discarded) => return self.drop(turn, discarded.into(), &discarded, packet),
         };
         match indication.service {
             Service::Ram | Service::Rmcm => {
-                self.hear(indication.message, Some(indication.service), turn);
+                self.understand(indication.message, Some(indication.service), turn);
             }
             other => self.drop(
                 turn,
@@ -196,8 +199,28 @@ impl Live {
         }
     }
 
+    /// Takes a message in, if it has not waited for too long.
+    pub(crate) fn hear(&mut self, octets: &[u8], turn: &mut Turn<'_>) {
+        if !self.has_waited_too_long(octets, turn) {
+            self.understand(octets, None, turn);
+        }
+    }
+
+    /// Drops what has waited for longer than the timers allow.
+    fn has_waited_too_long(&mut self, octets: &[u8], turn: &mut Turn<'_>) -> bool {
+        let delay_max_ms = self.config.settings().delay_max.0;
+        match waited_ms(turn) {
+            Some(waited_ms) if waited_ms > delay_max_ms => {
+                let detail = format_args!("for {waited_ms} ms; delay_max is {delay_max_ms} ms");
+                self.drop(turn, Cause::WaitedTooLong, &detail, octets);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// Takes a message in, which came by `service` if that is known.
-    pub(crate) fn hear(&mut self, octets: &[u8], service: Option<Service>, turn: &mut Turn<'_>) {
+    fn understand(&mut self, octets: &[u8], service: Option<Service>, turn: &mut Turn<'_>) {
         let me = self.robot.station();
         let heard = match Heard::of(&self.identifiers, me, &turn.state.position, octets) {
             Ok(heard) => heard,
@@ -213,6 +236,7 @@ impl Live {
             &Entry::Heard {
                 message: heard.service,
                 from: heard.from,
+                waited_ms: waited_ms(turn),
                 octets,
             },
         );
@@ -400,6 +424,14 @@ impl Live {
             .lines
             .write(turn.plain.log_at_us, self.name.as_str(), &entry);
         self.count_lost(lost);
+    }
+}
+
+/// For how long what is given has waited, where the caller knows.
+const fn waited_ms(turn: &Turn<'_>) -> Option<u32> {
+    match turn.plain.waited_ms {
+        CROSSGUARD_NONE_MS => None,
+        waited_ms => Some(waited_ms),
     }
 }
 

@@ -34,6 +34,8 @@ const NOTHING: CrossguardOutput = CrossguardOutput {
     message_length: 0,
     port: 0,
     traffic_class: 0,
+    open_ms: 0,
+    reserved: [0; 4],
     parameters: OPEN,
 };
 
@@ -98,6 +100,13 @@ impl CrossguardOutput {
         }
     }
 
+    const fn open_for(self, left: Millis) -> Self {
+        Self {
+            open_ms: left.0,
+            ..self
+        }
+    }
+
     fn at(self, station: StationId) -> Self {
         Self {
             station: station.0,
@@ -121,10 +130,12 @@ impl CrossguardOutput {
                 policy: policy_code(policy),
                 ..Self::of(Kind::FallBack).maneuver(maneuver)
             },
-            Output::CorridorOpened => Self::of(Kind::CorridorOpened),
+            Output::CorridorOpened(left) => Self::of(Kind::CorridorOpened).open_for(left),
+            Output::CorridorExtended(left) => Self::of(Kind::CorridorExtended).open_for(left),
             Output::CorridorClosed(why) => Self::of(Kind::CorridorClosed).because(why),
             Output::LockIdentity => Self::of(Kind::LockIdentity),
             Output::UnlockIdentity => Self::of(Kind::UnlockIdentity),
+            Output::RenewEpoch => Self::of(Kind::RenewEpoch),
             Output::Notify(notice) => Self::notice(notice),
             Output::Ignored(why) => Self::of(Kind::Ignored).because(why),
         })
@@ -148,6 +159,9 @@ impl CrossguardOutput {
             Notice::ManeuverReported(station, id) => {
                 news(Code::ManeuverReported).at(station).about(id)
             }
+            Notice::ManeuverInPosition(station, id) => {
+                news(Code::ManeuverInPosition).at(station).about(id)
+            }
             Notice::ManeuverCompleted(station, id) => {
                 news(Code::ManeuverCompleted).at(station).about(id)
             }
@@ -158,6 +172,8 @@ impl CrossguardOutput {
             Notice::FollowerSafeIdle(station, id) => {
                 news(Code::FollowerSafeIdle).at(station).about(id)
             }
+            Notice::OfferLapsed(station) => news(Code::OfferLapsed).at(station),
+            Notice::Yielded(station) => news(Code::Yielded).at(station),
             Notice::SessionEnded(session, why) => {
                 news(Code::SessionEnded).in_session(session).because(why)
             }
@@ -175,6 +191,7 @@ pub(crate) const fn policy_code(policy: FallbackPolicy) -> u8 {
     let code = match policy {
         FallbackPolicy::StopInPlace => CrossguardFallback::StopInPlace,
         FallbackPolicy::GoToSafePosition => CrossguardFallback::GoToSafePosition,
+        FallbackPolicy::EscortToKerb => CrossguardFallback::EscortToKerb,
         FallbackPolicy::HoldUntilClear => CrossguardFallback::HoldUntilClear,
     };
     code as u8
@@ -185,7 +202,8 @@ pub(crate) const fn policy(code: u8) -> Option<FallbackPolicy> {
     Some(match code {
         0 => FallbackPolicy::StopInPlace,
         1 => FallbackPolicy::GoToSafePosition,
-        2 => FallbackPolicy::HoldUntilClear,
+        2 => FallbackPolicy::EscortToKerb,
+        3 => FallbackPolicy::HoldUntilClear,
         _ => return None,
     })
 }

@@ -31,6 +31,8 @@ pub(crate) enum Entry<'a> {
     Heard {
         message: Service,
         from: StationId,
+        /// For how long it waited, in ms, where that is known.
+        waited_ms: Option<u32>,
         octets: &'a [u8],
     },
     Dropped {
@@ -168,11 +170,19 @@ mod json {
                 Entry::Heard {
                     message,
                     from,
+                    waited_ms,
                     octets,
                 } => {
                     map.serialize_entry("entry", "heard")?;
                     map.serialize_entry("message", &message)?;
                     map.serialize_entry("from", &from)?;
+                    if let Some(waited_ms) = waited_ms {
+                        let reception = Reception {
+                            arrived_us: self.at_us.saturating_sub(u64::from(waited_ms) * 1_000),
+                            told_us: self.at_us,
+                        };
+                        map.serialize_entry("reception", &reception)?;
+                    }
                     map.serialize_entry("octets", &Displayed(&Hex(octets)))?;
                 }
                 Entry::Dropped {
@@ -192,6 +202,14 @@ mod json {
             }
             map.end()
         }
+    }
+
+    /// When a message came in, in microseconds on the log's clock.
+    #[derive(Serialize)]
+    #[serde(rename_all = "camelCase")]
+    struct Reception {
+        arrived_us: u64,
+        told_us: u64,
     }
 
     /// A value as the text that it displays as.

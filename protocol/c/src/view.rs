@@ -1,12 +1,13 @@
 //! What a robot is doing, as plain numbers.
 
 use crossguard_protocol::{
-    Availability, Identity, Lease, Member, Order, Phase, Progress, Robot, Role, State,
+    Availability, Corridor, Duty, Identity, Lease, Maneuver, Member, Order, Phase, Progress, Robot,
+    Role, State,
 };
 
 use crate::abi::{
-    CROSSGUARD_NONE_MS, CrossguardFollower, CrossguardProgress, CrossguardRole, CrossguardState,
-    CrossguardView,
+    CROSSGUARD_NONE_MS, CrossguardCorridor, CrossguardDuty, CrossguardFollower, CrossguardProgress,
+    CrossguardRole, CrossguardState, CrossguardView,
 };
 use crate::why::unavailability;
 
@@ -31,7 +32,9 @@ impl CrossguardView {
         };
         match robot.phase() {
             Phase::Leading(leading) => {
-                view.is_corridor_open = leading.corridor_open.into();
+                view.corridor = corridor(leading.corridor);
+                view.has_yielded = leading.yields_to.is_some().into();
+                view.yields_to = leading.yields_to.map_or(0, |station| station.0);
                 for (slot, member) in view.followers.iter_mut().zip(leading.members.iter()) {
                     *slot = follower(member);
                     view.followers_length += 1;
@@ -46,6 +49,19 @@ impl CrossguardView {
                 }
             }
             Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => {}
+        }
+        match robot.duty() {
+            None => {}
+            Some(Duty::FallingBack(Maneuver { id, task })) => {
+                view.duty = CrossguardDuty::FallingBack as u8;
+                view.duty_session = id.session.into();
+                view.duty_request = id.request.0;
+                view.duty_task = task.value();
+            }
+            Some(Duty::Crossing(session)) => {
+                view.duty = CrossguardDuty::Crossing as u8;
+                view.duty_session = session.into();
+            }
         }
         view
     }
@@ -72,9 +88,19 @@ const fn role(role: Role) -> u8 {
     code as u8
 }
 
+const fn corridor(corridor: Corridor) -> u8 {
+    let code = match corridor {
+        Corridor::Clear => CrossguardCorridor::Clear,
+        Corridor::Open => CrossguardCorridor::Open,
+        Corridor::Clearing => CrossguardCorridor::Clearing,
+    };
+    code as u8
+}
+
 const fn progress(progress: Progress) -> CrossguardProgress {
     match progress {
         Progress::Executing => CrossguardProgress::Executing,
+        Progress::InPosition => CrossguardProgress::InPosition,
         Progress::Completed => CrossguardProgress::Completed,
         Progress::Failed(_) => CrossguardProgress::Failed,
         Progress::SafeIdle => CrossguardProgress::SafeIdle,

@@ -66,6 +66,7 @@ impl From<StopReason> for Why {
 impl From<ReleaseReason> for Why {
     fn from(why: ReleaseReason) -> Self {
         Self::of(match why {
+            ReleaseReason::TaskCompleted => Reason::TaskCompleted,
             ReleaseReason::SessionEnded => Reason::SessionEnded,
             ReleaseReason::NotListed => Reason::NotListed,
             ReleaseReason::ReservationExpired => Reason::ReservationExpired,
@@ -107,6 +108,7 @@ impl From<Rejection> for Why {
         match why {
             Rejection::UnsupportedTask => Self::of(Reason::UnsupportedTask),
             Rejection::Unavailable(why) => Self::unavailable(why),
+            Rejection::OnDuty => Self::of(Reason::OnDuty),
         }
     }
 }
@@ -128,6 +130,7 @@ impl From<Disengagement> for Why {
             Disengagement::CommandOutstanding => Reason::CommandOutstanding,
             Disengagement::NotExecuting => Reason::NotExecuting,
             Disengagement::NotGuarding => Reason::NotGuarding,
+            Disengagement::NotInPosition => Reason::NotInPosition,
             Disengagement::Completed => Reason::Completed,
             Disengagement::Failed(why) => return why.into(),
             Disengagement::SafeIdle => Reason::SafeIdle,
@@ -141,6 +144,7 @@ impl From<CorridorClosure> for Why {
             CorridorClosure::NotEngaged(station, why) => return Self::from(why).about(station),
             CorridorClosure::FollowerMissing => Reason::FollowerMissing,
             CorridorClosure::SessionEnded => Reason::SessionEnded,
+            CorridorClosure::Yielded(station) => return Self::of(Reason::Yielded).about(station),
             CorridorClosure::Application => Reason::Application,
         })
     }
@@ -160,6 +164,16 @@ impl From<Ignored> for Why {
             Ignored::RolesAlreadyAssigned => Reason::RolesAlreadyAssigned,
             Ignored::NotOutstanding => Reason::NotOutstanding,
             Ignored::LowerPrecedence => Reason::LowerPrecedence,
+            Ignored::FirstHeard => Reason::FirstHeard,
+            Ignored::OtherPlace => Reason::OtherPlace,
+            Ignored::Yielding => Reason::Yielding,
+            Ignored::OldOffer => Reason::OldOffer,
+            Ignored::OtherOffer => Reason::OtherOffer,
+            Ignored::NeverOffered => Reason::NeverOffered,
+            Ignored::TimersDoNotFit => Reason::TimersDoNotFit,
+            Ignored::OnDuty => Reason::OnDuty,
+            Ignored::RoadOccupied => Reason::RoadOccupied,
+            Ignored::NotEnoughTime => Reason::NotEnoughTime,
             Ignored::InSession => Reason::InSession,
             Ignored::NotLeading => Reason::NotLeading,
             Ignored::NotInSession => Reason::NotInSession,

@@ -9,6 +9,7 @@ fn the_header_is_current() {
     let mut generated = Vec::new();
     cbindgen::Builder::new()
         .with_config(config)
+        .with_src(crate_folder.join("src/codes.rs"))
         .with_src(crate_folder.join("src/abi.rs"))
         .with_src(crate_folder.join("src/ffi.rs"))
         .generate()

@@ -15,12 +15,17 @@ struct Legs {
   void stop();
   void fall_back(crossguard::Fallback policy);
 };
+struct Board {
+  void go_for(std::chrono::milliseconds at_most);
+  void stop();
+};
 struct Gps {
   double latitude() const;
 };
 
 extern Link radio;
 extern Legs body;
+extern Board sign;
 extern Gps gps;
 extern std::ostream &journal;
 

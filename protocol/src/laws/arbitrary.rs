@@ -15,7 +15,7 @@ use crate::id::{
 };
 use crate::list::List;
 use crate::task::{
-    Availability, FallbackPolicy, HelpRequest, TaskSet, TaskType, Unavailability, Urgency,
+    Availability, FallbackPolicy, HelpRequest, Place, TaskSet, TaskType, Unavailability, Urgency,
 };
 use crate::time::Millis;
 
@@ -31,6 +31,10 @@ pub const PEER: u32 = 2;
 const BOOT: u16 = 1;
 /// The heartbeat that hints give.
 const HEARTBEAT: u16 = 3;
+/// One that was heard before.
+const EARLIER: u16 = HEARTBEAT - 1;
+/// The place that hints give.
+const PLACE: u32 = 7;
 /// The request number that hints give.
 const REQUEST: u8 = 1;
 
@@ -40,7 +44,7 @@ const REQUEST: u8 = 1;
 /// `None` where a number is out of its range.
 pub fn config(source: &mut impl Source) -> Option<Config> {
     let hints = Settings::default();
-    let mut time = |hint: Millis| Millis(source.number(u32::MAX, hint.0));
+    let mut time = |hint: Millis| self::time(source, hint);
     let settings = Settings {
         ram_period: time(hints.ram_period),
         t_select: time(hints.t_select),
@@ -52,12 +56,14 @@ pub fn config(source: &mut impl Source) -> Option<Config> {
         t_leave: time(hints.t_leave),
         t_farewell: time(hints.t_farewell),
         t_lock: time(hints.t_lock),
+        t_cross: time(hints.t_cross),
         delay_max: time(hints.delay_max),
         t_exec: hints.t_exec.map(time),
         n_ack: source.u8(hints.n_ack),
         drift_ppm: source.number(u32::MAX, hints.drift_ppm),
         capabilities: task_set(source),
         guarding: task_set(source),
+        holding: task_set(source),
         fallback: hints.fallback.map(|_| fallback_policy(source)),
         first_request: RequestId(source.u8(REQUEST)),
         first_heartbeat: Heartbeat(source.u16(0)),
@@ -71,6 +77,10 @@ pub fn config(source: &mut impl Source) -> Option<Config> {
         // Part of `LockOutlastsTask`.
         && settings.t_farewell < settings.t_lock;
     within.then_some(Config::unchecked(settings))
+}
+
+fn time(source: &mut impl Source, hint: Millis) -> Millis {
+    Millis(source.number(u32::MAX, hint.0))
 }
 
 /// One of `choices` alternatives, counted from 0.
@@ -144,6 +154,10 @@ fn heartbeat(source: &mut impl Source) -> Heartbeat {
     Heartbeat(source.u16(HEARTBEAT))
 }
 
+fn earlier_heartbeat(source: &mut impl Source) -> Heartbeat {
+    Heartbeat(source.u16(EARLIER))
+}
+
 fn request_id(source: &mut impl Source) -> RequestId {
     RequestId(source.u8(REQUEST))
 }
@@ -156,8 +170,12 @@ fn maneuver_id(source: &mut impl Source) -> ManeuverId {
 }
 
 fn task(source: &mut impl Source) -> TaskType {
+    task_like(source, u32::MAX)
+}
+
+fn task_like(source: &mut impl Source, hint: u32) -> TaskType {
     // There are 16 task types, so the default is never taken.
-    u8::try_from(choice(source, 16))
+    u8::try_from(source.number(15, hint))
         .ok()
         .and_then(TaskType::new)
         .unwrap_or(TaskType::MOVE)
@@ -169,15 +187,24 @@ fn task_set(source: &mut impl Source) -> TaskSet {
 
 fn help_request(source: &mut impl Source) -> HelpRequest {
     HelpRequest {
-        urgency: match choice(source, 4) {
-            0 => Urgency::Low,
-            1 => Urgency::Medium,
-            2 => Urgency::High,
-            _ => Urgency::Emergency,
-        },
+        urgency: urgency(source),
         followers: source.u8(3),
         tasks: task_set(source),
+        place: place(source),
     }
+}
+
+fn urgency(source: &mut impl Source) -> Urgency {
+    match choice(source, 4) {
+        0 => Urgency::Low,
+        1 => Urgency::Medium,
+        2 => Urgency::High,
+        _ => Urgency::Emergency,
+    }
+}
+
+fn place(source: &mut impl Source) -> Place {
+    Place(source.number(u32::MAX, PLACE))
 }
 
 fn unavailability(source: &mut impl Source) -> Unavailability {
@@ -199,9 +226,10 @@ pub fn availability(source: &mut impl Source) -> Availability {
 }
 
 fn fallback_policy(source: &mut impl Source) -> FallbackPolicy {
-    match choice(source, 3) {
+    match choice(source, 4) {
         0 => FallbackPolicy::StopInPlace,
         1 => FallbackPolicy::GoToSafePosition,
+        2 => FallbackPolicy::EscortToKerb,
         _ => FallbackPolicy::HoldUntilClear,
     }
 }

@@ -55,6 +55,24 @@ pub fn the_lease_ends_before_safety(settings: &Settings, clocks: Clocks) -> bool
     stands
 }
 
+/// While a requester counts on an offer, and for as long as its endpoint may be late to say that it lapsed,
+/// the reservation of a helper with the same `t_offer` has not run out, whatever the two clocks do.
+///
+/// Gives whether it counts on it.
+#[must_use]
+pub fn an_offer_lapses_before_its_reservation(settings: &Settings, clocks: Clocks) -> bool {
+    let premise = [Inequality::TimerInRange, Inequality::DriftInRange]
+        .iter()
+        .all(|inequality| inequality.holds(settings));
+    let lease = Config::unchecked(settings.clone()).t_offer_lease();
+    let counts = premise
+        && lease > Millis::ZERO
+        && clocks.are_within(settings.drift_ppm)
+        && Millis(clocks.leader) <= lease.saturating_add(settings.delay_max);
+    assert!(!counts || Millis(clocks.follower) < settings.t_offer);
+    counts
+}
+
 /// The age of a heartbeat grows exactly as time passes, also when the RAM of several periods are
 /// late: so a lease that starts with it is never too long, and never loses time.
 ///

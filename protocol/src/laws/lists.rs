@@ -1,6 +1,7 @@
-//! Laws of the list with a capacity, over lists of up to four numbers.
+//! Laws of the list with a capacity, over lists of up to four numbers, and of the list of outputs.
 
 use crate::list::{Full, List};
+use crate::output::{Output, Outputs, Sink};
 
 /// The list that the laws are about.
 pub type Numbers = List<u8, 4>;
@@ -69,5 +70,28 @@ pub fn inserts_by_rank(list: Numbers, item: u8) {
     for &n in list.iter().chain([&item]) {
         let expected = count(&list, n) + usize::from(n == item) - usize::from(dropped == Some(n));
         assert_eq!(count(&after, n), expected);
+    }
+}
+
+/// A list is dense exactly if nothing stands behind a gap.
+pub fn tells_of_gaps(slots: [Option<u8>; 4]) {
+    let has_gap = (1..4).any(|i| slots[i].is_some() && slots[i - 1].is_none());
+    assert!(Numbers::of_slots(slots).is_dense() != has_gap);
+}
+
+/// The outputs of a step have one RAM at most, and everything else as often as it was put in.
+pub fn outputs_hold_one_ram(rams: [bool; 4], length: usize) {
+    let mut outputs = Outputs::default();
+    assert!(outputs.is_empty());
+    let (mut expected, mut has_ram) = (0, false);
+    for &is_ram in rams.iter().take(length) {
+        outputs.push(if is_ram {
+            Output::SendRam
+        } else {
+            Output::LockIdentity
+        });
+        expected += usize::from(!is_ram || !has_ram);
+        has_ram |= is_ram;
+        assert!(outputs.len() == expected && !outputs.is_empty());
     }
 }

@@ -72,6 +72,7 @@ pub fn later_heartbeats_are_newer(a: Heartbeat, periods: u16) {
     assert_eq!(later.distance_from(a), periods);
     let newer = periods > 0 && u32::from(periods) < Heartbeat::HALF_SPACE;
     assert_eq!(later.is_newer_than(a), newer);
+    assert_eq!(later.can_follow(a), newer || periods == 0);
 }
 
 /// A number is the same after its way over the wire, and the order of the numbers of one boot is

@@ -5,14 +5,18 @@
 
 use crate::MAX_OUTPUTS;
 use crate::config::Config;
-use crate::id::{Heartbeat, RequestId, SessionId, StationId};
+use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
 use crate::input::{Event, Input};
-use crate::message::{Coordination, Failure, Progress, Ram, Rmcm, Verdict};
-use crate::output::Maneuver;
-use crate::state::{Contact, Following, Identity, Leading, Lease, Member, Phase, Robot};
+use crate::message::{Coordination, Failure, Farewell, Progress, Ram, Rmcm, Verdict};
+use crate::output::{GoneReason, Maneuver};
+use crate::state::{
+    Following, Identity, Leading, Lease, Member, Phase, Requesting, Robot, Role, State,
+};
 use crate::time::Millis;
 
+use super::arithmetic::{age_ms, beat_is_newer, request_is_newer};
 use super::watch::{Sort, Watch, is_open};
+use super::{causes, commands, contact, farewells, news, offers, requests, road, times};
 
 /// One step: the state before, the input, and what came of it.
 #[derive(Clone, Debug)]
@@ -60,6 +64,7 @@ pub fn all_but_validity(config: &Config, step: &Taken) {
     keeps_within_the_outputs(step);
     ignores_without_effect(step);
     tells_the_body(step);
+    shows_the_state_of_the_paper(step);
     starts_only_newer_commands(step);
     final_progress_stays(step);
     answers_count_only_when_outstanding(step);
@@ -68,7 +73,16 @@ pub fn all_but_validity(config: &Config, step: &Taken) {
     keeps_its_numbers(step);
     tells_of_lock_and_corridor(step);
     leases_count_from_the_echoed_heartbeat(config, step);
-    contact_is_renewed_only_by_news(step);
+    farewells_name_what_was_left(step);
+    causes::all(step);
+    commands::all(config, step);
+    contact::all(config, step);
+    farewells::all(step);
+    offers::all(config, step);
+    requests::all(config, step);
+    news::all(step);
+    times::all(config, step);
+    road::all(config, step);
 }
 
 /// I13: a robot that has just booted is in a valid state.
@@ -92,25 +106,34 @@ pub fn ignores_without_effect(step: &Taken) {
     if step.is_ignored() {
         assert!(step.said.len() == 1);
         assert!(step.after == step.before);
+    } else if !matches!(step.input, Input::Elapsed(_) | Input::Expired(_)) {
+        assert!(!step.said.is_empty() || step.after != step.before);
     }
 }
 
-fn following(robot: &Robot) -> Option<&Following> {
+pub(super) fn following(robot: &Robot) -> Option<&Following> {
     match robot.phase() {
         Phase::Following(following) => Some(following),
         _ => None,
     }
 }
 
-fn leading(robot: &Robot) -> Option<&Leading> {
+pub(super) fn leading(robot: &Robot) -> Option<&Leading> {
     match robot.phase() {
         Phase::Leading(leading) => Some(leading),
         _ => None,
     }
 }
 
+pub(super) fn requesting(robot: &Robot) -> Option<&Requesting> {
+    match robot.phase() {
+        Phase::Requesting(requesting) => Some(requesting),
+        _ => None,
+    }
+}
+
 /// The maneuver that the robot believes to be running.
-fn executing(robot: &Robot) -> Option<Maneuver> {
+pub(super) fn executing(robot: &Robot) -> Option<Maneuver> {
     following(robot).and_then(Following::executing)
 }
 
@@ -120,6 +143,38 @@ fn executing(robot: &Robot) -> Option<Maneuver> {
 pub fn tells_the_body(step: &Taken) {
     assert!(step.said.tells_the_body);
     assert!(step.said.running == executing(&step.after));
+}
+
+/// The state of the paper's model is that of the robot's part, and *executing* exactly while a command of it
+/// runs.
+pub fn shows_the_state_of_the_paper(step: &Taken) {
+    let robot = &step.after;
+    let is_at_it = |progress: Option<Progress>| match progress {
+        None | Some(Progress::Executing | Progress::InPosition) => true,
+        Some(Progress::Completed | Progress::Failed(_) | Progress::SafeIdle) => false,
+    };
+    let runs = match robot.phase() {
+        Phase::Leading(leading) => leading
+            .members
+            .iter()
+            .any(|member| member.order.is_some_and(|o| is_at_it(o.progress))),
+        Phase::Following(following) => following
+            .job
+            .is_some_and(|job| is_at_it(Some(job.progress))),
+        Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => false,
+    };
+    if let Some(leading) = leading(robot) {
+        for member in leading.members.iter() {
+            let progress = member.order.and_then(|order| order.progress);
+            assert!(member.has_completed() == (progress == Some(Progress::Completed)));
+        }
+    }
+    assert!(match robot.state() {
+        State::Idle => robot.role() == Role::None,
+        State::HelpRequested => matches!(robot.role(), Role::Requester | Role::Helper),
+        State::RoleEstablished => matches!(robot.role(), Role::Leader | Role::Follower) && !runs,
+        State::ManeuverExecuting => runs,
+    });
 }
 
 /// I4, I5, I6: a maneuver starts only on a command of the robot's session that is newer than all it
@@ -143,10 +198,10 @@ fn is_newly_commanded(step: &Taken, maneuver: Maneuver) -> bool {
         && before.session == id.session
         && before
             .job
-            .is_none_or(|job| id.request.is_newer_than(job.request))
+            .is_none_or(|job| request_is_newer(id.request, job.request))
         && before
             .refused
-            .is_none_or(|refused| id.request.is_newer_than(refused.request))
+            .is_none_or(|refused| request_is_newer(id.request, refused.request))
 }
 
 /// I9: progress that is final stays as it is while its command is the newest: a maneuver that fell
@@ -211,12 +266,18 @@ pub fn reports_count_only_when_heard(step: &Taken) {
 fn heard_from(step: &Taken, member: &Member) -> Option<RequestId> {
     match step.input {
         Input::Rmcm(Rmcm::Answer(answer))
-            if answer.from == member.station && answer.verdict == Verdict::Accepted =>
+            if answer.from == member.station
+                && answer.verdict == Verdict::Accepted
+                && step.before.session() == Some(answer.session) =>
         {
             Some(answer.request)
         }
         Input::Ram { ram, .. } if ram.station == member.station => match ram.coordination {
-            Coordination::Follower { last, .. } => last.map(|last| last.request),
+            Coordination::Follower { session, last, .. }
+                if step.before.session() == Some(session) =>
+            {
+                last.map(|last| last.request)
+            }
             _ => None,
         },
         _ => None,
@@ -237,7 +298,9 @@ fn reported_by(step: &Taken, member: &Member) -> Option<Progress> {
         return None;
     };
     match coordination {
-        Coordination::Follower { last, .. } if station == member.station => {
+        Coordination::Follower { session, last, .. }
+            if station == member.station && step.before.session() == Some(session) =>
+        {
             last.map(|last| last.progress)
         }
         _ => None,
@@ -258,7 +321,7 @@ pub fn a_dropped_follower_leaves_the_others(step: &Taken) {
         return;
     };
     // Elapsed time also runs the others' timers.
-    let Some(dropped) = step
+    let Some((dropped, _)) = step
         .said
         .dropped
         .filter(|_| !matches!(step.input, Input::Elapsed(_)))
@@ -277,31 +340,116 @@ pub fn a_dropped_follower_leaves_the_others(step: &Taken) {
     }
 }
 
-/// I15, I18: the boot counter stays, numbers are never given out again, a session or offer that is
-/// new has a number that is new, and the station id changes only on its own event while unlocked.
+/// I15, I18: a session or offer that is new has a number that was not given out, or was taken back since
+/// its request ended; a boot counter changes only to a larger one; a new one is asked for from half of the
+/// numbers on; and the station id changes only on its own event while unlocked.
 pub fn keeps_its_numbers(step: &Taken) {
     let (before, after) = (&step.before, &step.after);
-    assert!(after.boot() == before.boot());
-    let (next_before, next) = (before.next_number().count, after.next_number().count);
-    assert!(next >= next_before && next - next_before <= 1);
-    let own = |robot: &Robot| match robot.phase() {
-        Phase::Idle => None,
-        Phase::Requesting(requesting) => Some(requesting.number.0),
-        Phase::Offering(offering) => Some(offering.number.0),
-        Phase::Leading(leading) => Some(leading.number.0),
-        Phase::Following(following) => Some(following.offer.0),
-    };
-    if let Some(number) = own(after)
-        && own(before) != Some(number)
+    if let Input::Local(Event::EpochRenewed(boot)) = step.input
+        && boot > before.boot()
     {
-        assert!(number == before.next_number() && next == next_before + 1);
+        assert!(after.next_number() == UniqueNumber { boot, count: 0 });
+        return;
     }
+    assert!(after.boot() == before.boot());
+    let free = taken_back(step).unwrap_or(before.next_number());
+    let next = after.next_number().count;
+    assert!(next >= free.count && next - free.count <= 1);
+    let is_new = own_number(after).is_some() && own_number(after) != own_number(before);
+    if let Some((_, number)) = own_number(after).filter(|_| is_new) {
+        assert!(number == free && next == free.count + 1);
+    }
+    // A number that was given out is of the state after, or was given out and lost in one step.
+    let is_late = next > free.count && next > u16::MAX / 2;
+    assert!(step.said.has(Sort::RenewEpoch) == is_late);
     if after.station() != before.station() {
         assert!(matches!(
             step.input,
             Input::Local(Event::IdentityChanged(_))
         ));
         assert!(before.identity() == Identity::Unlocked && before.session().is_none());
+    }
+}
+
+/// The session that a robot has a part in, and its own number for that part.
+pub(super) fn own_number(robot: &Robot) -> Option<(SessionId, UniqueNumber)> {
+    let number = match robot.phase() {
+        Phase::Idle => return None,
+        Phase::Requesting(requesting) => requesting.number.0,
+        Phase::Offering(offering) => offering.number.0,
+        Phase::Leading(leading) => leading.number.0,
+        Phase::Following(following) => following.offer.0,
+    };
+    robot.session().map(|session| (session, number))
+}
+
+/// The number of an offer of this boot that nobody has confirmed, where the input says that its request is
+/// over.
+fn taken_back(step: &Taken) -> Option<UniqueNumber> {
+    let (Phase::Offering(offering), Input::Ram { ram, .. }) = (step.before.phase(), step.input)
+    else {
+        return None;
+    };
+    let Some(Farewell::Ended(number, _)) = ram.farewell else {
+        return None;
+    };
+    let ended = SessionId {
+        leader: ram.station,
+        number,
+    };
+    let is_own = offering.number.0.boot == step.before.boot();
+    (offering.session == ended && is_own).then_some(offering.number.0)
+}
+
+/// A leader drops a follower as left only if that names this session and the offer that was confirmed or a
+/// newer one. A robot names a session as left only where it had that part in it, or where a leader lists an
+/// offer that it made once.
+pub fn farewells_name_what_was_left(step: &Taken) {
+    let (before, after) = (&step.before, &step.after);
+    if let Some((station, GoneReason::Left)) = step.said.dropped {
+        let member = leading(before).and_then(|leading| leading.member(station));
+        assert!(left_by(step, station).is_some_and(|(session, offer)| {
+            before.session() == Some(session) && member.is_some_and(|m| offer >= m.offer)
+        }));
+    }
+    if after.farewell() == before.farewell() {
+        return;
+    }
+    let Some(Farewell::Left(session, offer)) = after.farewell() else {
+        return;
+    };
+    let had_part = own_number(before) == Some((session, offer.0));
+    assert!(had_part || is_listed(step, session, offer) && before.has_issued(offer.0));
+}
+
+/// The session and offer that a RAM of `station` names as left.
+fn left_by(step: &Taken, station: StationId) -> Option<(SessionId, OfferNumber)> {
+    match step.input {
+        Input::Ram { ram, .. } if ram.station == station => match ram.farewell {
+            Some(Farewell::Left(session, offer)) => Some((session, offer)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Whether the input is a RAM of the leader of `session` that lists this robot by `offer`.
+pub(super) fn is_listed(step: &Taken, session: SessionId, offer: OfferNumber) -> bool {
+    let Input::Ram { ram, .. } = step.input else {
+        return false;
+    };
+    match ram.coordination {
+        Coordination::Leader {
+            number, followers, ..
+        } => {
+            let me = step.before.station();
+            ram.station == session.leader
+                && number == session.number
+                && followers
+                    .iter()
+                    .any(|listed| listed.station == me && listed.offer == offer)
+        }
+        _ => false,
     }
 }
 
@@ -319,6 +467,14 @@ pub fn leases_count_from_the_echoed_heartbeat(config: &Config, step: &Taken) {
         return;
     };
     for member in after.members.iter() {
+        let known = before.member(member.station).and_then(|known| known.echoed);
+        if member.echoed != known {
+            let echo = member
+                .echoed
+                .filter(|_| member.echoed == echoed_by(step, member));
+            let is_newer = |echo: Heartbeat| known.is_none_or(|known| beat_is_newer(echo, known));
+            assert!(echo.is_some_and(is_newer));
+        }
         let Lease::Stands(left) = member.lease else {
             continue;
         };
@@ -333,8 +489,8 @@ pub fn leases_count_from_the_echoed_heartbeat(config: &Config, step: &Taken) {
         let echo = echoed_by(step, member);
         assert!(echo.is_some() && member.echoed == echo);
         let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
-        let age = echo.map_or(Millis::ZERO, |echo| before.age_of(config, echo, next_ram));
-        assert!(left.saturating_add(age) <= config.settings().t_lease);
+        let age = echo.map_or(0, |echo| age_ms(config, before.heartbeat, echo, next_ram));
+        assert!(age + u64::from(left.0) <= u64::from(config.settings().t_lease.0));
     }
 }
 
@@ -344,48 +500,11 @@ fn echoed_by(step: &Taken, member: &Member) -> Option<Heartbeat> {
         return None;
     };
     match ram.coordination {
-        Coordination::Follower { echo, .. } if ram.station == member.station => Some(echo),
+        Coordination::Follower { session, echo, .. }
+            if ram.station == member.station && step.before.session() == Some(session) =>
+        {
+            Some(echo)
+        }
         _ => None,
     }
-}
-
-/// I10, the follower's half: `T_safety` restarts only on a heartbeat or a command that is newer than
-/// all before.
-pub fn contact_is_renewed_only_by_news(step: &Taken) {
-    let (Some(before), Some(after)) = (following(&step.before), following(&step.after)) else {
-        return;
-    };
-    let Contact::Fresh(left) = after.contact else {
-        return;
-    };
-    let is_renewed = match before.contact {
-        Contact::Fresh(was_left) => left.left() > was_left.left(),
-        Contact::Lost(_) => true,
-    };
-    if !is_renewed {
-        return;
-    }
-    assert!(match step.input {
-        Input::Ram { ram, .. } => match ram.coordination {
-            Coordination::Leader {
-                number, heartbeat, ..
-            } => {
-                before.session
-                    == SessionId {
-                        leader: ram.station,
-                        number,
-                    }
-                    && heartbeat.is_newer_than(before.heard)
-                    && after.heard == heartbeat
-            }
-            _ => false,
-        },
-        Input::Rmcm(Rmcm::Command(command)) => {
-            command.session == before.session
-                && before
-                    .newest_request()
-                    .is_none_or(|n| command.request.is_newer_than(n))
-        }
-        _ => false,
-    });
 }

@@ -41,6 +41,7 @@ pub fn fire(config: &Config, robot: &Robot, timer: Timer, late: Millis) -> Taken
     let step = &mut Step {
         config,
         out: &mut said,
+        renewed: false,
     };
     after.fire(step, timer, late);
     Taken {
@@ -90,6 +91,7 @@ pub fn settling_makes_the_state_valid(config: &Config, robot: &Robot) {
     after.settle(&mut Step {
         config,
         out: &mut said,
+        renewed: false,
     });
     assert!(after.is_valid(config));
     assert!(said.len() <= 2);

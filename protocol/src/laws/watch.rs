@@ -6,8 +6,10 @@
 use crate::id::{RequestId, SessionId, StationId};
 use crate::input::{Event, Input};
 use crate::message::{Rmcm, Verdict};
-use crate::output::{EndReason, Maneuver, Notice, Output, Sink};
-use crate::state::{Identity, Phase, Robot};
+use crate::output::{EndReason, GoneReason, Ignored, Maneuver, Notice, Output, Sink, StopReason};
+use crate::state::{Corridor, Identity, Phase, Robot};
+use crate::task::FallbackPolicy;
+use crate::time::Millis;
 
 /// The sorts of outputs that somebody asks for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -27,12 +29,16 @@ pub enum Sort {
     FallBack,
     /// [`Output::CorridorOpened`].
     CorridorOpened,
+    /// [`Output::CorridorExtended`].
+    CorridorExtended,
     /// [`Output::CorridorClosed`].
     CorridorClosed,
     /// [`Output::LockIdentity`].
     LockIdentity,
     /// [`Output::UnlockIdentity`].
     UnlockIdentity,
+    /// [`Output::RenewEpoch`].
+    RenewEpoch,
     /// [`Output::Ignored`].
     Ignored,
     /// [`Notice::FollowerJoined`].
@@ -47,14 +53,38 @@ pub enum Sort {
     CommandAcknowledged,
     /// [`Notice::CommandRejected`].
     CommandRejected,
+    /// [`Notice::ManeuverInPosition`].
+    ManeuverInPosition,
     /// [`Notice::ManeuverCompleted`].
     ManeuverCompleted,
     /// [`Notice::ManeuverFailed`].
     ManeuverFailed,
+    /// [`Notice::OfferLapsed`].
+    OfferLapsed,
+    /// [`Notice::Yielded`].
+    Yielded,
+    /// [`Notice::ManeuverReported`].
+    ManeuverReported,
+    /// [`Notice::FollowerSafeIdle`].
+    FollowerSafeIdle,
+    /// [`Notice::RolesEstablished`].
+    RolesEstablished,
+    /// [`Notice::Offering`].
+    Offering,
+    /// [`Notice::Joined`].
+    Joined,
+    /// [`Notice::Released`].
+    Released,
+    /// [`Notice::ContactLost`].
+    ContactLost,
+    /// [`Notice::ContactRegained`].
+    ContactRegained,
     /// [`Notice::SessionEnded`] for [`EndReason::Renewed`].
     Renewed,
-    /// Any other notice.
-    OtherNotice,
+    /// [`Notice::SessionEnded`] for [`EndReason::Withdrawn`].
+    Withdrawn,
+    /// [`Notice::SessionEnded`] for any other reason.
+    Ended,
 }
 
 impl Sort {
@@ -66,10 +96,12 @@ impl Sort {
             Output::StartManeuver(_) => Self::StartManeuver,
             Output::StopManeuver(..) => Self::StopManeuver,
             Output::FallBack(..) => Self::FallBack,
-            Output::CorridorOpened => Self::CorridorOpened,
+            Output::CorridorOpened(_) => Self::CorridorOpened,
+            Output::CorridorExtended(_) => Self::CorridorExtended,
             Output::CorridorClosed(_) => Self::CorridorClosed,
             Output::LockIdentity => Self::LockIdentity,
             Output::UnlockIdentity => Self::UnlockIdentity,
+            Output::RenewEpoch => Self::RenewEpoch,
             Output::Ignored(_) => Self::Ignored,
             Output::Notify(notice) => match notice {
                 Notice::FollowerJoined(_) => Self::FollowerJoined,
@@ -78,15 +110,27 @@ impl Sort {
                 Notice::LeaseExpired(_) => Self::LeaseExpired,
                 Notice::CommandAcknowledged(..) => Self::CommandAcknowledged,
                 Notice::CommandRejected(..) => Self::CommandRejected,
+                Notice::ManeuverInPosition(..) => Self::ManeuverInPosition,
                 Notice::ManeuverCompleted(..) => Self::ManeuverCompleted,
                 Notice::ManeuverFailed(..) => Self::ManeuverFailed,
+                Notice::OfferLapsed(_) => Self::OfferLapsed,
+                Notice::Yielded(_) => Self::Yielded,
                 Notice::SessionEnded(_, EndReason::Renewed) => Self::Renewed,
-                _ => Self::OtherNotice,
+                Notice::SessionEnded(_, EndReason::Withdrawn(_)) => Self::Withdrawn,
+                Notice::SessionEnded(..) => Self::Ended,
+                Notice::ManeuverReported(..) => Self::ManeuverReported,
+                Notice::FollowerSafeIdle(..) => Self::FollowerSafeIdle,
+                Notice::RolesEstablished(_) => Self::RolesEstablished,
+                Notice::Offering(_) => Self::Offering,
+                Notice::Joined(_) => Self::Joined,
+                Notice::Released(..) => Self::Released,
+                Notice::ContactLost(_) => Self::ContactLost,
+                Notice::ContactRegained(_) => Self::ContactRegained,
             },
         }
     }
 
-    const fn bit(self) -> u32 {
+    const fn bit(self) -> u64 {
         1 << self as u8
     }
 }
@@ -98,13 +142,17 @@ pub struct Watch {
     /// How many outputs there are, [`Output::SendRam`] once.
     len: usize,
     /// The sorts among them.
-    sorts: u32,
+    sorts: u64,
     /// The maneuver that runs, by what the body has been told.
     pub(super) running: Option<Maneuver>,
     /// Nothing was started over something that runs, and nothing stopped that does not run.
     pub(super) tells_the_body: bool,
     /// The command that was accepted last.
     acknowledged: Option<(SessionId, RequestId)>,
+    /// The command that was answered last, and how.
+    pub(super) answered: Option<(RequestId, Verdict)>,
+    /// Why the input is ignored.
+    pub(super) ignored: Option<Ignored>,
     /// The maneuver that was started.
     pub(super) started: Option<Maneuver>,
     /// At most one was, behind its acknowledgement.
@@ -114,8 +162,16 @@ pub struct Watch {
     pub(super) open: bool,
     /// Neither was said twice.
     pub(super) changes_lock_and_corridor: bool,
-    /// The first follower that was dropped.
-    pub(super) dropped: Option<StationId>,
+    /// For how long the corridor may be shown open, as it was told last.
+    pub(super) shown: Option<Millis>,
+    /// The maneuver that was stopped last, and why.
+    pub(super) stopped: Option<(Maneuver, StopReason)>,
+    /// The maneuver that was ended last by a policy.
+    pub(super) fallen_back: Option<(Maneuver, FallbackPolicy)>,
+    /// Why the robot's own session ended.
+    pub(super) ended: Option<EndReason>,
+    /// The first follower that was dropped, and why.
+    pub(super) dropped: Option<(StationId, GoneReason)>,
 }
 
 impl Watch {
@@ -139,11 +195,17 @@ impl Watch {
             running,
             tells_the_body: true,
             acknowledged: None,
+            answered: None,
+            ignored: None,
             started: None,
             starts_in_order: true,
             locked: before.identity() != Identity::Unlocked,
             open: is_open(before),
             changes_lock_and_corridor: true,
+            shown: None,
+            stopped: None,
+            fallen_back: None,
+            ended: None,
             dropped: None,
         }
     }
@@ -170,7 +232,7 @@ impl Watch {
 /// Whether the robot leads and has its corridor open.
 pub(super) const fn is_open(robot: &Robot) -> bool {
     match robot.phase() {
-        Phase::Leading(leading) => leading.corridor_open,
+        Phase::Leading(leading) => matches!(leading.corridor, Corridor::Open),
         _ => false,
     }
 }
@@ -184,9 +246,13 @@ impl Sink for Watch {
         self.len += 1;
         self.sorts |= sort.bit();
         match output {
-            Output::SendRmcm(Rmcm::Answer(answer)) if answer.verdict == Verdict::Accepted => {
-                self.acknowledged = Some((answer.session, answer.request));
+            Output::SendRmcm(Rmcm::Answer(answer)) => {
+                if answer.verdict == Verdict::Accepted {
+                    self.acknowledged = Some((answer.session, answer.request));
+                }
+                self.answered = Some((answer.request, answer.verdict));
             }
+            Output::Ignored(why) => self.ignored = Some(why),
             Output::StartManeuver(maneuver) => {
                 let id = (maneuver.id.session, maneuver.id.request);
                 self.starts_in_order &= self.started.is_none() && self.acknowledged == Some(id);
@@ -194,23 +260,39 @@ impl Sink for Watch {
                 self.started = Some(maneuver);
                 self.running = Some(maneuver);
             }
-            Output::StopManeuver(maneuver, _) | Output::FallBack(maneuver, _) => {
+            Output::StopManeuver(maneuver, why) => {
                 self.tells_the_body &= self.running == Some(maneuver);
                 self.running = None;
+                self.stopped = Some((maneuver, why));
+            }
+            Output::FallBack(maneuver, policy) => {
+                self.tells_the_body &= self.running == Some(maneuver);
+                self.running = None;
+                self.fallen_back = Some((maneuver, policy));
             }
             Output::LockIdentity | Output::UnlockIdentity => {
                 let locks = sort == Sort::LockIdentity;
                 self.changes_lock_and_corridor &= self.locked != locks;
                 self.locked = locks;
             }
-            Output::CorridorOpened | Output::CorridorClosed(_) => {
-                let opens = sort == Sort::CorridorOpened;
-                self.changes_lock_and_corridor &= self.open != opens;
-                self.open = opens;
+            Output::CorridorOpened(left) => {
+                self.changes_lock_and_corridor &= !self.open;
+                self.open = true;
+                self.shown = Some(left);
             }
-            Output::Notify(Notice::FollowerGone(station, _)) => {
-                self.dropped = self.dropped.or(Some(station));
+            Output::CorridorExtended(left) => {
+                self.changes_lock_and_corridor &= self.open;
+                self.shown = Some(left);
             }
+            Output::CorridorClosed(_) => {
+                self.changes_lock_and_corridor &= self.open;
+                self.open = false;
+                self.shown = None;
+            }
+            Output::Notify(Notice::FollowerGone(station, why)) => {
+                self.dropped = self.dropped.or(Some((station, why)));
+            }
+            Output::Notify(Notice::SessionEnded(_, why)) => self.ended = Some(why),
             _ => {}
         }
     }

@@ -6,6 +6,7 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::*;
+use crate::message::Ending;
 use crate::output::Output;
 use crate::state::StandingFarewell;
 use crate::team::{ARI, GO2, SPOT, Team};
@@ -101,11 +102,38 @@ fn robots() -> Vec<Robot> {
         leader: GO2,
         number,
     };
-    for farewell in [Farewell::Left(session), Farewell::Ended(number)] {
+    let farewells = [
+        Farewell::Left(session, OfferNumber(number.0)),
+        Farewell::Ended(number, Ending::Aborted),
+    ];
+    for farewell in farewells {
         let left = Countdown::armed(Millis(3));
         leaving.farewell = Some(StandingFarewell { farewell, left });
         robots.push(leaving.clone());
     }
+    let rival = Some(Rival {
+        session,
+        heartbeat: Heartbeat(5),
+        fresh: true,
+    });
+    if let Phase::Requesting(requesting) = &mut leaving.phase {
+        requesting.rival = rival;
+        robots.push(leaving);
+    }
+    let [mut yielding, mut resting, _] = Team::with_roles().0;
+    if let Phase::Leading(leading) = &mut yielding.phase {
+        (leading.rival, leading.yields_to) = (rival, Some(SPOT));
+        robots.push(yielding);
+    }
+    resting.duty = Some(Duty::Crossing(session));
+    robots.push(resting.clone());
+    let id = ManeuverId {
+        session,
+        request: crate::RequestId(4),
+    };
+    let task = crate::TaskType::MOVE;
+    resting.duty = Some(Duty::FallingBack(Maneuver { id, task }));
+    robots.push(resting);
     robots
 }
 

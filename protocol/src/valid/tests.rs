@@ -6,9 +6,10 @@ use std::vec::Vec;
 use super::*;
 use crate::id::{Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::input::Decimetres;
-use crate::message::Rejection;
+use crate::message::{Ending, Rejection};
+use crate::output::Maneuver;
 use crate::state::{
-    Contact, Job, Lease, Offer, Offering, Order, Outstanding, Refusal, StandingFarewell,
+    Contact, Duty, Job, Lease, Offer, Offering, Order, Outstanding, Refusal, StandingFarewell,
 };
 use crate::task::{TaskSet, TaskType, Unavailability};
 use crate::team::{ARI, GO2, SPOT, Team, config};
@@ -106,6 +107,23 @@ fn farewell(farewell: Farewell, left: Countdown) -> StandingFarewell {
     StandingFarewell { farewell, left }
 }
 
+fn left(session: SessionId) -> Farewell {
+    Farewell::Left(session, OfferNumber(UniqueNumber { boot: 1, count: 0 }))
+}
+
+const fn ended(number: SessionNumber) -> Farewell {
+    Farewell::Ended(number, Ending::Aborted)
+}
+
+const fn duty(leader: StationId) -> Duty {
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let session = SessionId { leader, number };
+    let request = crate::RequestId(0);
+    let id = crate::ManeuverId { session, request };
+    let task = TaskType::MOVE;
+    Duty::FallingBack(Maneuver { id, task })
+}
+
 fn session(leader: StationId, count: u16) -> SessionId {
     let number = SessionNumber(UniqueNumber { boot: 1, count });
     SessionId { leader, number }
@@ -121,21 +139,22 @@ fn an_idle_robot() {
         "the lock expires for nothing": |r| r.identity = Identity::Expiring;
         "a farewell without a lock": |r| {
             r.ram = SOON;
-            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
+            r.farewell = Some(farewell(left(session(GO2, 0)), SOON));
         };
     );
     assert_each_keeps!(robot,
         "it says farewell to its own session": |r| {
             (r.ram, r.identity) = (SOON, Identity::Locked(SOON));
-            r.farewell = Some(farewell(Farewell::Ended(session(ARI, 0).number), SOON));
+            r.farewell = Some(farewell(ended(session(ARI, 0).number), SOON));
         };
         "it says farewell while its lock expires": |r| {
             (r.ram, r.identity) = (SOON, Identity::Expiring);
-            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
+            r.farewell = Some(farewell(left(session(GO2, 0)), SOON));
         };
         "it is unavailable": |r| {
             r.availability = Availability::Unavailable(Unavailability::LowBattery);
         };
+        "it has a duty": |r| r.duty = Some(duty(GO2));
     );
 }
 
@@ -143,16 +162,16 @@ fn an_idle_robot() {
 fn a_farewell() {
     let mut robot = Robot::new(ARI, 1);
     (robot.ram, robot.identity) = (SOON, Identity::Locked(SOON));
-    robot.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
+    robot.farewell = Some(farewell(left(session(GO2, 0)), SOON));
     assert_each_breaks!(robot,
         "it has left its own session": |r| {
-            r.farewell = Some(farewell(Farewell::Left(session(ARI, 0)), SOON));
+            r.farewell = Some(farewell(left(session(ARI, 0)), SOON));
         };
         "it stands without end": |r| {
-            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), Countdown::OFF));
+            r.farewell = Some(farewell(left(session(GO2, 0)), Countdown::OFF));
         };
         "it was due": |r| {
-            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), Countdown::armed(Millis(0))));
+            r.farewell = Some(farewell(left(session(GO2, 0)), Countdown::armed(Millis(0))));
         };
         "no RAM says it": |r| r.ram = Countdown::OFF;
         "the lock has no end": |r| r.identity = Identity::Locked(Countdown::OFF);
@@ -203,7 +222,18 @@ fn a_requester() {
         "no RAM": |r| r.ram = Countdown::OFF;
         "the RAM was due": |r| r.ram = Countdown::armed(Millis(0));
         "it says that its session is over": |r| {
-            r.farewell = Some(farewell(Farewell::Ended(requesting(r).number), SOON));
+            r.farewell = Some(farewell(ended(requesting(r).number), SOON));
+        };
+        "it asks while it has a duty": |r| r.duty = Some(duty(GO2));
+        "an offer stands without end": |r| {
+            let first = *requesting(r).offers.iter().next().unwrap();
+            let endless = Offer { standing: Countdown::OFF, ..first };
+            requesting(r).offers = [endless].into_iter().collect();
+        };
+        "an offer stands longer than it is counted on": |r| {
+            let first = *requesting(r).offers.iter().next().unwrap();
+            let standing = Countdown::armed(Millis(config().t_offer_lease().0 + 1));
+            requesting(r).offers = [Offer { standing, ..first }].into_iter().collect();
         };
         "it asks for longer than T_help": |r| {
             requesting(r).help = Countdown::armed(Millis(config().settings().t_help.0 + 1));
@@ -212,7 +242,7 @@ fn a_requester() {
     let [alone, ..] = Team::that_asks().0;
     assert_each_keeps!(alone,
         "it still says farewell to a former session": |r| {
-            r.farewell = Some(farewell(Farewell::Left(session(GO2, 0)), SOON));
+            r.farewell = Some(farewell(left(session(GO2, 0)), SOON));
         };
         "it asks for as many as can follow": |r| requesting(r).request.followers = 4;
     );
@@ -244,8 +274,10 @@ fn a_helper() {
         "it offers to itself": |r| offering(r).session.leader = GO2;
         "it is reserved without end": |r| offering(r).reservation = Countdown::OFF;
         "it can do nothing": |r| offering(r).capabilities = TaskSet::EMPTY;
+        "it offers while it has a duty": |r| r.duty = Some(duty(GO2));
+        "it has given out another number since": |r| r.next_count += 1;
         "it says that it has left": |r| {
-            r.farewell = Some(farewell(Farewell::Left(offering(r).session), SOON));
+            r.farewell = Some(farewell(left(offering(r).session), SOON));
         };
     );
 }
@@ -273,7 +305,12 @@ fn a_leader() {
             leading(r).members = [one, one].into_iter().collect();
         };
         "it follows itself": |r| member(r, |m| m.station = ARI);
-        "the corridor is open over robots that do nothing": |r| leading(r).corridor_open = true;
+        "the corridor is open over robots that do nothing": |r| leading(r).corridor = Corridor::Open;
+        "it yields with a clear road": |r| leading(r).yields_to = Some(SPOT);
+        "it yields, and people may cross": |r| {
+            (leading(r).yields_to, leading(r).corridor) = (Some(SPOT), Corridor::Open);
+        };
+        "it leads while it has a duty": |r| r.duty = Some(duty(GO2));
         "it keeps a follower without end": |r| member(r, |m| m.lease = Lease::Stands(Countdown::OFF));
         "so it does one without a lease": |r| member(r, |m| m.lease = Lease::Expired(Countdown::OFF));
         "a lease on one that has not joined": |r| member(r, |m| m.echoed = None);
@@ -301,6 +338,9 @@ fn a_leader() {
         };
     );
     assert_each_keeps!(robot,
+        "it yields while the road clears": |r| {
+            (leading(r).yields_to, leading(r).corridor) = (Some(SPOT), Corridor::Clearing);
+        };
         "one has not joined": |r| member(r, |m| (m.echoed, m.lease) = (None, Lease::Expired(SOON)));
         "as many commands as a session may have": |r| {
             member(r, |m| m.next_request = crate::RequestId(RequestId::MAX_PER_SESSION));
@@ -390,6 +430,7 @@ fn a_follower() {
             following(r).offer = OfferNumber(number);
         };
         "it leads itself": |r| following(r).session.leader = GO2;
+        "it executes while it has a duty": |r| r.duty = Some(duty(ARI));
         "it executes while unavailable": |r| {
             r.availability = Availability::Unavailable(Unavailability::NotSafe);
         };
@@ -408,7 +449,7 @@ fn a_follower() {
             following(r).refused = Some(Refusal { request, reason: Rejection::UnsupportedTask });
         };
         "it says that it has left": |r| {
-            r.farewell = Some(farewell(Farewell::Left(following(r).session), SOON));
+            r.farewell = Some(farewell(left(following(r).session), SOON));
         };
     );
     assert_each_keeps!(robot,
@@ -420,6 +461,14 @@ fn a_follower() {
             let job = following(r).job.unwrap();
             following(r).job = Some(Job { progress: Progress::Completed, ..job });
             following(r).contact = Contact::Lost(SOON);
+        };
+        "it is in position": |r| {
+            let job = following(r).job.unwrap();
+            following(r).job = Some(Job { progress: Progress::InPosition, ..job });
+        };
+        "it has a duty and executes nothing": |r| {
+            following(r).job = None;
+            r.duty = Some(duty(ARI));
         };
         "it refused something newer": |r| {
             let request = following(r).job.unwrap().request.next();

@@ -22,6 +22,12 @@ pub const PEPPER: StationId = StationId(5);
 /// Distance of every robot to every other, unless a script says otherwise.
 pub const NEAR: Decimetres = Decimetres(40);
 
+/// The crossing of every request, unless a script says otherwise.
+pub const CROSSING: Place = Place(7);
+
+/// The first offer that a robot makes after its first boot.
+pub const FIRST_OFFER: OfferNumber = OfferNumber(UniqueNumber { boot: 1, count: 0 });
+
 /// Help of `followers` robots for an escort.
 pub fn escort(followers: u8) -> HelpRequest {
     let tasks = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]);
@@ -29,17 +35,100 @@ pub fn escort(followers: u8) -> HelpRequest {
         urgency: Urgency::Medium,
         followers,
         tasks,
+        place: CROSSING,
     }
+}
+
+/// A RAM that says nothing but this.
+pub fn ram(station: StationId, coordination: Coordination) -> Ram {
+    Ram {
+        station,
+        coordination,
+        farewell: None,
+        on_duty: false,
+    }
+}
+
+/// A RAM that names a session as over, and nothing else.
+pub fn farewell(station: StationId, farewell: Farewell) -> Ram {
+    Ram {
+        farewell: Some(farewell),
+        ..ram(station, Coordination::None)
+    }
+}
+
+/// A RAM of `station` that asks for help in its session of this count.
+pub fn need_help(station: StationId, count: u16, heartbeat: u16, request: HelpRequest) -> Ram {
+    let coordination = Coordination::NeedHelp {
+        number: SessionNumber(UniqueNumber { boot: 1, count }),
+        heartbeat: Heartbeat(heartbeat),
+        request,
+    };
+    ram(station, coordination)
+}
+
+/// A RAM of `station` that offers, with the default `t_safety`.
+pub fn offer(
+    station: StationId,
+    session: SessionId,
+    offer: OfferNumber,
+    tasks: &[TaskType],
+    echo: u16,
+) -> Ram {
+    let coordination = Coordination::OfferHelp {
+        session,
+        offer,
+        capabilities: TaskSet::of(tasks),
+        echo: Heartbeat(echo),
+        t_safety: Settings::default().t_safety,
+    };
+    ram(station, coordination)
+}
+
+/// A RAM of a follower without a report.
+pub fn follower(station: StationId, session: SessionId, echo: u16) -> Ram {
+    let coordination = Coordination::Follower {
+        session,
+        echo: Heartbeat(echo),
+        last: None,
+    };
+    ram(station, coordination)
+}
+
+/// A RAM of a leader at the crossing.
+pub fn leader(session: SessionId, heartbeat: u16, followers: Followers) -> Ram {
+    let coordination = Coordination::Leader {
+        number: session.number,
+        heartbeat: Heartbeat(heartbeat),
+        followers,
+        urgency: Urgency::Medium,
+        place: CROSSING,
+        yields: false,
+    };
+    ram(session.leader, coordination)
+}
+
+/// The command of a leader to do `task`.
+pub fn order(follower: StationId, task: TaskType) -> Event {
+    Event::CommandManeuver { follower, task }
 }
 
 /// Robots, and a radio channel that loses what the script wants lost.
 pub struct Street {
     pub config: Config,
+    /// Robots with settings of their own.
+    configs: BTreeMap<StationId, Config>,
     robots: BTreeMap<StationId, Robot>,
     /// Pairs of sender and receiver between which everything is lost.
     cut: BTreeSet<(StationId, StationId)>,
     /// What each robot has put out since the script last asked.
     heard: Vec<(StationId, Output)>,
+    /// Milliseconds since the beginning.
+    now: u32,
+    /// Robots that hang, and since when.
+    hung: BTreeMap<StationId, u32>,
+    /// What the signs show: until when *go*. A sign ends by itself, whatever its robot does.
+    go_until: BTreeMap<StationId, u32>,
 }
 
 impl Street {
@@ -52,9 +141,13 @@ impl Street {
         let robots = stations.iter().map(|&id| (id, Robot::new(id, 1))).collect();
         Self {
             config,
+            configs: BTreeMap::new(),
             robots,
             cut: BTreeSet::new(),
             heard: Vec::new(),
+            now: 0,
+            hung: BTreeMap::new(),
+            go_until: BTreeMap::new(),
         }
     }
 
@@ -85,17 +178,36 @@ impl Street {
     /// A street on which `GO2` executes `task` for `ARI`, acknowledged and reported.
     pub fn executing(task: TaskType) -> Self {
         let mut street = Self::with_roles(&[ARI, GO2]);
-        street.tell(
-            ARI,
-            Event::CommandManeuver {
-                follower: GO2,
-                task,
-            },
-        );
+        street.tell(ARI, order(GO2, task));
         assert_eq!(street[GO2].state(), State::ManeuverExecuting);
         assert_eq!(street[ARI].state(), State::ManeuverExecuting);
         street.forget();
         street
+    }
+
+    /// A street on which the others guard with `task` for the first, at their places, and its corridor is open.
+    pub fn open(stations: &[StationId], task: TaskType) -> Self {
+        let mut street = Self::with_roles(stations);
+        for &guard in &stations[1..] {
+            street.tell(stations[0], order(guard, task));
+            street.in_position(guard);
+        }
+        let outputs = street.tell(stations[0], Event::OpenCorridor);
+        assert_eq!(outputs.ignored(), None);
+        street.forget();
+        street
+    }
+
+    /// The body of `who` is at the place from which it guards.
+    pub fn in_position(&mut self, who: StationId) {
+        let running = self.following(who).executing().expect("a maneuver");
+        let outputs = self.tell(who, Event::InPosition(running.id));
+        assert_eq!(outputs.ignored(), None);
+    }
+
+    /// `who` has settings of its own from now on.
+    pub fn set(&mut self, who: StationId, settings: Settings) {
+        self.configs.insert(who, Config::new(settings).unwrap());
     }
 
     /// One input for one robot; whatever it sends is delivered at once.
@@ -106,23 +218,34 @@ impl Street {
     }
 
     fn step_silently(&mut self, who: StationId, input: Input) -> Outputs {
+        let config = self.configs.get(&who).unwrap_or(&self.config);
         let robot = self.robots.get_mut(&who).expect("no such robot");
         let before = robot.clone();
         let mut outputs = Outputs::default();
-        let allocated = allocation_counter::measure(|| outputs = robot.step(&self.config, input));
+        let allocated = allocation_counter::measure(|| outputs = robot.step(config, input));
         assert_eq!(
             allocated.count_total, 0,
             "{input:?} allocates in {before:#?}"
         );
         assert!(
-            robot.is_valid(&self.config),
+            robot.is_valid(config),
             "{input:?}\nin {before:#?}\nleads to {robot:#?}"
         );
         if outputs.ignored().is_some() {
             assert_eq!(*robot, before, "{input:?} is ignored, but has an effect");
         }
-        self.heard
-            .extend(outputs.iter().map(|&output| (who, output)));
+        for &output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(left) | Output::CorridorExtended(left) => {
+                    self.go_until.insert(who, self.now + left.0);
+                }
+                Output::CorridorClosed(_) => {
+                    self.go_until.remove(&who);
+                }
+                _ => {}
+            }
+            self.heard.push((who, output));
+        }
         outputs
     }
 
@@ -138,7 +261,8 @@ impl Street {
                 _ => continue,
             };
             for to in self.stations() {
-                if to != from && !self.cut.contains(&(from, to)) {
+                let is_lost = self.cut.contains(&(from, to)) || self.hung.contains_key(&to);
+                if to != from && !is_lost {
                     self.step(to, input);
                 }
             }
@@ -174,16 +298,21 @@ impl Street {
     pub fn pass(&mut self, millis: u32) {
         let mut left = millis;
         while left > 0 {
-            let due = self
-                .robots
-                .values()
-                .filter_map(Robot::next_due)
+            let awake: Vec<_> = self
+                .stations()
+                .into_iter()
+                .filter(|who| !self.hung.contains_key(who))
+                .collect();
+            let due = awake
+                .iter()
+                .filter_map(|&who| self[who].next_due())
                 .map(|due| due.0)
                 .min();
             let slice = due.unwrap_or(left).min(left);
+            self.now += slice;
             // All clocks advance before anybody hears what the others said at that moment.
             let mut told = Vec::new();
-            for who in self.stations() {
+            for who in awake {
                 told.push((who, self.step_silently(who, Input::Elapsed(Millis(slice)))));
             }
             for (who, outputs) in told {
@@ -191,6 +320,24 @@ impl Street {
             }
             left -= slice;
         }
+    }
+
+    /// `who` hangs: it is told of no time and hears nothing.
+    pub fn hang(&mut self, who: StationId) {
+        self.hung.insert(who, self.now);
+    }
+
+    /// `who` goes on, and is told at once how much time has passed.
+    pub fn go_on(&mut self, who: StationId) -> Outputs {
+        let since = self.hung.remove(&who).expect("it hangs");
+        self.step(who, Input::Elapsed(Millis(self.now - since)))
+    }
+
+    /// Whether the sign of `who` shows *go*, by what it was told last.
+    pub fn shows_go(&self, who: StationId) -> bool {
+        self.go_until
+            .get(&who)
+            .is_some_and(|until| self.now < *until)
     }
 
     /// From now on `to` hears nothing of `from`.
@@ -259,6 +406,26 @@ impl Street {
         following
     }
 
+    pub fn requesting(&self, who: StationId) -> &Requesting {
+        let Phase::Requesting(requesting) = self[who].phase() else {
+            panic!("{who} asks for no help")
+        };
+        requesting
+    }
+
+    /// What the corridor of `who` is.
+    pub fn corridor(&self, who: StationId) -> Corridor {
+        self.leading(who).corridor
+    }
+
+    /// The number of the offer that the RAM of `who` makes.
+    pub fn offer_of(&self, who: StationId) -> OfferNumber {
+        let Phase::Offering(offering) = self[who].phase() else {
+            panic!("{who} offers nothing")
+        };
+        offering.number
+    }
+
     pub fn session_of(&self, who: StationId) -> SessionId {
         self[who].session().expect("no session")
     }
@@ -278,6 +445,22 @@ impl std::ops::Index<StationId> for Street {
     fn index(&self, station: StationId) -> &Robot {
         &self.robots[&station]
     }
+}
+
+pub fn falls_back(output: &Output) -> bool {
+    matches!(output, Output::FallBack(..))
+}
+
+pub fn stops(output: &Output) -> bool {
+    matches!(output, Output::StopManeuver(..))
+}
+
+pub fn opens(output: &Output) -> bool {
+    matches!(output, Output::CorridorOpened(_))
+}
+
+pub fn closes(output: &Output) -> bool {
+    matches!(output, Output::CorridorClosed(_))
 }
 
 pub fn starts(output: &Output) -> bool {

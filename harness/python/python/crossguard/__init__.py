@@ -28,7 +28,7 @@ from .errors import (
 )
 from .robot import Robot
 from .types import FallbackPolicy, HelpRequest, Role, State, TaskSet, TaskType, Urgency
-from .validation import Fault, Validated, Validation, validate
+from .validation import Fault, Late, Validated, Validation, validate
 
 __all__ = [
     "Boot",
@@ -42,6 +42,7 @@ __all__ = [
     "Fault",
     "HelpRequest",
     "Identifiers",
+    "Late",
     "Measurement",
     "MessageIdentifiers",
     "Moment",

@@ -170,7 +170,8 @@ def _struct_reader(kind: Any) -> Callable[[Any], Any]:
 
     def read(value: Any) -> Any:
         given = {
-            field: read(value[name])
+            # Reports of the command have their units in the names; the protocol's values have none.
+            field: read(value[name] if name in value else value[field])
             for field, name, read, is_optional in fields
             if not is_optional or name in value
         }

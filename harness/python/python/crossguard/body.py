@@ -103,6 +103,7 @@ class TaskProgression(enum.Enum):
 
     IDLE = "idle"
     EXECUTING = "executing"
+    IN_POSITION = "inPosition"
     COMPLETED = "completed"
     FAILED = "failed"
     SAFE_IDLE = "safeIdle"

@@ -21,7 +21,7 @@ _FALLBACK: Mapping[TaskType, FallbackPolicy] = dict(
 
 @dataclass(frozen=True, kw_only=True)
 class Config:
-    """Timers, limits and capabilities, checked: all robots of a team have the same timers.
+    """Timers, limits and capabilities, checked. Drift and `delay_max_ms` are the same in a whole team.
 
     Times are in milliseconds, 1..86400000. What is not given has the default of the Rust crate, which is
     named at each field.
@@ -33,9 +33,10 @@ class Config:
     ram_period_ms: int = _DEFAULTS["ram_period"]
     """Interval of RAM in a session; a leader bumps its heartbeat at the same pace. 100 ms."""
     t_select_ms: int = _DEFAULTS["t_select"]
-    """How long a requester gathers offers, counted from the first. 300 ms."""
+    """How long a requester gathers offers, counted from the first. It selects sooner at
+    `events.AllAnswered`. 300 ms."""
     t_offer_ms: int = _DEFAULTS["t_offer"]
-    """How long a helper reserves itself for one requester. 3000 ms."""
+    """How long a helper reserves itself for a requester of which it hears no newer heartbeat. 3000 ms."""
     t_help_ms: int = _DEFAULTS["t_help"]
     """How long a request for help stands. 10000 ms."""
     t_ack_ms: int = _DEFAULTS["t_ack"]
@@ -52,6 +53,9 @@ class Config:
     """How long a robot names a session as over. 1000 ms."""
     t_lock_ms: int = _DEFAULTS["t_lock"]
     """How long the identity may stay locked, farewells included. 300000 ms."""
+    t_cross_ms: int = _DEFAULTS["t_cross"]
+    """How long a pedestrian needs to cross at most. A corridor opens only where the identity lock and the
+    execution limits leave so much time. 30000 ms."""
     t_exec_ms: Mapping[TaskType, int] = dataclasses.field(default_factory=dict, hash=False)
     """`T_exec` by task type: how long a maneuver may run. 5000 ms for `INITIAL_POS`, else 60000 ms. Task
     types that are not given keep their default."""
@@ -63,9 +67,12 @@ class Config:
     """The maneuvers that this robot can do. The three that have names."""
     guarding: TaskSet = TaskSet(_DEFAULTS["guarding"])
     """The maneuvers under which a pedestrian may cross. `MOVE` and `BLOCK`."""
+    holding: TaskSet = TaskSet(_DEFAULTS["holding"])
+    """The maneuvers that guard from a place: the corridor opens only once the follower has reported that it
+    is in position. `BLOCK`."""
     fallback: Mapping[TaskType, FallbackPolicy] = dataclasses.field(default_factory=dict, hash=False)
-    """Fallback policy by task type. `MOVE` goes to a safe position, `BLOCK` holds until clear, the others
-    stop in place. Task types that are not given keep their default."""
+    """Fallback policy by task type. `MOVE` escorts to the nearer kerb, `BLOCK` holds until clear, the
+    others stop in place. Task types that are not given keep their default."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "t_exec_ms", _merged(_T_EXEC_MS, self.t_exec_ms))

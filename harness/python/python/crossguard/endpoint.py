@@ -82,9 +82,12 @@ class Endpoint:
         self.body = RobotState() if body is None else body
         self._write_log()
 
-    def receive(self, packet: bytes, at: Moment) -> list[Effect]:
-        """Takes in a packet that was received at this moment: a GeoNetworking packet, at most 1500 octets."""
-        return self._effects(self._native.receive(packet, at.now_ms, at.unix_ms))
+    def receive(self, packet: bytes, at: Moment, arrived_ms: int | None = None) -> list[Effect]:
+        """Takes in a GeoNetworking packet, of at most 1500 octets. It arrived at `arrived_ms` on the clock of
+        `Moment.now_ms`: at this moment if nothing is said. A packet that has waited for longer than
+        `Config.delay_max_ms` is dropped."""
+        arrived = at.now_ms if arrived_ms is None else arrived_ms
+        return self._effects(self._native.receive(packet, arrived, at.now_ms, at.unix_ms))
 
     def tell(self, event: Event, at: Moment, parameters: TaskParameters | None = None) -> list[Effect]:
         """Tells what happened in the robot at this moment; `parameters` are those of a `CommandManeuver`."""
@@ -127,6 +130,12 @@ class Endpoint:
     def name(self) -> str:
         """What it is called in the log."""
         return self._native.name
+
+    @property
+    def all_have_answered(self) -> bool:
+        """Whether it asks for help, has offers enough, and has heard an answer of every robot that it heard
+        in the last second: then `events.AllAnswered` may be told, and it selects at once."""
+        return self._native.all_have_answered
 
     @property
     def next_wakeup_ms(self) -> int:

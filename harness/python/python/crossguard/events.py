@@ -27,6 +27,14 @@ class CommandManeuver(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class InPosition(Positional):
+    """The body holds the place from which the maneuver that was started guards. To be told only when the
+    body is there: people step on the road by it."""
+
+    id: ManeuverId
+
+
+@dataclass(frozen=True, slots=True)
 class ManeuverCompleted(Positional):
     """The maneuver that was started has been finished."""
 
@@ -42,7 +50,19 @@ class ManeuverFailed(Positional):
 
 @dataclass(frozen=True, slots=True)
 class TaskCompleted(Variant):
-    """The pedestrian has crossed; the session may end."""
+    """The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off
+    the road."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoadClear(Variant):
+    """The people that this robot guarded are off the road, and its body has finished its fallback. To be
+    told only when both are so: it ends the robot's duty."""
+
+
+@dataclass(frozen=True, slots=True)
+class AllAnswered(Variant):
+    """The requester knows of no robot nearby that has not answered its request."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,15 +94,26 @@ class IdentityChanged(Positional):
     station: int
 
 
+@dataclass(frozen=True, slots=True)
+class EpochRenewed(Positional):
+    """A larger boot counter has been persisted, as `outputs.RenewEpoch` asked."""
+
+    boot: int
+
+
 Event: TypeAlias = (
     PedestrianDetected
     | CommandManeuver
+    | InPosition
     | ManeuverCompleted
     | ManeuverFailed
     | TaskCompleted
+    | RoadClear
+    | AllAnswered
     | LeaveRequested
     | AvailabilityChanged
     | OpenCorridor
     | CloseCorridor
     | IdentityChanged
+    | EpochRenewed
 )

@@ -6,12 +6,13 @@ which `crossguard.decode` gives as a dictionary.
 
 from __future__ import annotations
 
+import enum
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
 from ._wire import Positional, Variant
 from .reasons import Completed, Failed, Rejection, SafeIdle
-from .types import HelpRequest, SessionId, TaskSet, TaskType, UniqueNumber
+from .types import HelpRequest, SessionId, TaskSet, TaskType, UniqueNumber, Urgency
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,8 @@ class NeedHelp(Variant):
 
     number: UniqueNumber
     """Number of the session."""
+    heartbeat: int
+    """Newest heartbeat, 0..65535: it tells a request that stands from a late message."""
     request: HelpRequest
     """What it asks for."""
 
@@ -41,6 +44,10 @@ class OfferHelp(Variant):
     """Number of the offer; the confirmation repeats it."""
     capabilities: TaskSet
     """The maneuvers that the helper can do."""
+    echo: int
+    """Newest heartbeat of the request that it heard, 0..65535."""
+    t_safety_ms: int
+    """Its own `t_safety`, which the leader's lease must fit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,15 +69,26 @@ class Leader(Variant):
     heartbeat: int
     """Newest heartbeat, 0..65535."""
     followers: tuple[Confirmation, ...]
-    """The followers, 4 at most; whoever is not among them has no part in the session."""
+    """The followers, 4 at most; any other robot has no part in the session."""
+    urgency: Urgency
+    """Urgency of the request; the first key in the order of leaders at one place."""
+    place: int
+    """The crossing of the session."""
+    yields: bool
+    """Whether it has yielded the place to another leader and lets nobody cross any more."""
 
 
 @dataclass(frozen=True, slots=True)
 class Executing(Variant):
-    """The maneuver runs."""
+    """The maneuver runs, and the body is under way."""
 
 
-Progress: TypeAlias = Executing | Completed | Failed | SafeIdle
+@dataclass(frozen=True, slots=True)
+class InPosition(Variant):
+    """The maneuver runs, and the body holds the place from which it guards."""
+
+
+Progress: TypeAlias = Executing | InPosition | Completed | Failed | SafeIdle
 """Progress of an accepted command."""
 
 
@@ -100,18 +118,29 @@ Coordination: TypeAlias = NoPart | NeedHelp | OfferHelp | Leader | Follower
 """A robot's part in a session, as its RAM tells."""
 
 
+class Ending(enum.Enum):
+    """How a session ended."""
+
+    COMPLETED = "completed"
+    """The crossing is completed and the road is clear: followers are free."""
+    ABORTED = "aborted"
+    """Any other end: somebody may be on the road, so followers fall back by their tasks' policies."""
+
+
 @dataclass(frozen=True, slots=True)
 class Ended(Positional):
     """The sender's own session of this number has ended."""
 
     number: UniqueNumber
+    how: Ending
 
 
 @dataclass(frozen=True, slots=True)
 class Left(Positional):
-    """The sender has no part in this session any more."""
+    """The sender has no part in this session any more by this offer or an earlier one."""
 
     session: SessionId
+    offer: UniqueNumber
 
 
 Farewell: TypeAlias = Ended | Left
@@ -128,6 +157,8 @@ class Ram:
     """Its part in a session."""
     farewell: Farewell | None = None
     """A session that it names as over."""
+    on_duty: bool = False
+    """Whether it still has a duty on the road from a maneuver or session that ended early."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -72,6 +72,14 @@ class ManeuverReported(Positional):
 
 
 @dataclass(frozen=True, slots=True)
+class ManeuverInPosition(Positional):
+    """Leader: this follower reports that it guards from its place."""
+
+    station: int
+    id: ManeuverId
+
+
+@dataclass(frozen=True, slots=True)
 class ManeuverCompleted(Positional):
     """Leader: this follower finished this command."""
 
@@ -94,6 +102,20 @@ class FollowerSafeIdle(Positional):
 
     station: int
     id: ManeuverId
+
+
+@dataclass(frozen=True, slots=True)
+class OfferLapsed(Positional):
+    """Requester: the offer of this helper has lapsed."""
+
+    station: int
+
+
+@dataclass(frozen=True, slots=True)
+class Yielded(Positional):
+    """Leader: yields the place to this leader. The session ends once the road is clear."""
+
+    station: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,9 +171,12 @@ Notice: TypeAlias = (
     | CommandAcknowledged
     | CommandRejected
     | ManeuverReported
+    | ManeuverInPosition
     | ManeuverCompleted
     | ManeuverFailed
     | FollowerSafeIdle
+    | OfferLapsed
+    | Yielded
     | SessionEnded
     | Offering
     | Joined

@@ -49,20 +49,30 @@ class StopManeuver(Positional):
 
 @dataclass(frozen=True, slots=True)
 class FallBack(Positional):
-    """Stop this maneuver because contact with the leader is lost, by the task's policy."""
+    """End this maneuver by the task's policy. The robot is on duty until it is told `events.RoadClear`."""
 
     maneuver: Maneuver
     policy: FallbackPolicy
 
 
 @dataclass(frozen=True, slots=True)
-class CorridorOpened(Variant):
-    """The pedestrian may cross from now on."""
+class CorridorOpened(Positional):
+    """The pedestrian may cross from now on, for this long. What shows it must end by itself then, without
+    this robot's help."""
+
+    open_ms: int
+
+
+@dataclass(frozen=True, slots=True)
+class CorridorExtended(Positional):
+    """The pedestrian may go on crossing, for this long from now."""
+
+    open_ms: int
 
 
 @dataclass(frozen=True, slots=True)
 class CorridorClosed(Positional):
-    """The pedestrian may not cross from now on."""
+    """The pedestrian may not cross from now on. People may still be on the road."""
 
     why: reasons.CorridorClosure
 
@@ -75,6 +85,12 @@ class LockIdentity(Variant):
 @dataclass(frozen=True, slots=True)
 class UnlockIdentity(Variant):
     """Station id, certificate and link address may change again."""
+
+
+@dataclass(frozen=True, slots=True)
+class RenewEpoch(Variant):
+    """Half of this boot counter's numbers are given out: persist a larger one, and then tell
+    `events.EpochRenewed`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,9 +114,11 @@ Output: TypeAlias = (
     | StopManeuver
     | FallBack
     | CorridorOpened
+    | CorridorExtended
     | CorridorClosed
     | LockIdentity
     | UnlockIdentity
+    | RenewEpoch
     | Notify
     | Ignored
 )
@@ -176,9 +194,11 @@ Effect: TypeAlias = (
     | StopManeuver
     | FallBack
     | CorridorOpened
+    | CorridorExtended
     | CorridorClosed
     | LockIdentity
     | UnlockIdentity
+    | RenewEpoch
     | Notify
     | Ignored
     | Heard

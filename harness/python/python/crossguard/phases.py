@@ -3,18 +3,33 @@ milliseconds, or `None` where it is not armed."""
 
 from __future__ import annotations
 
+import enum
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from ._wire import Positional, Variant
 from .messages import Progress
 from .reasons import Rejection
-from .types import HelpRequest, SessionId, TaskSet, TaskType, UniqueNumber
+from .types import HelpRequest, Maneuver, SessionId, TaskSet, TaskType, UniqueNumber
 
 
 @dataclass(frozen=True, slots=True)
 class Idle(Variant):
     """No part in a session."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rival:
+    """A request or a leader at the same place that goes before this robot's own. It counts once it is heard
+    again with a newer heartbeat."""
+
+    session: SessionId
+    """Its session."""
+    heartbeat: int
+    """Newest heartbeat heard of it."""
+    fresh: bool
+    """Whether this robot's own heartbeat has not moved on since. Until it has, no other rival takes the
+    place of this one: rivals that do not hear each other would take turns, and none be heard twice."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +44,10 @@ class Offer:
     """What the helper can do."""
     distance_dm: int
     """How far away the helper is, in decimetres; 65535 if that is not known."""
+    echo: int
+    """Newest heartbeat that it echoed."""
+    standing_ms: int | None
+    """How long the offer stands without a newer echo: until then the helper is still reserved."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +58,10 @@ class Requesting(Variant):
     """Number of the session."""
     request: HelpRequest
     """What it asks for."""
+    heartbeat: int
+    """Newest heartbeat."""
+    rival: Rival | None
+    """A request or leader at the same place that goes before, as heard first."""
     offers: tuple[Offer, ...]
     """The offers it has heard, best first."""
     help_ms: int | None
@@ -57,8 +80,12 @@ class Offering(Variant):
     """Number of the offer."""
     capabilities: TaskSet
     """What it can do of what is asked for."""
+    heard: int
+    """Newest heartbeat of the request that it heard."""
+    t_safety_ms: int
+    """Its `t_safety`, as the offer tells it."""
     reservation_ms: int | None
-    """`T_offer`."""
+    """`T_offer`, since the newest heartbeat."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +154,17 @@ class Member:
     """The newest command that it acknowledged."""
 
 
+class Corridor(enum.Enum):
+    """The corridor of a leader."""
+
+    CLEAR = "clear"
+    """Nobody may cross, and nobody is on the road."""
+    OPEN = "open"
+    """The pedestrian may cross."""
+    CLEARING = "clearing"
+    """Nobody may cross any more, and people may still be on the road."""
+
+
 @dataclass(frozen=True, slots=True)
 class Leading(Variant):
     """Leads a session."""
@@ -139,8 +177,13 @@ class Leading(Variant):
     """Newest heartbeat."""
     members: tuple[Member, ...]
     """The followers."""
-    corridor_open: bool
-    """Whether the pedestrian may cross."""
+    corridor: Corridor
+    """Whether the pedestrian may cross, and whether the road is known to be clear."""
+    rival: Rival | None
+    """A leader at the same place that goes before, as heard first."""
+    yields_to: int | None
+    """The leader that it has yielded the place to. It lets nobody cross any more, keeps its followers until
+    the road is clear, and ends."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,3 +267,21 @@ class Expiring(Variant):
 
 Identity: TypeAlias = Unlocked | Locked | Expiring
 """Whether the pseudonym may change."""
+
+
+@dataclass(frozen=True, slots=True)
+class FallingBack(Positional):
+    """The body carries out the fallback of this maneuver."""
+
+    maneuver: Maneuver
+
+
+@dataclass(frozen=True, slots=True)
+class Crossing(Positional):
+    """The robot led this session, which ended while people may have been on the road."""
+
+    session: SessionId
+
+
+Duty: TypeAlias = FallingBack | Crossing
+"""A duty on the road that outlives its command or its session, until `events.RoadClear`."""

@@ -52,8 +52,13 @@ class Superseded(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class TaskCompleted(Variant):
+    """The crossing is completed, as the leader's application said."""
+
+
+@dataclass(frozen=True, slots=True)
 class SessionEnded(Variant):
-    """The leader named the session as ended."""
+    """The session ended otherwise than by a completed crossing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +87,8 @@ class IdentityLockLimit(Variant):
 
 
 ReleaseReason: TypeAlias = (
-    SessionEnded
+    TaskCompleted
+    | SessionEnded
     | NotListed
     | ReservationExpired
     | ContactLost
@@ -105,18 +111,13 @@ StopReason: TypeAlias = Superseded | Released | Unavailable
 
 
 @dataclass(frozen=True, slots=True)
-class TaskCompleted(Variant):
-    """The application said that the task is done."""
-
-
-@dataclass(frozen=True, slots=True)
 class NoHelp(Variant):
     """`T_help` ran out before enough helpers were found."""
 
 
 @dataclass(frozen=True, slots=True)
 class Withdrawn(Positional):
-    """The request of this station goes before."""
+    """The request of this station at the same place goes before, or it leads there already."""
 
     station: int
 
@@ -149,7 +150,12 @@ class UnsupportedTask(Variant):
     """The robot can do none of the tasks that are asked for."""
 
 
-Rejection: TypeAlias = UnsupportedTask | Unavailable
+@dataclass(frozen=True, slots=True)
+class OnDuty(Variant):
+    """The robot has a duty on the road, of which its application has not said that it is over."""
+
+
+Rejection: TypeAlias = UnsupportedTask | Unavailable | OnDuty
 """Why a follower rejects a command."""
 
 
@@ -188,6 +194,11 @@ class NotGuarding(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class NotInPosition(Variant):
+    """The follower's task guards from a place, and it has not reported that it is there."""
+
+
+@dataclass(frozen=True, slots=True)
 class Completed(Variant):
     """It was finished."""
 
@@ -205,7 +216,7 @@ class SafeIdle(Variant):
 
 
 Disengagement: TypeAlias = (
-    NoLease | CommandOutstanding | NotExecuting | NotGuarding | Completed | Failed | SafeIdle
+    NoLease | CommandOutstanding | NotExecuting | NotGuarding | NotInPosition | Completed | Failed | SafeIdle
 )
 """Why a follower does not hold the corridor."""
 
@@ -224,11 +235,18 @@ class FollowerMissing(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class Yielded(Positional):
+    """The place is yielded to this leader."""
+
+    station: int
+
+
+@dataclass(frozen=True, slots=True)
 class Application(Variant):
     """The application asked for it."""
 
 
-CorridorClosure: TypeAlias = NotEngaged | FollowerMissing | SessionEnded | Application
+CorridorClosure: TypeAlias = NotEngaged | FollowerMissing | SessionEnded | Yielded | Application
 """Why the corridor closed."""
 
 
@@ -284,7 +302,53 @@ class NotOutstanding(Variant):
 
 @dataclass(frozen=True, slots=True)
 class LowerPrecedence(Variant):
-    """The request does not go before this robot's own."""
+    """The request or leader does not go before this robot's own."""
+
+
+@dataclass(frozen=True, slots=True)
+class FirstHeard(Variant):
+    """The request or leader goes before, but does not count yet: it was not heard before with an older
+    heartbeat, or another one was noted less than a period ago."""
+
+
+@dataclass(frozen=True, slots=True)
+class OtherPlace(Variant):
+    """The request or leader is of another place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Yielding(Variant):
+    """The leader has yielded already."""
+
+
+@dataclass(frozen=True, slots=True)
+class OldOffer(Variant):
+    """The offer is older than the one that stands."""
+
+
+@dataclass(frozen=True, slots=True)
+class OtherOffer(Variant):
+    """The farewell names an older offer than the one that was confirmed."""
+
+
+@dataclass(frozen=True, slots=True)
+class NeverOffered(Variant):
+    """The list names an offer that this robot never made."""
+
+
+@dataclass(frozen=True, slots=True)
+class TimersDoNotFit(Variant):
+    """The helper's `t_safety_ms` is too short for this robot's lease."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoadOccupied(Variant):
+    """People may be on the road, so no guard is taken off it and no session is renewed."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotEnoughTime(Variant):
+    """The identity lock or an execution limit leaves less time than `t_cross_ms`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -329,7 +393,7 @@ class IdentityLocked(Variant):
 
 @dataclass(frozen=True, slots=True)
 class NumbersExhausted(Variant):
-    """This boot's numbers for sessions and offers are used up; restart the robot."""
+    """This boot counter's numbers are used up; persist a larger one and tell `events.EpochRenewed`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -349,6 +413,16 @@ Ignored: TypeAlias = (
     | RolesAlreadyAssigned
     | NotOutstanding
     | LowerPrecedence
+    | FirstHeard
+    | OtherPlace
+    | Yielding
+    | OldOffer
+    | OtherOffer
+    | NeverOffered
+    | TimersDoNotFit
+    | OnDuty
+    | RoadOccupied
+    | NotEnoughTime
     | InSession
     | NotLeading
     | NotInSession

@@ -10,7 +10,7 @@ from .events import Event
 from .inputs import Input, Local
 from .messages import Farewell, Ram
 from .outputs import Output
-from .phases import Identity, Phase
+from .phases import Duty, Identity, Phase
 from .types import Availability, Role, SessionId, State
 
 
@@ -66,7 +66,7 @@ class Robot:
 
     @property
     def boot(self) -> int:
-        """The boot counter that it was started with."""
+        """The boot counter that it was started with, or was told by `events.EpochRenewed` since."""
         return self._native.boot
 
     @property
@@ -102,6 +102,13 @@ class Robot:
         """Whether its pseudonym may change."""
         identity: Identity = _wire.loads(Identity, self._native.identity())
         return identity
+
+    @property
+    def duty(self) -> Duty | None:
+        """What it still does on the road from a maneuver or session that ended early. Until it is told
+        `events.RoadClear`, it takes part in nothing new."""
+        duty: Duty | None = _wire.loads(Duty | None, self._native.duty())
+        return duty
 
     @property
     def farewell(self) -> Farewell | None:

@@ -52,6 +52,13 @@ class Help(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class Offer(Positional):
+    """Requester: how long the offer of this helper stands without a newer echo."""
+
+    station: int
+
+
+@dataclass(frozen=True, slots=True)
 class Selection(Variant):
     """Requester: the time to gather offers."""
 
@@ -84,6 +91,7 @@ Timer: TypeAlias = (
     | Execution
     | Acknowledgement
     | Help
+    | Offer
     | Selection
     | Reservation
     | IdentityLock

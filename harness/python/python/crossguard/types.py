@@ -56,12 +56,15 @@ class Urgency(enum.Enum):
 
 
 class FallbackPolicy(enum.Enum):
-    """What a follower does with a running maneuver when it loses contact with its leader."""
+    """What a follower does with a running maneuver at every end but a completed crossing: contact lost,
+    session aborted, left, or not listed any more."""
 
     STOP_IN_PLACE = "stopInPlace"
     """Stop where it stands."""
     GO_TO_SAFE_POSITION = "goToSafePosition"
     """Leave the carriageway for the safe position that the application knows."""
+    ESCORT_TO_KERB = "escortToKerb"
+    """Stay at the side of the escorted person to the nearer kerb, then stop."""
     HOLD_UNTIL_CLEAR = "holdUntilClear"
     """Hold the position and the traffic until the carriageway is clear, then stop."""
 
@@ -172,6 +175,10 @@ class HelpRequest:
     """How many followers the task needs, 1..4."""
     tasks: TaskSet = TaskSet.INITIAL_POS | TaskSet.MOVE
     """The maneuvers that the followers will be asked for."""
+    place: int = 0
+    """The crossing that the help is for, as `IntersectionReferenceID` of ISO/TS 19091: road regulator in
+    the upper 16 bits, intersection in the lower. Requests of one place compete. 0 is not known, and may be
+    any place."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,6 +36,16 @@ class Fault:
 
 
 @dataclass(frozen=True, slots=True)
+class Late:
+    """Steps that came later than the rules of the integrator allow: a process may hang."""
+
+    steps: int
+    """How many."""
+    longest_ms: int
+    """By how much the latest of them came after it was due."""
+
+
+@dataclass(frozen=True, slots=True)
 class Validated:
     """What valid logs hold."""
 
@@ -53,12 +63,18 @@ class Validated:
     """How many were heard from stations that none of the logs is of."""
     beyond_logs: int
     """How many were heard from robots after the end of their logs."""
+    of_unknown_age: int
+    """How many messages were taken in of which the logs do not say how long they had waited."""
+    late: Late
+    """Steps that came later than the rules of the integrator allow."""
     missing: int
     """How many records the robots themselves say are missing, because the log was full."""
     cut_off: tuple[str, ...]
     """The robots whose logs end in the middle of a run, because they lost power or were killed."""
     properties: tuple[str, ...]
     """The properties that had something to say, and were kept."""
+    not_judged: tuple[str, ...]
+    """What was not judged, and why."""
 
 
 @dataclass(frozen=True, slots=True)

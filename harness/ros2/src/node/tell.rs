@@ -7,6 +7,7 @@ use super::{CORRIDOR_PERIOD, CORRIDOR_VALID_FOR, STATUS_PERIOD, Turn};
 use crate::graph::{RosError, now_ns};
 use crate::msgs::{Corridor, Event, Status};
 use crate::report::{OK, SITE_FRAME, WARN, duration, header, value};
+use crate::robot::Active;
 use crate::standard::{DiagnosticArray, DiagnosticStatus, TransitionEvent};
 
 impl Turn {
@@ -30,7 +31,8 @@ impl Turn {
         let header = header(now_ns(), "");
         match &self.reporter {
             Some(reporter) if self.active.is_some() => {
-                reporter.corridor(header, CORRIDOR_VALID_FOR, self.is_fresh())
+                let now_us = self.active.as_ref().map_or(u64::MAX, Active::now_us);
+                reporter.corridor(header, CORRIDOR_VALID_FOR, now_us, self.is_fresh())
             }
             _ => Corridor {
                 header,

@@ -3,19 +3,16 @@
 use std::io::{BufWriter, ErrorKind, Stdout, Write};
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, TrySendError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::sync::mpsc::{channel, sync_channel};
 use std::time::Duration;
 
 use crossguard_harness::counters::Cause;
-use crossguard_harness::journal::{Journal, WhenFull};
+use crossguard_harness::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_harness::trace::{self, Record};
 use indicatif::ProgressBar;
 
 use super::super::Failure;
-
-/// How many records wait for each of their readers: about ten seconds of a busy robot.
-const RECORDS: usize = 4_096;
 
 /// How many lines for people wait for whoever reads them.
 const LINES: usize = 1_024;
@@ -119,7 +116,7 @@ impl Writing {
         let (tell, result) = channel();
         let of_thread = name.clone();
         std::thread::spawn(move || {
-            let result = write_all(&queue, &mut to, write);
+            let result = journal::write_out(&queue, &mut to, write);
             if let Err(error) = &result
                 && error.kind() != ErrorKind::BrokenPipe
             {
@@ -153,28 +150,6 @@ impl Writing {
 
 fn write_record(to: &mut impl Write, record: &Arc<Record>) -> std::io::Result<()> {
     trace::write(to, record)
-}
-
-/// Writes until nothing more can come. What is written is not kept back while nothing comes.
-fn write_all<T, W: Write>(
-    queue: &Receiver<T>,
-    to: &mut W,
-    write: impl Fn(&mut W, &T) -> std::io::Result<()>,
-) -> std::io::Result<()> {
-    loop {
-        let next = match queue.try_recv() {
-            Ok(next) => next,
-            Err(TryRecvError::Disconnected) => return to.flush(),
-            Err(TryRecvError::Empty) => {
-                to.flush()?;
-                match queue.recv() {
-                    Ok(next) => next,
-                    Err(_) => return Ok(()),
-                }
-            }
-        };
-        write(to, &next)?;
-    }
 }
 
 /// Tells on standard error. If that is gone as well, there is nobody to tell.

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{
     Receiver as Queue, RecvTimeoutError, SyncSender, TrySendError, sync_channel,
 };
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 pub(super) use ::zenoh::Session;
 use ::zenoh::key_expr::KeyExpr;
@@ -199,7 +199,7 @@ fn in_words(error: &(dyn StdError + 'static)) -> String {
 
 /// Where zenoh's threads put what comes in. They never wait.
 struct Inbox {
-    coming: SyncSender<(Source, Vec<u8>)>,
+    coming: SyncSender<(Source, Vec<u8>, Instant)>,
     /// How many found no place and are not told yet.
     overflow: Arc<AtomicU64>,
 }
@@ -209,11 +209,13 @@ impl Inbox {
         if sample.kind() != SampleKind::Put {
             return;
         }
+        let at = Instant::now();
         let mut octets = Vec::new();
         let mut payload = sample.payload().reader().take(DATAGRAM_MAX as u64);
         // Reading from memory does not fail.
         let _ = payload.read_to_end(&mut octets);
-        if let Err(TrySendError::Full(_)) = self.coming.try_send((source_of(sample), octets)) {
+        let datagram = (source_of(sample), octets, at);
+        if let Err(TrySendError::Full(_)) = self.coming.try_send(datagram) {
             self.overflow.fetch_add(1, Ordering::Relaxed);
         }
     }
@@ -281,7 +283,7 @@ impl Sender for ZenohSender {
 }
 
 struct ZenohReceiver {
-    arrivals: Queue<(Source, Vec<u8>)>,
+    arrivals: Queue<(Source, Vec<u8>, Instant)>,
     overflow: Arc<AtomicU64>,
     _subscriber: Subscriber<()>,
     _session: Session,
@@ -294,7 +296,7 @@ impl Receiver for ZenohReceiver {
             return Ok(Some(Arrival::Overflow(overflow)));
         }
         match self.arrivals.recv_timeout(at_most) {
-            Ok((from, octets)) => Ok(Some(Arrival::Datagram { from, octets })),
+            Ok((from, octets, at)) => Ok(Some(Arrival::Datagram { from, octets, at })),
             Err(RecvTimeoutError::Timeout) => Ok(None),
             Err(RecvTimeoutError::Disconnected) => {
                 let why = "the zenoh session is closed";

@@ -68,7 +68,7 @@ harnesses! {
     }
 
     /// Any octets, up to the maximum length, without extension additions.
-    #[unwind(11)]
+    #[unwind(15)]
     #[solver(cadical)]
     #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::no_additions)]
     fn farewell_is_canonical() {
@@ -100,7 +100,7 @@ harnesses! {
     }
 
     /// Any octets, up to the maximum length, without extension additions.
-    #[unwind(13)]
+    #[unwind(19)]
     #[solver(cadical)]
     #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::no_additions)]
     fn requester_is_canonical() {
@@ -116,7 +116,7 @@ harnesses! {
     }
 
     /// Any octets, up to the maximum length, without extension additions.
-    #[unwind(17)]
+    #[unwind(22)]
     #[solver(cadical)]
     #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::no_additions)]
     fn helper_is_canonical() {

@@ -18,7 +18,7 @@ harnesses! {
     }
 
     /// Any octets, up to the maximum length, without extension additions.
-    #[unwind(3)]
+    #[unwind(4)]
     #[solver(cadical)]
     #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::no_additions)]
     fn response_is_canonical() {

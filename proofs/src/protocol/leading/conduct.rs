@@ -14,7 +14,9 @@ steps! { FROM, all_but_validity;
         "joins": step.said.has(Sort::FollowerJoined),
         "grants a lease": step.said.has(Sort::LeaseGranted),
         "counts as acknowledged": step.said.has(Sort::CommandAcknowledged),
+        "counts as in position": step.said.has(Sort::ManeuverInPosition),
         "counts as completed": step.said.has(Sort::ManeuverCompleted),
+        "extends the corridor": step.said.has(Sort::CorridorExtended),
         "closes the corridor": step.said.has(Sort::CorridorClosed),
         "ignored": step.is_ignored(),
     }
@@ -39,13 +41,15 @@ steps! { FROM, all_but_validity;
 
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
+        "yields": step.said.has(Sort::Yielded) && becomes(step, Role::Leader),
+        "ends for the one that goes before": step.said.has(Sort::Withdrawn),
+        "notes a rival": !step.is_ignored() && step.said.is_empty(),
         "names a session as over": step.said.has(Sort::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A command.
     hears_a_command(Kind::Command) |step| {
-        "says farewell": step.said.has(Sort::SendRam),
         "ignored": step.is_ignored(),
     }
 
@@ -153,6 +157,29 @@ steps! { FROM, all_but_validity;
     /// The end of a farewell.
     ends_a_farewell(Kind::Fires(Countdown::Farewell)) |step| {
         "ends it": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The body holds its place.
+    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// The road is clear.
+    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+        "the road is clear": !step.is_ignored() && becomes(step, Role::Leader),
+        "ends for the one that goes before": step.said.has(Sort::Withdrawn),
+        "ignored": step.is_ignored(),
+    }
+
+    /// All robots nearby have answered.
+    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+        "ignored": step.is_ignored(),
+    }
+
+    /// A larger boot counter has been persisted.
+    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+        "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 }

@@ -58,4 +58,12 @@ validity! {
     changes_its_availability(Kind::Local(Happening::AvailabilityChanged))
     /// The robot has another pseudonym.
     changes_its_identity(Kind::Local(Happening::IdentityChanged))
+    /// The body holds its place.
+    reaches_its_position(Kind::Local(Happening::InPosition))
+    /// The road is clear.
+    clears_the_road(Kind::Local(Happening::RoadClear))
+    /// All robots nearby have answered.
+    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered))
+    /// A larger boot counter has been persisted.
+    renews_its_epoch(Kind::Local(Happening::EpochRenewed))
 }

@@ -51,6 +51,7 @@ firing! {
     idle_identity_lock(Idle, IdentityLock, all)
     idle_farewell(Idle, Farewell, all)
     idle_ram(Idle, Ram, all)
+    requesting_offer(Requesting, Offer, all)
     requesting_help(Requesting, Help, all)
     requesting_selection(Requesting, Selection, all)
     requesting_identity_lock(Requesting, IdentityLock, all)

@@ -118,7 +118,7 @@ __attribute__((noinline)) static void measured(int kind) {
     if (deepest + 512 > stack[kind]) stack[kind] = deepest + 512;
 }
 
-static int done_maneuvers, corridor_was_open, ended;
+static int corridor_was_open, extensions, stopped, ended;
 static CrossguardOutput running;
 static int is_running;
 
@@ -136,6 +136,25 @@ static void command(uint32_t station, uint8_t task) {
 /* Whom the leader commands. */
 static uint32_t follower_station;
 
+/* Carries out what is not a packet. */
+static void act(int robot, const CrossguardOutput *it) {
+    switch (it->kind) {
+    case CROSSGUARD_OUTPUT_KIND_START_MANEUVER:
+        running = *it;
+        is_running = 1;
+        break;
+    case CROSSGUARD_OUTPUT_KIND_STOP_MANEUVER:
+        stopped = it->task == CROSSGUARD_TASK_BLOCK && it->reason == CROSSGUARD_REASON_TASK_COMPLETED;
+        break;
+    case CROSSGUARD_OUTPUT_KIND_CORRIDOR_OPENED: corridor_was_open = it->open_ms > 0; break;
+    case CROSSGUARD_OUTPUT_KIND_CORRIDOR_EXTENDED: extensions++; break;
+    case CROSSGUARD_OUTPUT_KIND_NOTICE:
+        if (robot == LEADER && it->notice == CROSSGUARD_NOTICE_SESSION_ENDED) ended = 1;
+        break;
+    default: break;
+    }
+}
+
 static void carry_out(int robot) {
     static CrossguardOutput outputs[2][CROSSGUARD_OUTPUTS_MAX];
     static uint8_t sent[2][CROSSGUARD_PACKETS_LEN];
@@ -144,20 +163,20 @@ static void carry_out(int robot) {
     memcpy(sent[robot], packets[robot], turns[robot].packets_length);
     for (uint32_t i = 0; i < length; i++) {
         const CrossguardOutput *it = &outputs[robot][i];
-        if (it->kind == CROSSGUARD_OUTPUT_KIND_SEND) {
-            who = !robot;
-            heard = sent[robot] + it->packet_offset;
-            heard_length = it->packet_length;
-            measured(RECEIVE);
-            /* One answers at once; its packet waits for the next round otherwise. */
-            if (robot == LEADER) carry_out(FOLLOWER);
-        } else if (it->kind == CROSSGUARD_OUTPUT_KIND_START_MANEUVER) {
-            running = *it;
-            is_running = 1;
-        } else if (it->kind == CROSSGUARD_OUTPUT_KIND_CORRIDOR_OPENED) {
-            corridor_was_open = 1;
-        } else if (it->kind == CROSSGUARD_OUTPUT_KIND_NOTICE && robot == LEADER) {
-            if (it->notice == CROSSGUARD_NOTICE_SESSION_ENDED) ended = 1;
+        if (it->kind != CROSSGUARD_OUTPUT_KIND_SEND) {
+            act(robot, it);
+            continue;
+        }
+        who = !robot;
+        heard = sent[robot] + it->packet_offset;
+        heard_length = it->packet_length;
+        measured(RECEIVE);
+        if (robot == LEADER) {
+            carry_out(FOLLOWER);
+        } else {
+            /* What the leader would send at once is as lost as on the air. */
+            for (uint32_t j = 0; j < turns[LEADER].outputs_length; j++)
+                act(LEADER, &turns[LEADER].outputs[j]);
         }
     }
 }
@@ -165,7 +184,7 @@ static void carry_out(int robot) {
 static void tell(int robot, uint8_t kind) {
     crossguard_event_init(&event, kind);
     event.followers = 1;
-    event.tasks = 3;
+    event.tasks = 1u << CROSSGUARD_TASK_INITIAL_POS | 1u << CROSSGUARD_TASK_BLOCK;
     event.session = running.session;
     event.request = running.request;
     who = robot;
@@ -183,14 +202,13 @@ static void lead(void) {
     int is_free = follower->has_joined && !follower->is_outstanding;
     if (is_free && follower->progress == CROSSGUARD_PROGRESS_NONE) {
         command(follower_station, CROSSGUARD_TASK_INITIAL_POS);
-    } else if (is_free && follower->progress == CROSSGUARD_PROGRESS_COMPLETED && done_maneuvers == 1) {
-        command(follower_station, CROSSGUARD_TASK_MOVE);
     } else if (is_free && follower->progress == CROSSGUARD_PROGRESS_COMPLETED) {
-        tell(LEADER, CROSSGUARD_EVENT_KIND_TASK_COMPLETED);
-        return;
+        command(follower_station, CROSSGUARD_TASK_BLOCK);
     } else {
-        if (follower->task == CROSSGUARD_TASK_MOVE && !view.is_corridor_open && !corridor_was_open)
+        if (follower->progress == CROSSGUARD_PROGRESS_IN_POSITION && !corridor_was_open)
             tell(LEADER, CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR);
+        /* The pedestrian of this program is across by then. */
+        if (extensions == 20) tell(LEADER, CROSSGUARD_EVENT_KIND_TASK_COMPLETED);
         return;
     }
     who = LEADER;
@@ -221,8 +239,9 @@ __attribute__((noreturn, used)) static void program(void) {
         }
         if (is_running && time % 1000 == 0) {
             is_running = 0;
-            done_maneuvers++;
-            tell(FOLLOWER, CROSSGUARD_EVENT_KIND_MANEUVER_COMPLETED);
+            tell(FOLLOWER, running.task == CROSSGUARD_TASK_BLOCK
+                               ? CROSSGUARD_EVENT_KIND_IN_POSITION
+                               : CROSSGUARD_EVENT_KIND_MANEUVER_COMPLETED);
         }
         lead();
     }
@@ -236,8 +255,9 @@ __attribute__((noreturn, used)) static void program(void) {
     say("robot ");
     say_number(sizeof(CrossguardRobot));
     say("\n");
-    say(ended && corridor_was_open && done_maneuvers == 2 ? "crossing completed\n" : "not completed\n");
-    end(!(ended && corridor_was_open && done_maneuvers == 2));
+    int completed = ended && corridor_was_open && stopped;
+    say(completed ? "crossing completed\n" : "not completed\n");
+    end(!completed);
 }
 
 __asm__(".globl _start\n_start:\n  xor %ebp, %ebp\n  and $-16, %rsp\n  call program\n");

@@ -1,7 +1,7 @@
 //! Arbitrary inputs, by kind.
 
 use super::{
-    ME, PEER, Source, answer, availability, choice, command, help_request, maneuver_id, ram,
+    BOOT, ME, PEER, Source, answer, availability, choice, command, help_request, maneuver_id, ram,
     station, task,
 };
 use crate::input::{Decimetres, Event, Input, Timer};
@@ -42,12 +42,18 @@ pub enum Happening {
     PedestrianDetected,
     /// [`Event::CommandManeuver`].
     CommandManeuver,
+    /// [`Event::InPosition`].
+    InPosition,
     /// [`Event::ManeuverCompleted`].
     ManeuverCompleted,
     /// [`Event::ManeuverFailed`].
     ManeuverFailed,
     /// [`Event::TaskCompleted`].
     TaskCompleted,
+    /// [`Event::RoadClear`].
+    RoadClear,
+    /// [`Event::AllAnswered`].
+    AllAnswered,
     /// [`Event::LeaveRequested`].
     LeaveRequested,
     /// [`Event::AvailabilityChanged`].
@@ -58,6 +64,8 @@ pub enum Happening {
     CloseCorridor,
     /// [`Event::IdentityChanged`].
     IdentityChanged,
+    /// [`Event::EpochRenewed`].
+    EpochRenewed,
 }
 
 /// The kinds of timers.
@@ -70,6 +78,7 @@ pub enum Countdown {
     Lost,
     Execution,
     Acknowledgement,
+    Offer,
     Help,
     Selection,
     Reservation,
@@ -80,13 +89,14 @@ pub enum Countdown {
 
 impl Countdown {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Safety,
         Self::Leave,
         Self::Lease,
         Self::Lost,
         Self::Execution,
         Self::Acknowledgement,
+        Self::Offer,
         Self::Help,
         Self::Selection,
         Self::Reservation,
@@ -104,6 +114,7 @@ impl Countdown {
             Self::Lost => Timer::Lost(station(source, PEER)),
             Self::Execution => Timer::Execution(station(source, PEER)),
             Self::Acknowledgement => Timer::Acknowledgement(station(source, PEER)),
+            Self::Offer => Timer::Offer(station(source, PEER)),
             Self::Help => Timer::Help,
             Self::Selection => Timer::Selection,
             Self::Reservation => Timer::Reservation,
@@ -116,17 +127,21 @@ impl Countdown {
 
 impl Kind {
     /// All events.
-    pub const EVENTS: [Self; 10] = [
+    pub const EVENTS: [Self; 14] = [
         Self::Local(Happening::PedestrianDetected),
         Self::Local(Happening::CommandManeuver),
+        Self::Local(Happening::InPosition),
         Self::Local(Happening::ManeuverCompleted),
         Self::Local(Happening::ManeuverFailed),
         Self::Local(Happening::TaskCompleted),
+        Self::Local(Happening::RoadClear),
+        Self::Local(Happening::AllAnswered),
         Self::Local(Happening::LeaveRequested),
         Self::Local(Happening::AvailabilityChanged),
         Self::Local(Happening::OpenCorridor),
         Self::Local(Happening::CloseCorridor),
         Self::Local(Happening::IdentityChanged),
+        Self::Local(Happening::EpochRenewed),
     ];
 }
 
@@ -159,18 +174,22 @@ pub fn event(source: &mut impl Source, happening: Happening) -> Event {
             follower: station(source, PEER),
             task: task(source),
         },
+        Happening::InPosition => Event::InPosition(maneuver_id(source)),
         Happening::ManeuverCompleted => Event::ManeuverCompleted(maneuver_id(source)),
         Happening::ManeuverFailed => Event::ManeuverFailed(maneuver_id(source)),
         Happening::TaskCompleted => Event::TaskCompleted,
+        Happening::RoadClear => Event::RoadClear,
+        Happening::AllAnswered => Event::AllAnswered,
         Happening::LeaveRequested => Event::LeaveRequested,
         Happening::AvailabilityChanged => Event::AvailabilityChanged(availability(source)),
         Happening::OpenCorridor => Event::OpenCorridor,
         Happening::CloseCorridor => Event::CloseCorridor,
         Happening::IdentityChanged => Event::IdentityChanged(station(source, ME)),
+        Happening::EpochRenewed => Event::EpochRenewed(source.u16(BOOT + 1)),
     }
 }
 
 /// Any timer.
 pub fn timer(source: &mut impl Source) -> Timer {
-    Countdown::ALL[choice(source, 12) as usize].timer(source)
+    Countdown::ALL[choice(source, 13) as usize].timer(source)
 }

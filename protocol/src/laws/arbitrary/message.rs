@@ -1,14 +1,15 @@
 //! Arbitrary messages.
 
 use super::{
-    ME, PEER, Source, choice, heartbeat, help_request, list, number, offer_number, option,
-    request_id, session, session_number, station, task, task_set, unavailability,
+    ME, PEER, Source, choice, heartbeat, help_request, list, number, offer_number, option, place,
+    request_id, session, session_number, station, task, task_set, time, unavailability, urgency,
 };
 use crate::MAX_FOLLOWERS;
+use crate::config::Settings;
 use crate::id::SessionNumber;
 use crate::message::{
-    Answer, Command, Confirmation, Coordination, Failure, Farewell, Progress, Ram, Rejection,
-    Report, Verdict,
+    Answer, Command, Confirmation, Coordination, Ending, Failure, Farewell, Progress, Ram,
+    Rejection, Report, Verdict,
 };
 
 /// A RAM whose part in a session is of this kind: 0 none, 1 `needHelp`, 2 `offerHelp`, 3 leader, 4
@@ -23,6 +24,7 @@ pub fn ram(source: &mut impl Source, kind: u32, farewells: bool) -> Ram {
         } else {
             None
         },
+        on_duty: source.likely(Some(false)),
     }
 }
 
@@ -31,12 +33,24 @@ fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
         0 => Coordination::None,
         1 => Coordination::NeedHelp {
             number: session_number(source),
+            heartbeat: heartbeat(source),
             request: help_request(source),
         },
         2 => Coordination::OfferHelp {
             session: session(source, ME),
             offer: offer_number(source),
             capabilities: task_set(source),
+            echo: heartbeat(source),
+            t_safety: {
+                // Now and then one that a lease does not fit.
+                let fits = source.likely(Some(true));
+                let t_safety = if fits {
+                    Settings::default().t_safety
+                } else {
+                    Settings::default().t_lease
+                };
+                time(source, t_safety)
+            },
         },
         3 => Coordination::Leader {
             number: session_number(source),
@@ -45,6 +59,9 @@ fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
                 station: station(s, ME + i),
                 offer: offer_number(s),
             }),
+            urgency: urgency(source),
+            place: place(source),
+            yields: source.likely(Some(false)),
         },
         _ => Coordination::Follower {
             session: session(source, ME),
@@ -60,9 +77,15 @@ fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
 /// A farewell; hints let a message name the session of `leader`.
 pub(super) fn farewell(source: &mut impl Source, leader: u32) -> Farewell {
     if source.flag() {
-        Farewell::Left(session(source, if leader == PEER { ME } else { PEER }))
+        let session = session(source, if leader == PEER { ME } else { PEER });
+        Farewell::Left(session, offer_number(source))
     } else {
-        Farewell::Ended(SessionNumber(number(source)))
+        let ending = if source.flag() {
+            Ending::Completed
+        } else {
+            Ending::Aborted
+        };
+        Farewell::Ended(SessionNumber(number(source)), ending)
     }
 }
 
@@ -70,10 +93,11 @@ pub(super) fn farewell(source: &mut impl Source, leader: u32) -> Farewell {
 pub(super) const EXECUTING: u32 = 0;
 
 pub(super) fn progress(source: &mut impl Source, hint: u32) -> Progress {
-    match source.number(3, hint) {
+    match source.number(4, hint) {
         EXECUTING => Progress::Executing,
-        1 => Progress::Completed,
-        2 => Progress::Failed(failure(source)),
+        1 => Progress::InPosition,
+        2 => Progress::Completed,
+        3 => Progress::Failed(failure(source)),
         _ => Progress::SafeIdle,
     }
 }
@@ -87,10 +111,10 @@ fn failure(source: &mut impl Source) -> Failure {
 }
 
 pub(super) fn rejection(source: &mut impl Source) -> Rejection {
-    if source.flag() {
-        Rejection::Unavailable(unavailability(source))
-    } else {
-        Rejection::UnsupportedTask
+    match choice(source, 3) {
+        0 => Rejection::Unavailable(unavailability(source)),
+        1 => Rejection::OnDuty,
+        _ => Rejection::UnsupportedTask,
     }
 }
 

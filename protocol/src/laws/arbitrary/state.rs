@@ -2,18 +2,20 @@
 
 use super::message::{EXECUTING, farewell, progress, rejection};
 use super::{
-    BOOT, ME, PEER, REQUEST, Source, availability, choice, heartbeat, help_request, likely, list,
-    number, offer_number, option, request_id, session, session_number, station, task, task_set,
+    BOOT, HEARTBEAT, ME, PEER, REQUEST, Source, availability, choice, earlier_heartbeat, heartbeat,
+    help_request, likely, list, maneuver_id, number, offer_number, option, request_id, session,
+    session_number, station, task, task_like, task_set,
 };
 use crate::config::Config;
-use crate::id::{OfferNumber, RequestId, SessionNumber, StationId};
+use crate::id::{Heartbeat, OfferNumber, RequestId, SessionNumber, StationId};
 use crate::input::Decimetres;
 use crate::message::Progress;
+use crate::output::Maneuver;
 use crate::state::{
-    Contact, Following, Identity, Job, Leading, Lease, Member, Offer, Offering, Order, Outstanding,
-    Phase, Refusal, Requesting, Robot, StandingFarewell,
+    Contact, Corridor, Duty, Following, Identity, Job, Leading, Lease, Member, Offer, Offering,
+    Order, Outstanding, Phase, Refusal, Requesting, Rival, Robot, StandingFarewell,
 };
-use crate::task::{Availability, HelpRequest};
+use crate::task::{Availability, HelpRequest, TaskType};
 use crate::time::{Countdown, Millis};
 
 /// The stages of a robot, which are the variants of [`Phase`].
@@ -48,7 +50,7 @@ pub type Peers = (usize, usize);
 /// Any state in this stage that can be valid. `config` is for hints.
 ///
 /// A robot in a session has its identity locked, and only one without a part or a follower can be
-/// unavailable: to say so at once, rather than by [`Robot::is_valid`] alone, saves a proof the rest.
+/// unavailable or have a duty: to say so at once, rather than by [`Robot::is_valid`] alone, saves a proof the rest.
 pub fn valid_robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) -> Robot {
     let mut robot = robot(source, config, stage, peers);
     if stage != Stage::Idle {
@@ -58,6 +60,7 @@ pub fn valid_robot(source: &mut impl Source, config: &Config, stage: Stage, peer
     }
     if !matches!(stage, Stage::Idle | Stage::Following) {
         robot.availability = Availability::Available;
+        robot.duty = None;
     }
     robot
 }
@@ -68,13 +71,19 @@ pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Pee
     Robot {
         station: station(source, ME),
         boot: source.u16(BOOT),
-        next_count: source.u16(BOOT),
+        next_count: if source.likely(Some(true)) {
+            source.u16(BOOT)
+        } else {
+            // From half of the numbers on a new epoch is asked for.
+            source.u16(u16::MAX / 2)
+        },
         availability: availability(source),
         identity: match choice(source, 3) {
             0 => Identity::Unlocked,
             1 => Identity::Locked(countdown(source, config.t_lock_session())),
             _ => Identity::Expiring,
         },
+        duty: likely(source, Some(false), duty),
         ram: armed_or_off(source, settings.ram_period),
         farewell: option(source, |s| StandingFarewell {
             farewell: farewell(s, ME),
@@ -86,7 +95,13 @@ pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Pee
 
 /// Any countdown. Hints keep it within `limit`.
 fn countdown(source: &mut impl Source, limit: Millis) -> Countdown {
-    let hint = source.number(limit.0, limit.0);
+    // Now and then little is left.
+    let most = if source.likely(Some(true)) {
+        limit.0
+    } else {
+        limit.0 / 4
+    };
+    let hint = source.number(most, most);
     let left = source.number(u32::MAX, hint);
     Countdown::from(Some(left).filter(|&left| left < u32::MAX))
 }
@@ -113,7 +128,9 @@ fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) 
         Stage::Requesting => Phase::Requesting(Requesting {
             number: SessionNumber(number(source)),
             request: help_request(source),
-            offers: list(source, peers, |s, i| offer(s, PEER + i)),
+            heartbeat: heartbeat(source),
+            rival: option(source, rival),
+            offers: list(source, peers, |s, i| offer(s, config, PEER + i)),
             help: countdown(source, settings.t_help),
             selection: armed_or_off(source, settings.t_select),
         }),
@@ -121,6 +138,8 @@ fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) 
             session: session(source, PEER),
             number: OfferNumber(number(source)),
             capabilities: task_set(source),
+            heard: earlier_heartbeat(source),
+            t_safety: Millis(source.number(u32::MAX, settings.t_safety.0)),
             reservation: countdown(source, settings.t_offer),
         }),
         Stage::Leading => Phase::Leading(leading(source, config, peers)),
@@ -128,12 +147,34 @@ fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) 
     }
 }
 
-fn offer(source: &mut impl Source, hint: u32) -> Offer {
+fn duty(source: &mut impl Source) -> Duty {
+    if source.flag() {
+        Duty::Crossing(session(source, ME))
+    } else {
+        Duty::FallingBack(Maneuver {
+            id: maneuver_id(source),
+            task: task(source),
+        })
+    }
+}
+
+/// One that was heard before what a message may say of it.
+fn rival(source: &mut impl Source) -> Rival {
+    Rival {
+        session: session(source, PEER),
+        heartbeat: earlier_heartbeat(source),
+        fresh: source.flag(),
+    }
+}
+
+fn offer(source: &mut impl Source, config: &Config, hint: u32) -> Offer {
     Offer {
         station: station(source, hint),
         number: offer_number(source),
         capabilities: task_set(source),
         distance: Decimetres(source.u16(u16::try_from(hint).unwrap_or(0))),
+        echo: earlier_heartbeat(source),
+        standing: countdown(source, config.t_offer_lease()),
     }
 }
 
@@ -150,14 +191,20 @@ fn leading(source: &mut impl Source, config: &Config, peers: Peers) -> Leading {
         },
         heartbeat: heartbeat(source),
         members,
-        corridor_open: source.likely((!engaged).then_some(false)),
+        corridor: match source.number(2, if engaged { 1 } else { u32::MAX }) {
+            0 => Corridor::Clear,
+            1 => Corridor::Open,
+            _ => Corridor::Clearing,
+        },
+        rival: option(source, rival),
+        yields_to: likely(source, Some(false), |s| station(s, PEER)),
     }
 }
 
 fn member(source: &mut impl Source, config: &Config, hint: u32, engaged: bool) -> Member {
     let settings = config.settings();
     let station: StationId = station(source, hint);
-    let echoed = likely(source, engaged.then_some(true), heartbeat);
+    let echoed = likely(source, engaged.then_some(true), echo);
     // Who has not joined has no lease and no command.
     let unless_joined = echoed.is_none().then_some(false);
     let if_engaged = unless_joined.or(engaged.then_some(true));
@@ -188,9 +235,22 @@ fn member(source: &mut impl Source, config: &Config, hint: u32, engaged: bool) -
     }
 }
 
+/// The newest heartbeat or an earlier one; now and then one that is almost too old to be put in order.
+fn echo(source: &mut impl Source) -> Heartbeat {
+    if source.likely(Some(true)) {
+        heartbeat(source)
+    } else {
+        Heartbeat(source.u16(HEARTBEAT.wrapping_sub(i16::MAX.unsigned_abs())))
+    }
+}
+
 fn order(source: &mut impl Source, config: &Config, engaged: bool) -> Order {
-    let (request, task) = (RequestId(source.u8(REQUEST)), task(source));
-    let hint = if engaged { EXECUTING } else { u32::MAX };
+    let (hint, guards) = if engaged {
+        (EXECUTING, u32::from(TaskType::MOVE.value()))
+    } else {
+        (u32::MAX, u32::MAX)
+    };
+    let (request, task) = (RequestId(source.u8(REQUEST)), task_like(source, guards));
     let progress = option(source, |s| progress(s, hint));
     let is_running = progress.is_none_or(Progress::is_running);
     Order {

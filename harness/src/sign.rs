@@ -1,0 +1,63 @@
+//! The sign of a leader: what people at the road see.
+//!
+//! It shows *stop*, or *go* until a time that the last act named. A display compares that time with the clock, so
+//! *go* ends although the robot's thread hangs and tells nothing. A sign is shared: the
+//! application sets it, people and displays look at it.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crossguard_protocol::Millis;
+
+/// A sign. Times are microseconds on the clock of its robot.
+#[derive(Clone, Debug, Default)]
+pub struct Sign {
+    /// When *go* ends; 0 for *stop*.
+    ends_us: Arc<AtomicU64>,
+}
+
+impl Sign {
+    /// Shows *go* from `now_us` on, for this long; an earlier end is replaced.
+    pub fn go(&self, now_us: u64, time: Millis) {
+        let ends_us = now_us.saturating_add(u64::from(time.0) * 1_000);
+        self.ends_us.store(ends_us, Ordering::SeqCst);
+    }
+
+    /// Shows *stop*.
+    pub fn stop(&self) {
+        self.ends_us.store(0, Ordering::SeqCst);
+    }
+
+    /// Whether it shows *go* at `now_us`.
+    #[must_use]
+    pub fn shows_go(&self, now_us: u64) -> bool {
+        now_us < self.ends_us.load(Ordering::SeqCst)
+    }
+
+    /// When what it shows at `now_us` ends, unless it is told otherwise; `None` for *stop*.
+    #[must_use]
+    pub fn ends_us(&self, now_us: u64) -> Option<u64> {
+        let ends_us = self.ends_us.load(Ordering::SeqCst);
+        (now_us < ends_us).then_some(ends_us)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn go_ends_by_itself_and_may_be_extended_or_ended() {
+        let sign = Sign::default();
+        assert!(!sign.shows_go(0));
+        sign.go(1_000_000, Millis(1_900));
+        assert_eq!(sign.ends_us(2_899_999), Some(2_900_000));
+        assert_eq!(sign.ends_us(2_900_000), None);
+        let seen = sign.clone();
+        assert!(seen.shows_go(2_899_999) && !seen.shows_go(2_900_000));
+        sign.go(1_100_000, Millis(1_900));
+        assert!(seen.shows_go(2_900_000) && !seen.shows_go(3_000_000));
+        sign.stop();
+        assert!(!seen.shows_go(1_100_000));
+    }
+}

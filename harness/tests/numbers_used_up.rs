@@ -1,0 +1,84 @@
+//! A robot that gives out half of the numbers of its boot counter persists the next one while it runs, and
+//! goes on with that. Where the counter cannot be written it says so, and tries again.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use crossguard_harness::application::{Application, Wish};
+use crossguard_harness::body::{Body, Build};
+use crossguard_harness::boot;
+use crossguard_harness::counters::Cause;
+use crossguard_harness::journal::{Journal, WhenFull};
+use crossguard_harness::plan::Plan;
+use crossguard_harness::ras::surroundings::Awareness;
+use crossguard_harness::runtime::{Clock, Order, Setup};
+use crossguard_harness::site::{Place, Site};
+use crossguard_harness::station::Security;
+use crossguard_harness::trace::Entry;
+use crossguard_harness::transport::{Air, Transport};
+use crossguard_harness::wire::Wire;
+use crossguard_protocol::{Config, Event, Input, StationId};
+
+const PATIENCE: Duration = Duration::from_mins(2);
+
+#[test]
+fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.boot");
+    let boot = boot::take(&path).unwrap();
+    // Something else is where the counter is kept.
+    let kept = fs::read(&path).unwrap();
+    fs::remove_file(&path).unwrap();
+    fs::create_dir(&path).unwrap();
+
+    let mut journal = Journal::new();
+    let records = journal.reader(4_096, WhenFull::Skip, Cause::OutputFull);
+    let body = Body::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
+    let robot = Setup {
+        name: "R1".to_owned(),
+        station: StationId(1),
+        boot,
+        config: Config::default(),
+        wire: Wire::default(),
+        security: Security::default(),
+        awareness: Awareness::default(),
+        application: Application::new(body, None),
+        link: Air::new(1).port(0).open().unwrap(),
+        journal,
+        clock: Clock::start(),
+    }
+    .start();
+    let request = Plan::crossing(Site::default()).request();
+    let asks = Order::Wish(Wish::Tell(Event::PedestrianDetected(request)));
+    let leaves = Order::Wish(Wish::Tell(Event::LeaveRequested));
+    let (mut complained, mut renewed) = (0, None);
+    let deadline = Instant::now() + PATIENCE;
+    while renewed.is_none() && Instant::now() < deadline {
+        robot.order(asks);
+        robot.order(leaves);
+        for record in records.try_iter() {
+            match &record.entry {
+                Entry::Dropped { cause, .. } if *cause == Cause::EpochNotRenewed.name() => {
+                    complained += 1;
+                    if complained == 1 {
+                        fs::remove_dir(&path).unwrap();
+                        fs::write(&path, &kept).unwrap();
+                    }
+                }
+                Entry::Step {
+                    input: Input::Local(Event::EpochRenewed(boot)),
+                    state,
+                    ..
+                } => renewed = Some((*boot, state.boot())),
+                _ => {}
+            }
+        }
+    }
+    robot.stop();
+    assert!(
+        complained > 0,
+        "a counter that cannot be written is complained about"
+    );
+    assert_eq!(renewed, Some((2, 2)));
+    assert_eq!(boot::take(&path).unwrap().counter, 3);
+}

@@ -1,0 +1,319 @@
+//! What comes of an action: the next state, and the step of the robot that takes one.
+
+use std::sync::atomic::Ordering;
+
+use crossguard_protocol::{Phase, Robot, SessionId, Timer};
+
+use super::{Action, Delivery, Draft, Model, RobotStep, Shared, State};
+use crate::network::{Network, Transmission, concerns};
+use crate::node::Node;
+use crate::properties::{PropertyId, StepView, View};
+use crate::road::{Body, Pedestrian, w1_guards_in_place};
+use crate::scenario::Bounds;
+use crate::steps::{Cause, Step, judge_historic};
+
+impl Model {
+    /// What comes of `action` in `state`, with the robot's step if one takes a step; `None` if the
+    /// action changes nothing.
+    #[must_use]
+    pub fn successor(
+        &self,
+        state: &State,
+        action: Action,
+    ) -> Option<(State, Option<RobotStep<'_>>)> {
+        let (next, step) = self.take(state, action)?;
+        Some((self.interned(next), step))
+    }
+
+    /// The same, with the state that stands for all those that differ from the successor in which of the
+    /// symmetric robots is which.
+    #[must_use]
+    pub fn successor_up_to_symmetry(
+        &self,
+        state: &State,
+        action: Action,
+    ) -> Option<(State, Option<RobotStep<'_>>)> {
+        let (next, step) = self.take(state, action)?;
+        Some((self.interned(self.representative_of(next)), step))
+    }
+
+    fn take(&self, state: &State, action: Action) -> Option<(Draft, Option<RobotStep<'_>>)> {
+        let mut next = Draft {
+            state: state.clone(),
+            network: *self.network(state),
+        };
+        let step = match action {
+            Action::Deliver { transmission, how } => {
+                match how {
+                    Delivery::AtOnce => next.network.take_off_air(transmission),
+                    Delivery::Late => next.network.forget(transmission),
+                    Delivery::LateAndAgain | Delivery::AnyTime => {}
+                }
+                let cause = Cause::Message(transmission.message);
+                let step = self.robot_step(&mut next, transmission.to.into(), cause)?;
+                if how == Delivery::LateAndAgain && step.step.is_ignored {
+                    return None;
+                }
+                if how == Delivery::AnyTime && next.is(state, self.network(state)) {
+                    return None;
+                }
+                Some(step)
+            }
+            Action::Lose(transmission) => {
+                let is_on_air = next.network.next_on_air().is_some();
+                let is_free = is_on_air && self.is_deaf(state, transmission.to.into());
+                if let (Some(left), false) = (&mut next.state.left.losses, is_free) {
+                    *left -= 1;
+                }
+                if is_on_air {
+                    next.network.take_off_air(transmission);
+                } else {
+                    next.network.forget(transmission);
+                }
+                None
+            }
+            Action::Delay(transmission) => {
+                next.network.take_off_air(transmission);
+                next.network.delay(transmission);
+                None
+            }
+            Action::Expire(i, timer) => {
+                Some(self.robot_step(&mut next, i.into(), Cause::Timer(timer))?)
+            }
+            Action::Local(i, event) => {
+                next.state.left.spend(event);
+                let step = self.robot_step(&mut next, i.into(), Cause::Event(event))?;
+                if step.step.is_ignored {
+                    return None;
+                }
+                Some(step)
+            }
+            Action::Crash(i) => {
+                next.state.left.crashes -= 1;
+                self.crash(&mut next.state, i.into());
+                self.forget_the_dead(&mut next);
+                None
+            }
+            Action::Restart(i) => {
+                next.state.left.restarts -= 1;
+                let node = self
+                    .0
+                    .steps
+                    .nodes
+                    .value(next.state.nodes[usize::from(i)])
+                    .restarted();
+                next.state.nodes[usize::from(i)] = self.0.steps.nodes.number(node);
+                self.forget_the_dead(&mut next);
+                None
+            }
+            Action::Hang(i) => {
+                next.state.left.hangs -= 1;
+                next.state.hung |= 1 << i;
+                None
+            }
+            Action::Resume(i) => {
+                next.state.hung &= !(1 << i);
+                None
+            }
+            Action::StepOnRoad(i) => {
+                let session = self.step_on_road(&mut next.state, i.into())?;
+                self.set_pedestrian(&mut next.state, Pedestrian::OnRoad(session));
+                None
+            }
+            Action::Across(_) => {
+                let across = if self.0.scenario.cooperative {
+                    Pedestrian::Across
+                } else {
+                    Pedestrian::Waiting
+                };
+                self.set_pedestrian(&mut next.state, across);
+                None
+            }
+        };
+        self.forget_bodies(&mut next.state);
+        Some((self.ranked(next), step))
+    }
+
+    /// The session at whose sign somebody steps on the road. Judges W1.
+    fn step_on_road(&self, next: &mut State, i: usize) -> Option<SessionId> {
+        let node = self.0.steps.nodes.value(next.nodes[i]);
+        let session = node.robot.as_ref()?.session()?;
+        if self.0.scenario.properties.contains(&PropertyId::W1) {
+            let required = usize::from(self.0.scenario.request.followers);
+            let in_place = |view: &View| w1_guards_in_place::holds(view, session, required);
+            if !self.look(next, in_place) {
+                next.broken |= PropertyId::W1.bit();
+            }
+            self.note_premises(PropertyId::W1.bit());
+        }
+        Some(session)
+    }
+
+    fn set_pedestrian(&self, next: &mut State, pedestrian: Pedestrian) {
+        let mut history = self.history(next).clone();
+        history.pedestrian = pedestrian;
+        next.history = self.0.histories.number(history);
+    }
+
+    /// What a body has done last is of no account any more once nobody leads that session.
+    fn forget_bodies(&self, next: &mut State) {
+        for i in 0..self.0.scenario.robots.len() {
+            let node = self.0.steps.nodes.value(next.nodes[i]);
+            let Body::Ended(id, _) = node.actuation.body else {
+                continue;
+            };
+            let leads = |node: &Node| {
+                node.robot.as_ref().and_then(Robot::session) == Some(id.session)
+                    && node.persisted.station == id.session.leader
+            };
+            if !self.nodes(next).any(leads) {
+                let mut forgetful = node.clone();
+                forgetful.actuation.body = Body::Parked;
+                next.nodes[i] = self.0.steps.nodes.number(forgetful);
+            }
+        }
+    }
+
+    fn crash(&self, next: &mut State, i: usize) {
+        let node = self.0.steps.nodes.value(next.nodes[i]);
+        if let Some(robot) = &node.robot {
+            let mut history = self.history(next).clone();
+            history.record_crash(robot);
+            next.history = self.0.histories.number(history);
+        }
+        next.nodes[i] = self.0.steps.nodes.number(node.crashed());
+        next.hung &= !(1 << i);
+    }
+
+    /// Drops from a monotone channel what robots would hear that are down for good.
+    fn forget_the_dead(&self, next: &mut Draft) {
+        let Shared {
+            scenario,
+            steps,
+            sets,
+            ..
+        } = &*self.0;
+        if !scenario.channel.monotone || next.state.left.restarts > 0 {
+            return;
+        }
+        for (i, &node) in next.state.nodes[..scenario.robots.len()].iter().enumerate() {
+            if steps.nodes.value(node).robot.is_none() {
+                next.network.sent = sets.without(next.network.sent, i, steps);
+            }
+        }
+    }
+
+    fn robot_step(&self, next: &mut Draft, i: usize, cause: Cause) -> Option<RobotStep<'_>> {
+        let Shared {
+            scenario, steps, ..
+        } = &*self.0;
+        let before = next.state.nodes[i];
+        if next.state.hangs(i) {
+            return None;
+        }
+        let step = steps.step(&scenario.config, &scenario.properties, before, cause)?;
+        self.spend_growth(&mut next.state.left, before, cause, step)?;
+        let (mut premises, mut broken) = (step.premises, step.broken);
+        if step.is_historic {
+            let view = StepView {
+                config: &scenario.config,
+                history: self.0.histories.value(next.state.history),
+                before: steps.nodes.value(before),
+                after: steps.nodes.value(step.after),
+                input: step.input,
+                outputs: &step.outputs,
+            };
+            let historic = judge_historic(&scenario.properties, &view);
+            premises |= historic.0;
+            broken |= historic.1;
+            next.state.history = self.0.histories.number(view.history_after());
+        }
+        next.state.broken |= broken;
+        if !step.taken.load(Ordering::Relaxed) {
+            step.taken.store(true, Ordering::Relaxed);
+        }
+        self.note_premises(premises);
+        self.transmit(next, i, step);
+        next.state.nodes[i] = step.after;
+        Some(RobotStep { robot: i, step })
+    }
+
+    /// Takes what makes a monotone channel grow without end off what may still happen: a RAM timer that
+    /// changes its robot counts a heartbeat, and a robot that a message makes offer numbers an offer.
+    /// `None` where there is nothing left.
+    fn spend_growth(
+        &self,
+        left: &mut Bounds,
+        before: u32,
+        cause: Cause,
+        step: &Step,
+    ) -> Option<()> {
+        let offers = |node: u32| {
+            let robot = self.0.steps.nodes.value(node).robot.as_ref();
+            robot.filter(|robot| matches!(robot.phase(), Phase::Offering(_)))
+        };
+        let bound = match cause {
+            Cause::Timer(Timer::Ram) if step.after != before => &mut left.heartbeats,
+            Cause::Message(_)
+                if offers(step.after).is_some_and(|after| {
+                    offers(before).is_none_or(|before| before.session() != after.session())
+                }) =>
+            {
+                &mut left.offers
+            }
+            _ => return Some(()),
+        };
+        if let Some(left) = bound {
+            *left = left.checked_sub(1)?;
+        }
+        Some(())
+    }
+
+    fn transmit(&self, next: &mut Draft, from: usize, step: &Step) {
+        let Shared {
+            scenario,
+            steps,
+            sets,
+            ..
+        } = &*self.0;
+        let channel = scenario.channel;
+        for &number in &step.sends {
+            let message = self.message(number);
+            for to in (0..scenario.robots.len()).filter(|&to| to != from) {
+                let receiver = steps.nodes.value(next.state.nodes[to]);
+                if !concerns(message, receiver.persisted.station) || !self.may_hear(next, to) {
+                    continue;
+                }
+                let place = |i: usize| u8::try_from(i).expect("at most MAX_ROBOTS");
+                let transmission = Transmission {
+                    from: place(from),
+                    to: place(to),
+                    message: number,
+                };
+                if channel.monotone {
+                    next.network.sent = sets.with(next.network.sent, transmission, steps);
+                } else {
+                    next.network.send(transmission);
+                }
+            }
+        }
+    }
+
+    /// Whether the robot at this place can ever hear what is sent now.
+    fn may_hear(&self, next: &Draft, place: usize) -> bool {
+        let channel = self.0.scenario.channel;
+        let keeps = channel.monotone || channel.delayed > 0;
+        let node = self.0.steps.nodes.value(next.state.nodes[place]);
+        match node.robot {
+            None => keeps && next.state.left.restarts > 0,
+            Some(_) => keeps || !next.state.hangs(place),
+        }
+    }
+}
+
+impl Draft {
+    /// Whether nothing has changed.
+    fn is(&self, state: &State, network: &Network) -> bool {
+        self.state == *state && self.network == *network
+    }
+}

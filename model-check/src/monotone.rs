@@ -1,0 +1,230 @@
+//! The monotone channel: every message that was ever sent may arrive at any later time, any number of
+//! times, in any order.
+//!
+//! The channel is the *set* of all messages ever sent, one per receiver. To send is to add to the set; to
+//! deliver takes nothing away. So nothing is decided when a message is sent: to be heard at once, late,
+//! again, or never are all deliveries of the set, or the lack of them. What `delayed = k` allows, for any
+//! `k`, this channel allows as well, as far as the bounds below go.
+//!
+//! # Why it is finite
+//!
+//! * The set holds each message once, so to repeat what was said before adds nothing. Names are ranked as
+//!   everywhere; as the set keeps all of them, ranks close no gaps here.
+//! * What a run adds without end must be bounded: heartbeats, which a leader counts once a period, and
+//!   offers, which a helper numbers anew whenever an old request reaches it once more. A scenario says how
+//!   often a RAM timer may change its robot ([`Bounds::heartbeats`]) and how often a message may make a
+//!   robot offer ([`Bounds::offers`]). Beyond that the timer does not expire, and the message is not
+//!   heard. The first is a bound of the exploration, like that on commands; the second is something the
+//!   channel may do anyway.
+//! * Messages to a robot that is down for good are dropped: nobody will hear them, so that is exact.
+//!   Nothing else is dropped, and nothing is merged.
+//!
+//! # What is claimed of runs
+//!
+//! Nothing is assumed about arrival: a message of the set may never arrive. So progress is by timers and
+//! applications alone: I12 asks for a timer that changes the state, L7 for a way to idle without any
+//! message, and L1, L2, L4 and L5 rely on timers, which are weakly fair as ever. L3 assumes that messages arrive, and
+//! `cooperative` with it. L6 does not hold of such a channel: two old requests that arrive in turn make two
+//! robots offer in turn, for ever, and only the bound on offers would hide it. Both are refused.
+
+use std::sync::Arc;
+
+use dashmap::DashMap;
+use rustc_hash::FxBuildHasher;
+use toml::Spanned;
+
+use crate::canonical::Renamings;
+use crate::intern::Interner;
+use crate::network::{Slot, Transmission};
+use crate::properties::PropertyId;
+use crate::scenario::{Bounds, Channel};
+use crate::symmetry::Wrong;
+
+/// What does not fit a monotone channel.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Misfit {
+    /// Delayed messages are counted.
+    #[error(
+        "delayed = {0} and 'monotone = true' exclude each other: on a monotone channel every message \
+         may arrive late; leave 'delayed' out"
+    )]
+    Delayed(u8),
+    /// Loss is decided about.
+    #[error(
+        "'{0}': a monotone channel decides about no loss, a message that never arrives is lost; it \
+         needs 'loss = true' and no 'losses'"
+    )]
+    Loss(&'static str),
+    /// The set of messages would grow for ever.
+    #[error(
+        "'monotone = true' needs '{0} = n' in [bounds]: the channel keeps every message, so without a \
+         bound there is no end of states"
+    )]
+    Unbounded(&'static str),
+    /// A bound for a monotone channel only.
+    #[error("'{0}' bounds runs on a monotone channel only; this one lacks 'monotone = true'")]
+    NotMonotone(&'static str),
+    /// Messages are assumed to arrive.
+    #[error(
+        "'cooperative = true' assumes that messages arrive; on a monotone channel any may never arrive"
+    )]
+    Cooperative,
+    /// A property that does not hold of such a channel.
+    #[error(
+        "{0} does not hold of a monotone channel: old requests that arrive again and again make robots \
+         offer for ever; leave it out"
+    )]
+    Property(PropertyId),
+}
+
+/// Whether a scenario's channel and what is said of it fit together.
+pub(crate) fn check(
+    channel: Channel,
+    bounds: Bounds,
+    cooperative: bool,
+    properties: &[Spanned<String>],
+) -> Result<(), (Wrong, Misfit)> {
+    let for_monotone = [("heartbeats", bounds.heartbeats), ("offers", bounds.offers)];
+    if !channel.monotone {
+        let set = for_monotone.into_iter().find(|(_, bound)| bound.is_some());
+        return set.map_or(Ok(()), |(key, _)| {
+            Err((Wrong::Key(key), Misfit::NotMonotone(key)))
+        });
+    }
+    if channel.delayed > 0 {
+        return Err((Wrong::Key("delayed"), Misfit::Delayed(channel.delayed)));
+    }
+    if !channel.loss {
+        return Err((Wrong::Key("loss ="), Misfit::Loss("loss = false")));
+    }
+    if bounds.losses.is_some() {
+        return Err((Wrong::Key("losses"), Misfit::Loss("losses")));
+    }
+    if let Some((key, _)) = for_monotone.into_iter().find(|(_, bound)| bound.is_none()) {
+        return Err((Wrong::Key("monotone"), Misfit::Unbounded(key)));
+    }
+    if cooperative {
+        return Err((Wrong::Key("cooperative"), Misfit::Cooperative));
+    }
+    for name in properties {
+        if let Ok(id @ PropertyId::L6) = name.get_ref().parse() {
+            return Err((Wrong::At(name.span().start), Misfit::Property(id)));
+        }
+    }
+    Ok(())
+}
+
+/// A set of messages, each with its way, in order.
+type Set = Box<[Slot]>;
+
+/// All sets of messages that have occurred.
+pub(crate) struct Sets {
+    known: Interner<Set>,
+    /// What a set and one more message make.
+    with: DashMap<(u32, Slot), u32, FxBuildHasher>,
+    renamed: DashMap<(u32, u32), u32, FxBuildHasher>,
+    renamings: Arc<Renamings>,
+}
+
+/// What the sets need to know of messages: the number of the names in one.
+pub(crate) trait MessageNames {
+    fn names(&self, message: u16) -> u32;
+}
+
+impl Sets {
+    /// The number of the empty set.
+    pub(crate) const EMPTY: u32 = 0;
+
+    pub(crate) fn new(renamings: &Arc<Renamings>) -> Self {
+        let sets = Interner::new(renamings);
+        let empty = sets.number_nameless(Set::default());
+        debug_assert_eq!(empty, Self::EMPTY);
+        Self {
+            known: sets,
+            with: DashMap::default(),
+            renamed: DashMap::default(),
+            renamings: Arc::clone(renamings),
+        }
+    }
+
+    /// The messages of a set, in order.
+    pub(crate) fn transmissions(&self, set: u32) -> impl Iterator<Item = Transmission> {
+        let slots = self.known.value(set).iter();
+        slots.filter_map(|slot| slot.transmission())
+    }
+
+    /// The names that occur in a set.
+    pub(crate) fn names(&self, set: u32) -> u32 {
+        self.known.names(set)
+    }
+
+    /// A set and one more message.
+    pub(crate) fn with(&self, set: u32, message: Transmission, names: &impl MessageNames) -> u32 {
+        let message = Slot::of(message);
+        let slots = self.known.value(set);
+        let Err(at) = slots.binary_search(&message) else {
+            return set;
+        };
+        if let Some(known) = self.with.get(&(set, message)) {
+            return *known;
+        }
+        let mut slots = slots.to_vec();
+        slots.insert(at, message);
+        let with = self.number(slots.into(), names);
+        self.with.insert((set, message), with);
+        with
+    }
+
+    /// A set without the messages to one receiver.
+    pub(crate) fn without(&self, set: u32, receiver: usize, names: &impl MessageNames) -> u32 {
+        let stays = |sent: &Transmission| usize::from(sent.to) != receiver;
+        let left = self.transmissions(set).filter(stays);
+        self.number(left.map(Slot::of).collect(), names)
+    }
+
+    /// A set after the renaming of this number, which `message` carries out on one message.
+    pub(crate) fn renamed(
+        &self,
+        set: u32,
+        renaming: u32,
+        message: impl Fn(u16) -> u16,
+        names: &impl MessageNames,
+    ) -> u32 {
+        if self.names(set) == Renamings::EMPTY {
+            return set;
+        }
+        if let Some(known) = self.renamed.get(&(set, renaming)) {
+            return *known;
+        }
+        let renamed = self.map(set, names, |sent| Transmission {
+            message: message(sent.message),
+            ..sent
+        });
+        self.renamed.insert((set, renaming), renamed);
+        renamed
+    }
+
+    /// A set with every message replaced.
+    pub(crate) fn map(
+        &self,
+        set: u32,
+        names: &impl MessageNames,
+        replace: impl Fn(Transmission) -> Transmission,
+    ) -> u32 {
+        let mut slots: Vec<Slot> = self
+            .transmissions(set)
+            .map(|sent| Slot::of(replace(sent)))
+            .collect();
+        slots.sort_unstable();
+        slots.dedup();
+        self.number(slots.into(), names)
+    }
+
+    fn number(&self, set: Set, names: &impl MessageNames) -> u32 {
+        self.known.number_with(set, |set| {
+            let messages = set.iter().filter_map(|slot| slot.transmission());
+            self.renamings
+                .union(messages.map(|sent| names.names(sent.message)))
+        })
+    }
+}

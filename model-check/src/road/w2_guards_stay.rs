@@ -1,0 +1,59 @@
+//! W2: while somebody is on the road, no guard that is able to stays away.
+//!
+//! A guard that is in place is told neither to stop nor to do something else, whatever arrives, expires or
+//! reboots. It may be told to fall back, and then to hold its place, or to bring its person off the road. Its
+//! own fault may end what it does, and so may its own application, which is truthful.
+
+use crossguard_protocol::{FallbackPolicy, ManeuverId, Output, StopReason, TaskType};
+
+use crate::properties::{StepRule, StepView};
+use crate::road::Body;
+
+pub(crate) const RULE: StepRule = StepRule {
+    holds,
+    premise,
+    looks_back: true,
+};
+
+/// The maneuver by which the body guards who is on the road, also while it falls back.
+fn guarding(step: &StepView) -> Option<ManeuverId> {
+    let session = step.history.pedestrian.on_road()?;
+    let body = step.before.actuation.body;
+    let guards = match body {
+        Body::FallingBack(maneuver, _) => Some(maneuver),
+        _ => body.guards(step.config.settings()),
+    };
+    let id = guards?.id;
+    (id.session == session).then_some(id)
+}
+
+fn holds(step: &StepView) -> bool {
+    let Some(guarding) = guarding(step) else {
+        return true;
+    };
+    let stays = |policy, task: TaskType| {
+        if step.config.settings().holding.contains(task) {
+            policy == FallbackPolicy::HoldUntilClear
+        } else {
+            matches!(
+                policy,
+                FallbackPolicy::HoldUntilClear | FallbackPolicy::EscortToKerb
+            )
+        }
+    };
+    step.outputs.iter().all(|output| match *output {
+        Output::StopManeuver(maneuver, why) => {
+            maneuver.id != guarding || matches!(why, StopReason::Unavailable(_))
+        }
+        Output::FallBack(maneuver, policy) => {
+            maneuver.id != guarding || stays(policy, maneuver.task)
+        }
+        Output::StartManeuver(_) => false,
+        _ => true,
+    })
+}
+
+fn premise(step: &StepView) -> bool {
+    let ends = |output: &Output| matches!(output, Output::StopManeuver(..) | Output::FallBack(..));
+    guarding(step).is_some() && step.outputs.iter().any(ends)
+}

@@ -1,0 +1,45 @@
+//! W4: a robot begins nothing new before its last duty's fallback is finished and its application says that
+//! the road is clear.
+//!
+//! A duty is what a body falls back from, or that a sign has shown go, since when nobody has said that the
+//! road is clear or the task done. A reboot is exempt: the protocol persists no duty.
+
+use crossguard_protocol::{Coordination, Output, SessionId};
+
+use crate::node::Node;
+use crate::properties::{StepRule, StepView};
+use crate::road::Body;
+
+pub(crate) const RULE: StepRule = StepRule {
+    holds,
+    premise,
+    looks_back: false,
+};
+
+fn has_duty(node: &Node) -> bool {
+    matches!(node.actuation.body, Body::FallingBack(..)) || node.actuation.road_unsure
+}
+
+/// The session that a robot asks or offers for.
+fn begun(node: &Node) -> Option<SessionId> {
+    let ram = node.robot.as_ref()?.ram();
+    match ram.coordination {
+        Coordination::NeedHelp { number, .. } => {
+            let leader = ram.station;
+            Some(SessionId { leader, number })
+        }
+        Coordination::OfferHelp { session, .. } => Some(session),
+        _ => None,
+    }
+}
+
+fn holds(step: &StepView) -> bool {
+    let starts = |output: &Output| matches!(output, Output::StartManeuver(_));
+    let (before, after) = (begun(step.before), begun(step.after));
+    let begins = step.outputs.iter().any(starts) || (after.is_some() && after != before);
+    !premise(step) || !begins
+}
+
+fn premise(step: &StepView) -> bool {
+    has_duty(step.before)
+}

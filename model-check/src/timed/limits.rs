@@ -1,0 +1,113 @@
+//! The longest times that the timers' values allow by calculation. The one place that knows them: the timed
+//! model holds its figures against them, and so does the simulator that observes running robots.
+
+use crossguard_protocol::{Config, Millis, Settings};
+use serde::Serialize;
+
+use super::clock::longest;
+
+/// The longest times that the timers' values allow by calculation, in milliseconds of true time:
+/// the figures of a timed scenario are held against them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+pub struct Limits {
+    /// From a request to roles or to giving up (L1).
+    pub roles: Millis,
+    /// From the leader's crash to the follower stopped (L5).
+    pub stopped: Millis,
+    /// From the leader's crash to the follower idle (L5).
+    pub left: Millis,
+    /// From a follower's own failure, crash or hang, or from a hang of the leader, to the sign at stop
+    /// (I11, W1, W5): nobody steps on the road later.
+    pub corridor_closed: Millis,
+    /// From a follower's fallback to the sign at stop (W1): the sign shows stop before.
+    pub unguarded: Millis,
+    /// From the first message that one of two leaders at a place hears of the other to one sign at stop, where
+    /// no heartbeat gets lost from then on (W3).
+    pub both_go: Millis,
+    /// From a follower's own failure, crash or hang to the leader's application told of it (W6).
+    pub unaware: Millis,
+    /// From a detection, or from the newest news of a lost lease, to go or to a reason told to the application
+    /// (W8). Applications command and open as soon as they may. Where a task holds a place, the time that the
+    /// body takes to get there comes on top; `T_exec` after its acknowledgement the application is told that
+    /// it failed.
+    pub waiting: Millis,
+}
+
+impl Limits {
+    /// The limits of robots with these settings, where a message takes at most `delay`.
+    #[must_use]
+    pub fn new(config: &Config, delay: Millis) -> Self {
+        let settings = config.settings();
+        let timer = |timer: Millis| longest(timer, settings);
+        // The crashed leader's last heartbeat may still be under way.
+        let stopped = delay.saturating_add(timer(settings.t_safety));
+        // The lease is counted from a heartbeat that was sent before the failure, whichever it is.
+        let lease = timer(settings.t_lease);
+        // The one that goes behind yields to the second heartbeat that it hears. Periods that are told
+        // late do not add up.
+        let two_periods = timer(settings.ram_period.saturating_add(settings.ram_period));
+        Self {
+            roles: timer(settings.t_help),
+            stopped,
+            left: stopped.saturating_add(timer(settings.t_leave)),
+            corridor_closed: lease,
+            // The leader's lease ends before the follower falls back.
+            unguarded: Millis::ZERO,
+            both_go: two_periods.saturating_add(delay),
+            unaware: lease,
+            waiting: waiting(config),
+        }
+    }
+
+    /// The limit of each road property that has one, under its id.
+    #[must_use]
+    pub const fn road(&self) -> [(&'static str, Millis); 5] {
+        [
+            ("W1", self.corridor_closed),
+            ("W3", self.both_go),
+            ("W5", self.corridor_closed),
+            ("W6", self.unaware),
+            ("W8", self.waiting),
+        ]
+    }
+}
+
+/// What comes one after the other before a pedestrian sees go, each as late as it may without being told as a
+/// reason: the roles; a follower that joins, without which it is gone after `t_lost`; the acknowledgement of
+/// its command; and its first report, for which the leader's lease on it waits.
+fn waiting(config: &Config) -> Millis {
+    let settings: &Settings = config.settings();
+    let timer = |timer: Millis| longest(timer, settings);
+    let tries = (0..=settings.n_ack).map(|_| timer(settings.t_ack));
+    [settings.t_help, config.t_lost(), settings.t_lease]
+        .map(timer)
+        .into_iter()
+        .chain(tries)
+        .fold(Millis::ZERO, Millis::saturating_add)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limits_follow_from_the_settings() {
+        let settings = Settings {
+            drift_ppm: 0,
+            ..Settings::default()
+        };
+        let limits = Limits::new(&Config::new(settings).unwrap(), Millis(30));
+        // Each timer may be told 50 ms late.
+        assert_eq!(limits.stopped, Millis(30 + 2_050));
+        assert_eq!(limits.left, Millis(30 + 2_050 + 5_050));
+        let waiting = 10_050 + 7_050 + 1_950 + 4 * 650;
+        let road = [
+            ("W1", Millis(1_950)),
+            ("W3", Millis(250 + 30)),
+            ("W5", Millis(1_950)),
+            ("W6", Millis(1_950)),
+            ("W8", Millis(waiting)),
+        ];
+        assert_eq!(limits.road(), road);
+    }
+}

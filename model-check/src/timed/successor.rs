@@ -1,0 +1,316 @@
+//! What comes of what happens: a step of the model.
+
+use crossguard_protocol::{Event, Millis, Outputs};
+use smallvec::SmallVec;
+
+use super::model::{Model, Step};
+use super::quiet::Quiet;
+use super::rules::{self, Broken, TimedProperty};
+use super::section::{Looks, MAX_TEAMS, Rates};
+use super::sign::Sign;
+use super::state::{Action, Cause, State};
+use super::told::{Reason, Told};
+use super::watch::{Longest, Measure, Watch};
+use crate::network::{Transmission, concerns};
+use crate::scenario::MAX_ROBOTS;
+
+impl Model {
+    /// What comes of `action` in `state`; `None` if the action changes nothing. The stop-watches
+    /// that it stops are noted in `longest`.
+    pub(super) fn successor(
+        &self,
+        state: &State,
+        action: Action,
+        longest: &mut Longest,
+    ) -> Option<State> {
+        let mut next = state.clone();
+        next.broken = Broken::NOTHING;
+        let taken_in = self.taken_in(state, action);
+        match action {
+            Action::Tick(fast) => self.tick(&mut next, fast),
+            Action::Deliver(flight) => next.channel.take(flight),
+            Action::Local(i, event) => spend(&mut next, i, event),
+            Action::Crash(i) => self.crash(&mut next, i),
+            Action::Hang(i) => {
+                next.left.hangs -= 1;
+                if self.timed.teams.leads(i) {
+                    next.waiting = None;
+                }
+                next.watch = Watch::Hung(i, 0);
+            }
+            Action::Meet => next.watch = Watch::Near,
+            Action::Look(_) | Action::GoOn(_) => {}
+        }
+        let (mut is_ignored, mut reason) = (false, Reason::None);
+        for (i, cause) in taken_in {
+            if matches!(cause, Cause::Elapsed(_)) {
+                next.untold[usize::from(i)] = Millis::ZERO;
+            }
+            if let Some(taken) = self.robot_step(&mut next, i, cause) {
+                is_ignored = taken.is_ignored;
+                reason = reason.max(taken.telling.reason);
+            } else {
+                is_ignored = true;
+            }
+        }
+        let changes_nothing = match action {
+            // It might as well never have arrived.
+            Action::Deliver(_) => is_ignored && self.scenario.channel.loss,
+            Action::Local(..) => is_ignored,
+            _ => false,
+        };
+        if changes_nothing {
+            return None;
+        }
+        self.hear_of_each_other(&mut next, action);
+        self.measure(state, &mut next, longest);
+        Self::measure_waiting(&mut next, reason, longest);
+        if matches!(action, Action::GoOn(_)) {
+            next.watch = Watch::Off;
+        }
+        next.broken.add(rules::broken(self, state, &next));
+        self.canonicalize(&mut next);
+        Some(next)
+    }
+
+    /// What robots take in when `action` happens, in this order. A robot is told of the time before
+    /// anything else.
+    fn taken_in(&self, state: &State, action: Action) -> SmallVec<[(u8, Cause); MAX_ROBOTS]> {
+        let time_of = |i: u8| {
+            let untold = state.untold[usize::from(i)];
+            (untold > Millis::ZERO).then_some((i, Cause::Elapsed(untold)))
+        };
+        match action {
+            Action::Tick(fast) => {
+                let told = |i: u8| {
+                    let untold = state.untold[usize::from(i)];
+                    let elapsed = untold.saturating_add(self.timed.clock.elapsed(fast, i));
+                    // As long as nothing is due, it makes no difference when a robot is told.
+                    let is_told = state.hung() != Some(i)
+                        && (self.timed.looks == Looks::EachTick
+                            || self.overdue(state, i, elapsed).is_none());
+                    is_told.then_some((i, Cause::Elapsed(elapsed)))
+                };
+                (0..)
+                    .take(self.scenario.robots.len())
+                    .filter_map(told)
+                    .collect()
+            }
+            Action::Look(i) | Action::GoOn(i) => time_of(i).into_iter().collect(),
+            Action::Deliver(flight) => {
+                let Transmission { to, message, .. } = flight.transmission;
+                time_of(to)
+                    .into_iter()
+                    .chain([(to, Cause::Message(message))])
+                    .collect()
+            }
+            Action::Local(i, event) => time_of(i)
+                .into_iter()
+                .chain([(i, Cause::Event(event))])
+                .collect(),
+            Action::Crash(_) | Action::Hang(_) | Action::Meet => SmallVec::new(),
+        }
+    }
+
+    /// A tick passes: messages grow older, every clock runs on, and with the leader's its sign's.
+    fn tick(&self, next: &mut State, fast: u8) {
+        next.watch.tick();
+        next.channel.tick(self.timed.delay_ticks);
+        for (&leader, sign) in self.timed.teams.leaders().iter().zip(&mut next.signs) {
+            sign.elapse(self.timed.clock.elapsed(fast, leader));
+        }
+        let since = next.unguarded.iter_mut().chain([&mut next.waiting]);
+        for ticks in since.flatten() {
+            *ticks = ticks.saturating_add(1);
+        }
+        if self.timed.rates == Rates::Constant && self.timed.clock.drifts() {
+            next.rates = Some(fast);
+        }
+        for i in (0..).take(self.scenario.robots.len()) {
+            let untold = &mut next.untold[usize::from(i)];
+            *untold = untold.saturating_add(self.timed.clock.elapsed(fast, i));
+        }
+    }
+
+    /// A robot crashes. A leader's sign goes dark with it, and its application knows nothing any more.
+    fn crash(&self, next: &mut State, i: u8) {
+        next.left.crashes -= 1;
+        if self.timed.teams.leads(i) {
+            next.watch = Watch::LeaderDown(0);
+            next.signs[self.timed.teams.team_of(i)] = Sign::Stop;
+            next.told = Told::NOTHING;
+            next.waiting = None;
+        } else {
+            next.watch = Watch::FollowerFailed(i, 0);
+        }
+        next.quiet[usize::from(i)] = None;
+        next.untold[usize::from(i)] = Millis::ZERO;
+        next.nodes[usize::from(i)] = self.nodes.number(self.node(next, i).crashed());
+        next.channel.forget_receiver(i);
+    }
+
+    /// Stops the stop-watches.
+    fn measure(&self, before: &State, next: &mut State, longest: &mut Longest) {
+        let robots = || self.nodes(before).zip(self.nodes(next));
+        let stops = |place| {
+            let team = self.timed.teams.team_of(place);
+            before.shows_go(team) && !next.shows_go(team)
+        };
+        let is_told = |place| before.told.counts_on(place) && !next.told.counts_on(place);
+        match next.watch {
+            Watch::Off | Watch::Apart | Watch::Near => {}
+            Watch::Request(ticks) => {
+                if !rules::is_requesting(self.node(next, self.timed.teams.leaders()[0])) {
+                    longest.note(Measure::Roles, ticks);
+                    next.watch = Watch::Off;
+                }
+            }
+            Watch::LeaderDown(ticks) => {
+                if robots()
+                    .any(|(b, n)| b.actuation.running.is_some() && n.actuation.running.is_none())
+                {
+                    longest.note(Measure::Stopped, ticks);
+                }
+                if robots().any(|(b, n)| rules::is_following(b) && !rules::is_following(n)) {
+                    longest.note(Measure::Left, ticks);
+                }
+            }
+            Watch::FollowerFailed(place, ticks) => {
+                if stops(place) {
+                    longest.note(Measure::CorridorClosed, ticks);
+                }
+                if is_told(place) {
+                    longest.note(Measure::Unaware, ticks);
+                }
+            }
+            Watch::Hung(place, ticks) => {
+                let leads = self.timed.teams.leads(place);
+                if stops(place) {
+                    longest.note(Measure::of_hang(leads), ticks);
+                }
+                if is_told(place) {
+                    longest.note(Measure::Unaware, ticks);
+                }
+            }
+            Watch::BothGo(ticks) => {
+                if !next.both_go() {
+                    longest.note(Measure::BothGo, ticks);
+                    next.watch = Watch::Off;
+                }
+            }
+        }
+        self.measure_unguarded(before, next, longest);
+    }
+
+    /// For how long the sign of a team shows go although a follower of it fell back for lack of contact.
+    fn measure_unguarded(&self, before: &State, next: &mut State, longest: &mut Longest) {
+        let mut fallen = [false; MAX_TEAMS];
+        for (place, (before, next)) in (0..).zip(self.nodes(before).zip(self.nodes(next))) {
+            fallen[self.timed.teams.team_of(place)] |= rules::falls_back(before, next);
+        }
+        for (team, fallen) in fallen.into_iter().enumerate() {
+            if fallen {
+                next.unguarded[team].get_or_insert(0);
+            }
+            if let Some(ticks) = next.unguarded[team]
+                && !next.shows_go(team)
+            {
+                longest.note(Measure::Unguarded, ticks);
+                next.unguarded[team] = None;
+            }
+        }
+    }
+
+    /// Whether the pedestrian still waits, and for how long it has.
+    fn measure_waiting(next: &mut State, reason: Reason, longest: &mut Longest) {
+        let Some(ticks) = next.waiting else {
+            return;
+        };
+        let sees_go = next.shows_go(0);
+        if sees_go || reason != Reason::None {
+            longest.note(Measure::Waiting, ticks);
+            next.waiting = (!sees_go && reason == Reason::Lease).then_some(0);
+        }
+    }
+
+    /// Starts the stop-watch of two leaders once a message of one reaches the other.
+    fn hear_of_each_other(&self, next: &mut State, action: Action) {
+        if let (Watch::Near, Action::Deliver(flight)) = (next.watch, action) {
+            let Transmission { from, to, .. } = flight.transmission;
+            let teams = &self.timed.teams;
+            if teams.leads(from) && teams.leads(to) {
+                next.watch = Watch::BothGo(0);
+            }
+        }
+    }
+
+    /// Lets a robot take a step; what came of it, `None` where the robot is down.
+    pub(super) fn robot_step(&self, next: &mut State, i: u8, cause: Cause) -> Option<Step> {
+        let place = usize::from(i);
+        let step = self.step(next.nodes[place], cause)?;
+        next.nodes[place] = step.after;
+        if let Some(sign) = step.sign {
+            next.signs[self.timed.teams.team_of(i)] = sign;
+        }
+        next.told = step.telling.after(next.told);
+        let elapsed = match cause {
+            Cause::Elapsed(elapsed) => elapsed,
+            Cause::Message(_) | Cause::Event(_) => Millis::ZERO,
+        };
+        let (quiet, keeps) = Quiet::after(next.quiet[place], elapsed, step.contact);
+        next.quiet[place] = quiet;
+        if !keeps {
+            next.broken.add(Broken::of(TimedProperty::I19));
+        }
+        if !step.is_valid {
+            next.broken.add(Broken::INVALID);
+        }
+        self.send(next, i, &step.sends);
+        Some(step)
+    }
+
+    /// Sends messages to all who are within reach and up.
+    fn send(&self, next: &mut State, from: u8, messages: &[u16]) {
+        let team = |place| self.timed.teams.team_of(place);
+        let is_near = |to: &u8| next.watch != Watch::Apart || team(*to) == team(from);
+        let others = (0..)
+            .take(self.scenario.robots.len())
+            .filter(|&to| to != from);
+        let others: SmallVec<[u8; MAX_ROBOTS]> = others.filter(is_near).collect();
+        for &message in messages {
+            for &to in &others {
+                let receiver = self.node(next, to);
+                if receiver.robot.is_some()
+                    && concerns(self.message(message), receiver.persisted.station)
+                {
+                    next.channel.send(Transmission { from, to, message });
+                }
+            }
+        }
+    }
+
+    /// What robots take in and put out when `action` happens in `state`, for a chart.
+    pub(super) fn outputs(&self, state: &State, action: Action) -> Vec<(u8, Cause, Outputs)> {
+        let mut at = state.clone();
+        let mut put_out = Vec::new();
+        for (i, cause) in self.taken_in(state, action) {
+            if let Some((_, outputs)) = self.compute(at.nodes[usize::from(i)], cause) {
+                put_out.push((i, cause, outputs));
+            }
+            let _ = self.robot_step(&mut at, i, cause);
+        }
+        put_out
+    }
+}
+
+/// Takes an event off what may still happen, and starts the stop-watch of a failure.
+fn spend(next: &mut State, place: u8, event: Event) {
+    match event {
+        Event::CommandManeuver { .. } => next.left.commands -= 1,
+        Event::ManeuverFailed(_) => {
+            next.left.disturbances -= 1;
+            next.watch = Watch::FollowerFailed(place, 0);
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,321 @@
+//! What the properties of the timed model are good for: a robot whose timers do not suit its team, or a
+//! transition function without a rule, breaks the property that the timer or rule is there to keep.
+
+mod timing;
+
+use crossguard_model_check::node::Rules;
+use crossguard_model_check::report::{ScenarioReport, Verdict};
+use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::sequence::{ChartStep, Place};
+use crossguard_model_check::timed::Model;
+use crossguard_protocol::*;
+use timing::*;
+
+const HANG: &str = include_str!("../scenarios/timed-hang.toml");
+
+fn violated(scenario: Scenario, rules: impl Rules + 'static) -> (Vec<String>, ScenarioReport) {
+    let report = run(Model::with_rules(scenario, rules));
+    let violated = report.violated().map(str::to_owned).collect();
+    (violated, report)
+}
+
+/// The pair in which nobody fails.
+fn sound_pair() -> Scenario {
+    pair(&[NO_FOLLOWER_FAILS, NOBODY_CRASHES])
+}
+
+/// One robot that was configured with other timers than the team: `Config` refuses timers that
+/// contradict each other in one robot, and cannot see those of another.
+struct Misconfigured {
+    station: u32,
+    config: Config,
+}
+
+impl Misconfigured {
+    fn new(station: u32, change: impl FnOnce(&mut Settings)) -> Self {
+        let mut settings = pair(&[]).config.settings().clone();
+        change(&mut settings);
+        let config = Config::new(settings).unwrap();
+        Self { station, config }
+    }
+}
+
+impl Rules for Misconfigured {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let own = robot.station() == StationId(self.station);
+        robot.step(if own { &self.config } else { config }, input)
+    }
+}
+
+/// A requester does not look at the `t_safety` that an offer tells.
+struct TakesAnyTimers(Misconfigured);
+
+impl Rules for TakesAnyTimers {
+    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+        if let Input::Ram { ram, .. } = &mut input
+            && let Coordination::OfferHelp { t_safety, .. } = &mut ram.coordination
+        {
+            *t_safety = Millis(60_000);
+        }
+        self.0.step(robot, config, input)
+    }
+}
+
+#[test]
+fn a_lease_that_is_longer_than_the_safety_timer_allows_is_refused() {
+    let too_long = PAIR.replacen("t_lease = 90", "t_lease = 110", 1);
+    let error = Scenario::parse("my.toml", &too_long)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("the settings break 'lease-within-safety'"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_lease_that_is_longer_than_the_followers_safety_timer_allows_breaks_the_theorem() {
+    let leader = Misconfigured::new(1, |settings| {
+        settings.t_lease = Millis(160);
+        settings.t_safety = Millis(270);
+    });
+    let (violated, report) = violated(sound_pair(), TakesAnyTimers(leader));
+    // The lease is also longer than the scenario's settings have it, and the corridor is open under it.
+    assert_eq!(violated, ["I10", "I16", "W1", "W6"]);
+    let lease_theorem = report.properties.iter().find(|p| p.id == "I10").unwrap();
+    let chart = &lease_theorem.counterexample;
+    let puts_out = |robot: usize, text: &str| {
+        let of_robot = |step: &&ChartStep| match step.place {
+            Place::At(at) | Place::Between { to: at, .. } => at == robot,
+        };
+        let mut outputs = chart.iter().filter(of_robot).flat_map(|step| &step.outputs);
+        outputs.any(|output| output.contains(text))
+    };
+    assert!(puts_out(0, "lease on 2 granted"), "{chart:#?}");
+    assert!(puts_out(1, "contact lost"), "{chart:#?}");
+    assert!(!puts_out(0, "lease on 2 expired"), "{chart:#?}");
+}
+
+#[test]
+fn a_safety_timer_that_is_shorter_than_the_leaders_lease_allows_breaks_the_theorem_alone() {
+    let follower = Misconfigured::new(2, |settings| {
+        settings.t_safety = Millis(120);
+        settings.t_lease = Millis(40);
+    });
+    let (violated, _) = violated(sound_pair(), TakesAnyTimers(follower));
+    assert_eq!(violated, ["I10"]);
+}
+
+#[test]
+fn an_offer_whose_safety_timer_is_shorter_than_the_lease_allows_is_not_taken() {
+    let follower = Misconfigured::new(2, |settings| {
+        settings.t_safety = Millis(120);
+        settings.t_lease = Millis(40);
+    });
+    let (violated, report) = violated(sound_pair(), follower);
+    assert_eq!(violated, Vec::<String>::new());
+    assert_eq!(report.verdict("I10-premise"), Some(Verdict::Unreachable));
+}
+
+#[test]
+fn a_safety_timer_that_is_too_long_stops_a_follower_too_late() {
+    let follower = Misconfigured::new(2, |settings| settings.t_safety = Millis(300));
+    let (violated, _) = violated(pair(&[NO_FOLLOWER_FAILS]), follower);
+    assert_eq!(violated, ["I16", "L5"]);
+}
+
+#[test]
+fn a_request_that_stands_too_long_is_noticed() {
+    let leader = Misconfigured::new(1, |settings| settings.t_help = Millis(350));
+    let (violated, _) = violated(sound_pair(), leader);
+    assert_eq!(violated, ["I16", "L1"]);
+}
+
+/// The sign is not told that the corridor has closed, and shows go for this long after it opened or was
+/// extended; as long as the lease stands where nothing is said.
+struct NeverClosesTheCorridor(Option<Millis>);
+
+impl Rules for NeverClosesTheCorridor {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let told = |output: &Output| match *output {
+            Output::CorridorClosed(_) => None,
+            Output::CorridorOpened(left) => Some(Output::CorridorOpened(self.0.unwrap_or(left))),
+            Output::CorridorExtended(left) => {
+                Some(Output::CorridorExtended(self.0.unwrap_or(left)))
+            }
+            output => Some(output),
+        };
+        outputs.iter().filter_map(told).collect()
+    }
+}
+
+/// Longer than any lease.
+const TOO_LONG: NeverClosesTheCorridor = NeverClosesTheCorridor(Some(Millis(300)));
+
+#[test]
+fn a_corridor_that_does_not_close_in_time_is_noticed() {
+    let (violated, _) = violated(pair(&[]), TOO_LONG);
+    // The sign also shows go when the follower has fallen back.
+    assert_eq!(violated, ["I11", "W1"]);
+}
+
+#[test]
+fn a_sign_that_shows_go_after_a_fallback_is_noticed() {
+    let (violated, _) = violated(sound_pair(), TOO_LONG);
+    assert_eq!(violated, ["W1"]);
+}
+
+#[test]
+fn a_corridor_that_is_not_closed_ends_by_itself_in_time() {
+    let (violated, report) = violated(pair(&[]), NeverClosesTheCorridor(None));
+    assert_eq!(violated, Vec::<String>::new());
+    assert_eq!(report.verdict("I11-premise"), Some(Verdict::Reachable));
+}
+
+/// A robot that hears a RAM sends one.
+struct AnswersEveryRam;
+
+impl Rules for AnswersEveryRam {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let is_led = matches!(robot.phase(), Phase::Leading(_) | Phase::Following(_));
+        match input {
+            Input::Ram { .. } if is_led => {
+                let effects = outputs.iter().copied();
+                let effects = effects.filter(|output| !matches!(output, Output::Ignored(_)));
+                effects.chain([Output::SendRam]).collect()
+            }
+            _ => outputs,
+        }
+    }
+}
+
+#[test]
+fn robots_that_answer_each_other_in_no_time_would_hold_time_up() {
+    let (violated, _) = violated(sound_pair(), AnswersEveryRam);
+    assert_eq!(violated, ["I12"]);
+}
+
+/// A follower renews its contact on news by this much, in place of `t_safety` in full. Joining starts with all
+/// of it.
+struct RenewsContactBy(Config);
+
+impl RenewsContactBy {
+    fn new(t_safety: Millis) -> Self {
+        // The other values are not read when a follower hears a message.
+        let settings = Settings {
+            t_safety,
+            t_lease: Millis(30),
+            drift_ppm: 0,
+            delay_max: Millis(0),
+            ..pair(&[]).config.settings().clone()
+        };
+        Self(Config::new(settings).unwrap())
+    }
+}
+
+impl Rules for RenewsContactBy {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let hears = matches!(input, Input::Ram { .. } | Input::Rmcm(_));
+        let follows = matches!(robot.phase(), Phase::Following(_));
+        robot.step(if hears && follows { &self.0 } else { config }, input)
+    }
+}
+
+/// The laws of single steps once let this pass.
+#[test]
+fn a_follower_that_waits_a_quarter_of_t_safety_is_noticed() {
+    let quarter = RenewsContactBy::new(Millis(45));
+    let (violated, _) = violated(sound_pair(), quarter);
+    assert_eq!(violated, ["I10", "I19", "W1", "W6"]);
+}
+
+#[test]
+fn a_follower_that_waits_less_than_it_promised_is_noticed_where_no_lease_shows_it() {
+    let scenario = pair(&[
+        ("t_lease = 90", "t_lease = 60"),
+        NO_FOLLOWER_FAILS,
+        NOBODY_CRASHES,
+    ]);
+    let (violated, _) = violated(scenario, RenewsContactBy::new(Millis(170)));
+    assert_eq!(violated, ["I19"]);
+}
+
+/// A robot does not tell its application this.
+struct DoesNotTell(fn(Notice) -> bool);
+
+impl Rules for DoesNotTell {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let is_told = |output: &Output| match *output {
+            Output::Notify(notice) => !(self.0)(notice),
+            _ => true,
+        };
+        outputs.iter().copied().filter(is_told).collect()
+    }
+}
+
+#[test]
+fn a_leader_that_does_not_tell_of_a_lost_lease_leaves_its_application_unaware() {
+    let rules = DoesNotTell(|notice| matches!(notice, Notice::LeaseExpired(_)));
+    let (violated, _) = violated(sound_pair(), rules);
+    assert_eq!(violated, ["W6"]);
+}
+
+#[test]
+fn a_leader_that_does_not_tell_of_a_failed_maneuver_leaves_its_application_unaware() {
+    let rules = DoesNotTell(|notice| matches!(notice, Notice::ManeuverFailed(..)));
+    let scenario = pair(&[
+        // Long enough to stand from one heartbeat to the next.
+        ("t_lease = 90", "t_lease = 150"),
+        ("t_safety = 180", "t_safety = 250"),
+        NOBODY_CRASHES,
+    ]);
+    let (violated, _) = violated(scenario, rules);
+    assert_eq!(violated, ["W6"]);
+}
+
+#[test]
+fn a_request_that_ends_untold_lets_a_pedestrian_wait_for_ever() {
+    let rules = DoesNotTell(|notice| matches!(notice, Notice::SessionEnded(..)));
+    let (violated, _) = violated(Scenario::load("timed-wait").unwrap(), rules);
+    assert_eq!(violated, ["W8"]);
+}
+
+/// A leader listens to no other leader as long as its own leases are long.
+struct YieldsLate;
+
+impl Rules for YieldsLate {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let is_long = |(timer, left): &(Timer, Millis)| {
+            matches!(timer, Timer::Lease(_)) && *left > Millis(100)
+        };
+        if let Input::Ram { ram, .. } = input
+            && matches!(ram.coordination, Coordination::Leader { .. })
+            && matches!(robot.phase(), Phase::Leading(_))
+            && robot.timers().iter().any(is_long)
+        {
+            let ignored = Output::Ignored(Ignored::LowerPrecedence);
+            return [ignored].into_iter().collect();
+        }
+        robot.step(config, input)
+    }
+}
+
+#[test]
+fn a_leader_that_yields_late_shows_go_beside_another_for_too_long() {
+    let rivals = Scenario::load("timed-rivals").unwrap();
+    let (violated, _) = violated(rivals, YieldsLate);
+    assert_eq!(violated, ["W3"]);
+}
+
+#[test]
+fn a_sign_that_outlives_the_lease_shows_go_too_long_after_a_hang() {
+    // The follower falls back later still.
+    let text = changed(HANG, &[("t_safety = 180", "t_safety = 250")]);
+    let scenario = Scenario::parse("timed-hang", &text).unwrap();
+    let rules = NeverClosesTheCorridor(Some(Millis(170)));
+    let (violated, _) = violated(scenario, rules);
+    assert_eq!(violated, ["W5"]);
+}

@@ -1,0 +1,185 @@
+//! Laws of commands: which a leader gives, how a follower answers, and what its body says of them.
+
+use crate::config::Config;
+use crate::id::RequestId;
+use crate::input::{Event, Input};
+use crate::message::{Failure, Progress, Rejection, Rmcm, Verdict};
+use crate::output::EndReason;
+use crate::state::{Corridor, Leading, Member, Robot};
+use crate::task::{Availability, TaskType};
+
+use super::arithmetic::request_is_newer;
+use super::steps::{Taken, executing, following, leading, requesting};
+use super::watch::Sort;
+
+/// All laws of this module.
+pub fn all(config: &Config, step: &Taken) {
+    commands_are_given_where_they_may_be(config, step);
+    one_command_stands_at_a_time(step);
+    a_renewed_session_asks_for_the_same(step);
+    each_command_is_answered(config, step);
+    the_body_is_believed(step);
+}
+
+/// Whether no command may take this follower off its task while people may be on the road: what it is at, or
+/// may be at, guards them.
+fn may_guard(config: &Config, member: &Member) -> bool {
+    member.order.is_some_and(|order| {
+        let is_over = matches!(
+            order.progress,
+            Some(Progress::Completed | Progress::SafeIdle)
+        );
+        let has_failed = match order.progress {
+            // The limit is the leader's own: the follower knows nothing of it and goes on.
+            Some(Progress::Failed(failure)) => failure != Failure::ExecutionLimit,
+            _ => false,
+        };
+        let guards = config.settings().guarding.0 >> order.task.value() & 1 == 1;
+        guards && !is_over && !has_failed
+    })
+}
+
+/// L2, W7: a leader's application commands a follower that has joined and has answered all before, unless that
+/// guards people on the road. Where the numbers of the session are used up, the session is renewed.
+pub fn commands_are_given_where_they_may_be(config: &Config, step: &Taken) {
+    let Input::Local(Event::CommandManeuver { follower, task }) = step.input else {
+        return;
+    };
+    let before = leading(&step.before);
+    let ready = before.and_then(|before| {
+        let member = before.member(follower)?;
+        (member.echoed.is_some() && member.outstanding.is_none()).then_some((before, member))
+    });
+    let Some((before, member)) = ready else {
+        assert!(step.is_ignored());
+        return;
+    };
+    let first = config.settings().first_request;
+    let is_used_up = member.next_request.0.wrapping_sub(first.0) >= RequestId::MAX_PER_SESSION;
+    let on_road = before.corridor != Corridor::Clear;
+    if on_road && (is_used_up || may_guard(config, member)) {
+        assert!(step.is_ignored());
+    } else if is_used_up {
+        let is_out_of_numbers = step.before.next_number().count == u16::MAX;
+        assert!(step.is_ignored() == is_out_of_numbers);
+        assert!((step.said.ended == Some(EndReason::Renewed)) != is_out_of_numbers);
+    } else {
+        assert!(step.said.has(Sort::Command));
+        let after = leading(&step.after).and_then(|after| after.member(follower));
+        assert!(after.is_some_and(|after| {
+            after.outstanding.is_some_and(|outstanding| {
+                (outstanding.request, outstanding.task) == (member.next_request, task)
+                    && outstanding.repeats == 0
+            })
+        }));
+    }
+}
+
+fn outstanding_in(leading: &Leading, known: &Member) -> Option<RequestId> {
+    let member = leading.member(known.station)?;
+    member.outstanding.map(|outstanding| outstanding.request)
+}
+
+/// L2: no other command takes the place of one that is not answered yet.
+pub fn one_command_stands_at_a_time(step: &Taken) {
+    let (Some(before), Some(after)) = (leading(&step.before), leading(&step.after)) else {
+        return;
+    };
+    for known in before.members.iter() {
+        let (Some(stood), Some(stands)) = (
+            known.outstanding.map(|outstanding| outstanding.request),
+            outstanding_in(after, known),
+        ) else {
+            continue;
+        };
+        assert!(stood == stands);
+    }
+}
+
+/// A session that is renewed asks for the same again, at once.
+pub fn a_renewed_session_asks_for_the_same(step: &Taken) {
+    if step.said.ended == Some(EndReason::Renewed) {
+        let (before, after) = (leading(&step.before), requesting(&step.after));
+        assert!(before.map(|b| b.request) == after.map(|a| a.request) && after.is_some());
+    }
+}
+
+/// Why a robot must reject a command.
+fn refusal(config: &Config, robot: &Robot, task: TaskType) -> Option<Rejection> {
+    let can = config.settings().capabilities.0 >> task.value() & 1 == 1;
+    match (robot.availability(), robot.duty()) {
+        (Availability::Unavailable(why), _) => Some(Rejection::Unavailable(why)),
+        (_, Some(_)) => Some(Rejection::OnDuty),
+        _ if !can => Some(Rejection::UnsupportedTask),
+        _ => None,
+    }
+}
+
+/// I4, I5, I6, L2: a follower answers each command of its leader, one that it has answered before by the same
+/// words and without any effect, and takes on each new one that nothing stands against.
+pub fn each_command_is_answered(config: &Config, step: &Taken) {
+    let (Input::Rmcm(Rmcm::Command(command)), Some(before)) = (step.input, following(&step.before))
+    else {
+        return;
+    };
+    if command.to != step.before.station() || command.session != before.session {
+        return;
+    }
+    let answered = step.said.answered;
+    let refused = before.refused.filter(|r| r.request == command.request);
+    if let Some(refused) = refused {
+        assert!(answered == Some((command.request, Verdict::Rejected(refused.reason))));
+        assert!(step.after == step.before && step.said.len() == 1);
+        return;
+    }
+    if before.job.is_some_and(|job| job.request == command.request) {
+        assert!(answered == Some((command.request, Verdict::Accepted)));
+        assert!(step.after == step.before && step.said.len() == 1);
+        return;
+    }
+    let is_newer = |known: Option<RequestId>| {
+        known.is_none_or(|known| request_is_newer(command.request, known))
+    };
+    let (job, refused) = (
+        before.job.map(|job| job.request),
+        before.refused.map(|refused| refused.request),
+    );
+    if !is_newer(job) || !is_newer(refused) {
+        assert!(step.is_ignored());
+        return;
+    }
+    let after = following(&step.after);
+    if let Some(reason) = refusal(config, &step.before, command.task) {
+        assert!(answered == Some((command.request, Verdict::Rejected(reason))));
+        let refused = after.and_then(|after| after.refused);
+        assert!(refused.is_some_and(|r| (r.request, r.reason) == (command.request, reason)));
+        assert!(after.is_some_and(|after| after.job == before.job));
+    } else {
+        assert!(answered == Some((command.request, Verdict::Accepted)));
+        assert!(step.said.has(Sort::StartManeuver));
+        assert!(after.is_some_and(|after| {
+            after.refused.is_none()
+                && after.job.is_some_and(|job| {
+                    (job.request, job.task) == (command.request, command.task)
+                        && job.progress == Progress::Executing
+                })
+        }));
+    }
+}
+
+/// I8: what the body says of the maneuver that runs is what the robot reports; of any other it is ignored.
+pub fn the_body_is_believed(step: &Taken) {
+    let (id, told) = match step.input {
+        Input::Local(Event::InPosition(id)) => (id, Progress::InPosition),
+        Input::Local(Event::ManeuverCompleted(id)) => (id, Progress::Completed),
+        Input::Local(Event::ManeuverFailed(id)) => (id, Progress::Failed(Failure::Maneuver)),
+        _ => return,
+    };
+    let runs = executing(&step.before).is_some_and(|maneuver| maneuver.id == id);
+    let job = |robot| following(robot).and_then(|following| following.job);
+    let is_news = runs && job(&step.before).is_some_and(|job| job.progress != told);
+    assert!(step.is_ignored() != is_news);
+    if is_news {
+        assert!(job(&step.after).is_some_and(|job| job.progress == told));
+    }
+}

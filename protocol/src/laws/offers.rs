@@ -1,0 +1,248 @@
+//! Laws of offers: which a requester counts on, for how long, and which it confirms.
+
+use crate::MAX_FOLLOWERS;
+use crate::config::Config;
+use crate::id::{Heartbeat, OfferNumber, SessionId, StationId};
+use crate::input::{Event, Input, Timer};
+use crate::message::{Coordination, Farewell};
+use crate::state::{Identity, Offer, Requesting, Role};
+use crate::time::Millis;
+
+use super::arithmetic::{a_reservation_outlasts, age_ms, beat_is_newer};
+use super::steps::{Taken, leading, own_number, requesting};
+
+/// All laws of this module.
+pub fn all(config: &Config, step: &Taken) {
+    an_older_offer_replaces_nothing(config, step);
+    an_offer_goes_only_for_a_reason(step);
+    only_offers_that_stand_are_confirmed(step);
+    offers_stand_in_order(step);
+    an_offer_that_is_news_is_taken(config, step);
+    enough_offers_are_selected(step);
+    an_offer_that_does_not_stand_is_declined(step);
+}
+
+/// Whether a heartbeat is one that the requester may have sent.
+const fn is_echo_of(requesting: &Requesting, echo: Heartbeat) -> bool {
+    requesting.heartbeat.0.wrapping_sub(echo.0) < 1 << 15
+}
+
+fn offer_of(requesting: &Requesting, station: StationId) -> Option<&Offer> {
+    requesting
+        .offers
+        .iter()
+        .find(|offer| offer.station == station)
+}
+
+/// The offer to this robot's session that a RAM of `station` makes: number, echo, and the helper's
+/// `t_safety`.
+fn offered_by(step: &Taken, station: StationId) -> Option<(OfferNumber, Heartbeat, Millis)> {
+    let Input::Ram { ram, .. } = step.input else {
+        return None;
+    };
+    match ram.coordination {
+        Coordination::OfferHelp {
+            session,
+            offer,
+            echo,
+            t_safety,
+            ..
+        } if ram.station == station && step.before.session() == Some(session) => {
+            Some((offer, echo, t_safety))
+        }
+        _ => None,
+    }
+}
+
+/// Whether a lease of this robot ends before a follower with this `t_safety` can have fallen back, by the
+/// inequality as it is written.
+fn fits(config: &Config, t_safety: Millis) -> bool {
+    let settings = config.settings();
+    let drift = u64::from(settings.drift_ppm);
+    let lease_ends = u64::from(settings.t_lease.0) + u64::from(settings.delay_max.0);
+    lease_ends * (1_000_000 + drift) < u64::from(t_safety.0) * (1_000_000 - drift)
+}
+
+/// An offer is taken in, or renewed, only from what its helper says, only if the lease fits its `t_safety`,
+/// and never over a newer one. It stands no longer than since the echoed heartbeat was sent.
+pub fn an_older_offer_replaces_nothing(config: &Config, step: &Taken) {
+    let (Some(before), Some(after)) = (requesting(&step.before), requesting(&step.after)) else {
+        return;
+    };
+    let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
+    for offer in after.offers.iter() {
+        let known = offer_of(before, offer.station);
+        if let Some(known) = known
+            && (known.number, known.echo) == (offer.number, offer.echo)
+        {
+            assert!(offer.standing.left() <= known.standing.left());
+            continue;
+        }
+        let told = offered_by(step, offer.station);
+        assert!(told.is_some_and(|(number, echo, t_safety)| {
+            (number, echo) == (offer.number, offer.echo) && fits(config, t_safety)
+        }));
+        assert!(known.is_none_or(|known| {
+            leaves(step, known)
+                || offer.number > known.number
+                || (offer.number == known.number && beat_is_newer(offer.echo, known.echo))
+        }));
+        // It echoes a heartbeat that was sent.
+        assert!(is_echo_of(before, offer.echo));
+        let age = age_ms(config, before.heartbeat, offer.echo, next_ram);
+        let left = offer.standing.left().unwrap_or(Millis::ZERO);
+        assert!(a_reservation_outlasts(config, age + u64::from(left.0)));
+    }
+}
+
+/// Whether a RAM of the helper names this offer as left, or a newer one.
+fn leaves(step: &Taken, offer: &Offer) -> bool {
+    let Input::Ram { ram, .. } = step.input else {
+        return false;
+    };
+    match ram.farewell {
+        Some(Farewell::Left(session, number)) => {
+            ram.station == offer.station
+                && step.before.session() == Some(session)
+                && number >= offer.number
+        }
+        _ => false,
+    }
+}
+
+/// An offer that stood is gone because its helper left by it or a newer one, because it lapsed, or because
+/// the list was full of better ones.
+pub fn an_offer_goes_only_for_a_reason(step: &Taken) {
+    let (Some(before), Some(after)) = (requesting(&step.before), requesting(&step.after)) else {
+        return;
+    };
+    for offer in before.offers.iter() {
+        if offer_of(after, offer.station).is_some() {
+            continue;
+        }
+        assert!(match step.input {
+            Input::Elapsed(elapsed) => offer.standing.left() <= Some(elapsed),
+            Input::Expired(timer) => timer == Timer::Offer(offer.station),
+            Input::Ram { .. } => leaves(step, offer) || before.offers.len() == after.offers.len(),
+            _ => false,
+        });
+    }
+}
+
+/// A requester that becomes a leader confirms as many as it asked for, each by an offer that stands.
+pub fn only_offers_that_stand_are_confirmed(step: &Taken) {
+    let (Some(before), Some(after)) = (requesting(&step.before), leading(&step.after)) else {
+        return;
+    };
+    assert!(after.number == before.number && after.request == before.request);
+    if !matches!(step.input, Input::Elapsed(_)) {
+        assert!(after.members.len() == usize::from(before.request.followers));
+    }
+    let passed = match step.input {
+        Input::Elapsed(elapsed) => elapsed,
+        _ => Millis::ZERO,
+    };
+    for member in after.members.iter() {
+        let offer = offer_of(before, member.station);
+        assert!(offer.is_some_and(|offer| {
+            offer.number == member.offer && offer.standing.left() > Some(passed)
+        }));
+        assert!(!member.has_joined() && member.outstanding.is_none() && member.order.is_none());
+    }
+}
+
+/// How good an offer is: what its helper can do of what is asked for, then how near it is, then its station id.
+fn goodness(offer: &Offer) -> (u32, u16, u32) {
+    let can = offer.capabilities.0.count_ones();
+    (16 - can, offer.distance.0, offer.station.0)
+}
+
+/// The best offer stands first.
+pub fn offers_stand_in_order(step: &Taken) {
+    let Some(after) = requesting(&step.after) else {
+        return;
+    };
+    let next = after.offers.iter().skip(1);
+    for (better, worse) in after.offers.iter().zip(next) {
+        assert!(goodness(better) < goodness(worse));
+    }
+}
+
+/// W7: an offer that is newer than what is known of its helper is taken, if it stands at all and there is room.
+pub fn an_offer_that_is_news_is_taken(config: &Config, step: &Taken) {
+    let (Input::Ram { ram, .. }, Some(before)) = (step.input, requesting(&step.before)) else {
+        return;
+    };
+    let Some((number, echo, t_safety)) = offered_by(step, ram.station) else {
+        return;
+    };
+    let is_own = ram.station == step.before.station();
+    let is_full = before.offers.iter().count() == MAX_FOLLOWERS;
+    if is_own || is_full || ram.farewell.is_some() {
+        return;
+    }
+    let is_news = offer_of(before, ram.station).is_none_or(|known| {
+        number > known.number || (number == known.number && beat_is_newer(echo, known.echo))
+    });
+    let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
+    let age = age_ms(config, before.heartbeat, echo, next_ram);
+    let stands = a_reservation_outlasts(config, age + 1);
+    let known = requesting(&step.after).and_then(|after| offer_of(after, ram.station));
+    let is_taken = !step.is_ignored()
+        && known.is_some_and(|known| (known.number, known.echo) == (number, echo));
+    assert!(is_taken == (is_news && is_echo_of(before, echo) && stands && fits(config, t_safety)));
+}
+
+/// L1, W7: a requester gets to lead as soon as its time to gather is over, or all have answered, and there are
+/// as many offers as it asked for; it takes the best.
+pub fn enough_offers_are_selected(step: &Taken) {
+    let Some(before) = requesting(&step.before) else {
+        return;
+    };
+    let selects = match step.input {
+        Input::Local(Event::AllAnswered) => true,
+        Input::Expired(Timer::Selection) => before.selection.is_armed(),
+        _ => return,
+    };
+    let wanted = usize::from(before.request.followers);
+    let are_enough = before.offers.iter().count() >= wanted;
+    let after = leading(&step.after);
+    assert!(after.is_some() == (selects && are_enough));
+    if let Some(after) = after {
+        let best = before.offers.iter().take(wanted);
+        assert!(
+            after
+                .members
+                .iter()
+                .zip(best)
+                .all(|(m, o)| m.station == o.station)
+        );
+    }
+}
+
+/// W6: a leader that lists this robot by an offer which it made and which does not stand is told so.
+pub fn an_offer_that_does_not_stand_is_declined(step: &Taken) {
+    let (before, Input::Ram { ram, .. }) = (&step.before, step.input) else {
+        return;
+    };
+    let Coordination::Leader {
+        number, followers, ..
+    } = ram.coordination
+    else {
+        return;
+    };
+    let may_compete = matches!(before.role(), Role::Requester | Role::Leader);
+    if may_compete || ram.station == before.station() || ram.farewell.is_some() {
+        return;
+    }
+    let leader = ram.station;
+    let session = SessionId { leader, number };
+    let Some(listed) = followers.iter().find(|f| f.station == before.station()) else {
+        return;
+    };
+    let stands = own_number(before) == Some((session, listed.offer.0));
+    if before.has_issued(listed.offer.0) && !stands && before.identity() != Identity::Expiring {
+        assert!(step.after.farewell() == Some(Farewell::Left(session, listed.offer)));
+        assert!(step.after.session() != Some(session));
+    }
+}

@@ -1,0 +1,417 @@
+//! Laws of one step that reach the road: the corridor, duties, policies, and which of two robots gives way.
+//!
+//! What must hold is written here once more, from the records of a state and from the input alone. None
+//! of these laws calls the function of the protocol that it judges.
+
+use crate::config::Config;
+use crate::id::{Heartbeat, SessionId};
+use crate::input::{Event, Input};
+use crate::message::{Coordination, Ending, Failure, Farewell, Progress};
+use crate::output::{EndReason, ReleaseReason, StopReason};
+use crate::state::{Corridor, Duty, Identity, Leading, Lease, Member, Rival, Robot, Role};
+use crate::task::{Availability, Place, Unavailability, Urgency};
+use crate::time::{Countdown, Millis};
+
+use super::arithmetic::beat_is_newer;
+use super::steps::{Taken, executing, leading, requesting};
+use super::watch::{Sort, is_open};
+
+/// All laws of this module.
+pub fn all(config: &Config, step: &Taken) {
+    the_corridor_is_open_only_over_guards(config, step);
+    go_is_a_lease(step);
+    the_road_is_cleared_by_the_application(step);
+    guards_are_kept_on_the_road(config, step);
+    ends_follow_the_policy(config, step);
+    ends_say_how(step);
+    a_duty_lasts_until_the_road_is_clear(step);
+    only_a_rival_that_beats_is_given_way(step);
+    a_rival_is_noted_for_a_period(step);
+}
+
+/// What a countdown has left, zero where it is off.
+fn left(countdown: Countdown) -> Millis {
+    countdown.left().unwrap_or(Millis::ZERO)
+}
+
+fn lease_left(member: &Member) -> Millis {
+    match member.lease {
+        Lease::Stands(countdown) => left(countdown),
+        Lease::Expired(_) => Millis::ZERO,
+    }
+}
+
+/// Whether the records of a follower say that it guards: nothing is outstanding, its task guards, it was
+/// reported to be at it and, where the task guards from a place, there; and the lease stands.
+fn is_on_guard(config: &Config, member: &Member) -> bool {
+    let settings = config.settings();
+    let Some(order) = member.order else {
+        return false;
+    };
+    let bit = 1_u16 << order.task.value();
+    let from_a_place = settings.holding.0 & bit != 0;
+    let is_at_it = match order.progress {
+        Some(Progress::InPosition) => true,
+        Some(Progress::Executing) => !from_a_place,
+        None | Some(Progress::Completed | Progress::Failed(_) | Progress::SafeIdle) => false,
+    };
+    is_at_it
+        && settings.guarding.0 & bit != 0
+        && member.outstanding.is_none()
+        && lease_left(member) > Millis::ZERO
+}
+
+/// I11, W1: the corridor is open only while all followers that were asked for guard, and no leader that goes
+/// before is known. Only the application opens it, and only where a crossing that begins can end.
+pub fn the_corridor_is_open_only_over_guards(config: &Config, step: &Taken) {
+    if !is_open(&step.after) {
+        return;
+    }
+    let Some(after) = leading(&step.after) else {
+        return;
+    };
+    assert!(after.yields_to.is_none());
+    let mut guards = 0;
+    for member in after.members.iter() {
+        assert!(is_on_guard(config, member));
+        guards += 1;
+    }
+    assert!(guards >= after.request.followers);
+    if is_open(&step.before) {
+        return;
+    }
+    assert!(step.input == Input::Local(Event::OpenCorridor));
+    let t_cross = config.settings().t_cross;
+    assert!(match step.after.identity() {
+        Identity::Locked(lock) => left(lock) >= t_cross,
+        Identity::Unlocked | Identity::Expiring => false,
+    });
+    for member in after.members.iter() {
+        assert!(
+            member
+                .order
+                .is_some_and(|order| left(order.execution) >= t_cross)
+        );
+    }
+}
+
+/// W5: *go* is told for no longer than the shortest lease lasts, when the corridor opens and in each step
+/// that prolongs a lease.
+pub fn go_is_a_lease(step: &Taken) {
+    let Some(after) = leading(&step.after) else {
+        assert!(step.said.shown.is_none());
+        return;
+    };
+    if let Some(shown) = step.said.shown {
+        assert!(is_open(&step.after) && shown > Millis::ZERO);
+        for member in after.members.iter() {
+            assert!(shown <= lease_left(member));
+        }
+    }
+    if !is_open(&step.after) {
+        return;
+    }
+    let is_prolonged = leading(&step.before).is_none_or(|before| {
+        after.members.iter().any(|member| {
+            let known = before.member(member.station).map(lease_left);
+            known.is_none_or(|known| known < lease_left(member))
+        })
+    });
+    if is_prolonged || !is_open(&step.before) {
+        assert!(step.said.shown.is_some());
+    }
+}
+
+/// W2, W4: a corridor that was open is clear only once the application says so, or with a completed
+/// crossing.
+pub fn the_road_is_cleared_by_the_application(step: &Taken) {
+    let Some(before) = leading(&step.before) else {
+        return;
+    };
+    if before.corridor == Corridor::Clear {
+        return;
+    }
+    let cleared = match leading(&step.after) {
+        Some(after) => after.corridor == Corridor::Clear,
+        None => step.after.duty().is_none(),
+    };
+    if cleared {
+        assert!(match step.input {
+            Input::Local(Event::RoadClear) => before.corridor == Corridor::Clearing,
+            Input::Local(Event::TaskCompleted) => true,
+            _ => false,
+        });
+    }
+}
+
+/// W2: while people may be on the road, no follower that guards or may guard is commanded, and the session
+/// is not renewed.
+pub fn guards_are_kept_on_the_road(config: &Config, step: &Taken) {
+    let Some(before) = leading(&step.before) else {
+        return;
+    };
+    if before.corridor == Corridor::Clear {
+        return;
+    }
+    assert!(step.said.ended != Some(EndReason::Renewed));
+    let Some(after) = leading(&step.after) else {
+        return;
+    };
+    for member in after.members.iter() {
+        let known = before.member(member.station);
+        let Some(order) = known.and_then(|known| known.order) else {
+            continue;
+        };
+        let may_be_at_it = matches!(
+            order.progress,
+            None | Some(
+                Progress::Executing
+                    | Progress::InPosition
+                    | Progress::Failed(Failure::ExecutionLimit)
+            )
+        );
+        let guards = config.settings().guarding.0 >> order.task.value() & 1 == 1;
+        if may_be_at_it && guards && known.is_some_and(|known| known.outstanding.is_none()) {
+            assert!(member.outstanding.is_none());
+        }
+    }
+}
+
+/// How the input ends `session`, where it is a RAM of its leader that names it.
+pub(super) fn ending_told(step: &Taken, session: SessionId) -> Option<Ending> {
+    let Input::Ram { ram, .. } = step.input else {
+        return None;
+    };
+    match ram.farewell {
+        Some(Farewell::Ended(number, ending))
+            if ram.station == session.leader && number == session.number =>
+        {
+            Some(ending)
+        }
+        _ => None,
+    }
+}
+
+/// I9, W2: a maneuver that ends otherwise than by its own application ends by its task's policy, and leaves
+/// a duty. It is stopped only for a newer command, when the crossing is completed, and when the body is not
+/// the robot's own to command.
+pub fn ends_follow_the_policy(config: &Config, step: &Taken) {
+    if let Some((maneuver, policy)) = step.said.fallen_back {
+        assert!(policy == config.settings().fallback[usize::from(maneuver.task.value())]);
+        assert!(step.after.duty() == Some(Duty::FallingBack(maneuver)));
+    }
+    if let Some(maneuver) = executing(&step.before)
+        && ending_told(step, maneuver.id.session) == Some(Ending::Completed)
+    {
+        assert!(step.said.stopped.is_some() && step.said.fallen_back.is_none());
+    }
+    let Some((maneuver, why)) = step.said.stopped else {
+        return;
+    };
+    assert!(match why {
+        StopReason::Superseded => step.said.has(Sort::StartManeuver),
+        StopReason::Released(why) => {
+            why == ReleaseReason::TaskCompleted
+                && ending_told(step, maneuver.id.session) == Some(Ending::Completed)
+        }
+        StopReason::Unavailable(why) => {
+            let told = Availability::Unavailable(why);
+            step.input == Input::Local(Event::AvailabilityChanged(told))
+                && matches!(
+                    why,
+                    Unavailability::Teleoperated
+                        | Unavailability::EmergencyStop
+                        | Unavailability::LocalFault
+                )
+        }
+    });
+}
+
+/// W2: a session is named as completed exactly where its application said so.
+pub fn ends_say_how(step: &Taken) {
+    let (Some(why), Some(session)) = (step.said.ended, step.before.session()) else {
+        return;
+    };
+    let completed = step.input == Input::Local(Event::TaskCompleted);
+    assert!((why == EndReason::TaskCompleted) == completed);
+    match step.after.farewell() {
+        Some(Farewell::Ended(number, ending)) if number == session.number => {
+            assert!((ending == Ending::Completed) == completed);
+        }
+        _ => assert!(step.after.identity() == Identity::Expiring || !step.after.is_bound()),
+    }
+}
+
+/// W4: a duty lasts until the application says that the road is clear. Until then nothing is started, asked
+/// for or offered. A duty comes from a fallback, or from a session that ended with people on the road.
+pub fn a_duty_lasts_until_the_road_is_clear(step: &Taken) {
+    let (before, after) = (&step.before, &step.after);
+    if let Some(duty) = before.duty() {
+        if step.input == Input::Local(Event::RoadClear) {
+            assert!(after.duty().is_none());
+            return;
+        }
+        assert!(after.duty() == Some(duty));
+        assert!(!step.said.has(Sort::StartManeuver));
+        assert!(match after.role() {
+            Role::None => true,
+            Role::Follower => after.session() == before.session(),
+            Role::Requester | Role::Helper | Role::Leader => false,
+        });
+        return;
+    }
+    match after.duty() {
+        None => {}
+        Some(Duty::FallingBack(maneuver)) => {
+            assert!(executing(before) == Some(maneuver));
+            assert!(step.said.has(Sort::FallBack));
+        }
+        Some(Duty::Crossing(session)) => {
+            assert!(before.session() == Some(session) && step.said.ended.is_some());
+            assert!(leading(before).is_some_and(|before| before.corridor != Corridor::Clear));
+        }
+    }
+}
+
+/// A request, or a leader that has not yielded, as the input tells of it.
+#[derive(Clone, Copy)]
+struct Claimant {
+    session: SessionId,
+    heartbeat: Heartbeat,
+    urgency: Urgency,
+    place: Place,
+    leads: bool,
+}
+
+fn claimant(input: &Input) -> Option<Claimant> {
+    let Input::Ram { ram, .. } = *input else {
+        return None;
+    };
+    let (number, heartbeat, urgency, place, leads) = match ram.coordination {
+        Coordination::NeedHelp {
+            number,
+            heartbeat,
+            request,
+        } => (number, heartbeat, request.urgency, request.place, false),
+        Coordination::Leader {
+            number,
+            heartbeat,
+            urgency,
+            place,
+            yields: false,
+            ..
+        } => (number, heartbeat, urgency, place, true),
+        _ => return None,
+    };
+    let leader = ram.station;
+    Some(Claimant {
+        session: SessionId { leader, number },
+        heartbeat,
+        urgency,
+        place,
+        leads,
+    })
+}
+
+/// The claim in the input that goes before that of `robot` at what may be the same place.
+fn claim_that_counts(robot: &Robot, input: &Input) -> Option<Claimant> {
+    let heard = claimant(input)?;
+    if heard.session.leader == robot.station() {
+        return None;
+    }
+    let (own, asks) = match (requesting(robot), leading(robot)) {
+        (Some(requesting), _) => (requesting.request, true),
+        (_, Some(leading)) => (leading.request, false),
+        _ => return None,
+    };
+    let places = [heard.place, own.place];
+    let may_be_one = places[0] == places[1] || places.contains(&Place::UNKNOWN);
+    let goes_before = heard.urgency > own.urgency
+        || (heard.urgency == own.urgency && heard.session.leader < robot.station());
+    // A request does not move a leader, and a leader goes before every request.
+    let counts = if asks {
+        heard.leads || goes_before
+    } else {
+        heard.leads && goes_before
+    };
+    (may_be_one && counts).then_some(heard)
+}
+
+/// The rival that a requester or leader has noted.
+fn noted(robot: &Robot) -> Option<Rival> {
+    let rival = requesting(robot).map(|requesting| requesting.rival);
+    let rival = rival.or_else(|| leading(robot).map(|leading| leading.rival));
+    rival.flatten()
+}
+
+/// Whether the input is a newer heartbeat of the rival that `robot` has heard before, which goes before it
+/// at what may be the same place.
+fn hears_a_rival_again(robot: &Robot, input: &Input) -> Option<SessionId> {
+    let (heard, rival) = (claim_that_counts(robot, input)?, noted(robot)?);
+    let is_newer = beat_is_newer(heard.heartbeat, rival.heartbeat);
+    (rival.session == heard.session && is_newer).then_some(heard.session)
+}
+
+/// W3: a requester withdraws and a leader yields only to a claim that goes before at its place and is heard
+/// a second time, with a newer heartbeat. What yields stays so until it ends, and notes no other rival.
+pub fn only_a_rival_that_beats_is_given_way(step: &Taken) {
+    let again = hears_a_rival_again(&step.before, &step.input).map(|session| session.leader);
+    let yielded_before = leading(&step.before).and_then(|before| before.yields_to);
+    if let Some(EndReason::Withdrawn(other)) = step.said.ended {
+        let is_cleared = step.input == Input::Local(Event::RoadClear);
+        assert!(again == Some(other) || (is_cleared && yielded_before == Some(other)));
+    }
+    let Some(after) = leading(&step.after) else {
+        return;
+    };
+    match (yielded_before, after.yields_to) {
+        (Some(before), other) => {
+            let rival =
+                |leading: &Leading| leading.rival.map(|rival| (rival.session, rival.heartbeat));
+            let noted = leading(&step.before).and_then(rival);
+            assert!(other == Some(before) && rival(after) == noted);
+        }
+        (None, Some(other)) => {
+            assert!(again == Some(other) && after.corridor == Corridor::Clearing);
+        }
+        (None, None) => {
+            assert!(again.is_none() || leading(&step.before).is_none());
+        }
+    }
+}
+
+/// W3: a rival that was just noted stays noted until this robot's heartbeat has moved on, and no longer: then
+/// the next one that is heard takes its place. So two rivals that do not hear each other cannot hide one
+/// another from a third, and neither can one that is gone.
+pub fn a_rival_is_noted_for_a_period(step: &Taken) {
+    let goes_on = step.before.session().is_some() && step.before.session() == step.after.session();
+    if !goes_on {
+        return;
+    }
+    let (before, after) = (noted(&step.before), noted(&step.after));
+    let passes = matches!(step.input, Input::Elapsed(_) | Input::Expired(_));
+    if let (Some(before), Some(after)) = (before, after)
+        && before.fresh
+        && !passes
+    {
+        assert!(after.session == before.session);
+    }
+    let beats = own_heartbeat(&step.before) != own_heartbeat(&step.after);
+    if passes && beats {
+        assert!(after.is_none_or(|after| !after.fresh));
+    }
+    let has_yielded = leading(&step.before).is_some_and(|before| before.yields_to.is_some());
+    if let Some(heard) = claim_that_counts(&step.before, &step.input)
+        && !has_yielded
+        && before.is_none_or(|before| !before.fresh && before.session != heard.session)
+    {
+        let is_it = |after: Rival| after.session == heard.session && after.fresh;
+        assert!(after.is_some_and(is_it));
+    }
+}
+
+/// The newest heartbeat of a requester or leader.
+fn own_heartbeat(robot: &Robot) -> Option<Heartbeat> {
+    let heartbeat = requesting(robot).map(|requesting| requesting.heartbeat);
+    heartbeat.or_else(|| leading(robot).map(|leading| leading.heartbeat))
+}

@@ -1,0 +1,144 @@
+//! Laws of the times with which timers begin. That a timer has no more than its limit is a clause of a valid
+//! state; here is that it begins with no less.
+
+use crate::config::Config;
+use crate::id::StationId;
+use crate::input::Input;
+use crate::state::{Contact, Identity, Leading, Lease, Member, Requesting};
+use crate::time::{Countdown, Millis};
+
+use super::arithmetic::{a_reservation_outlasts, age_ms};
+use super::steps::{Taken, following, leading, requesting};
+
+/// All laws of this module.
+pub fn all(config: &Config, step: &Taken) {
+    // Time that passes is taken off what began in the same step.
+    if matches!(step.input, Input::Elapsed(_)) {
+        return;
+    }
+    the_robots_own_timers_begin_in_full(config, step);
+    contact_is_lost_for_all_of_t_leave(config, step);
+    offers_stand_as_long_as_they_can(config, step);
+    timers_of_followers_begin_in_full(config, step);
+}
+
+fn is_full(countdown: Countdown, time: Millis) -> bool {
+    countdown.left() == Some(time)
+}
+
+/// I18: identity lock, farewell and RAM timer begin with all their time.
+pub fn the_robots_own_timers_begin_in_full(config: &Config, step: &Taken) {
+    let (before, after, settings) = (&step.before, &step.after, config.settings());
+    if before.identity() == Identity::Unlocked
+        && let Identity::Locked(left) = after.identity()
+    {
+        let session = settings.t_lock.0.saturating_sub(settings.t_farewell.0);
+        assert!(is_full(left, Millis(session)));
+    }
+    if let Some(standing) = after.farewell
+        && before.farewell() != Some(standing.farewell)
+    {
+        assert!(is_full(standing.left, settings.t_farewell));
+    }
+    if before.next_ram().is_none() && after.next_ram().is_some() {
+        assert!(after.next_ram() == Some(settings.ram_period));
+    }
+}
+
+/// L5: a follower that has lost contact stays for `t_leave`.
+pub fn contact_is_lost_for_all_of_t_leave(config: &Config, step: &Taken) {
+    let (Some(before), Some(after)) = (following(&step.before), following(&step.after)) else {
+        return;
+    };
+    if let (Contact::Fresh(_), Contact::Lost(left)) = (before.contact, after.contact) {
+        assert!(is_full(left, config.settings().t_leave));
+    }
+}
+
+fn standing_of(requesting: &Requesting, station: StationId) -> Option<Countdown> {
+    let mut offers = requesting.offers.iter();
+    let offer = offers.find(|offer| offer.station == station)?;
+    Some(offer.standing)
+}
+
+/// An offer stands as long as its helper is surely reserved, and is selected from `t_select` after the first.
+pub fn offers_stand_as_long_as_they_can(config: &Config, step: &Taken) {
+    let (Some(before), Some(after)) = (requesting(&step.before), requesting(&step.after)) else {
+        return;
+    };
+    if before.number != after.number {
+        return;
+    }
+    let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
+    for offer in after.offers.iter() {
+        if standing_of(before, offer.station) != Some(offer.standing) {
+            let age = age_ms(config, before.heartbeat, offer.echo, next_ram);
+            let left = offer.standing.left().unwrap_or(Millis::ZERO);
+            let end = age + u64::from(left.0);
+            assert!(left > Millis::ZERO && a_reservation_outlasts(config, end));
+            assert!(!a_reservation_outlasts(config, end + 1));
+        }
+    }
+    if before.selection != after.selection {
+        assert!(is_full(after.selection, config.settings().t_select));
+    }
+}
+
+/// I10, L2: what a leader waits for from a follower it waits for with all its time.
+pub fn timers_of_followers_begin_in_full(config: &Config, step: &Taken) {
+    let Some(after) = leading(&step.after) else {
+        return;
+    };
+    let before = leading(&step.before);
+    for member in after.members.iter() {
+        let known = before.and_then(|before| before.member(member.station));
+        lease_begins_in_full(config, step, before, known, member);
+        command_begins_in_full(config, known, member);
+    }
+}
+
+fn lease_begins_in_full(
+    config: &Config,
+    step: &Taken,
+    before: Option<&Leading>,
+    known: Option<&Member>,
+    member: &Member,
+) {
+    let settings = config.settings();
+    if let Lease::Expired(left) = member.lease
+        && known.is_none_or(|known| known.lease.stands())
+    {
+        let lost = settings.t_safety.0 + settings.t_leave.0;
+        assert!(is_full(left, Millis(lost)));
+    }
+    let (Some(before), Some(known), Some(echo)) = (before, known, member.echoed) else {
+        return;
+    };
+    if known.echoed != Some(echo) {
+        let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
+        let age = age_ms(config, before.heartbeat, echo, next_ram);
+        let end = u64::from(settings.t_lease.0);
+        let ends = |left: Millis| age + u64::from(left.0) == end;
+        let is_full = matches!(member.lease, Lease::Stands(left) if left.left().is_some_and(ends));
+        assert!(age >= end || is_full);
+    }
+}
+
+fn command_begins_in_full(config: &Config, known: Option<&Member>, member: &Member) {
+    let settings = config.settings();
+    if let Some(outstanding) = member.outstanding {
+        let repeats = known.and_then(|known| known.outstanding);
+        if repeats.is_none_or(|known| known != outstanding) {
+            assert!(is_full(outstanding.acknowledgement, settings.t_ack));
+        }
+    }
+    if let Some(order) = member.order
+        && known
+            .and_then(|known| known.order)
+            .is_none_or(|known| known.request != order.request)
+        && order.is_running()
+    {
+        let limit = settings.t_exec[usize::from(order.task.value())];
+        assert!(is_full(order.execution, limit));
+    }
+}
