@@ -83,6 +83,13 @@ impl Stage {
         }
     }
 
+    /// Whether the pedestrian is escorted in it.
+    #[must_use]
+    pub fn is_escort(&self) -> bool {
+        let mut parts = self.parts.iter();
+        parts.any(|(_, leg)| leg.task == TaskType::MOVE)
+    }
+
     /// The part of a follower; `None` when it has none.
     #[must_use]
     pub fn leg(&self, follower: StationId) -> Option<Leg> {
@@ -227,7 +234,6 @@ impl Plan {
     /// Whether the pedestrian is escorted in a stage.
     #[must_use]
     pub fn is_escort(&self, stage: usize) -> bool {
-        let parts = self.stages.get(stage).map(|stage| &stage.parts);
-        parts.is_some_and(|parts| parts.iter().any(|(_, leg)| leg.task == TaskType::MOVE))
+        self.stages.get(stage).is_some_and(Stage::is_escort)
     }
 }

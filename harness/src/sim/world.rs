@@ -240,13 +240,14 @@ impl<'a> World<'a> {
         let seats: Vec<_> = seats.collect();
         let ways = swarm.ways.iter();
         let ways = ways.map(|faults| Channel::new(faults.clone(), draws.random()));
+        let limits = limits(swarm);
         let mut world = Self {
             ways: ways.collect(),
-            times: Times::new(limits(swarm), judged(swarm)),
+            road: Road::new(posts(swarm, &limits), swarm.delay_max(), swarm.is_in_time()),
+            times: Times::new(limits, judged(swarm)),
             corners: people::corners(swarm),
             people: Vec::new(),
             progress: None,
-            road: Road::new(posts(swarm), swarm.delay_max(), swarm.is_in_time()),
             names: BTreeMap::new(),
             has_heard_ram: false,
             aired: Vec::new(),
@@ -553,11 +554,11 @@ fn judged(swarm: &Swarm) -> Judged {
     }
 }
 
-fn posts(swarm: &Swarm) -> impl Iterator<Item = Post> + '_ {
-    let of_robots = swarm.robots.iter().zip(limits(swarm));
+fn posts<'a>(swarm: &'a Swarm, limits: &'a [Limits]) -> impl Iterator<Item = Post> + 'a {
+    let of_robots = swarm.robots.iter().zip(limits);
     of_robots.map(|(robot, limits)| {
         let (plan, settings) = (&robot.plan, robot.config.settings());
         let required = usize::from(plan.followers);
-        Post::new(robot.corner, required, plan.patience_s, settings, &limits)
+        Post::new(robot.corner, required, plan.patience_s, settings, limits)
     })
 }

@@ -36,10 +36,14 @@ impl Attention {
         }
     }
 
-    /// Whether datagrams may be waiting. The next call must not wait then: only a socket that has nothing at
-    /// once is empty, since a call that took long may have been held up with something in its hands.
-    pub(super) const fn is_unsure(&self) -> bool {
-        self.waiting_since.is_some()
+    /// How long the next call may wait, of `at_most`: not at all while datagrams may be waiting. Only a socket
+    /// that has nothing at once is empty, since a call that took long may have been held up with something in
+    /// its hands.
+    pub(super) const fn may_wait(&self, at_most: Duration) -> Duration {
+        match self.waiting_since {
+            None => at_most,
+            Some(_) => Duration::ZERO,
+        }
     }
 
     /// A call that was to wait for so long at most took a datagram at `now`. When that arrived at the earliest.
@@ -78,7 +82,7 @@ mod tests {
         attention.saw_empty(began, AT_MOST, began + ms(10));
         let now = began + ms(17);
         assert_eq!(attention.took(AT_MOST, now), now);
-        assert!(!attention.is_unsure());
+        assert_eq!(attention.may_wait(AT_MOST), AT_MOST);
     }
 
     #[test]
@@ -92,7 +96,7 @@ mod tests {
             // However long it is held up between two of them.
             let now = looked + ms(2_000 + 3 * n);
             assert_eq!(attention.took(AT_MOST, now), looked, "{n}");
-            assert!(attention.is_unsure());
+            assert_eq!(attention.may_wait(AT_MOST), Duration::ZERO);
         }
         let called = looked + ms(2_010);
         attention.saw_empty(called, Duration::ZERO, called);

@@ -111,12 +111,12 @@ impl Receiver for EthernetReceiver {
             self.wait = wait;
         }
         let fd = self.socket.as_raw_fd();
-        let called = Instant::now();
-        let (flags, waited) = if self.attention.is_unsure() {
-            (MsgFlags::MSG_DONTWAIT, Duration::ZERO)
-        } else {
-            (MsgFlags::empty(), wait)
+        let may_wait = self.attention.may_wait(wait);
+        let flags = match may_wait {
+            Duration::ZERO => MsgFlags::MSG_DONTWAIT,
+            _ => MsgFlags::empty(),
         };
+        let called = Instant::now();
         let received = recv(fd, &mut *self.buffer, flags);
         let now = Instant::now();
         let length = match received {
@@ -125,7 +125,7 @@ impl Receiver for EthernetReceiver {
                 let error = std::io::Error::from(errno);
                 return match error.kind() {
                     ErrorKind::WouldBlock | ErrorKind::TimedOut => {
-                        self.attention.saw_empty(called, waited, now);
+                        self.attention.saw_empty(called, may_wait, now);
                         Ok(None)
                     }
                     ErrorKind::Interrupted => Ok(None),
@@ -133,7 +133,7 @@ impl Receiver for EthernetReceiver {
                 };
             }
         };
-        let at = self.attention.took(wait, now);
+        let at = self.attention.took(may_wait, now);
         // What is not for the service is not looked at, and not worth a count.
         Ok(
             ethernet::packet(&self.buffer[..length]).map(|(source, packet)| Arrival::Datagram {

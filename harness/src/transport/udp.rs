@@ -116,7 +116,8 @@ impl Receiver for UdpReceiver {
             self.socket.set_read_timeout(Some(wait))?;
             self.wait = wait;
         }
-        let waits = !self.attention.is_unsure();
+        let may_wait = self.attention.may_wait(wait);
+        let waits = may_wait > Duration::ZERO;
         if waits != self.waits {
             self.socket.set_nonblocking(!waits)?;
             self.waits = waits;
@@ -128,7 +129,7 @@ impl Receiver for UdpReceiver {
             Ok((length, address)) => Ok(Some(Arrival::Datagram {
                 from: Source::Address(address),
                 octets: self.buffer[..length].to_vec(),
-                at: self.attention.took(wait, now),
+                at: self.attention.took(may_wait, now),
             })),
             // A peer that is gone answers with ICMP, which shows up as a refused connection.
             Err(error)
@@ -142,8 +143,7 @@ impl Receiver for UdpReceiver {
                 ) =>
             {
                 if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) {
-                    let waited = if waits { wait } else { Duration::ZERO };
-                    self.attention.saw_empty(called, waited, now);
+                    self.attention.saw_empty(called, may_wait, now);
                 }
                 Ok(None)
             }

@@ -40,31 +40,27 @@ impl Road {
         after: &Robot,
         monitor: &mut Monitor,
     ) -> Option<Broken> {
-        let opens = |output: &Output| matches!(output, Output::CorridorOpened(_));
         let (session, Phase::Leading(leading)) = (after.session()?, after.phase()) else {
             return None;
         };
-        if !outputs.iter().any(opens) || !self.0.insert(session) {
+        if !outputs.iter().any(is_go) || !self.0.insert(session) {
             return None;
         }
         monitor.step_on_road(session, usize::from(leading.request.followers))
     }
 }
 
+fn is_go(output: &Output) -> bool {
+    matches!(output, Output::CorridorOpened(_))
+}
+
 #[cfg(test)]
 mod tests {
     use crossguard_model_check::properties::PropertyId;
 
+    use super::super::tests::{records, text};
     use super::*;
-    use crate::sim::{Swarm, run};
-    use crate::trace::{Entry, Record};
-
-    fn records(seed: u64) -> Vec<Record> {
-        let mut records = Vec::new();
-        let mut watch = |record: Record| records.push(record);
-        let _ = run(&Swarm::draw(seed, 4, None), Some(&mut watch));
-        records
-    }
+    use crate::trace::Entry;
 
     /// What the first leader to show go puts out then, and its state.
     fn first_go() -> (Outputs, Robot) {
@@ -72,8 +68,7 @@ mod tests {
             .flat_map(records)
             .find_map(|record| match record.entry {
                 Entry::Step { outputs, state, .. } => {
-                    let opens = |output: &Output| matches!(output, Output::CorridorOpened(_));
-                    outputs.iter().any(opens).then_some((*outputs, *state))
+                    outputs.iter().any(is_go).then_some((*outputs, *state))
                 }
                 _ => None,
             });
@@ -107,10 +102,7 @@ mod tests {
     fn logs_of_crossings_put_the_properties_of_the_road_to_the_test() {
         let mut met = BTreeSet::new();
         for seed in 1..=8 {
-            let mut log = Vec::new();
-            for record in records(seed) {
-                crate::trace::write(&mut log, &record).unwrap();
-            }
+            let log = text(&records(seed));
             met.extend(crate::validate::one(&*log).unwrap().properties);
         }
         for id in ["W1", "W2", "W4"] {

@@ -6,14 +6,14 @@ use super::*;
 use crate::sim::{Swarm, run};
 use crate::trace;
 
-fn records(seed: u64) -> Vec<Record> {
+pub(super) fn records(seed: u64) -> Vec<Record> {
     let mut records = Vec::new();
     let mut watch = |record: Record| records.push(record);
     let _ = run(&Swarm::draw(seed, 4, None), Some(&mut watch));
     records
 }
 
-fn text<'a>(records: impl IntoIterator<Item = &'a Record>) -> Vec<u8> {
+pub(super) fn text<'a>(records: impl IntoIterator<Item = &'a Record>) -> Vec<u8> {
     let mut text = Vec::new();
     for record in records {
         trace::write(&mut text, record).unwrap();

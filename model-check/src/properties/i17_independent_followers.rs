@@ -1,6 +1,8 @@
 //! I17: dropping one follower leaves the others' records unchanged.
 
-use crossguard_protocol::{Countdown, EndReason, Input, Lease, Member, Millis, Notice, StationId};
+use crossguard_protocol::{
+    Coordination, Countdown, EndReason, Input, Lease, Member, Millis, Notice, StationId,
+};
 
 use super::{StepRule, StepView, leading_of};
 
@@ -17,11 +19,18 @@ fn dropped(step: &StepView) -> Option<StationId> {
     })
 }
 
-/// Whether the session ends for another leader: a RAM may say both, that its sender has left and that it leads.
+/// Whether the session ends for another leader: a RAM may say both, that its sender has left and that it claims
+/// the place.
 fn withdraws(step: &StepView) -> bool {
-    let is_for_another =
-        |notice| matches!(notice, Notice::SessionEnded(_, EndReason::Withdrawn(_)));
-    step.notices().any(is_for_another)
+    let Input::Ram { ram, .. } = step.input else {
+        return false;
+    };
+    let claims = matches!(
+        ram.coordination,
+        Coordination::NeedHelp { .. } | Coordination::Leader { .. }
+    );
+    let for_another = |notice| matches!(notice, Notice::SessionEnded(_, EndReason::Withdrawn(_)));
+    claims && step.notices().any(for_another)
 }
 
 fn holds(step: &StepView) -> bool {

@@ -1,6 +1,6 @@
 //! Arithmetic of serial numbers and times, written once more for the laws that judge by it.
 
-use crate::config::Config;
+use crate::config::{Config, Settings};
 use crate::id::{Heartbeat, RequestId};
 use crate::time::Millis;
 
@@ -26,12 +26,19 @@ pub(super) fn age_ms(
     (periods + 1) * period - period.min(next_ram.0.into())
 }
 
+/// When a timer of `own_ms` on the slowest clock is over at the latest, with what its endpoint may be late by,
+/// and one of `theirs_ms` on the fastest clock at the earliest, in one unit.
+pub(super) fn latest_and_earliest(settings: &Settings, own_ms: u64, theirs_ms: u64) -> (u64, u64) {
+    let (million, drift) = (1_000_000, u64::from(settings.drift_ppm));
+    let slowest = million - drift.min(million);
+    let own_ms = own_ms + u64::from(settings.delay_max.0);
+    (own_ms * (million + drift), theirs_ms * slowest)
+}
+
 /// Whether a reservation of `t_offer` on the fastest clock outlasts `time_ms` on the slowest, what an endpoint
 /// may be late by, and the millisecond to which both count.
 pub(super) fn a_reservation_outlasts(config: &Config, time_ms: u64) -> bool {
     let settings = config.settings();
-    let (million, drift) = (1_000_000, u64::from(settings.drift_ppm));
-    let slowest = million - drift.min(million);
-    let late_ms = u64::from(settings.delay_max.0) + 1;
-    (time_ms + late_ms) * (million + drift) <= u64::from(settings.t_offer.0) * slowest
+    let (own, reservation) = latest_and_earliest(settings, time_ms + 1, settings.t_offer.0.into());
+    own <= reservation
 }

@@ -8,7 +8,7 @@ use crate::id::{Heartbeat, SessionId};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Ending, Failure, Farewell, Progress};
 use crate::output::{EndReason, ReleaseReason, StopReason};
-use crate::state::{Corridor, Duty, Identity, Leading, Lease, Member, Rival, Robot, Role};
+use crate::state::{Corridor, Duty, Identity, Lease, Member, Rival, Robot, Role};
 use crate::task::{Availability, Place, Unavailability, Urgency};
 use crate::time::{Countdown, Millis};
 
@@ -366,10 +366,8 @@ pub fn only_a_rival_that_beats_is_given_way(step: &Taken) {
     };
     match (yielded_before, after.yields_to) {
         (Some(before), other) => {
-            let rival =
-                |leading: &Leading| leading.rival.map(|rival| (rival.session, rival.heartbeat));
-            let noted = leading(&step.before).and_then(rival);
-            assert!(other == Some(before) && rival(after) == noted);
+            let rival = |robot| noted(robot).map(|rival| (rival.session, rival.heartbeat));
+            assert!(other == Some(before) && rival(&step.after) == rival(&step.before));
         }
         (None, Some(other)) => {
             assert!(again == Some(other) && after.corridor == Corridor::Clearing);

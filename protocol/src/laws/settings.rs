@@ -3,6 +3,7 @@
 //! The inequalities are written here once more, in numbers without a limit that they can reach, from what
 //! [`Inequality`] says of each.
 
+use super::arithmetic::latest_and_earliest;
 use crate::config::{Config, Inequality, Settings};
 use crate::task::{FallbackPolicy, TaskType};
 use crate::time::Millis;
@@ -84,12 +85,10 @@ fn ms(time: Millis) -> u64 {
     time.0.into()
 }
 
-/// Whether a timer of `own`, and what its endpoint may be late by, is over on the slowest clock before one of
-/// `theirs` on the fastest.
+/// Whether a timer of `own` is over before one of `theirs`, on any two clocks.
 fn is_over_before(settings: &Settings, own: u64, theirs: u64) -> bool {
-    let (million, drift) = (1_000_000, u64::from(settings.drift_ppm));
-    let (slow, fast) = (million - drift.min(million), million + drift);
-    theirs * slow > (own + ms(settings.delay_max)) * fast
+    let (own, theirs) = latest_and_earliest(settings, own, theirs);
+    own < theirs
 }
 
 /// The limits of some tasks.

@@ -260,11 +260,8 @@ impl Draws {
         });
         let mut stages: Vec<_> = stages.collect();
         // Who escorts for the second time has to come back first.
-        if stages.len() == 1
-            && stages[0]
-                .parts
-                .iter()
-                .any(|(_, leg)| leg.task == TaskType::MOVE)
+        if let [stage] = &stages[..]
+            && stage.is_escort()
         {
             let back = Stage::everybody(Leg::new(TaskType::INITIAL_POS, self.place()));
             stages.insert(0, back);
