@@ -9,22 +9,22 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use crossguard_codec::TaskParameters;
-use crossguard_harness::application::{Application, Wish};
-use crossguard_harness::body::{Body, Build};
-use crossguard_harness::boot::Boot;
-use crossguard_harness::counters::Cause;
-use crossguard_harness::journal::{Journal, WhenFull};
-use crossguard_harness::plan::Plan;
-use crossguard_harness::ras::surroundings::Awareness;
-use crossguard_harness::runtime::{Clock, Order, Running, Setup};
-use crossguard_harness::site::{Place, Site};
-use crossguard_harness::station::Security;
-use crossguard_harness::trace::{Entry, Record};
-use crossguard_harness::transport::{
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::ras::surroundings::Awareness;
+use crossguard_endpoint::station::Security;
+use crossguard_endpoint::wire::Wire;
+use crossguard_protocol::{Config, Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
+use crossguard_robot::application::{Application, Wish};
+use crossguard_robot::body::{Body, Build};
+use crossguard_robot::boot::Boot;
+use crossguard_robot::journal::{Journal, WhenFull};
+use crossguard_robot::plan::Plan;
+use crossguard_robot::runtime::{Clock, Order, Running, Setup};
+use crossguard_robot::site::{Place, Site};
+use crossguard_robot::trace::{Entry, Record};
+use crossguard_robot::transport::{
     Halves, Link, LinkError, Transport, Zenoh, ZenohError, ZenohMode, ZenohRouter,
 };
-use crossguard_harness::wire::Wire;
-use crossguard_protocol::{Config, Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
 
 const COMMANDS: usize = 5_000;
 

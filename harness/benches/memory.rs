@@ -7,15 +7,15 @@ use std::hint::black_box;
 
 use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{Identifiers, Service, golden};
-use crossguard_harness::application::Application;
-use crossguard_harness::body::{Body, Build};
-use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::machine::Machine;
-use crossguard_harness::plan::Plan;
-use crossguard_harness::site::{Place, Site};
-use crossguard_harness::station::Station;
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::station::Station;
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId};
+use crossguard_robot::application::Application;
+use crossguard_robot::body::{Body, Build};
+use crossguard_robot::machine::Machine;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::{Place, Site};
 
 /// How many vehicles are heard at a time, and how many different ones in an hour.
 const VEHICLES: u32 = 300;

@@ -6,9 +6,9 @@ use std::hint::black_box;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{Identifiers, RobotState, Service, golden};
-use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::station::Station;
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::station::Station;
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, StationId};
 
 fn moment(now_ms: u64) -> Moment {

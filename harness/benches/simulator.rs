@@ -6,12 +6,12 @@
 
 use std::time::Duration;
 
-use crossguard_harness::body::Build;
-use crossguard_harness::plan::Plan;
-use crossguard_harness::sim::{Deed, Happening, Outcome, RobotDraw, Swarm, run};
-use crossguard_harness::site::{Place, Site};
-use crossguard_harness::transport::{Delay, Faults};
+use crossguard_judge::sim::{Deed, Happening, Outcome, RobotDraw, Swarm, run};
 use crossguard_protocol::{Config, StationId};
+use crossguard_robot::body::Build;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::{Place, Site};
+use crossguard_robot::transport::{Delay, Faults};
 use nix::time::{ClockId, clock_gettime};
 
 /// How long a street is simulated before it comes to rest, in seconds, and how often somebody wants to

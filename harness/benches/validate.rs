@@ -4,9 +4,9 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use crossguard_harness::sim::{Swarm, run};
-use crossguard_harness::trace::{self, Record};
-use crossguard_harness::validate;
+use crossguard_judge::sim::{Swarm, run};
+use crossguard_judge::validate;
+use crossguard_robot::trace::{self, Record};
 
 /// How many records the logs have together at least.
 const RECORDS: u64 = 100_000;

@@ -19,11 +19,11 @@ use std::path::Path;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::{Position, RobotState, si};
-use crossguard_harness::boot;
-use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::trace::{self, Entry, Record};
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, ManeuverId, Notice, Robot, StationId};
+use crossguard_robot::boot;
+use crossguard_robot::trace::{self, Entry, Record};
 
 /// Longer than any packet, so that a longer one is seen to be too long.
 const DATAGRAM_MAX: usize = 2_048;

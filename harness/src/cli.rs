@@ -3,6 +3,7 @@
 //! Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete.
 
 mod check;
+mod choices;
 mod codec;
 mod demo;
 mod explore;
@@ -27,10 +28,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use crossguard_harness::capture::Capture;
-use crossguard_harness::observe::to_standard_error;
-use crossguard_harness::perception::Feed;
-use crossguard_harness::trace::Log;
+use crossguard_robot::capture::Capture;
+use crossguard_robot::observe::to_standard_error;
+use crossguard_robot::perception::Feed;
+use crossguard_robot::trace::Log;
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -116,7 +117,10 @@ impl From<std::io::Error> for Failure {
 
 pub(crate) fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let _written = to_standard_error(arguments.verbose, &["crossguard_harness"]);
+    let _written = to_standard_error(
+        arguments.verbose,
+        &["crossguard_harness", "crossguard_robot"],
+    );
     let done = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crossguard_protocol::{Role, State};
 
-use crate::tally::Tally;
+use crossguard_robot::tally::Tally;
 
 /// How long a client may take to ask, and to take the answer.
 const PATIENCE: Duration = Duration::from_secs(2);

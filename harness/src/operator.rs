@@ -8,11 +8,11 @@ use crossguard_protocol::{
     Unavailability, Urgency,
 };
 
-use crate::application::Wish;
-use crate::perception;
-use crate::ras::clustering::PerceivedVru;
-use crate::runtime::Order;
-use crate::site::{Place, Site};
+use crossguard_endpoint::ras::clustering::PerceivedVru;
+use crossguard_robot::application::Wish;
+use crossguard_robot::perception;
+use crossguard_robot::runtime::Order;
+use crossguard_robot::site::{Place, Site};
 
 /// A line that was typed.
 #[derive(Clone, Copy, PartialEq, Debug)]

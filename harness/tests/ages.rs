@@ -7,13 +7,13 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::RobotState;
-use crossguard_harness::counters::Cause;
-use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::sim::{Deed, Happening, Swarm, run as simulate};
-use crossguard_harness::trace::{Entry, Record};
-use crossguard_harness::transport::Faults;
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_judge::sim::{Deed, Happening, Swarm, run as simulate};
 use crossguard_protocol::{Config, Robot, StationId};
+use crossguard_robot::trace::{Entry, Record};
+use crossguard_robot::transport::Faults;
 use support::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);

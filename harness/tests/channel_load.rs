@@ -1,15 +1,15 @@
 //! The law of the channel load: where robots stand in for people's devices, the channel is less busy by
 //! coverage times the share of VAM, less what RAM add.
 
-use crossguard_harness::evaluation::coverage::coverage;
-use crossguard_harness::evaluation::matrix::{predicted_reduction, vam_share};
-use crossguard_harness::evaluation::messages::Sizes;
-use crossguard_harness::evaluation::radio::Radio;
-use crossguard_harness::evaluation::simulation::{Behaviour, Measured, simulate};
-use crossguard_harness::evaluation::trace::{Run, Track};
-use crossguard_harness::ras::clustering::Settings;
-use crossguard_harness::ras::motion::Point;
-use crossguard_harness::ras::vru::{Understands, VamRule};
+use crossguard_endpoint::ras::clustering::Settings;
+use crossguard_endpoint::ras::motion::Point;
+use crossguard_endpoint::ras::vru::{Understands, VamRule};
+use crossguard_evaluation::coverage::coverage;
+use crossguard_evaluation::matrix::{predicted_reduction, vam_share};
+use crossguard_evaluation::messages::Sizes;
+use crossguard_evaluation::radio::Radio;
+use crossguard_evaluation::simulation::{Behaviour, Measured, simulate};
+use crossguard_evaluation::trace::{Run, Track};
 use proptest::prelude::*;
 
 const SECONDS: u64 = 40;

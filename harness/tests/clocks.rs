@@ -2,12 +2,12 @@
 
 use std::io::Cursor;
 
-use crossguard_harness::plan::Plan;
-use crossguard_harness::sim::{Deed, Happening, Swarm, run};
-use crossguard_harness::trace::{Entry, Record, write};
-use crossguard_harness::transport::{Faults, Outage};
-use crossguard_harness::validate::{Log, Validated, all};
+use crossguard_judge::sim::{Deed, Happening, Swarm, run};
+use crossguard_judge::validate::{Log, Validated, all};
 use crossguard_protocol::Config;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::trace::{Entry, Record, write};
+use crossguard_robot::transport::{Faults, Outage};
 
 const SECOND_US: u64 = 1_000_000;
 

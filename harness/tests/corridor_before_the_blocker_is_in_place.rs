@@ -59,6 +59,6 @@ fn the_corridor_opens_when_the_blocker_has_arrived_and_not_before() {
         arrived_ms - opened_ms
     );
     for robot in [ari, go2] {
-        crossguard_harness::validate::one(log_of(&robot).as_bytes()).unwrap();
+        crossguard_judge::validate::one(log_of(&robot).as_bytes()).unwrap();
     }
 }

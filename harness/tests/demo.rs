@@ -107,7 +107,7 @@ fn the_log_holds_every_step_of_both_robots() {
     assert_eq!(of_kind("step"), steps);
     assert_eq!(of_kind("started"), 2);
     assert_eq!(of_kind("stopped"), 2);
-    let validated = crossguard_harness::validate::one(log.as_bytes()).unwrap();
+    let validated = crossguard_judge::validate::one(log.as_bytes()).unwrap();
     assert_eq!(validated.steps as u64, steps);
 }
 

@@ -1,7 +1,7 @@
 //! Runs of the model checker, taken by real endpoints with real octets: after every step the robots are
 //! as the model says.
 
-use crossguard_harness::drive::{Disagreement, drive};
+use crossguard_judge::drive::{Disagreement, drive};
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::{Action, Delivery, Model};
 use crossguard_model_check::node::Rules;

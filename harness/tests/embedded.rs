@@ -11,7 +11,7 @@ use std::process::{Child, Command};
 use std::time::Duration;
 
 use c::{Language, compile};
-use crossguard_harness::validate::{self, Log, Validated};
+use crossguard_judge::validate::{self, Log, Validated};
 use support::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);

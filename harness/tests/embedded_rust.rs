@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::time::Duration;
 
-use crossguard_harness::validate::{self, Log};
+use crossguard_judge::validate::{self, Log};
 use support::*;
 
 #[test]

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{Identifiers, Service, golden};
-use crossguard_harness::station::Station;
+use crossguard_endpoint::station::Station;
 use crossguard_protocol::StationId;
 use support::*;
 

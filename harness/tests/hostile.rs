@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{Identifiers, MessageIdentifiers, RobotState, Service, golden};
-use crossguard_harness::station::Station;
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::station::Station;
+use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Availability, Robot, StationId};
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crossguard_harness::sim::{Fuzz, run};
-use crossguard_harness::trace::{self, Record};
+use crossguard_judge::sim::{Fuzz, run};
+use crossguard_robot::trace::{self, Record};
 use support::{robot_file, stderr, type_to, wait_for};
 
 /// Runs a judge with something on its standard input, and shows what it says.
@@ -126,7 +126,8 @@ fn prometheus_reads_the_metrics_of_a_robot_that_leads() {
     });
     type_to(
         &mut robot,
-        "detect\nuntil maneuver-executing\nwait 2\nquit\n",
+        // Nobody follows yet, so the first one is ignored, and counted.
+        "open\ndetect\nuntil maneuver-executing\nwait 2\nquit\n",
     );
     lines
         .find(|line| line.contains("now ManeuverExecuting"))

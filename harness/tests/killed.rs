@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use crossguard_harness::boot;
+use crossguard_robot::boot;
 use serde_json::Value;
 use support::*;
 

@@ -76,7 +76,7 @@ fn the_crossing_by(link: &str, test: &str) {
         .unwrap();
     let log = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{log}{}", stderr(&output));
-    crossguard_harness::validate::one(log.as_bytes()).unwrap();
+    crossguard_judge::validate::one(log.as_bytes()).unwrap();
     for expected in ["\"taskCompleted\"", "\"station\":2"] {
         assert!(log.contains(expected), "{expected} is not in:\n{log}");
     }

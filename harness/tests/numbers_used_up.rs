@@ -4,20 +4,20 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use crossguard_harness::application::{Application, Wish};
-use crossguard_harness::body::{Body, Build};
-use crossguard_harness::boot;
-use crossguard_harness::counters::Cause;
-use crossguard_harness::journal::{Journal, WhenFull};
-use crossguard_harness::plan::Plan;
-use crossguard_harness::ras::surroundings::Awareness;
-use crossguard_harness::runtime::{Clock, Order, Setup};
-use crossguard_harness::site::{Place, Site};
-use crossguard_harness::station::Security;
-use crossguard_harness::trace::Entry;
-use crossguard_harness::transport::{Air, Transport};
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::ras::surroundings::Awareness;
+use crossguard_endpoint::station::Security;
+use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Config, Event, Input, StationId};
+use crossguard_robot::application::{Application, Wish};
+use crossguard_robot::body::{Body, Build};
+use crossguard_robot::boot;
+use crossguard_robot::journal::{Journal, WhenFull};
+use crossguard_robot::plan::Plan;
+use crossguard_robot::runtime::{Clock, Order, Setup};
+use crossguard_robot::site::{Place, Site};
+use crossguard_robot::trace::Entry;
+use crossguard_robot::transport::{Air, Transport};
 
 const PATIENCE: Duration = Duration::from_mins(2);
 

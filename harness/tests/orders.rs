@@ -1,14 +1,14 @@
 //! A command has the parameters that it was given with, and not those of the one before.
 
 use crossguard_codec::TaskParameters;
-use crossguard_harness::application::Application;
-use crossguard_harness::body::{Body, Build};
-use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::machine::Machine;
-use crossguard_harness::plan::Plan;
-use crossguard_harness::site::{Place, Site};
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
+use crossguard_robot::application::Application;
+use crossguard_robot::body::{Body, Build};
+use crossguard_robot::machine::Machine;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::{Place, Site};
 
 const FOLLOWER: StationId = StationId(2);
 const TICK_MS: u64 = 10;

@@ -5,8 +5,8 @@ mod support;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crossguard_harness::robot_file::RobotFile;
 use crossguard_model_check::scenario::Scenario;
+use crossguard_robot::robot_file::RobotFile;
 use indicatif::HumanCount;
 use support::*;
 

@@ -7,7 +7,7 @@ mod story;
 
 use std::path::Path;
 
-use crossguard_harness::endpoint::Act;
+use crossguard_endpoint::Act;
 use crossguard_model_check::paper::{Hazard, Story};
 use crossguard_protocol::{
     Corridor, EndReason, Ignored, Notice, Progress, ReleaseReason, Role, State, StationId,

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crossguard_codec::{Identifiers, golden};
-use crossguard_harness::sniffer::Sniffer;
+use crossguard_judge::sniffer::Sniffer;
 use serde_json::Value;
 use support::*;
 

@@ -7,12 +7,12 @@ use std::process::Command;
 
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{Identifiers, Position, RobotState, decode};
-use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::ras::clustering::{PerceivedVru, VruClass};
-use crossguard_harness::ras::containers::{self, Announced};
-use crossguard_harness::ras::generation::Trigger;
-use crossguard_harness::ras::motion::Plane;
-use crossguard_harness::wire::{MessageKind, Wire};
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::ras::containers::{self, Announced};
+use crossguard_endpoint::ras::generation::Trigger;
+use crossguard_endpoint::ras::motion::Plane;
+use crossguard_endpoint::wire::{MessageKind, Wire};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
     Availability, Config, Event, Robot, Settings, StationId, Unavailability,
 };

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crossguard_harness::boot::{self, BootError};
+use crossguard_robot::boot::{self, BootError};
 
 #[test]
 fn a_counter_that_was_cut_off_at_any_byte_is_refused_and_never_smaller() {

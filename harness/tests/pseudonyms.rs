@@ -7,15 +7,15 @@ use crossguard_codec::geonet::{Address, BasicHeader, Headers};
 use crossguard_codec::security::{SignedMessage, Time64};
 use crossguard_codec::{Identifiers, Position, RobotState, TaskParameters};
 
-use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::pki::Pki;
-use crossguard_harness::plan::Plan;
-use crossguard_harness::site::Site;
-use crossguard_harness::station::{Mode, Security};
-use crossguard_harness::wire::{Wire, overhear};
+use crossguard_endpoint::station::{Mode, Security};
+use crossguard_endpoint::wire::{Wire, overhear};
+use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
     Config, Event, Identity, Input, ManeuverId, Phase, Robot, StationId, TaskType,
 };
+use crossguard_robot::pki::Pki;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::Site;
 
 /// 2026-01-05, in milliseconds since 2004.
 const EPOCH_ITS: u64 = 694_694_401_000;

@@ -3,9 +3,9 @@
 
 use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{Identifiers, RobotState, Service, golden};
-use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::station::Station;
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::station::Station;
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, StationId};
 use rand::{Rng, RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -8,8 +8,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use crossguard_harness::sim::{Swarm, run};
-use crossguard_harness::trace::{self, Record};
+use crossguard_judge::sim::{Swarm, run};
+use crossguard_robot::trace::{self, Record};
 use support::{assert_refused, crossguard, stderr, stdout};
 
 /// The log of simulated robots.

@@ -2,16 +2,16 @@
 //! road, and otherwise once everybody that its sensors had on the road was seen beside it.
 
 use crossguard_codec::TaskParameters;
-use crossguard_harness::application::Application;
-use crossguard_harness::body::{Body, Build};
-use crossguard_harness::endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::machine::Machine;
-use crossguard_harness::plan::Plan;
-use crossguard_harness::ras::clustering::{PerceivedVru, VruClass};
-use crossguard_harness::site::{Place, Site};
-use crossguard_harness::street::{Road, Street, Watched, Zone};
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
+use crossguard_robot::application::Application;
+use crossguard_robot::body::{Body, Build};
+use crossguard_robot::machine::Machine;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::{Place, Site};
+use crossguard_robot::street::{Road, Street, Watched, Zone};
 
 const TICK_MS: u32 = 10;
 

@@ -38,7 +38,7 @@ fn two_processes_do_the_crossing() {
     assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
     assert_eq!(ends(&log_of(&ari)), ["\"taskCompleted\""]);
     for robot in [ari, go2] {
-        crossguard_harness::validate::one(log_of(&robot).as_bytes()).unwrap();
+        crossguard_judge::validate::one(log_of(&robot).as_bytes()).unwrap();
     }
 }
 
@@ -231,6 +231,6 @@ fn two_processes_of_one_robot_are_refused() {
 fn the_shipped_configurations_do_the_crossing_together() {
     for robot in ["ari", "go2"] {
         let path = format!("{}/examples/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
-        crossguard_harness::robot_file::RobotFile::read(path.as_ref()).unwrap();
+        crossguard_robot::robot_file::RobotFile::read(path.as_ref()).unwrap();
     }
 }

@@ -15,12 +15,12 @@ use crossguard_codec::security::{
 };
 use crossguard_codec::{Identifiers, Part, RobotState, Service};
 
-use crossguard_harness::pki::{self, Holder, Pki, Term};
-use crossguard_harness::plan::Plan;
-use crossguard_harness::site::Site;
-use crossguard_harness::station::{Credentials, Mode, Security, Station};
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::station::{Credentials, Mode, Security, Station};
+use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Availability, Event, Input, Robot, StationId};
+use crossguard_robot::pki::{self, Holder, Pki, Term};
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::Site;
 use support::*;
 
 const GUEST: StationId = StationId(77);

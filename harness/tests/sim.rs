@@ -3,17 +3,17 @@
 
 mod support;
 
-use crossguard_harness::capture;
-use crossguard_harness::plan::Plan;
-use crossguard_harness::sim::{
+use crossguard_judge::sim::{
     Deed, Failure, Finding, Fuzz, Happening, Measure, Swarm, Worst, run, write_failure,
 };
-use crossguard_harness::trace::{self, Record};
-use crossguard_harness::transport::{Delay, Faults};
-use crossguard_harness::validate;
+use crossguard_judge::validate;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::timed::Limits;
 use crossguard_protocol::Config;
+use crossguard_robot::capture;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::trace::{self, Record};
+use crossguard_robot::transport::{Delay, Faults};
 use support::*;
 
 fn log_of(seed: u64) -> Vec<u8> {

@@ -4,7 +4,7 @@
 #[path = "../../model-check/tests/rules/mod.rs"]
 mod rules;
 
-use crossguard_harness::sim::{Failure, Fuzz, Totals};
+use crossguard_judge::sim::{Failure, Fuzz, Totals};
 use crossguard_model_check::node::Rules;
 use crossguard_protocol::*;
 use rules::*;

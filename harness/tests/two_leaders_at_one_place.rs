@@ -1,15 +1,15 @@
 //! Two groups that do not hear each other lead at one crossing, each with its own corridor. Once they hear each
 //! other, one shows stop at once, keeps its guard until the road is clear, and ends.
 
-use crossguard_harness::body::Build;
-use crossguard_harness::plan::{Leg, Plan, Stage};
-use crossguard_harness::sim::{self, Deed, Happening, RobotDraw, Swarm};
-use crossguard_harness::site::{Place, Site};
-use crossguard_harness::trace::{Entry, Record};
-use crossguard_harness::transport::{Faults, Outage};
+use crossguard_judge::sim::{self, Deed, Happening, RobotDraw, Swarm};
 use crossguard_protocol::{
     self as protocol, Config, CorridorClosure, EndReason, Notice, Output, StationId, TaskType,
 };
+use crossguard_robot::body::Build;
+use crossguard_robot::plan::{Leg, Plan, Stage};
+use crossguard_robot::site::{Place, Site};
+use crossguard_robot::trace::{Entry, Record};
+use crossguard_robot::transport::{Faults, Outage};
 
 const MEET_MS: u64 = 4_000;
 

@@ -6,7 +6,7 @@ mod support;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
-use crossguard_harness::transport::{
+use crossguard_robot::transport::{
     Arrival, Halves, Link, LinkError, Reopening, Source, Transport, WithFaults, Zenoh, ZenohError,
     ZenohMode, ZenohRouter,
 };
@@ -258,7 +258,7 @@ fn cross(ari: &[&str], go2: &[&str]) -> [String; 2] {
     let logs = [log_of(&of_ari), log_of(&of_go2)];
     assert!(logs[0].contains("\"taskCompleted\""));
     for log in &logs {
-        crossguard_harness::validate::one(log.as_bytes()).unwrap();
+        crossguard_judge::validate::one(log.as_bytes()).unwrap();
     }
     logs
 }

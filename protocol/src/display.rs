@@ -10,7 +10,7 @@ use crate::output::{
     CorridorClosure, Disengagement, EndReason, GoneReason, Ignored, Maneuver, Notice, Output,
     ReleaseReason, StopReason,
 };
-use crate::state::Robot;
+use crate::state::{Duty, Robot};
 use crate::task::{
     Availability, FallbackPolicy, HelpRequest, Place, TaskSet, Unavailability, Urgency,
 };
@@ -351,6 +351,15 @@ impl Display for Output {
             Self::RenewEpoch => f.write_str("renew the boot counter"),
             Self::Notify(notice) => notice.fmt(f),
             Self::Ignored(reason) => write!(f, "ignored: {reason}"),
+        }
+    }
+}
+
+impl Display for Duty {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FallingBack(maneuver) => write!(f, "falls back from {maneuver}"),
+            Self::Crossing(session) => write!(f, "people of {session} may be on the road"),
         }
     }
 }

@@ -102,6 +102,7 @@ pub use output::{
     Outputs, ReleaseReason, StopReason,
 };
 pub use rename::Renaming;
+pub use robot::StateMachine;
 pub use state::{
     Contact, Corridor, Duty, Following, Identity, Job, Leading, Lease, Member, Offer, Offering,
     Order, Outstanding, Phase, Refusal, Requesting, Rival, Robot, Role, StandingFarewell, State,

@@ -30,6 +30,26 @@ pub(crate) struct Step<'a, S> {
 /// What came of an input: it had an effect, or it is ignored for a reason.
 pub(crate) type Effect = Result<(), Ignored>;
 
+/// A transition function together with its state: what an endpoint drives. The kit has one, [`Robot`]; a test
+/// that shows what a rule is good for brings another one along.
+pub trait StateMachine {
+    /// The state.
+    fn robot(&self) -> &Robot;
+
+    /// Takes `input` in and returns what is to be done, in order: see [`Robot::step`].
+    fn step(&mut self, config: &Config, input: Input) -> Outputs;
+}
+
+impl StateMachine for Robot {
+    fn robot(&self) -> &Robot {
+        self
+    }
+
+    fn step(&mut self, config: &Config, input: Input) -> Outputs {
+        Robot::step(self, config, input)
+    }
+}
+
 impl Robot {
     /// A robot that has just booted. `boot` is its boot counter, which must be larger than at any
     /// boot before.

@@ -3,8 +3,8 @@
 #![no_main]
 
 use crossguard_codec::RobotState;
-use crossguard_harness::endpoint::{Endpoint, Moment, Stimulus};
-use crossguard_harness::wire::Wire;
+use crossguard_endpoint::{Endpoint, Moment, Stimulus};
+use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Config, Event, HelpRequest, Robot, StationId, TaskSet, Urgency};
 use libfuzzer_sys::fuzz_target;
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crossguard_harness::boot;
+use crossguard_robot::boot;
 use pyo3::prelude::*;
 
 use crate::errors::BootError;

@@ -1,7 +1,7 @@
 //! Messages and packets as octets and as JSON.
 
 use crossguard_codec::{Dictionary, Identifiers};
-use crossguard_harness::readable::{self, Decoded};
+use crossguard_judge::readable::{self, Decoded};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{RobotState, TaskParameters};
-use crossguard_harness::endpoint::{self, Act, Effect, Moment, Stimulus};
-use crossguard_harness::ras::generation::Trigger;
-use crossguard_harness::trace::{self, Entry, Reception, Record, recorded};
-use crossguard_harness::wire::{MessageKind, Wire};
+use crossguard_endpoint::ras::generation::Trigger;
+use crossguard_endpoint::wire::{MessageKind, Wire};
+use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
 use crossguard_protocol::{
     Config, CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, StationId,
     StopReason,
 };
+use crossguard_robot::trace::{self, Entry, Reception, Record, recorded};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -103,7 +103,7 @@ impl<'a> Told<'a> {
 #[pyclass(module = "crossguard._crossguard")]
 pub(crate) struct Endpoint {
     name: String,
-    inner: endpoint::Endpoint,
+    inner: crossguard_endpoint::Endpoint,
     config: Config,
     body: RobotState,
     began_ms: u64,
@@ -130,7 +130,7 @@ impl Endpoint {
         let wire = Wire { identifiers };
         let mut endpoint = Self {
             name,
-            inner: endpoint::Endpoint::new(robot, config.clone(), wire, now_ms),
+            inner: crossguard_endpoint::Endpoint::new(robot, config.clone(), wire, now_ms),
             config,
             body: RobotState::default(),
             began_ms: now_ms,

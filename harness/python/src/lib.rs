@@ -5,10 +5,10 @@
 //!        │ JSON, in the form of logs
 //!   crossguard._crossguard (this crate)
 //!        ├─► robot ──────► crossguard_protocol::Robot::step
-//!        ├─► endpoint ───► crossguard_harness::endpoint, trace
-//!        ├─► codec ──────► crossguard_harness::readable
+//!        ├─► endpoint ───► crossguard_endpoint::endpoint, trace
+//!        ├─► codec ──────► crossguard_judge::readable
 //!        ├─► check ──────► crossguard_model_check
-//!        └─► validate ───► crossguard_harness::validate
+//!        └─► validate ───► crossguard_judge::validate
 //! ```
 //!
 //! It holds no rule of the protocol, and no type of Python's but handles: values cross as the JSON that

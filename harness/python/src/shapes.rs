@@ -1,8 +1,8 @@
 //! The shapes of the types that cross, which a test holds the package's classes against.
 
 use crossguard_codec as codec;
-use crossguard_harness::ras::generation::Trigger;
-use crossguard_harness::wire::MessageKind;
+use crossguard_endpoint::ras::generation::Trigger;
+use crossguard_endpoint::wire::MessageKind;
 use crossguard_protocol as protocol;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;

@@ -1,17 +1,17 @@
 //! What a message of the application tells the robot.
 
 use crossguard_codec::TaskParameters;
-use crossguard_harness::application::Wish;
-use crossguard_harness::body::Pose;
-use crossguard_harness::perception::{self, PerceptionError};
-use crossguard_harness::ras::clustering::{PerceivedVru, VruClass};
-use crossguard_harness::runtime::Order;
-use crossguard_harness::site::{Place, Site};
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{
     self as protocol, Availability, Event, HelpRequest, MAX_FOLLOWERS, ManeuverId, NoSuchTask,
     RequestId, SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability,
     UniqueNumber, Urgency,
 };
+use crossguard_robot::application::Wish;
+use crossguard_robot::body::Pose;
+use crossguard_robot::perception::{self, PerceptionError};
+use crossguard_robot::runtime::Order;
+use crossguard_robot::site::{Place, Site};
 
 use crate::msgs::{Command, Person, Session, Status, Task};
 use crate::report::SITE_FRAME;

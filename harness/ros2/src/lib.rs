@@ -9,7 +9,7 @@
 //!                                                          ▼
 //!   msgs, standard (structs) ──► message (CDR) ──► graph (keys, tokens, attachments) ◄──► zenoh
 //!                                                          ▲
-//!   crossguard_harness::runtime ◄──► robot ◄──► node ──────┘
+//!   crossguard_robot::runtime ◄──► robot ◄──► node ──────┘
 //!                                               ├── lifecycle, command, report
 //! ```
 //!

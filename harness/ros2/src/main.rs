@@ -8,8 +8,8 @@ use std::process::ExitCode;
 use std::sync::mpsc::sync_channel;
 
 use clap::Parser;
-use crossguard_harness::observe::to_standard_error;
-use crossguard_harness::station::Mode;
+use crossguard_endpoint::station::Mode;
+use crossguard_robot::observe::to_standard_error;
 use crossguard_ros2::entity::NodeName;
 use crossguard_ros2::graph::Meeting;
 use crossguard_ros2::node::{self, NotStarted, Options};
@@ -44,7 +44,7 @@ struct Arguments {
     #[arg(long)]
     autostart: bool,
     /// Whether packets to other robots are signed (TS 103 097) and theirs verified.
-    #[arg(long, value_enum, default_value_t = Mode::Off)]
+    #[arg(long, value_name = "off|sign|enforce", default_value_t = Mode::Off)]
     security: Mode,
     /// The folder with certificates and keys, of the robot or of the PKI (see 'crossguard pki').
     #[arg(long, value_name = "FOLDER")]
@@ -77,7 +77,7 @@ Exit codes: 0 it was told to end and did, 2 bad usage or input, 3 it could not e
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let targets = ["crossguard_harness", "crossguard_ros2"];
+    let targets = ["crossguard_robot", "crossguard_ros2"];
     let _written = to_standard_error(arguments.verbose, &targets);
     let (stop, stopped) = sync_channel(1);
     let interrupted = move || {

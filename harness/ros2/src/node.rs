@@ -8,7 +8,7 @@
 //!
 //! The thread waits for the inbox, at most until something is to be told again. What comes over zenoh is
 //! dropped, and counted, when there is no place; the robot's records wait, and are skipped by the
-//! [`Journal`](crossguard_harness::journal) when too many do. The robot waits for none of this.
+//! [`Journal`](crossguard_robot::journal) when too many do. The robot waits for none of this.
 
 mod door;
 mod tell;
@@ -20,9 +20,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use crossguard_harness::robot_file::RobotFile;
-use crossguard_harness::runtime::Order;
-use crossguard_harness::trace::Record;
+use crossguard_robot::robot_file::RobotFile;
+use crossguard_robot::runtime::Order;
+use crossguard_robot::trace::Record;
+use door::{Delivery, Door, Ears, Told};
 
 use crate::command;
 use crate::entity::NodeName;
@@ -36,7 +37,6 @@ use crate::standard::{
     ChangeState, ChangeStateResponse, GetAvailableStatesResponse, GetAvailableTransitionsResponse,
     GetStateResponse, PoseStamped,
 };
-use door::{Delivery, Door, Ears, Told};
 
 /// How often the corridor is told at least.
 pub const CORRIDOR_PERIOD: Duration = Duration::from_millis(100);

@@ -3,15 +3,15 @@
 use std::time::Duration;
 
 use crossguard_codec::{RobotState, Target, TaskParameters};
-use crossguard_harness::site::Site;
-use crossguard_harness::tally::{Tally, Way};
-use crossguard_harness::trace::{Entry, Record};
-use crossguard_harness::wire::{MessageKind, Wire};
+use crossguard_endpoint::wire::{MessageKind, Wire};
 use crossguard_protocol::{
     self as protocol, Availability, CorridorClosure, Duty, FallbackPolicy, Input, Leading,
     ManeuverId, Member, Notice, Output, Phase, Progress, Robot, Role, SessionId, State, StationId,
     TaskType, Unavailability,
 };
+use crossguard_robot::site::Site;
+use crossguard_robot::tally::{Tally, Way};
+use crossguard_robot::trace::{Entry, Record};
 
 use crate::msgs::{Corridor, Event, Follower, Session, Status, Task};
 use crate::standard::{self, DiagnosticStatus, Header, KeyValue, Point, Time};

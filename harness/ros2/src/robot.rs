@@ -9,15 +9,15 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crossguard_codec::security::Unsigned;
-use crossguard_harness::boot::{self, BootError};
-use crossguard_harness::counters::Cause;
-use crossguard_harness::journal::{self, Journal, RECORDS, WhenFull};
-use crossguard_harness::pki::{self, PkiError};
-use crossguard_harness::robot_file::{RobotFile, RobotFileError};
-use crossguard_harness::runtime::{Clock, Order, Running};
-use crossguard_harness::station::{Mode, Security};
-use crossguard_harness::trace::{self, Record};
-use crossguard_harness::transport::{LinkError, Reopening, Transport};
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::station::{Mode, Security};
+use crossguard_robot::boot::{self, BootError};
+use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
+use crossguard_robot::pki::{self, PkiError};
+use crossguard_robot::robot_file::{RobotFile, RobotFileError};
+use crossguard_robot::runtime::{Clock, Order, Running};
+use crossguard_robot::trace::{self, Record};
+use crossguard_robot::transport::{LinkError, Reopening, Transport};
 
 /// After how many milliseconds a pseudonym changes, outside of sessions.
 const PSEUDONYM_PERIOD_MS: u64 = 300_000;

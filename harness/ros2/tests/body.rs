@@ -91,8 +91,8 @@ fn a_follower_with_a_body_of_its_own_helps_a_pedestrian_across() {
 
 /// Whether the robot told others that it was there, by the RAM in its log.
 fn was_at(log: &str, [east, north]: [f64; 2]) -> bool {
-    use crossguard_harness::facts::{Fact, Observer};
-    use crossguard_harness::site::{Place, Site};
+    use crossguard_judge::facts::{Fact, Observer};
+    use crossguard_robot::site::{Place, Site};
     let mut observer = Observer::default();
     let records = log.lines().map(|line| serde_json::from_str(line).unwrap());
     let facts = records.flat_map(|record| observer.take(&record));

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Child, Command as Process, Output, Stdio};
 use std::time::Instant;
 
-use crossguard_harness::validate;
+use crossguard_judge::validate;
 use crossguard_ros2::msgs::{Command, Status};
 use support::{Observer, PATIENCE, free_endpoint, meeting, robot, two_free_ports};
 

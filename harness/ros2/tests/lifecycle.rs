@@ -61,7 +61,7 @@ fn what_is_not_possible_now_is_refused_and_said() {
     let refused = events.until("a refusal", |it| it.kind == Event::COMMAND_REFUSED);
     assert!(refused[0].text.contains("inactive"), "{refused:?}");
     // Another process has the robot's boot counter.
-    let boot = crossguard_harness::boot::take(&folder.path().join("ARI.boot")).unwrap();
+    let boot = crossguard_robot::boot::take(&folder.path().join("ARI.boot")).unwrap();
     assert!(!lifecycle.set("activate"));
     assert_eq!(lifecycle.get(), "inactive");
     drop(boot);

@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Read, Write};
 use std::path::PathBuf;
 
 use crossguard_codec::{Dictionary, Identifiers};
-use crossguard_harness::readable::{self, Decoded};
+use crossguard_judge::readable::{self, Decoded};
 
 use super::{Failure, print, print_json};
 

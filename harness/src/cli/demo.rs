@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use crossguard_codec::Identifiers;
-use crossguard_harness::chart::Chart;
+use crossguard_endpoint::ras::surroundings::Awareness;
+use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
+use crossguard_endpoint::station::Mode;
 use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
-use crossguard_harness::ras::surroundings::Awareness;
-use crossguard_harness::ras::vam::CLUSTER_INTERVAL_MS;
-use crossguard_harness::station::Mode;
-use crossguard_harness::timing::{Statistic, Summary};
-use crossguard_harness::transport::Faults;
+use crossguard_judge::chart::Chart;
+use crossguard_judge::timing::{Statistic, Summary};
+use crossguard_robot::transport::Faults;
 
 use super::{Failure, print, print_json};
 

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use crossguard_harness::mcap_file;
-use crossguard_harness::sequence::Sequence;
-use crossguard_harness::trace::Merged;
+use crossguard_judge::mcap_file;
+use crossguard_judge::sequence::Sequence;
+use crossguard_robot::trace::Merged;
 
 use super::{Failure, open_logs, print};
 

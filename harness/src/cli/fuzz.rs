@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crossguard_harness::sim::{Files, Fuzz, Longest, Measure, Totals, write_failure};
-use crossguard_harness::transport::Faults;
+use crossguard_judge::sim::{Files, Fuzz, Longest, Measure, Totals, write_failure};
+use crossguard_robot::transport::Faults;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
@@ -122,7 +122,7 @@ fn watched(fuzz: &Fuzz, is_json: bool) -> Totals {
 
 fn tell_failure(
     fuzz: &Fuzz,
-    failure: &crossguard_harness::sim::Failure,
+    failure: &crossguard_judge::sim::Failure,
     files: &Files,
 ) -> Result<(), Failure> {
     let finding = &failure.finding;

@@ -9,7 +9,7 @@ use crossguard_codec::security::{
 };
 use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{Identifiers, Part, Service};
-use crossguard_harness::pki::{self, Holder, PkiError, Term};
+use crossguard_robot::pki::{self, Holder, PkiError, Term};
 use serde::Serialize;
 
 use super::{Failure, print, print_json};

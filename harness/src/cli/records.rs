@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::PathBuf;
 
-use crossguard_harness::trace::{Log, Merged};
+use crossguard_robot::trace::{Log, Merged};
 
 use super::report::Page;
 use super::{Failure, export, print};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crossguard_harness::drive::{Driven, drive};
+use crossguard_judge::drive::{Driven, drive};
 use crossguard_model_check::check::names;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::{Followed, Replay};

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crossguard_harness::report::Report;
-use crossguard_harness::trace::{Log, Merged};
-use crossguard_harness::validate::{self, Invalid, Validated};
+use crossguard_judge::report::Report;
+use crossguard_judge::validate::{self, Invalid, Validated};
+use crossguard_robot::trace::{Log, Merged};
 
 use super::validate::verdict;
 use super::{Failure, open_logs, print};

@@ -21,20 +21,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_harness::boot;
-use crossguard_harness::counters::Cause;
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
+use crossguard_endpoint::wire::{MessageKind, overhear};
 use crossguard_harness::operator::{self, HELP, Line};
-use crossguard_harness::perception::{Announced, Feed};
-use crossguard_harness::ras::vam::CLUSTER_INTERVAL_MS;
-use crossguard_harness::robot_file::RobotFile;
-use crossguard_harness::runtime::{Order, Running};
-use crossguard_harness::trace::{Entry, Record};
-use crossguard_harness::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
-use crossguard_harness::wire::{MessageKind, overhear};
 use crossguard_protocol::{Input, Output, Robot, State};
+use crossguard_robot::boot;
+use crossguard_robot::perception::{Announced, Feed};
+use crossguard_robot::robot_file::RobotFile;
+use crossguard_robot::runtime::{Order, Running};
+use crossguard_robot::trace::{Entry, Record};
+use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
+use output::{Lines, Outputs};
 
 use super::Failure;
-use output::{Lines, Outputs};
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crossguard_codec::Identifiers;
 use crossguard_codec::security::Time64;
-use crossguard_harness::pki::{self, Pki};
-use crossguard_harness::station::{Credentials, Mode, Security};
+use crossguard_endpoint::station::{Credentials, Mode, Security};
+use crossguard_robot::pki::{self, Pki};
 
-use super::Failure;
+use super::{Failure, choices};
 
 /// How many pseudonyms a robot of a demonstration has.
 const PSEUDONYMS: usize = 4;
@@ -15,7 +15,7 @@ const PSEUDONYMS: usize = 4;
 #[derive(clap::Args)]
 pub(super) struct SecurityArguments {
     /// Whether packets are signed (TS 103 097) and those of others verified.
-    #[arg(long, value_enum, default_value_t = Mode::Off)]
+    #[arg(long, value_parser = choices::security(), default_value = "off")]
     security: Mode,
     /// The folder with certificates and keys, of the robot or of the PKI (see 'crossguard pki').
     #[arg(long, value_name = "FOLDER")]

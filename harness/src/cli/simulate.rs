@@ -5,12 +5,12 @@ mod output;
 
 use std::path::PathBuf;
 
-use crossguard_harness::evaluation::coverage::greedy;
-use crossguard_harness::evaluation::matrix;
-use crossguard_harness::evaluation::messages::Sizes;
-use crossguard_harness::evaluation::paper;
-use crossguard_harness::evaluation::sumo::{Plan, Sumo};
-use crossguard_harness::evaluation::trace::{Run, Traces};
+use crossguard_evaluation::coverage::greedy;
+use crossguard_evaluation::matrix;
+use crossguard_evaluation::messages::Sizes;
+use crossguard_evaluation::paper;
+use crossguard_evaluation::sumo::{Plan, Sumo};
+use crossguard_evaluation::trace::{Run, Traces};
 use serde::Serialize;
 
 use self::options::{Air, Matrix, Output, Parameters, Placement, Streets};

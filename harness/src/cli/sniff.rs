@@ -6,9 +6,9 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::si::timestamp_its;
-use crossguard_harness::capture;
-use crossguard_harness::sniffer::{self, Seen, Sniffer};
-use crossguard_harness::transport::{Arrival, Link, Transport};
+use crossguard_judge::sniffer::{self, Seen, Sniffer};
+use crossguard_robot::capture;
+use crossguard_robot::transport::{Arrival, Link, Transport};
 
 use super::codec::Version;
 use super::run::interrupts;

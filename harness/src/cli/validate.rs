@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crossguard_harness::validate::{self, Fault, Invalid, Validated};
+use crossguard_judge::validate::{self, Fault, Invalid, Validated};
 use serde::Serialize;
 
 use super::{Failure, open_logs, print, print_json};

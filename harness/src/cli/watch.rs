@@ -6,10 +6,10 @@ use std::sync::mpsc::sync_channel;
 use std::time::Duration;
 
 use clap::ValueEnum;
-use crossguard_harness::counters::Cause;
+use crossguard_endpoint::counters::Cause;
 use crossguard_harness::metrics::{self, Shared};
-use crossguard_harness::runtime::Running;
-use crossguard_harness::trace::Record;
+use crossguard_robot::runtime::Running;
+use crossguard_robot::trace::Record;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Failure;

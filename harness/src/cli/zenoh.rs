@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crossguard_harness::transport::{Link, Zenoh, ZenohMode, ZenohRouter};
+use crossguard_robot::transport::{Link, Zenoh, ZenohMode, ZenohRouter};
 
 use super::run::interrupts;
-use super::{Failure, print};
+use super::{Failure, choices, print};
 
 /// How often a router looks whether it is to stop.
 const TICK: Duration = Duration::from_millis(50);
@@ -18,7 +18,7 @@ pub(super) struct ZenohArguments {
     /// Meet over zenoh: connected to each other robot, through a router, or as a router. Unless more is
     /// named, peers find each other on this machine, and nothing leaves it. Takes a program that was
     /// built with --features zenoh.
-    #[arg(long, value_enum, value_name = "MODE", group = "link")]
+    #[arg(long, value_parser = choices::zenoh(), value_name = "MODE", group = "link")]
     zenoh: Option<ZenohMode>,
     /// Connect to a zenoh router or peer, like tcp/192.0.2.1:7447 (tcp, udp or tls); may be repeated.
     #[arg(long, value_name = "ENDPOINT", requires = "zenoh")]

@@ -2,12 +2,12 @@
 
 use std::net::{Ipv4Addr, SocketAddr};
 
+use crossguard_robot::transport::{
+    Halves, Link, LinkError, Transport, WithFaults, Zenoh, ZenohMode, ZenohRouter,
+};
 use serde::Serialize;
 
 use super::Options;
-use crate::transport::{
-    Halves, Link, LinkError, Transport, WithFaults, Zenoh, ZenohMode, ZenohRouter,
-};
 
 /// How robots meet over zenoh.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, clap::ValueEnum)]

@@ -3,9 +3,9 @@
 use crossguard_protocol::{EndReason, ReleaseReason, StationId};
 use serde::Serialize;
 
-use crate::body::Build;
-use crate::plan::{self, Plan};
-use crate::site::{Place, Site};
+use crossguard_robot::body::Build;
+use crossguard_robot::plan::{self, Plan};
+use crossguard_robot::site::{Place, Site};
 
 /// What happens.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, clap::ValueEnum)]

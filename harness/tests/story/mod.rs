@@ -6,16 +6,16 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 
 use crossguard_codec::{RobotState, TaskParameters};
-use crossguard_harness::counters::Cause;
-use crossguard_harness::endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_harness::trace::{self, Entry, Record};
-use crossguard_harness::validate::{self, Validated};
-use crossguard_harness::wire::{MessageKind, Wire, overhear};
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::wire::{MessageKind, Wire, overhear};
+use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_judge::validate::{self, Validated};
 use crossguard_model_check::paper::{Happening, Link, Message, Step, Story};
 use crossguard_protocol::{
     Config, Corridor, Event, HelpRequest, Ignored, Input, Leading, Maneuver, ManeuverId, Phase,
     Place, Progress, Rmcm, Robot, StationId, TaskSet, TaskType, Urgency,
 };
+use crossguard_robot::trace::{self, Entry, Record};
 
 /// How far time moves at once; less than the endpoint may be late.
 const TICK_MS: u64 = 20;

@@ -40,7 +40,12 @@ const SEEDS: [(&str, &str, u64); 3] = [
 ];
 
 /// Judges that are to be faster than a development build is; the registry's crates stay as they are.
-const OPTIMIZED: [&str; 2] = ["crossguard-harness", "crossguard-codec"];
+const OPTIMIZED: [&str; 4] = [
+    "crossguard-codec",
+    "crossguard-endpoint",
+    "crossguard-robot",
+    "crossguard-judge",
+];
 
 /// Builds the executables in the copy, and puts them where no later build disturbs a run.
 pub(crate) fn build(tree: &Path, folder: &Path) -> Result<(), Failure> {

@@ -14,7 +14,14 @@ const SWITCH: &str = include_str!("switch.txt");
 pub(crate) const IN_CONSTANTS: [&str; 4] = ["new", "of", "color", "look"];
 
 /// What calls functions of the protocol.
-const CONST_FREE: [&str; 3] = ["protocol/src/", "model-check/src/", "harness/src/"];
+const CONST_FREE: [&str; 6] = [
+    "protocol/src/",
+    "model-check/src/",
+    "harness/endpoint/src/",
+    "harness/robot/src/",
+    "harness/judge/src/",
+    "harness/src/",
+];
 
 /// Where the copy, its build and the verdicts are.
 pub(crate) fn folder(root: &Path) -> PathBuf {

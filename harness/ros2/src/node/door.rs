@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::SyncSender;
 
-use crossguard_harness::trace::Record;
+use crossguard_robot::trace::Record;
 
 use super::{CORRIDOR_VALID_FOR, STATUS_PERIOD};
 use crate::graph::{Call, Node, Publisher, RosError, Server, Subscription};

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use crossguard_harness::station::Mode;
+use crossguard_endpoint::station::Mode;
 use crossguard_ros2::entity::NodeName;
 use crossguard_ros2::graph::{Client, Graph, Meeting, Node, Publisher, Subscription};
 use crossguard_ros2::message::Message;

@@ -7,9 +7,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::sync::mpsc::{channel, sync_channel};
 use std::time::Duration;
 
-use crossguard_harness::counters::Cause;
-use crossguard_harness::journal::{self, Journal, RECORDS, WhenFull};
-use crossguard_harness::trace::{self, Record};
+use crossguard_endpoint::counters::Cause;
+use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
+use crossguard_robot::trace::{self, Record};
 use indicatif::ProgressBar;
 
 use super::super::Failure;

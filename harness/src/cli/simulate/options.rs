@@ -4,23 +4,24 @@ use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use crossguard_harness::evaluation::grid::{Grid, Preset, Site};
-use crossguard_harness::evaluation::matrix::Axes;
-use crossguard_harness::evaluation::shipped;
-use crossguard_harness::evaluation::simulation::Behaviour;
-use crossguard_harness::evaluation::stationing::Stationing;
-use crossguard_harness::evaluation::sumo::{Plan, Sumo};
-use crossguard_harness::evaluation::trace::Traces;
-use crossguard_harness::ras::vru::{Understands, VamRule};
+use crossguard_endpoint::ras::vru::{Understands, VamRule};
+use crossguard_evaluation::grid::{Grid, Preset, Site};
+use crossguard_evaluation::matrix::Axes;
+use crossguard_evaluation::shipped;
+use crossguard_evaluation::simulation::Behaviour;
+use crossguard_evaluation::stationing::Stationing;
+use crossguard_evaluation::sumo::{Plan, Sumo};
+use crossguard_evaluation::trace::Traces;
 use serde::Serialize;
 
 use super::Failure;
+use crate::cli::choices;
 
 /// The streets, and who moves on them.
 #[derive(clap::Args)]
 pub(super) struct Streets {
     /// Assumptions on the geometry, which the paper does not state.
-    #[arg(long, value_enum, default_value = "kerb")]
+    #[arg(long, value_parser = choices::preset(), default_value = "kerb")]
     pub(super) preset: Preset,
     /// Make fresh mobility with SUMO, whose programs are in this folder.
     #[arg(long, value_name = "FOLDER")]
@@ -92,7 +93,7 @@ pub(super) struct Matrix {
     )]
     pub(super) radius: Vec<f64>,
     /// Where at an intersection robots stand; the preset says it otherwise.
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = choices::site())]
     site: Option<Site>,
     /// Robots at an intersection before the next one gets any, each at another corner; their zones may
     /// overlap.
@@ -233,7 +234,7 @@ impl Matrix {
 }
 
 fn read(path: &PathBuf) -> Result<Traces, Failure> {
-    let file = File::open(path).map_err(crossguard_harness::evaluation::trace::TraceError::from);
+    let file = File::open(path).map_err(crossguard_evaluation::trace::TraceError::from);
     let traces = file.and_then(Traces::read);
     traces.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
 }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_harness::evaluation::matrix::{CbrCell, ObsCell};
-use crossguard_harness::evaluation::plot::BarChart;
-use crossguard_harness::evaluation::statistics::Estimate;
+use crossguard_evaluation::matrix::{CbrCell, ObsCell};
+use crossguard_evaluation::plot::BarChart;
+use crossguard_evaluation::statistics::Estimate;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::options::{Output, Parameters};

@@ -1,0 +1,28 @@
+//! The Robot Awareness Service: when a robot tells of itself, and of the people around it.
+//!
+//! Pure rules, without a clock, a link or a random source of their own: what was perceived, heard and
+//! how late it is goes in, what to send and why comes out. The live [endpoint](crate::endpoint) and
+//! the [evaluation](crossguard_evaluation) call the same functions.
+//!
+//! ```text
+//!  perceived road users ──► clustering ──► containers ──► RAM ───────► vru (understands RAM)
+//!  robot's motion, events ─► generation ──────────────────┘  │
+//!                                             cluster VAM ◄──┘ ──────► vru (unmodified ETSI device)
+//! ```
+//!
+//! - [`motion`] is where a station is and how it moves, and what counts as a change of that.
+//! - [`generation`] says when a RAM or a CAM is sent, and which trigger caused it.
+//! - [`clustering`] makes clusters of the road users that a robot perceives, [`area`] is what bounds
+//!   them, [`containers`] writes them into a RAM and reads them from one. [`surroundings`] are these
+//!   of one robot, together.
+//! - [`vru`] is the station of a road user: when it sends a VAM, when it leaves that to a robot, and
+//!   when it takes it up again. [`vam`] makes the message.
+
+pub mod area;
+pub mod clustering;
+pub mod containers;
+pub mod generation;
+pub mod motion;
+pub mod surroundings;
+pub mod vam;
+pub mod vru;

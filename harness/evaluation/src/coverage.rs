@@ -1,0 +1,94 @@
+//! The observation coverage ratio: the share of people on foot whom a robot sees.
+//!
+//! A robot sees everybody within its perception radius. The ratio is the mean over people and time of
+//! being seen by at least one robot, at every sample of the trace.
+
+use crossguard_endpoint::ras::motion::{Point, distance_m};
+
+use super::trace::{Run, Track};
+
+/// The observation coverage ratio of robots on these ways, 0..1. Whoever is in the zones of two robots
+/// is seen once.
+#[must_use]
+pub fn coverage(run: &Run, robots: &[Track], radius_m: f64) -> f64 {
+    let (mut seen, mut all) = (0_u32, 0_u32);
+    for track in &run.pedestrians {
+        for (index, motion) in track.samples().iter().enumerate() {
+            all += 1;
+            let near =
+                |robot: &Track| distance_m(robot.place_at(index), motion.position_m) <= radius_m;
+            seen += u32::from(robots.iter().any(near));
+        }
+    }
+    f64::from(seen) / f64::from(all.max(1))
+}
+
+/// `candidates` in the order in which each adds the most to the coverage of those before it, with the
+/// coverage that is reached.
+#[must_use]
+pub fn greedy(runs: &[Run], candidates: &[Point], radius_m: f64) -> Vec<(usize, f64)> {
+    let places: Vec<Point> = runs
+        .iter()
+        .flat_map(|run| &run.pedestrians)
+        .flat_map(|track| track.samples().iter().map(|motion| motion.position_m))
+        .collect();
+    let mut unseen = places.clone();
+    let mut left: Vec<usize> = (0..candidates.len()).collect();
+    let mut order = Vec::new();
+    while !left.is_empty() {
+        let sees = |index: usize, place: &Point| distance_m(candidates[index], *place) <= radius_m;
+        let gain = |index: usize| unseen.iter().filter(|place| sees(index, place)).count();
+        let gains: Vec<usize> = left.iter().map(|&index| gain(index)).collect();
+        let most = gains.iter().max().copied().unwrap_or(0);
+        let best = gains.iter().position(|&it| it == most).unwrap_or(0);
+        let index = left.remove(best);
+        unseen.retain(|place| !sees(index, place));
+        #[expect(clippy::cast_precision_loss, reason = "a few million")]
+        let covered = 1.0 - unseen.len() as f64 / places.len().max(1) as f64;
+        order.push((index, covered));
+    }
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn standing_at(places: &[Point]) -> Run {
+        let track = |&place: &Point| Track::new(500, &[place, place]);
+        Run {
+            seed: 0,
+            vehicles: Vec::new(),
+            pedestrians: places.iter().map(track).collect(),
+        }
+    }
+
+    #[test]
+    fn who_is_seen_twice_counts_once() {
+        let run = standing_at(&[[0.0, 0.0], [10.0, 0.0], [15.1, 0.0], [50.0, 0.0]]);
+        let robots = [[0.0, 0.0], [5.0, 0.0]].map(Track::standing);
+        assert!((coverage(&run, &robots[..1], 15.0) - 0.5).abs() < 1e-12);
+        assert!((coverage(&run, &robots, 15.0) - 0.75).abs() < 1e-12);
+        assert!(coverage(&run, &[], 15.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_robot_that_walks_sees_along_its_way() {
+        let walker = Track::new(500, &[[0.0, 0.0], [100.0, 0.0]]);
+        let stays = Track::new(500, &[[100.0, 0.0], [100.0, 0.0]]);
+        let run = Run {
+            pedestrians: vec![stays],
+            ..standing_at(&[])
+        };
+        assert!((coverage(&run, &[walker], 15.0) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_greedy_order_gains_less_and_less() {
+        let run = standing_at(&[[0.0, 0.0], [1.0, 0.0], [100.0, 0.0], [200.0, 0.0]]);
+        let order = greedy(&[run], &[[200.0, 0.0], [50.0, 0.0], [0.0, 0.0]], 15.0);
+        let indices: Vec<usize> = order.iter().map(|(index, _)| *index).collect();
+        assert_eq!(indices, [2, 0, 1]);
+        assert!((order[2].1 - 0.75).abs() < 1e-12);
+    }
+}

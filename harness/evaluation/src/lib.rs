@@ -1,0 +1,36 @@
+//! The paper's evaluation of the Robot Awareness Service: how many people robots see, and how much less
+//! is on the air when they stand in for people's devices.
+//!
+//! ```text
+//!  SUMO (a process) ──► trace ──► coverage ───────────────────────► matrix ──► table, JSON, CSV, SVG
+//!                         └─────► simulation: stations by the rules of `ras` ──┘
+//!                                  radio: air time, carrier sense, EDCA
+//! ```
+//!
+//! - [`grid`] is the street grid, [`stationing`] where robots are on it, [`sumo`] makes mobility on it, [`trace`]
+//!   keeps it, [`shipped`] are the traces that come along.
+//! - [`coverage`] is the observation coverage ratio, and the greedy placement of robots.
+//! - [`simulation`] is a run on the air, with [`messages`] of real size, on the channel of [`radio`].
+//! - [`matrix`] are all cells of the evaluation, over seeds and cores; [`statistics`] their mean and
+//!   deviation, [`plot`] their pictures, [`paper`] what the paper states.
+//!
+//! `harness/doc/evaluation.md` says which assumptions reproduce the paper, and which do not.
+
+mod cam;
+pub mod coverage;
+pub mod grid;
+pub mod matrix;
+pub mod messages;
+pub mod paper;
+pub mod plot;
+pub mod radio;
+mod robot;
+pub mod shipped;
+pub mod simulation;
+pub mod stationing;
+pub mod statistics;
+pub mod sumo;
+pub mod trace;
+
+pub use cam::CamError;
+pub use robot::RobotError;

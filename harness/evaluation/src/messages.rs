@@ -1,0 +1,173 @@
+//! Sizes of what goes over the air: real messages, encoded, and everything around them.
+//!
+//! A VAM's and a CAM's size follows from which containers it has, so each combination is encoded once.
+//! A RAM is encoded every time.
+
+use crossguard_codec::{ConfidenceEllipse, Measurement, Position, RobotState};
+use crossguard_endpoint::ras::generation::Trigger;
+use crossguard_endpoint::ras::vam::{Content, VamError, vam};
+use crossguard_endpoint::ras::vru::{DueVam, LeaveReason, Operation, VamTrigger};
+use serde::{Deserialize, Serialize};
+
+use super::cam::{CamError, cam_octets};
+
+/// IEEE 802.11 `QoS` data header and frame check sequence, in octets.
+const MAC: usize = 26 + 4;
+/// LLC and SNAP, in octets.
+const LLC: usize = 8;
+/// `GeoNetworking` single-hop broadcast and BTP-B, in octets.
+const NETWORK: usize = 40 + 4;
+/// TS 103 097 envelope whose signer is a digest, in octets.
+const SIGNED_BY_DIGEST: usize = 93;
+/// TS 103 097 envelope with the signer's certificate, in octets: one of 162 octets.
+const SIGNED_WITH_CERTIFICATE: usize = 249;
+/// A certificate goes along after so long, in ms.
+pub const CERTIFICATE_INTERVAL_MS: u64 = 1_000;
+
+/// How a packet is signed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Signed {
+    /// Not at all.
+    No,
+    /// By the digest of a certificate.
+    ByDigest,
+    /// With the certificate.
+    WithCertificate,
+}
+
+/// The octets of a frame (PSDU) whose message has this many.
+#[must_use]
+pub const fn frame_octets(message: usize, signed: Signed) -> usize {
+    let security = match signed {
+        Signed::No => 0,
+        Signed::ByDigest => SIGNED_BY_DIGEST,
+        Signed::WithCertificate => SIGNED_WITH_CERTIFICATE,
+    };
+    MAC + LLC + NETWORK + message + security
+}
+
+/// How long a frame of these octets is in the air, in microseconds: IEEE 802.11 with 10 MHz at 6 Mbit/s.
+/// 40 us of preamble and signal, then symbols of 8 us with 48 bits each, among them 16 of service and 6
+/// of tail.
+#[must_use]
+pub const fn air_time_us(octets: usize) -> u64 {
+    40 + (16 + 6 + 8 * octets as u64).div_ceil(48) * 8
+}
+
+/// Octets of the messages whose size follows from their containers.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Sizes {
+    /// VAM without and with the low-frequency container.
+    vam: [usize; 2],
+    /// VAM that announces that it joins, and that it left.
+    vam_operation: [usize; 2],
+    /// CAM without and with the low-frequency container.
+    cam: [usize; 2],
+}
+
+impl Sizes {
+    /// Encodes one message of each kind; the path history of a CAM's low-frequency container has this many
+    /// points.
+    ///
+    /// # Errors
+    /// When a message cannot be encoded.
+    pub fn measure(cam_path_points: usize) -> Result<Self, SizeError> {
+        let octets = |low_frequency, operation| {
+            let due = DueVam {
+                trigger: VamTrigger::Motion(Trigger::First),
+                low_frequency,
+                operation,
+            };
+            let vam = vam(1, &state_of_a_pedestrian(), 0, Content::Individual(due));
+            vam.map(|vam| vam.len())
+        };
+        let reason = LeaveReason::OutOfClusterBoundingBox;
+        let join = Operation::Join { id: 1, at_ms: 0 };
+        let leave = Operation::Leave { id: 1, reason };
+        Ok(Self {
+            vam: [octets(false, None)?, octets(true, None)?],
+            vam_operation: [octets(true, Some(join))?, octets(true, Some(leave))?],
+            cam: [cam_octets(None)?, cam_octets(Some(cam_path_points))?],
+        })
+    }
+
+    /// Octets of a VAM.
+    #[must_use]
+    pub const fn vam(&self, due: &DueVam) -> usize {
+        match due.operation {
+            None => self.vam[due.low_frequency as usize],
+            Some(Operation::Join { .. }) => self.vam_operation[0],
+            Some(Operation::Leave { .. }) => self.vam_operation[1],
+        }
+    }
+
+    /// Octets of a CAM.
+    #[must_use]
+    pub const fn cam(&self, low_frequency: bool) -> usize {
+        self.cam[low_frequency as usize]
+    }
+}
+
+/// Why a message has no size.
+#[derive(Debug, thiserror::Error)]
+pub enum SizeError {
+    /// A VAM cannot be made.
+    #[error("VAM: {0}")]
+    Vam(#[from] VamError),
+    /// A CAM cannot be made.
+    #[error("CAM: {0}")]
+    Cam(#[from] CamError),
+}
+
+/// Confidences as a phone would give them; they do not change the size of a VAM.
+fn state_of_a_pedestrian() -> RobotState {
+    let measurement = |value, confidence| {
+        Some(Measurement {
+            value,
+            confidence: Some(confidence),
+        })
+    };
+    RobotState {
+        position: Position {
+            ellipse: Some(ConfidenceEllipse {
+                semi_major: 2.0,
+                semi_minor: 2.0,
+                orientation: 0.0,
+            }),
+            ..Position::at(49.01, 8.41)
+        },
+        heading: measurement(90.0, 5.0),
+        speed: measurement(1.4, 0.5),
+        ..RobotState::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_codec::golden;
+
+    use super::*;
+
+    #[test]
+    fn the_air_time_is_that_of_the_standard() {
+        for (octets, us) in [(141, 232), (234, 360), (390, 568), (400, 584)] {
+            assert_eq!(air_time_us(octets), us, "{octets} octets");
+        }
+        assert_eq!(frame_octets(59, Signed::No), 141);
+        assert_eq!(frame_octets(59, Signed::ByDigest), 234);
+        assert_eq!(frame_octets(59, Signed::WithCertificate), 390);
+    }
+
+    /// The VAM of which sizes are taken have the containers of the golden vectors, whose octets
+    /// [`vam`](crossguard_endpoint::ras::vam) makes.
+    #[test]
+    fn a_vam_has_the_size_of_the_golden_vectors() {
+        let octets = |name| golden::vector(golden::VAM, name).len() / 2;
+        let sizes = Sizes::measure(5).unwrap();
+        assert_eq!(sizes.vam, [octets("V1"), octets("V2")]);
+        // Whoever says that it left has the low-frequency container as well.
+        let left = octets("V2") + octets("V5") - octets("V1");
+        assert_eq!(sizes.vam_operation, [octets("V4"), left]);
+    }
+}

@@ -1,0 +1,296 @@
+//! A robot of the simulation: it perceives everybody around it, and announces them.
+
+#![allow(clippy::similar_names, reason = "the same time in us and in ms")]
+
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::{
+    Capabilities, Identifiers, JobRole, RobotCategory, RobotState, SlowState, TaskProgression,
+    decode, encode, ram_from,
+};
+use crossguard_endpoint::ras::area::Area;
+use crossguard_endpoint::ras::clustering::{Cluster, PerceivedVru, VruClass};
+use crossguard_endpoint::ras::containers;
+use crossguard_endpoint::ras::generation::{Generation, Limits, Status, Trigger};
+use crossguard_endpoint::ras::motion::{Plane, Point, distance_m};
+use crossguard_endpoint::ras::surroundings::{Awareness, Surroundings, Unplaced};
+use crossguard_endpoint::ras::vam::VamError;
+use crossguard_endpoint::ras::vru::{AnnouncedCluster, Announcement, Understands};
+use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
+
+use super::simulation::{Behaviour, Payload};
+use super::trace::{Run, Track};
+
+/// Where the grid's origin is, in degrees.
+const ORIGIN: [f64; 2] = [49.01, 8.41];
+/// Station id of the first robot.
+const FIRST_STATION: u32 = 1_000_000;
+/// The robot's sensors lose people this far outside of the perception radius, in metres.
+const SENSED_BEYOND_M: f64 = 5.0;
+
+/// What a robot announced, as it is received.
+#[derive(Clone, Debug)]
+pub(super) struct Announced {
+    head: u32,
+    by: Understands,
+    cluster: Option<containers::Announced>,
+    velocity_mps: Option<[f64; 2]>,
+}
+
+impl Announced {
+    pub(super) fn announcement(&self) -> Announcement<'_> {
+        Announcement {
+            head: self.head,
+            by: self.by,
+            cluster: self.cluster.as_ref().map(|cluster| AnnouncedCluster {
+                id: cluster.id,
+                area: &cluster.area,
+                cardinality: cluster.cardinality,
+                velocity_mps: self.velocity_mps,
+            }),
+        }
+    }
+}
+
+/// A message of a robot.
+pub(super) struct Message {
+    pub(super) octets: usize,
+    pub(super) payload: Payload,
+}
+
+/// Why a robot's message cannot be sent.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum RobotError {
+    /// It contradicts itself.
+    #[error(transparent)]
+    Contradictory(#[from] crossguard_codec::ViewError),
+    /// It cannot be encoded.
+    #[error(transparent)]
+    NotEncodable(#[from] crossguard_codec::EncodeError),
+    /// What was encoded cannot be decoded.
+    #[error(transparent)]
+    NotDecodable(#[from] crossguard_codec::DecodeError),
+    /// A cluster VAM cannot be made.
+    #[error(transparent)]
+    Vam(#[from] VamError),
+    /// It does not know where it is.
+    #[error(transparent)]
+    Unplaced(#[from] Unplaced),
+}
+
+/// A robot.
+pub(super) struct Robot<'a> {
+    station: u32,
+    track: &'a Track,
+    state: RobotState,
+    generation: Generation,
+    surroundings: Surroundings,
+    radius_m: f64,
+    ram_interval_ms: Option<u64>,
+    last_ram_ms: Option<u64>,
+    perceived: Vec<PerceivedVru>,
+}
+
+impl<'a> Robot<'a> {
+    pub(super) fn new(number: u32, track: &'a Track, seed: u64, behaviour: &Behaviour) -> Self {
+        let station = FIRST_STATION + number;
+        let by_vam = behaviour.understands == Understands::ClusterVam;
+        let awareness = Awareness {
+            clustering: behaviour.clustering,
+            cluster_vam_interval_ms: by_vam.then_some(behaviour.cluster_vam_interval_ms),
+        };
+        Self {
+            station,
+            track,
+            state: state_of_a_robot(),
+            generation: Generation::default(),
+            surroundings: Surroundings::new(awareness, seed << 16 ^ u64::from(station)),
+            radius_m: awareness.clustering.radius_m,
+            ram_interval_ms: behaviour.ram_interval_ms,
+            last_ram_ms: None,
+            perceived: Vec::new(),
+        }
+    }
+
+    pub(super) fn place(&self, now_us: u64) -> Point {
+        self.track.motion(now_us).position_m
+    }
+
+    /// Perceives everybody around, and the messages that are due.
+    pub(super) fn check(
+        &mut self,
+        now_us: u64,
+        run: &Run,
+        congestion_ms: u64,
+    ) -> Result<Vec<Message>, RobotError> {
+        let now_ms = now_us / 1_000;
+        let motion = self.track.motion(now_us);
+        self.state.position = grid().position(motion.position_m);
+        self.state.speed = Some(motion.speed_mps.into());
+        self.state.heading = Some(motion.heading_deg.into());
+        self.perceive(now_us, motion.position_m, run)?;
+        let mut messages = Vec::new();
+        if let Some(trigger) = self.ram_trigger(now_ms, congestion_ms) {
+            messages.push(self.ram(now_ms, trigger)?);
+        }
+        let position = self.state.position;
+        let vams = self
+            .surroundings
+            .cluster_vams(now_ms, now_ms, self.station, &position);
+        for (cluster, octets) in vams {
+            messages.push(self.cluster_vam(&cluster, octets?.len()));
+        }
+        Ok(messages)
+    }
+
+    fn perceive(&mut self, now_us: u64, place: Point, run: &Run) -> Result<(), Unplaced> {
+        let reach_m = self.radius_m + SENSED_BEYOND_M;
+        self.perceived.clear();
+        for (id, track) in (0_u32..).zip(&run.pedestrians) {
+            let motion = track.motion(now_us);
+            if distance_m(motion.position_m, place) <= reach_m {
+                self.perceived.push(PerceivedVru {
+                    id,
+                    position_m: [0, 1].map(|axis| motion.position_m[axis] - place[axis]),
+                    velocity_mps: motion.velocity_mps(),
+                    class: VruClass::Pedestrian,
+                    confidence: 1.0,
+                });
+            }
+        }
+        let position = self.state.position;
+        self.surroundings
+            .perceive(now_us / 1_000, &position, &self.perceived)
+    }
+
+    /// Another robot's RAM.
+    pub(super) fn hear(&mut self, now_ms: u64, heard: &Announced) {
+        if heard.by == Understands::Ram {
+            let cluster = heard.cluster.as_ref();
+            let on_own_plane = cluster.and_then(|it| self.on_own_plane(it));
+            let (own, head) = (self.station, heard.head);
+            self.surroundings
+                .hear(now_ms, own, head, on_own_plane.as_ref());
+        }
+    }
+
+    /// What is on the grid's plane, on the one that the robot keeps.
+    fn on_own_plane(&self, cluster: &containers::Announced) -> Option<containers::Announced> {
+        let origin = self
+            .surroundings
+            .plane()?
+            .point(&grid().position([0.0, 0.0]))?;
+        Some(containers::Announced {
+            area: cluster.area.clone().moved(origin),
+            ..cluster.clone()
+        })
+    }
+
+    fn status(&self) -> Status {
+        Status {
+            view: Ram {
+                station: StationId(self.station),
+                coordination: Coordination::None,
+                farewell: None,
+                on_duty: false,
+            },
+            availability: Availability::Available,
+            progression: TaskProgression::Idle,
+        }
+    }
+
+    fn ram_trigger(&self, now_ms: u64, congestion_ms: u64) -> Option<Trigger> {
+        if let Some(interval_ms) = self.ram_interval_ms {
+            let interval_ms = interval_ms.max(congestion_ms);
+            let is_due = |last: u64| now_ms - last >= interval_ms;
+            return self
+                .last_ram_ms
+                .is_none_or(is_due)
+                .then_some(Trigger::Interval);
+        }
+        let limits = Limits {
+            congestion_ms,
+            max_ms: self.surroundings.ram_interval_max_ms(),
+        };
+        self.generation
+            .trigger(now_ms, limits, &self.state, &self.status())
+    }
+
+    fn ram(&mut self, now_ms: u64, trigger: Trigger) -> Result<Message, RobotError> {
+        let ids = Identifiers::default();
+        let cluster = self.surroundings.next_cluster();
+        self.last_ram_ms = Some(now_ms);
+        let low_frequency = self.generation.low_frequency_due(now_ms);
+        let (status, time) = (
+            self.status(),
+            crossguard_codec::si::generation_delta_time(now_ms),
+        );
+        let available = status.availability;
+        let mut ram = ram_from(
+            &ids,
+            &self.state,
+            &status.view,
+            available,
+            time,
+            low_frequency,
+        )?;
+        if let Some(plane) = self.surroundings.plane() {
+            containers::write(&mut ram, plane, cluster.as_ref());
+        }
+        self.generation
+            .sent(now_ms, trigger, &self.state, status, low_frequency);
+        let octets = encode(&ids, &ram)?;
+        let received = decode::<RAM>(&ids, &octets)?.message;
+        let announced = Announced {
+            head: self.station,
+            by: Understands::Ram,
+            cluster: containers::read(&received, &grid()),
+            velocity_mps: None,
+        };
+        Ok(Message {
+            octets: octets.len(),
+            payload: Payload::Robot(Some(Box::new(announced))),
+        })
+    }
+
+    /// The same cluster for devices that do not understand RAM. Its area is the one that is on the wire.
+    fn cluster_vam(&self, cluster: &Cluster, octets: usize) -> Message {
+        let on_grid = || {
+            let own = self.surroundings.plane()?;
+            let wire = cluster.area.to_wire(own.point(&self.state.position)?);
+            Some(Area::of_wire(&wire, grid().point(&self.state.position)?))
+        };
+        let announced = Announced {
+            head: self.station,
+            by: Understands::ClusterVam,
+            cluster: on_grid().map(|area| containers::Announced {
+                id: Some(cluster.id),
+                area,
+                cardinality: cluster.cardinality,
+            }),
+            velocity_mps: Some(cluster.velocity_mps),
+        };
+        Message {
+            octets,
+            payload: Payload::Robot(Some(Box::new(announced))),
+        }
+    }
+}
+
+/// The plane of the grid.
+fn grid() -> Plane {
+    Plane::at(ORIGIN[0], ORIGIN[1])
+}
+
+/// A robot that guards a crossing.
+fn state_of_a_robot() -> RobotState {
+    RobotState {
+        category: RobotCategory::Humanoid,
+        job_role: JobRole::TrafficGuard,
+        slow: Some(SlowState {
+            capabilities: Capabilities::PEDESTRIAN_DETECTION.union(Capabilities::LEADING),
+            supported_tasks: TaskSet::of(&[TaskType::MOVE, TaskType::BLOCK]),
+            ..SlowState::default()
+        }),
+        ..RobotState::default()
+    }
+}

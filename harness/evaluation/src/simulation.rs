@@ -1,0 +1,567 @@
+//! A run on the air: vehicles send CAM, people's devices VAM, robots RAM, all on one channel.
+//!
+//! Event by event, in microseconds. Every station checks its generation rule every 100 ms, each at its
+//! own phase; the message is ready a moment later, waits for the channel, and is heard when its frame
+//! ends. What a robot announces goes through the octets of a real RAM, and a device decides by what it
+//! heard whether it falls silent.
+
+#![allow(clippy::similar_names, reason = "the same time in us and in ms")]
+
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, VecDeque};
+
+use crossguard_endpoint::ras::generation::{Cadence, LOW_FREQUENCY_INTERVAL_MS, Limits};
+use crossguard_endpoint::ras::motion::{Change, Motion};
+use crossguard_endpoint::ras::vru::{Understands, VamRule, VruStation};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use super::messages::{CERTIFICATE_INTERVAL_MS, Signed, Sizes, air_time_us, frame_octets};
+use super::radio::{Channel, Radio, Transmission, WINDOW_US};
+use super::robot::{Announced, Robot, RobotError};
+use super::trace::{Run, Track};
+
+/// How often a generation rule is checked, in microseconds.
+pub(super) const CHECK_US: u64 = 100_000;
+/// How long a message takes to be built at most, in microseconds.
+const ASSEMBLY_MAX_US: u64 = 10_000;
+/// Stations are switched on one after the other until then, and what happens before is not counted, in
+/// microseconds.
+pub const SETTLING_US: u64 = 5_000_000;
+/// Frames that a station keeps waiting at most; a further one takes the place of the oldest.
+const QUEUE_MAX: usize = 2;
+
+/// How the stations behave. The paper states none of these.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Behaviour {
+    /// When a device sends its VAM.
+    pub vam: VamRule,
+    /// What devices understand of a cluster.
+    pub understands: Understands,
+    /// Share of people with a device, 0..1.
+    pub v2x_share: f64,
+    /// Interval of RAM in ms; `None` is by the generation rules, once a second for a robot that stands
+    /// still.
+    pub ram_interval_ms: Option<u64>,
+    /// Interval of the cluster VAM in ms that robots send for devices that do not understand RAM.
+    pub cluster_vam_interval_ms: u64,
+    /// Interval of CAM in ms; `None` is by the generation rules.
+    pub cam_interval_ms: Option<u64>,
+    /// Points in the path history of a CAM's low-frequency container.
+    pub cam_path_points: usize,
+    /// How long vehicles are there, in seconds from the beginning; `None` is all the time.
+    pub vehicles_leave_s: Option<f64>,
+    /// Whether packets are signed.
+    pub signed: bool,
+    /// Whether the reactive congestion control of TS 102 687 holds stations back.
+    pub dcc: bool,
+    /// How people around a robot are clustered; its radius is that of the cell.
+    pub clustering: crossguard_endpoint::ras::clustering::Settings,
+    /// The radio channel.
+    pub radio: Radio,
+}
+
+impl Default for Behaviour {
+    fn default() -> Self {
+        Self {
+            vam: VamRule::Periodic(100),
+            understands: Understands::Ram,
+            v2x_share: 1.0,
+            ram_interval_ms: None,
+            cluster_vam_interval_ms: crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS,
+            cam_interval_ms: None,
+            cam_path_points: 5,
+            vehicles_leave_s: None,
+            signed: true,
+            dcc: false,
+            clustering: crossguard_endpoint::ras::clustering::Settings::default(),
+            radio: Radio::default(),
+        }
+    }
+}
+
+/// What was measured in a run.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Measured {
+    /// Mean channel busy ratio over stations and windows of 100 ms, 0..1.
+    pub mcbr: f64,
+    /// Largest channel busy ratio of a window, 0..1.
+    pub cbr_max: f64,
+    /// Share of devices' time in which they leave their announcement to a robot, 0..1.
+    pub passive: f64,
+    /// Air time of CAM by time, 0..1.
+    pub cam_load: f64,
+    /// Air time of VAM by time, 0..1.
+    pub vam_load: f64,
+    /// Air time of RAM and of robots' cluster VAM by time, 0..1.
+    pub ram_load: f64,
+    /// CAM per second.
+    pub cam_rate: f64,
+    /// VAM per second.
+    pub vam_rate: f64,
+    /// RAM and robots' cluster VAM per second.
+    pub ram_rate: f64,
+    /// Share of frames that overlapped with another anywhere on the grid, also out of its range, 0..1.
+    pub overlapped: f64,
+    /// Share of receptions of RAM and cluster VAM within range that failed, 0..1.
+    pub lost: f64,
+    /// Messages that a newer one replaced before they could be sent, per second.
+    pub replaced_rate: f64,
+    /// How long the measurement is, in seconds.
+    pub seconds: f64,
+}
+
+/// What a frame is.
+#[derive(Clone, Debug)]
+pub(super) enum Payload {
+    Cam,
+    Vam,
+    /// RAM or a robot's cluster VAM.
+    Robot(Option<Box<Announced>>),
+}
+
+/// A frame that waits to be sent.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    pub(super) octets: usize,
+    pub(super) payload: Payload,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Event {
+    End(usize),
+    Window,
+    Attempt(usize),
+    Ready(usize),
+    Check(usize),
+}
+
+enum Role<'a> {
+    Vehicle {
+        track: &'a Track,
+        cadence: Cadence,
+        said: Motion,
+        low_frequency_ms: Option<u64>,
+    },
+    Device {
+        track: &'a Track,
+        station: Box<VruStation>,
+    },
+    Robot(Box<Robot<'a>>),
+}
+
+struct Station<'a> {
+    role: Role<'a>,
+    /// Frames that are built and ready at their time, and then wait for the channel.
+    building: VecDeque<Frame>,
+    waiting: VecDeque<Frame>,
+    sending: Option<Frame>,
+    certificate_ms: Option<u64>,
+    congestion: Congestion,
+}
+
+/// The reactive congestion control of TS 102 687 v1.2.1 table A.1.
+#[derive(Clone, Copy, Debug, Default)]
+struct Congestion {
+    state: usize,
+}
+
+impl Congestion {
+    const INTERVALS_MS: [u64; 5] = [100, 200, 400, 500, 1_000];
+
+    /// One step towards the state that a channel busy ratio asks for.
+    fn update(&mut self, cbr: f64) {
+        let wanted = [0.3, 0.4, 0.5, 0.6]
+            .iter()
+            .filter(|limit| cbr >= **limit)
+            .count();
+        match wanted.cmp(&self.state) {
+            std::cmp::Ordering::Greater => self.state += 1,
+            std::cmp::Ordering::Less => self.state -= 1,
+            std::cmp::Ordering::Equal => {}
+        }
+    }
+
+    fn interval_ms(self) -> u64 {
+        Self::INTERVALS_MS[self.state]
+    }
+}
+
+/// The simulation of one run.
+pub(super) struct Simulation<'a> {
+    behaviour: &'a Behaviour,
+    sizes: &'a Sizes,
+    run: &'a Run,
+    stations: Vec<Station<'a>>,
+    channel: Channel,
+    random: ChaCha8Rng,
+    events: BinaryHeap<Reverse<(u64, Event)>>,
+    end_us: u64,
+    sums: Sums,
+}
+
+#[derive(Default)]
+struct Sums {
+    busy_us: u64,
+    station_windows: u64,
+    busy_max_us: u32,
+    passive: u64,
+    device_checks: u64,
+    air_us: [u64; 3],
+    frames: [u64; 3],
+    overlapped: u64,
+    heard: u64,
+    lost: u64,
+    replaced: u64,
+}
+
+/// Measures a run with robots on these ways.
+///
+/// # Errors
+/// When a robot's message cannot be encoded.
+pub fn simulate(
+    run: &Run,
+    duration_ms: u64,
+    robots: &[Track],
+    behaviour: &Behaviour,
+    sizes: &Sizes,
+) -> Result<Measured, RobotError> {
+    let mut simulation = Simulation::new(run, duration_ms, robots, behaviour, sizes);
+    while let Some(Reverse((now_us, event))) = simulation.events.pop() {
+        if now_us >= simulation.end_us {
+            break;
+        }
+        simulation.happen(now_us, event)?;
+    }
+    Ok(simulation.measured())
+}
+
+impl<'a> Simulation<'a> {
+    fn new(
+        run: &'a Run,
+        duration_ms: u64,
+        robots: &'a [Track],
+        behaviour: &'a Behaviour,
+        sizes: &'a Sizes,
+    ) -> Self {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a share of a few thousand"
+        )]
+        let devices = (behaviour.v2x_share * run.pedestrians.len() as f64).round() as usize;
+        let vehicles = run.vehicles.iter().map(|track| Role::Vehicle {
+            track,
+            cadence: Cadence::default(),
+            said: Motion::default(),
+            low_frequency_ms: None,
+        });
+        let devices = run
+            .pedestrians
+            .iter()
+            .take(devices)
+            .map(|track| Role::Device {
+                track,
+                station: Box::new(VruStation::new(behaviour.vam, behaviour.understands)),
+            });
+        let robots = (0_u32..).zip(robots).map(|(number, track)| {
+            Role::Robot(Box::new(Robot::new(number, track, run.seed, behaviour)))
+        });
+        let station = |role| Station {
+            role,
+            building: VecDeque::new(),
+            waiting: VecDeque::new(),
+            sending: None,
+            certificate_ms: None,
+            congestion: Congestion::default(),
+        };
+        let stations: Vec<Station> = vehicles.chain(devices).chain(robots).map(station).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(run.seed);
+        let mut events = BinaryHeap::from([Reverse((WINDOW_US, Event::Window))]);
+        for number in 0..stations.len() {
+            let on_us = random.random_range(0..SETTLING_US);
+            events.push(Reverse((on_us, Event::Check(number))));
+        }
+        let mut simulation = Self {
+            behaviour,
+            sizes,
+            run,
+            channel: Channel::new(behaviour.radio, stations.len()),
+            stations,
+            random,
+            events,
+            end_us: duration_ms * 1_000,
+            sums: Sums::default(),
+        };
+        simulation.place_all(0);
+        simulation
+    }
+
+    fn place_all(&mut self, now_us: u64) {
+        for (number, station) in self.stations.iter().enumerate() {
+            let place = match &station.role {
+                Role::Vehicle { track, .. } | Role::Device { track, .. } => {
+                    track.motion(now_us).position_m
+                }
+                Role::Robot(robot) => robot.place(now_us),
+            };
+            self.channel.place(number, place);
+        }
+    }
+
+    fn happen(&mut self, now_us: u64, event: Event) -> Result<(), RobotError> {
+        match event {
+            Event::Window => self.window(now_us),
+            Event::Check(number) => self.check(now_us, number)?,
+            Event::Ready(number) => self.ready(now_us, number),
+            Event::Attempt(number) => self.attempt(now_us, number),
+            Event::End(number) => self.end(now_us, number),
+        }
+        Ok(())
+    }
+
+    fn window(&mut self, now_us: u64) {
+        let (sums, stations) = (&mut self.sums, &mut self.stations);
+        let counts = now_us > SETTLING_US;
+        let has_dcc = self.behaviour.dcc;
+        self.channel.close_window(now_us, |number, busy_us| {
+            if counts {
+                sums.busy_us += u64::from(busy_us);
+                sums.station_windows += 1;
+                sums.busy_max_us = sums.busy_max_us.max(busy_us);
+            }
+            if has_dcc {
+                stations[number].congestion.update(f64::from(busy_us) / 1e5);
+            }
+        });
+        self.place_all(now_us);
+        self.events
+            .push(Reverse((now_us + WINDOW_US, Event::Window)));
+    }
+
+    fn check(&mut self, now_us: u64, number: usize) -> Result<(), RobotError> {
+        self.events
+            .push(Reverse((now_us + CHECK_US, Event::Check(number))));
+        let now_ms = now_us / 1_000;
+        let behaviour = self.behaviour;
+        let station = &mut self.stations[number];
+        let congestion_ms = station.congestion.interval_ms();
+        match &mut station.role {
+            Role::Vehicle {
+                track,
+                cadence,
+                said,
+                low_frequency_ms,
+            } => {
+                #[expect(clippy::cast_precision_loss, reason = "a few minutes")]
+                if behaviour
+                    .vehicles_leave_s
+                    .is_some_and(|s| now_us as f64 >= s * 1e6)
+                {
+                    return Ok(());
+                }
+                let motion = track.motion(now_us);
+                if !cam_due(behaviour, cadence, now_ms, congestion_ms, said, &motion) {
+                    return Ok(());
+                }
+                *said = motion;
+                let low_frequency =
+                    low_frequency_ms.is_none_or(|last| now_ms - last >= LOW_FREQUENCY_INTERVAL_MS);
+                if low_frequency {
+                    *low_frequency_ms = Some(now_ms);
+                }
+                let octets = self.sizes.cam(low_frequency);
+                self.build(now_us, number, octets, Payload::Cam);
+            }
+            Role::Device { track, station } => {
+                let due = station.poll(now_ms, &track.motion(now_us), congestion_ms);
+                if now_us > SETTLING_US {
+                    self.sums.passive += u64::from(station.is_passive());
+                    self.sums.device_checks += 1;
+                }
+                if let Some(due) = due {
+                    let octets = self.sizes.vam(&due);
+                    self.build(now_us, number, octets, Payload::Vam);
+                }
+            }
+            Role::Robot(robot) => {
+                for message in robot.check(now_us, self.run, congestion_ms)? {
+                    self.build(now_us, number, message.octets, message.payload);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A message is built; it will be ready after a moment.
+    fn build(&mut self, now_us: u64, number: usize, message_octets: usize, payload: Payload) {
+        let now_ms = now_us / 1_000;
+        let station = &mut self.stations[number];
+        let is_due = |last: u64| now_ms.saturating_sub(last) >= CERTIFICATE_INTERVAL_MS;
+        let signed = if !self.behaviour.signed {
+            Signed::No
+        } else if station.certificate_ms.is_none_or(is_due) {
+            station.certificate_ms = Some(now_ms);
+            Signed::WithCertificate
+        } else {
+            Signed::ByDigest
+        };
+        station.building.push_back(Frame {
+            octets: frame_octets(message_octets, signed),
+            payload,
+        });
+        let ready_us = now_us + self.random.random_range(0..ASSEMBLY_MAX_US);
+        self.events.push(Reverse((ready_us, Event::Ready(number))));
+    }
+
+    fn ready(&mut self, now_us: u64, number: usize) {
+        let station = &mut self.stations[number];
+        let Some(frame) = station.building.pop_front() else {
+            return;
+        };
+        let was_idle = station.waiting.is_empty() && station.sending.is_none();
+        if station.waiting.len() >= QUEUE_MAX {
+            station.waiting.pop_front();
+            self.sums.replaced += 1;
+        }
+        station.waiting.push_back(frame);
+        if was_idle {
+            self.want(now_us, number);
+        }
+    }
+
+    fn want(&mut self, now_us: u64, number: usize) {
+        let at_us = self.channel.want(number, now_us, &mut self.random);
+        self.events.push(Reverse((at_us, Event::Attempt(number))));
+    }
+
+    fn attempt(&mut self, now_us: u64, number: usize) {
+        if !self.channel.may_send(number, now_us) {
+            return;
+        }
+        let station = &mut self.stations[number];
+        let Some(frame) = station.waiting.pop_front() else {
+            return;
+        };
+        let duration_us = air_time_us(frame.octets);
+        if now_us > SETTLING_US {
+            let kind = match frame.payload {
+                Payload::Cam => 0,
+                Payload::Vam => 1,
+                Payload::Robot(_) => 2,
+            };
+            self.sums.air_us[kind] += duration_us;
+            self.sums.frames[kind] += 1;
+        }
+        station.sending = Some(frame);
+        let events = &mut self.events;
+        let postponed = |other, at_us| events.push(Reverse((at_us, Event::Attempt(other))));
+        let end_us = self
+            .channel
+            .send(number, now_us, duration_us, &mut self.random, postponed);
+        self.events.push(Reverse((end_us, Event::End(number))));
+    }
+
+    fn end(&mut self, now_us: u64, number: usize) {
+        let Some(transmission) = self.channel.end(number) else {
+            return;
+        };
+        let frame = self.stations[number].sending.take();
+        if now_us > SETTLING_US {
+            self.sums.overlapped += u64::from(Channel::overlapped(&transmission));
+        }
+        if let Some(Frame {
+            payload: Payload::Robot(announced),
+            ..
+        }) = frame
+            && let Some(announced) = announced
+        {
+            self.announce(now_us, &transmission, &announced);
+        }
+        if !self.stations[number].waiting.is_empty() {
+            self.want(now_us, number);
+        }
+    }
+
+    /// Everybody in range hears what a robot announces. Only devices are counted.
+    fn announce(&mut self, now_us: u64, transmission: &Transmission, announced: &Announced) {
+        let now_ms = now_us / 1_000;
+        for (number, station) in self.stations.iter_mut().enumerate() {
+            if matches!(station.role, Role::Vehicle { .. })
+                || number == transmission.sender
+                || !self.channel.in_range(number, transmission.sender)
+            {
+                continue;
+            }
+            let is_received = self.channel.receives(number, transmission);
+            match &mut station.role {
+                Role::Device { track, station } => {
+                    self.sums.heard += 1;
+                    self.sums.lost += u64::from(!is_received);
+                    if is_received {
+                        let motion = track.motion(now_us);
+                        station.hear(now_ms, &motion, &announced.announcement());
+                    }
+                }
+                Role::Robot(robot) if is_received => robot.hear(now_ms, announced),
+                Role::Robot(_) | Role::Vehicle { .. } => {}
+            }
+        }
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
+    fn measured(&self) -> Measured {
+        let sums = &self.sums;
+        let measured_us = self.end_us.saturating_sub(SETTLING_US).max(1) as f64;
+        let share = |part: u64, whole: u64| part as f64 / (whole as f64).max(1.0);
+        let [cam_load, vam_load, ram_load] = sums.air_us.map(|us| us as f64 / measured_us);
+        let [cam_rate, vam_rate, ram_rate] =
+            sums.frames.map(|count| count as f64 * 1e6 / measured_us);
+        Measured {
+            mcbr: share(sums.busy_us, sums.station_windows * WINDOW_US),
+            cbr_max: f64::from(sums.busy_max_us) / WINDOW_US as f64,
+            passive: share(sums.passive, sums.device_checks),
+            cam_load,
+            vam_load,
+            ram_load,
+            cam_rate,
+            vam_rate,
+            ram_rate,
+            overlapped: share(sums.overlapped, sums.frames.iter().sum()),
+            lost: share(sums.lost, sums.heard),
+            replaced_rate: sums.replaced as f64 * 1e6 / self.end_us as f64,
+            seconds: measured_us / 1e6,
+        }
+    }
+}
+
+/// Whether a vehicle's CAM is due; it counts as sent.
+fn cam_due(
+    behaviour: &Behaviour,
+    cadence: &mut Cadence,
+    now_ms: u64,
+    congestion_ms: u64,
+    said: &Motion,
+    motion: &Motion,
+) -> bool {
+    let trigger = if let Some(interval_ms) = behaviour.cam_interval_ms {
+        // Neither motion nor a shorter interval: only time.
+        let last = cadence.last_ms();
+        let is_due = |last| now_ms.saturating_sub(last) >= interval_ms.max(congestion_ms);
+        last.is_none_or(is_due)
+            .then_some(crossguard_endpoint::ras::generation::Trigger::First)
+    } else {
+        let limits = Limits {
+            congestion_ms,
+            ..Limits::default()
+        };
+        cadence.trigger(now_ms, limits, &Change::of_motion(said, motion))
+    };
+    if let Some(trigger) = trigger {
+        cadence.sent(now_ms, trigger);
+    }
+    trigger.is_some()
+}

@@ -1,0 +1,526 @@
+//! A sequence chart, line by line as things happen.
+//!
+//! Each robot has a column. Messages are drawn when they arrive at whom they are for; of the RAM that
+//! repeat what is known only the first is drawn.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+use crossguard_codec::Identifiers;
+use crossguard_protocol::{
+    Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Outputs, Ram, Rmcm, State,
+    StationId,
+};
+
+use crossguard_endpoint::wire::{Heard, MessageKind, overhear};
+use crossguard_robot::trace::{Entry, Record};
+
+/// Where the first column begins, and how far apart columns are, of two robots and of more.
+const LEFT: usize = 10;
+const SPACING: usize = 50;
+const SPACING_OF_MANY: usize = 45;
+
+/// A chart in the making.
+#[derive(Debug, Default)]
+pub struct Chart {
+    /// How far apart columns are.
+    spacing: usize,
+    lanes: Vec<Lane>,
+    /// Whether robots get columns as they turn up in the records.
+    grows: bool,
+    /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
+    drawn: HashMap<(usize, usize), Ram>,
+}
+
+/// Something to be drawn. Robots are named by their columns.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Mark {
+    /// Something at one robot.
+    Note {
+        /// Where.
+        lane: usize,
+        /// What.
+        text: String,
+    },
+    /// A message.
+    Arrow {
+        /// Its sender.
+        from: usize,
+        /// Its receiver.
+        to: usize,
+        /// What it says.
+        text: String,
+        /// Whether it was lost.
+        is_lost: bool,
+    },
+}
+
+#[derive(Debug)]
+struct Lane {
+    name: String,
+    station: StationId,
+    state: State,
+    identifiers: Identifiers,
+    /// Whether nothing is known of it but what others hear.
+    is_stranger: bool,
+    /// Until when its sign shows go, if it does.
+    go_until_us: Option<u64>,
+}
+
+/// By how much records of different robots may come out of order, in microseconds.
+const DISORDER_US: u64 = 100_000;
+
+impl Chart {
+    /// A chart of robots with these names and station ids, from left to right.
+    #[must_use]
+    pub fn new(robots: &[(&str, StationId)], identifiers: Identifiers) -> Self {
+        let lane = |&(name, station): &(&str, StationId)| Lane {
+            name: name.to_owned(),
+            station,
+            state: State::Idle,
+            identifiers,
+            is_stranger: false,
+            go_until_us: None,
+        };
+        Self {
+            spacing: if robots.len() > 2 {
+                SPACING_OF_MANY
+            } else {
+                SPACING
+            },
+            lanes: robots.iter().map(lane).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// A chart of the robots that turn up in the records, and of the stations that they hear.
+    #[must_use]
+    pub fn of_whoever_comes() -> Self {
+        Self {
+            spacing: SPACING,
+            grows: true,
+            ..Self::default()
+        }
+    }
+
+    /// The names above the columns.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.lanes.iter().map(|lane| lane.name.as_str())
+    }
+
+    /// The line above the chart.
+    #[must_use]
+    pub fn header(&self) -> String {
+        let mut line = format!("{:>8}", "t/s");
+        for (i, lane) in self.lanes.iter().enumerate() {
+            pad(&mut line, LEFT + i * self.spacing);
+            let _ = write!(line, "{} (station {})", lane.name, lane.station);
+        }
+        line
+    }
+
+    /// The lines that a record adds.
+    pub fn lines(&mut self, record: &Record) -> Vec<String> {
+        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+        let time = record.at_us as f64 / 1e6;
+        let (marks, spacing) = (self.marks(record).into_iter(), self.spacing);
+        let line = |mark| match mark {
+            Mark::Note { lane, text } => note_at(time, LEFT + lane * spacing, &text),
+            Mark::Arrow {
+                from,
+                to,
+                text,
+                is_lost,
+            } => arrow(time, [from, to], spacing, &text, is_lost),
+        };
+        marks.map(line).collect()
+    }
+
+    /// The line of something that happens to a robot and that it does not record itself.
+    #[must_use]
+    pub fn note(&self, at_us: u64, robot: &str, text: &str) -> Option<String> {
+        let lane = self.lanes.iter().position(|lane| lane.name == robot)?;
+        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+        let time = at_us as f64 / 1e6;
+        Some(note_at(time, LEFT + lane * self.spacing, text))
+    }
+
+    /// What a record adds.
+    pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
+        let mut marks = self.signs_that_ended(record);
+        marks.extend(self.marks_of(record));
+        marks
+    }
+
+    /// The signs that went to stop by themselves before a record: nothing has renewed them.
+    fn signs_that_ended(&mut self, record: &Record) -> Vec<Mark> {
+        let mut marks = Vec::new();
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            let slack_us = if lane.name == record.robot {
+                0
+            } else {
+                DISORDER_US
+            };
+            let ended = lane
+                .go_until_us
+                .filter(|go| go.saturating_add(slack_us) < record.at_us);
+            if let Some(at_us) = ended {
+                lane.go_until_us = None;
+                #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+                let seconds = at_us as f64 / 1e6;
+                marks.push(Mark::Note {
+                    lane: i,
+                    text: format!("! the sign went to stop by itself at {seconds:.3}"),
+                });
+            }
+        }
+        marks
+    }
+
+    /// Keeps until when a sign shows go.
+    fn keep_sign(&mut self, lane: usize, at_us: u64, outputs: &Outputs) {
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+                    let time_us = u64::from(time.0) * 1_000;
+                    self.lanes[lane].go_until_us = Some(at_us.saturating_add(time_us));
+                }
+                Output::CorridorClosed(_) => self.lanes[lane].go_until_us = None,
+                _ => {}
+            }
+        }
+    }
+
+    fn marks_of(&mut self, record: &Record) -> Vec<Mark> {
+        if let Entry::Started {
+            station,
+            identifiers,
+            ..
+        } = &record.entry
+        {
+            self.seat(&record.robot, *station, *identifiers);
+        }
+        let Some(lane) = self.lanes.iter().position(|lane| lane.name == record.robot) else {
+            return Vec::new();
+        };
+        let note = |text| Mark::Note { lane, text };
+        match &record.entry {
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => {
+                if let Input::Local(Event::IdentityChanged(station)) = input {
+                    self.lanes[lane].station = *station;
+                }
+                self.keep_sign(lane, record.at_us, outputs);
+                let mut notes: Vec<_> = note_of_input(input).into_iter().collect();
+                notes.extend(outputs.iter().filter_map(note_of_output));
+                let after = state.state();
+                if self.lanes[lane].state != after {
+                    self.lanes[lane].state = after;
+                    notes.push(format!("[{after:?}] {}", state.role()));
+                }
+                notes.into_iter().map(note).collect()
+            }
+            Entry::Heard { octets, .. } => self.arrow(lane, octets, false),
+            Entry::Dropped { cause, octets, .. } if cause.starts_with("simulated ") => {
+                self.arrow(lane, octets, true)
+            }
+            Entry::Dropped { cause, detail, .. } => {
+                vec![note(format!("! dropped, {cause}: {detail}"))]
+            }
+            Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
+            Entry::Started { .. } | Entry::Stopped { .. } => Vec::new(),
+        }
+    }
+
+    /// Gives a robot that starts its column, that of the station that others heard before, or a new
+    /// one.
+    fn seat(&mut self, robot: &str, station: StationId, identifiers: Identifiers) {
+        let known = |lane: &Lane| lane.name == robot;
+        let heard = |lane: &Lane| lane.is_stranger && lane.station == station;
+        let seat = self.lanes.iter().position(known);
+        let seat = seat.or_else(|| self.lanes.iter().position(heard));
+        let lane = Lane {
+            name: robot.to_owned(),
+            station,
+            state: State::Idle,
+            identifiers,
+            is_stranger: false,
+            go_until_us: None,
+        };
+        match seat {
+            Some(seat) => self.lanes[seat] = lane,
+            None if self.grows => self.lanes.push(lane),
+            None => {}
+        }
+    }
+
+    /// The column of a station that was heard, if it has one or gets one.
+    fn lane_of(&mut self, station: StationId) -> Option<usize> {
+        let known = self.lanes.iter().position(|lane| lane.station == station);
+        if known.is_none() && self.grows {
+            self.lanes.push(Lane {
+                name: format!("station {station}"),
+                station,
+                state: State::Idle,
+                identifiers: Identifiers::default(),
+                is_stranger: true,
+                go_until_us: None,
+            });
+            return Some(self.lanes.len() - 1);
+        }
+        known
+    }
+
+    /// What a robot sends to stations without records, which cannot say whether it arrives.
+    fn arrows_to_strangers(&mut self, from: usize, octets: &[u8]) -> Vec<Mark> {
+        if !self.lanes.iter().any(|lane| lane.is_stranger) {
+            return Vec::new();
+        }
+        let Ok(heard) = overhear(&self.lanes[from].identifiers, octets) else {
+            return Vec::new();
+        };
+        let mut marks = Vec::new();
+        for to in 0..self.lanes.len() {
+            let lane = &self.lanes[to];
+            let is_meant = |input: &Input| addressee(input).is_none_or(|it| it == lane.station);
+            if lane.is_stranger && heard.inputs.iter().any(is_meant) {
+                marks.extend(self.message(from, to, &heard, false));
+            }
+        }
+        marks
+    }
+
+    fn arrow(&mut self, to: usize, octets: &[u8], is_lost: bool) -> Vec<Mark> {
+        let Ok(heard) = overhear(&self.lanes[to].identifiers, octets) else {
+            return Vec::new();
+        };
+        // Everybody hears a command, and one is meant.
+        let own = self.lanes[to].station;
+        let is_meant = |input: &Input| addressee(input).is_none_or(|station| station == own);
+        if !heard.inputs.iter().any(is_meant) {
+            return Vec::new();
+        }
+        let from = self.lane_of(heard.from).filter(|from| *from != to);
+        let arrow = from.and_then(|from| self.message(from, to, &heard, is_lost));
+        arrow.into_iter().collect()
+    }
+
+    /// A message from column to column, unless it repeats what was drawn.
+    fn message(&mut self, from: usize, to: usize, heard: &Heard, is_lost: bool) -> Option<Mark> {
+        if heard.service == MessageKind::Ram && !self.is_news(from, to, heard, is_lost) {
+            return None;
+        }
+        let text: Vec<_> = heard.inputs.iter().map(text_of).collect();
+        Some(Mark::Arrow {
+            from,
+            to,
+            text: text.join("; "),
+            is_lost,
+        })
+    }
+
+    /// Whether a RAM says something that was not drawn before.
+    fn is_news(&mut self, from: usize, to: usize, heard: &Heard, is_lost: bool) -> bool {
+        let Some(Input::Ram { ram, .. }) = heard.inputs.iter().next() else {
+            return false;
+        };
+        let essence = essence(*ram);
+        let known = self.drawn.get(&(from, to));
+        let is_empty =
+            matches!(essence.coordination, Coordination::None) && essence.farewell.is_none();
+        let is_news = match known {
+            Some(known) => *known != essence,
+            None => !is_empty,
+        };
+        if is_news && !is_lost {
+            self.drawn.insert((from, to), essence);
+        }
+        is_news
+    }
+}
+
+/// A RAM without what changes from one to the next.
+fn essence(mut ram: Ram) -> Ram {
+    match &mut ram.coordination {
+        Coordination::Leader { heartbeat, .. } | Coordination::NeedHelp { heartbeat, .. } => {
+            *heartbeat = Heartbeat(0);
+        }
+        Coordination::OfferHelp { echo, .. } | Coordination::Follower { echo, .. } => {
+            *echo = Heartbeat(0);
+        }
+        Coordination::None => {}
+    }
+    ram
+}
+
+/// Whom an RMCM is for; `None` for what everybody may hear.
+const fn addressee(input: &Input) -> Option<StationId> {
+    match input {
+        Input::Rmcm(Rmcm::Command(command)) => Some(command.to),
+        Input::Rmcm(Rmcm::Answer(answer)) => Some(answer.session.leader),
+        _ => None,
+    }
+}
+
+/// A message in a few words.
+pub(crate) fn text_of(input: &Input) -> String {
+    match input {
+        Input::Ram { ram, .. } => ram_text(ram),
+        other => other.to_string(),
+    }
+}
+
+fn ram_text(ram: &Ram) -> String {
+    let station = ram.station;
+    let part = match ram.coordination {
+        Coordination::None => "none".to_owned(),
+        Coordination::NeedHelp { number, .. } => format!("needHelp {station}#{}", number.0),
+        Coordination::OfferHelp { session, .. } => format!("offerHelp {session}"),
+        Coordination::Leader {
+            number,
+            followers,
+            yields,
+            ..
+        } => {
+            let followers: Vec<_> = followers.iter().map(|f| f.station.to_string()).collect();
+            let yields = if yields { ", yields" } else { "" };
+            format!(
+                "leader {station}#{} of {}{yields}",
+                number.0,
+                followers.join(", ")
+            )
+        }
+        Coordination::Follower {
+            session,
+            last: None,
+            ..
+        } => format!("follower {session}"),
+        Coordination::Follower {
+            session,
+            last: Some(last),
+            ..
+        } => {
+            format!("follower {session}: {} {}", last.request, last.progress)
+        }
+    };
+    let farewell = match ram.farewell {
+        None => String::new(),
+        Some(Farewell::Ended(number, ending)) => {
+            format!(", ended {station}#{}, {ending}", number.0)
+        }
+        Some(Farewell::Left(session, _)) => format!(", left {session}"),
+    };
+    let duty = if ram.on_duty { ", on duty" } else { "" };
+    format!("RAM {part}{farewell}{duty}")
+}
+
+fn note_of_input(input: &Input) -> Option<String> {
+    match input {
+        Input::Local(Event::OpenCorridor | Event::CommandManeuver { .. } | Event::AllAnswered) => {
+            None
+        }
+        Input::Local(event) => Some(format!("* {event}")),
+        _ => None,
+    }
+}
+
+fn note_of_output(output: &Output) -> Option<String> {
+    Some(match output {
+        Output::StartManeuver(_)
+        | Output::StopManeuver(..)
+        | Output::FallBack(..)
+        | Output::CorridorOpened(_)
+        | Output::CorridorClosed(_)
+        | Output::RenewEpoch => format!("> {output}"),
+        Output::Notify(
+            notice @ (Notice::FollowerGone(..)
+            | Notice::LeaseExpired(_)
+            | Notice::CommandRejected(..)
+            | Notice::ManeuverInPosition(..)
+            | Notice::OfferLapsed(_)
+            | Notice::Yielded(_)
+            | Notice::ManeuverFailed(..)
+            | Notice::ManeuverCompleted(..)
+            | Notice::FollowerSafeIdle(..)
+            | Notice::SessionEnded(..)
+            | Notice::Released(..)
+            | Notice::ContactLost(_)
+            | Notice::ContactRegained(_)),
+        ) => format!("- {notice}"),
+        _ => return None,
+    })
+}
+
+fn pad(line: &mut String, column: usize) {
+    let width = line.chars().count();
+    line.extend(std::iter::repeat_n(' ', column.saturating_sub(width)));
+}
+
+fn note_at(seconds: f64, column: usize, text: &str) -> String {
+    let mut line = format!("{seconds:>8.3}");
+    pad(&mut line, column);
+    line.push_str(text);
+    line
+}
+
+/// An arrow between two columns, with its text in the middle.
+fn arrow(time: f64, [from, to]: [usize; 2], spacing: usize, text: &str, is_lost: bool) -> String {
+    let (left, right) = (from.min(to), from.max(to));
+    let width = (right - left) * spacing - 3;
+    let room = width.saturating_sub(6);
+    let text: String = if text.chars().count() > room {
+        text.chars()
+            .take(room.saturating_sub(1))
+            .chain(['…'])
+            .collect()
+    } else {
+        text.to_owned()
+    };
+    let dashes = width.saturating_sub(text.chars().count() + 3);
+    let (before, after) = (dashes / 2, dashes - dashes / 2);
+    let body = format!("{} {text} {}", "─".repeat(before), "─".repeat(after));
+    let end = if is_lost {
+        "x"
+    } else if from < to {
+        "►"
+    } else {
+        "◄"
+    };
+    let drawn = if from < to {
+        format!("{body}{end}")
+    } else {
+        format!("{end}{body}")
+    };
+    let mut line = format!("{time:>8.3}");
+    pad(&mut line, LEFT + left * spacing + 1);
+    line.push_str(&drawn);
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arrow_spans_from_column_to_column() {
+        let there = arrow(1.5, [0, 1], SPACING, "RMCM ack", false);
+        assert!(
+            there.starts_with("   1.500   ─") && there.ends_with("─►"),
+            "{there}"
+        );
+        assert_eq!(there.chars().count(), LEFT + SPACING - 2);
+        let back = arrow(1.5, [1, 0], SPACING, "RMCM ack", false);
+        assert!(back.contains("◄─") && back.ends_with('─'), "{back}");
+        assert!(arrow(0.0, [0, 1], SPACING, "RAM", true).ends_with("─x"));
+    }
+
+    #[test]
+    fn a_long_text_is_cut_to_fit() {
+        let line = arrow(0.0, [0, 1], SPACING, &"long ".repeat(40), false);
+        assert_eq!(line.chars().count(), LEFT + SPACING - 2);
+        assert!(line.contains('…'));
+    }
+}

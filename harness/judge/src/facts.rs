@@ -1,0 +1,411 @@
+//! What logs tell, fact by fact: states, places, messages, the corridor, what came to nothing.
+//!
+//! ```text
+//!   records ──► Observer ──► facts ──┬──► mcap_file (for Foxglove and ROS 2 tools)
+//!                                    └──► report (for people)
+//! ```
+//!
+//! A log holds inputs, outputs, states and octets. Tools want to know where a robot is and what it
+//! does; both are worked out here, once, and from the log alone.
+
+mod area;
+mod view;
+
+pub use area::Area;
+pub use view::{FollowerView, View};
+
+use std::collections::BTreeMap;
+
+use area::Areas;
+use crossguard_codec::{ConfidenceEllipse, Dimensions, Identifiers, RobotCategory, RobotState};
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::wire::{Heard, overhear};
+use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
+use crossguard_robot::trace::{Entry, Record};
+
+use crate::chart::{Chart, Mark, text_of};
+
+/// Something that a record tells about its robot.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Fact {
+    /// It booted.
+    Started {
+        /// Its station id.
+        station: StationId,
+        /// Its boot counter.
+        boot: u16,
+    },
+    /// Its part in a session has changed.
+    State(View),
+    /// Where it says that it is.
+    Place(Box<Placed>),
+    /// A step of the transition function, other than one in which nothing but time has passed.
+    Step {
+        /// What it took in.
+        input: String,
+        /// What it put out, in order.
+        outputs: Vec<String>,
+    },
+    /// A message that it sent, heard, or should have heard.
+    Message(Message),
+    /// What a person who follows the run wants to know.
+    Note {
+        /// Whether something went wrong.
+        is_warning: bool,
+        /// What.
+        text: String,
+    },
+    /// It lets the pedestrian cross, or no longer does.
+    Corridor {
+        /// Whether the corridor is open.
+        is_open: bool,
+        /// When that began, in microseconds on the log's clock: before the record, where the sign ended by
+        /// itself because nothing renewed it.
+        since_us: u64,
+        /// Why it was closed; empty where it was opened.
+        why: String,
+    },
+    /// Places that its followers hold or go to, all of them: there are new ones, or none any more.
+    Areas(Vec<Area>),
+    /// Something came to nothing once more.
+    Counted {
+        /// The cause that it is counted under.
+        cause: String,
+        /// How often by now.
+        count: u64,
+    },
+    /// It stopped in order.
+    Stopped,
+}
+
+/// Where a robot is, by its own RAM.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Placed {
+    /// Degrees, north positive.
+    pub latitude: f64,
+    /// Degrees, east positive.
+    pub longitude: f64,
+    /// Metres above the WGS84 ellipsoid, if known.
+    pub altitude: Option<f64>,
+    /// Where it is with a confidence of 95 %, if known.
+    pub ellipse: Option<ConfidenceEllipse>,
+    /// Direction of motion in degrees clockwise from north, if known.
+    pub heading: Option<f64>,
+    /// Speed in m/s, if known.
+    pub speed: Option<f64>,
+    /// The box around it.
+    pub dimensions: Dimensions,
+    /// Its build.
+    pub category: RobotCategory,
+}
+
+impl Placed {
+    fn of(state: &RobotState) -> Option<Box<Self>> {
+        let position = &state.position;
+        Some(Box::new(Self {
+            latitude: position.latitude?,
+            longitude: position.longitude?,
+            altitude: position.altitude,
+            ellipse: position.ellipse,
+            heading: state.heading.map(|heading| heading.value),
+            speed: state.speed.map(|speed| speed.value),
+            dimensions: state.dimensions,
+            category: state.category,
+        }))
+    }
+}
+
+/// What became of a message at a robot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Direction {
+    /// It sent it.
+    Sent,
+    /// It heard it.
+    Heard,
+    /// The fault layer kept it from the robot.
+    Lost,
+}
+
+/// A message at a robot.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Message {
+    /// What became of it.
+    pub direction: Direction,
+    /// Its name: `RAM` or `RMCM`.
+    pub kind: &'static str,
+    /// The station that sent it.
+    pub from: StationId,
+    /// What it says, in a few words.
+    pub text: String,
+    /// Why it was sent, or how it was lost; empty where it was heard.
+    pub why: String,
+    /// The message.
+    pub octets: Vec<u8>,
+}
+
+/// What is known of a robot.
+#[derive(Debug, Default)]
+struct Observed {
+    name: String,
+    identifiers: Identifiers,
+    view: Option<View>,
+    /// Until when its sign shows go, if it does.
+    go_until_us: Option<u64>,
+    counters: BTreeMap<String, u64>,
+}
+
+/// Works out facts from records, as they come.
+#[derive(Debug)]
+pub struct Observer {
+    chart: Chart,
+    robots: Vec<Observed>,
+    areas: Areas,
+}
+
+impl Default for Observer {
+    fn default() -> Self {
+        Self {
+            chart: Chart::of_whoever_comes(),
+            robots: Vec::new(),
+            areas: Areas::default(),
+        }
+    }
+}
+
+impl Observer {
+    /// The facts that a record adds, in order.
+    pub fn take(&mut self, record: &Record) -> Vec<Fact> {
+        let known = self.robots.iter().position(|it| it.name == record.robot);
+        let robot = known.unwrap_or_else(|| {
+            self.robots.push(Observed {
+                name: record.robot.clone(),
+                ..Observed::default()
+            });
+            self.robots.len() - 1
+        });
+        let mut facts: Vec<_> = self
+            .sign_that_ended(robot, record.at_us)
+            .into_iter()
+            .collect();
+        facts.extend(self.facts(robot, record.at_us, &record.entry));
+        facts.extend(self.notes(record));
+        facts
+    }
+
+    /// The sign of a robot that went to stop by itself before `at_us`.
+    fn sign_that_ended(&mut self, robot: usize, at_us: u64) -> Option<Fact> {
+        let go_until_us = &mut self.robots[robot].go_until_us;
+        let since_us = go_until_us.filter(|go_until_us| *go_until_us < at_us)?;
+        *go_until_us = None;
+        Some(Fact::Corridor {
+            is_open: false,
+            since_us,
+            why: "the sign ended by itself, since nothing renewed it".to_owned(),
+        })
+    }
+
+    /// What the outputs of a step mean for the sign.
+    fn sign(&mut self, robot: usize, at_us: u64, outputs: &Outputs) -> Vec<Fact> {
+        let go_until_us = &mut self.robots[robot].go_until_us;
+        let mut facts = Vec::new();
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+                    if go_until_us.is_none() {
+                        facts.push(Fact::Corridor {
+                            is_open: true,
+                            since_us: at_us,
+                            why: String::new(),
+                        });
+                    }
+                    let time_us = u64::from(time.0) * 1_000;
+                    *go_until_us = Some(at_us.saturating_add(time_us));
+                }
+                Output::CorridorClosed(why) if go_until_us.take().is_some() => {
+                    facts.push(Fact::Corridor {
+                        is_open: false,
+                        since_us: at_us,
+                        why: why.to_string(),
+                    });
+                }
+                _ => {}
+            }
+        }
+        facts
+    }
+
+    fn facts(&mut self, robot: usize, at_us: u64, entry: &Entry) -> Vec<Fact> {
+        match entry {
+            Entry::Started {
+                station,
+                boot,
+                settings,
+                identifiers,
+                ..
+            } => {
+                let observed = &mut self.robots[robot];
+                observed.identifiers = *identifiers;
+                observed.counters.clear();
+                let mut facts = vec![Fact::Started {
+                    station: *station,
+                    boot: *boot,
+                }];
+                // A robot that lost power says nothing of what it had a part in.
+                if observed.go_until_us.take().is_some() {
+                    facts.push(Fact::Corridor {
+                        is_open: false,
+                        since_us: at_us,
+                        why: String::new(),
+                    });
+                }
+                facts.extend(self.view(robot, &Robot::new(*station, *boot)));
+                self.areas.guarding(*station, settings.guarding);
+                facts
+            }
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => self.step(robot, at_us, input, outputs, state),
+            Entry::Sent {
+                trigger, octets, ..
+            } => self.sent(robot, &format!("{trigger:?}"), octets),
+            Entry::Heard { octets, .. } => self
+                .message(robot, Direction::Heard, String::new(), octets)
+                .map(|(_, message)| Fact::Message(message))
+                .into_iter()
+                .collect(),
+            Entry::Dropped { cause, octets, .. } => {
+                let lost = if cause.starts_with("simulated ") {
+                    self.message(robot, Direction::Lost, cause.clone(), octets)
+                } else {
+                    None
+                };
+                let mut facts: Vec<_> = lost
+                    .map(|(_, message)| Fact::Message(message))
+                    .into_iter()
+                    .collect();
+                facts.push(self.count(robot, cause.clone()));
+                facts
+            }
+            Entry::Stopped { counters } => {
+                let observed = &mut self.robots[robot];
+                let silent = counters.iter().filter(|(cause, count)| {
+                    observed.counters.get(*cause).copied().unwrap_or(0) != **count
+                });
+                let mut facts: Vec<_> = silent
+                    .map(|(cause, &count)| Fact::Counted {
+                        cause: cause.clone(),
+                        count,
+                    })
+                    .collect();
+                observed.counters.clone_from(counters);
+                facts.push(Fact::Stopped);
+                facts
+            }
+        }
+    }
+
+    fn step(
+        &mut self,
+        robot: usize,
+        at_us: u64,
+        input: &Input,
+        outputs: &Outputs,
+        state: &Robot,
+    ) -> Vec<Fact> {
+        let mut facts = Vec::new();
+        if !matches!(input, Input::Elapsed(_)) || !outputs.is_empty() {
+            facts.push(Fact::Step {
+                input: input.to_string(),
+                outputs: outputs.iter().map(ToString::to_string).collect(),
+            });
+        }
+        if let Some(reason) = outputs.ignored() {
+            facts.push(self.count(robot, Cause::Ignored(reason).name()));
+        }
+        facts.extend(self.sign(robot, at_us, outputs));
+        facts.extend(self.view(robot, state));
+        facts
+    }
+
+    /// What is new about the robot's part in a session.
+    fn view(&mut self, robot: usize, state: &Robot) -> Vec<Fact> {
+        let (view, observed) = (View::of(state), &mut self.robots[robot]);
+        if observed.view.as_ref() == Some(&view) {
+            return Vec::new();
+        }
+        let before = observed.view.replace(view.clone());
+        let mut facts = Vec::new();
+        let is_over = |before: &View| before.session != view.session;
+        if let Some(before) = &before
+            && is_over(before)
+            && self.areas.leave(before.station)
+        {
+            facts.push(Fact::Areas(Vec::new()));
+        }
+        facts.push(Fact::State(view));
+        facts
+    }
+
+    fn sent(&mut self, robot: usize, trigger: &str, octets: &[u8]) -> Vec<Fact> {
+        let sent = self.message(robot, Direction::Sent, trigger.to_owned(), octets);
+        let Some((heard, message)) = sent else {
+            return Vec::new();
+        };
+        let mut facts = vec![Fact::Message(message)];
+        if let Some(placed) = heard.state.as_ref().and_then(Placed::of) {
+            self.areas.place(heard.from, &placed);
+            facts.push(Fact::Place(placed));
+        }
+        let identifiers = self.robots[robot].identifiers;
+        if let Some(areas) = self.areas.command(&identifiers, &heard, octets) {
+            facts.push(Fact::Areas(areas));
+        }
+        facts
+    }
+
+    fn message(
+        &self,
+        robot: usize,
+        direction: Direction,
+        why: String,
+        octets: &[u8],
+    ) -> Option<(Heard, Message)> {
+        let heard = overhear(&self.robots[robot].identifiers, octets).ok()?;
+        let texts: Vec<_> = heard.inputs.iter().map(text_of).collect();
+        let message = Message {
+            direction,
+            kind: heard.service.name(),
+            from: heard.from,
+            text: texts.join("; "),
+            why,
+            octets: crossguard_endpoint::station::message_of(octets).to_vec(),
+        };
+        Some((heard, message))
+    }
+
+    fn count(&mut self, robot: usize, cause: String) -> Fact {
+        let count = self.robots[robot]
+            .counters
+            .entry(cause.clone())
+            .or_default();
+        *count += 1;
+        let count = *count;
+        Fact::Counted { cause, count }
+    }
+
+    /// The notes that the sequence chart has.
+    fn notes(&mut self, record: &Record) -> Vec<Fact> {
+        let is_drop = matches!(record.entry, Entry::Dropped { .. });
+        let notes = self.chart.marks(record).into_iter();
+        let note = |mark| match mark {
+            Mark::Note { text, .. } => Some(Fact::Note {
+                is_warning: is_drop,
+                text,
+            }),
+            Mark::Arrow { .. } => None,
+        };
+        notes.filter_map(note).collect()
+    }
+}

@@ -1,0 +1,30 @@
+//! What judges robots, and what is drawn of them.
+//!
+//! ```
+//! use crossguard_judge::sim::Fuzz;
+//!
+//! // Three streets of up to four robots, with whatever goes wrong on them.
+//! let streets = Fuzz { first: 1, seeds: 3, robots: 4, faults: None, threads: 1, failures_max: 1 };
+//! let totals = streets.run(&|_| true);
+//! assert_eq!((totals.seeds, totals.violations), (3, 0));
+//! ```
+//!
+//! - [`sim`] runs many robots in virtual time under seeded faults, and judges every step by the properties of
+//!   the model checker.
+//! - [`validate`] says whether logs of one or several robots are of something that could have happened.
+//! - [`drive`] drives endpoints along a run of the model checker, and compares the two.
+//! - [`facts`] works out of logs where robots are and what they do; [`mcap_file`] writes that for Foxglove,
+//!   [`report`] for people; [`chart`] and [`sequence`] are sequence charts, [`timing`] the table of times.
+//! - [`readable`] has messages and packets as JSON; [`sniffer`] says what is in packets.
+
+pub mod chart;
+pub mod drive;
+pub mod facts;
+pub mod mcap_file;
+pub mod readable;
+pub mod report;
+pub mod sequence;
+pub mod sim;
+pub mod sniffer;
+pub mod timing;
+pub mod validate;

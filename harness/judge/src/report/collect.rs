@@ -1,0 +1,274 @@
+//! What the page shows of a run, gathered record by record. All of it is bounded.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use crossguard_model_check::sequence::{ChartStep, Place};
+use crossguard_protocol::StationId;
+use crossguard_robot::trace::{LogError, Merged, Record};
+
+use crate::facts::{Area, Direction, Fact, Observer, Placed, View};
+use crate::sequence::Sequence;
+use crate::timing::Timing;
+
+/// How many states of a robot are kept, how many points of its way, and how many steps of the sequence
+/// chart at its beginning and at its end.
+const STATES: usize = 1_000;
+const POINTS: usize = 2_000;
+const STEPS: usize = 250;
+
+/// A run.
+pub(super) struct Run {
+    pub(super) robots: Vec<RobotRun>,
+    /// The first and the last record, in µs since 1970.
+    pub(super) from_us: u64,
+    pub(super) to_us: u64,
+    pub(super) timing: Timing,
+    pub(super) sequence: Sequence,
+    pub(super) steps: Vec<ChartStep>,
+    /// Where followers were commanded to, all in all.
+    pub(super) areas: Vec<Area>,
+}
+
+/// What there is of a robot.
+#[derive(Default)]
+pub(super) struct RobotRun {
+    pub(super) name: String,
+    pub(super) stations: Vec<StationId>,
+    pub(super) boots: Vec<u16>,
+    pub(super) records: u64,
+    pub(super) steps: u64,
+    pub(super) sent: u64,
+    pub(super) heard: u64,
+    pub(super) lost: u64,
+    pub(super) states: Vec<Span<View>>,
+    /// How many were left out.
+    pub(super) states_more: u64,
+    /// When its corridor was open, and why it was closed.
+    pub(super) corridor: Vec<Span<String>>,
+    pub(super) way: Vec<(f64, f64)>,
+    pub(super) counters: BTreeMap<String, u64>,
+    /// Those of the boots before.
+    counters_before: BTreeMap<String, u64>,
+    pub(super) has_stopped: bool,
+    last_us: u64,
+    /// Whether it has booted, and nothing is known of it since.
+    is_fresh: bool,
+    /// How many of its places are left out between two that are kept.
+    stride: usize,
+    places: usize,
+}
+
+/// Something that lasts.
+pub(super) struct Span<T> {
+    pub(super) from_us: u64,
+    /// While it lasts: the newest record.
+    pub(super) to_us: u64,
+    pub(super) what: T,
+}
+
+impl Run {
+    /// What `logs` tell.
+    pub(super) fn of(mut logs: Merged) -> Result<Self, LogError> {
+        let mut run = Self {
+            robots: Vec::new(),
+            from_us: u64::MAX,
+            to_us: 0,
+            timing: Timing::default(),
+            sequence: Sequence::of_whoever_comes(),
+            steps: Vec::new(),
+            areas: Vec::new(),
+        };
+        let mut observer = Observer::default();
+        let mut tail = VecDeque::new();
+        let mut left_out = 0_u64;
+        while let Some((at_us, record)) = logs.take()? {
+            run.from_us = run.from_us.min(at_us);
+            run.to_us = run.to_us.max(at_us);
+            run.timing.record(&record);
+            run.robot(&record).records += 1;
+            for fact in observer.take(&record) {
+                run.take(at_us, &record.robot, fact);
+            }
+            run.robot(&record).last_us = at_us;
+            for step in run.sequence.steps(&record) {
+                if run.steps.len() < STEPS {
+                    run.steps.push(step);
+                } else {
+                    tail.push_back(step);
+                }
+            }
+            while tail.len() > STEPS {
+                tail.pop_front();
+                left_out += 1;
+            }
+        }
+        if left_out > 0 {
+            run.steps.push(ChartStep {
+                place: Place::At(0),
+                action: format!("… {left_out} steps are left out here …"),
+                outputs: Vec::new(),
+            });
+        }
+        run.steps.extend(tail);
+        for robot in &mut run.robots {
+            robot.end();
+        }
+        Ok(run)
+    }
+
+    fn robot(&mut self, record: &Record) -> &mut RobotRun {
+        let known = self.robots.iter().position(|it| it.name == record.robot);
+        let place = known.unwrap_or_else(|| {
+            self.robots.push(RobotRun {
+                name: record.robot.clone(),
+                stride: 1,
+                ..RobotRun::default()
+            });
+            self.robots.len() - 1
+        });
+        &mut self.robots[place]
+    }
+
+    fn take(&mut self, at_us: u64, robot: &str, fact: Fact) {
+        if let Fact::Areas(areas) = fact {
+            for area in areas {
+                let is_known =
+                    |it: &Area| (it.task, it.to, it.from) == (area.task, area.to, area.from);
+                if !self.areas.iter().any(is_known) && self.areas.len() < POINTS {
+                    self.areas.push(area);
+                }
+            }
+            return;
+        }
+        if let Some(robot) = self.robots.iter_mut().find(|it| it.name == robot) {
+            robot.take(at_us, fact);
+        }
+    }
+
+    /// The name of a station: that of its robot, if there is one.
+    pub(super) fn name_of(&self, station: StationId) -> String {
+        let robot = self.robots.iter().find(|it| it.stations.contains(&station));
+        robot.map_or_else(|| format!("station {station}"), |robot| robot.name.clone())
+    }
+}
+
+impl RobotRun {
+    fn take(&mut self, at_us: u64, fact: Fact) {
+        match fact {
+            Fact::Started { station, boot } => {
+                self.end();
+                self.has_stopped = false;
+                self.is_fresh = true;
+                self.boots.push(boot);
+                self.is(station);
+            }
+            Fact::State(view) => {
+                self.is(view.station);
+                self.state(at_us, view);
+            }
+            Fact::Place(placed) => self.place(&placed),
+            Fact::Step { .. } => self.steps += 1,
+            Fact::Message(message) => match message.direction {
+                Direction::Sent => self.sent += 1,
+                Direction::Heard => self.heard += 1,
+                Direction::Lost => self.lost += 1,
+            },
+            Fact::Corridor {
+                is_open,
+                since_us,
+                why,
+            } => self.corridor(since_us, is_open, why),
+            Fact::Counted { cause, count } => {
+                let before = self.counters_before.get(&cause).copied().unwrap_or(0);
+                self.counters.insert(cause, before + count);
+            }
+            Fact::Stopped => self.has_stopped = true,
+            Fact::Note { .. } | Fact::Areas(_) => {}
+        }
+    }
+
+    fn is(&mut self, station: StationId) {
+        if !self.stations.contains(&station) {
+            self.stations.push(station);
+        }
+    }
+
+    fn state(&mut self, at_us: u64, view: View) {
+        let is_fresh = std::mem::replace(&mut self.is_fresh, false);
+        if !is_fresh {
+            self.close_state(at_us);
+        }
+        // What does not show in the picture does not end a span.
+        let looks = |view: &View| (view.state, view.role, view.session, view.executes);
+        let count = self.states.len();
+        match self.states.last_mut() {
+            Some(last) if !is_fresh && looks(&last.what) == looks(&view) => {
+                last.what = view;
+                return;
+            }
+            _ if count >= STATES => {
+                self.states_more += 1;
+                return;
+            }
+            _ => {}
+        }
+        self.states.push(Span {
+            from_us: at_us,
+            to_us: at_us,
+            what: view,
+        });
+    }
+
+    fn close_state(&mut self, at_us: u64) {
+        if let Some(last) = self.states.last_mut()
+            && self.states_more == 0
+        {
+            last.to_us = at_us;
+        }
+    }
+
+    fn corridor(&mut self, at_us: u64, is_open: bool, why: String) {
+        if is_open {
+            self.corridor.push(Span {
+                from_us: at_us,
+                to_us: u64::MAX,
+                what: String::new(),
+            });
+        } else if let Some(last) = self.corridor.last_mut() {
+            last.to_us = at_us;
+            last.what = if why.is_empty() {
+                "robot lost power".to_owned()
+            } else {
+                why
+            };
+        }
+    }
+
+    /// Keeps a place; every second one is let go of when there are too many.
+    fn place(&mut self, placed: &Placed) {
+        self.places += 1;
+        let place = (placed.latitude, placed.longitude);
+        if !self.places.is_multiple_of(self.stride) || self.way.last() == Some(&place) {
+            return;
+        }
+        self.way.push(place);
+        if self.way.len() >= POINTS {
+            let mut keep = false;
+            self.way.retain(|_| {
+                keep = !keep;
+                keep
+            });
+            self.stride *= 2;
+        }
+    }
+
+    /// Nothing more is known of this boot.
+    fn end(&mut self) {
+        let last_us = self.last_us;
+        self.close_state(last_us);
+        if let Some(last) = self.corridor.last_mut() {
+            last.to_us = last.to_us.min(last_us);
+        }
+        self.counters_before.clone_from(&self.counters);
+    }
+}

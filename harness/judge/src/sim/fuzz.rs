@@ -1,0 +1,178 @@
+//! Many runs, one for each seed, and what they amount to.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use crossguard_model_check::node::{Protocol, Rules};
+use crossguard_robot::transport::Faults;
+use serde::Serialize;
+
+use super::swarm::{Hazard, Swarm};
+use super::times::Worst;
+use super::world::{Finding, Outcome, run_with};
+
+/// What is to be run.
+#[derive(Clone, Copy, Debug)]
+pub struct Fuzz<'a> {
+    /// The first seed.
+    pub first: u64,
+    /// How many seeds.
+    pub seeds: u64,
+    /// How many robots at most.
+    pub robots: usize,
+    /// The faults of every way, in place of those that are drawn.
+    pub faults: Option<&'a Faults>,
+    /// How many threads work.
+    pub threads: usize,
+    /// After how many failures it is enough.
+    pub failures_max: usize,
+}
+
+/// A seed whose run was wrong.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Failure {
+    /// The seed.
+    pub seed: u64,
+    /// What was wrong.
+    #[serde(flatten)]
+    pub finding: Finding,
+}
+
+/// What the runs amount to.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Totals {
+    /// How many seeds were run.
+    pub seeds: u64,
+    /// How many of them showed something wrong.
+    pub violations: u64,
+    /// Which, in order.
+    pub failures: Vec<Failure>,
+    /// How many robots there were in all.
+    pub robots: u64,
+    /// How many steps of the transition function.
+    pub steps: u64,
+    /// How many packets were sent.
+    pub packets: u64,
+    /// How long the runs were together, in seconds of virtual time.
+    pub virtual_s: u64,
+    /// In how many runs the premise of each property was met, or a time of it measured.
+    pub premises: BTreeMap<PropertyName, u64>,
+    /// How many runs had each hazard.
+    pub hazards: BTreeMap<Hazard, u64>,
+    /// In how many runs each of these was not judged, because the faults of the run leave it open.
+    pub left_out: BTreeMap<&'static str, u64>,
+    /// The longest times in any run.
+    pub worst: Worst,
+}
+
+/// A property's id as a key.
+type PropertyName = String;
+
+impl Totals {
+    fn add(&mut self, seed: u64, outcome: &Outcome) {
+        self.seeds += 1;
+        self.robots += outcome.robots as u64;
+        self.steps += outcome.steps;
+        self.packets += outcome.packets;
+        self.virtual_s += outcome.virtual_ms / 1_000;
+        self.worst.add(outcome.worst);
+        for id in &outcome.premises {
+            *self.premises.entry(id.clone()).or_default() += 1;
+        }
+        for hazard in &outcome.hazards {
+            *self.hazards.entry(*hazard).or_default() += 1;
+        }
+        for name in &outcome.left_out {
+            *self.left_out.entry(name).or_default() += 1;
+        }
+        if let Some(finding) = &outcome.finding {
+            let finding = finding.clone();
+            self.violations += 1;
+            self.failures.push(Failure { seed, finding });
+            self.failures.sort_by_key(|failure| failure.seed);
+        }
+    }
+}
+
+impl Fuzz<'_> {
+    /// The swarm of a seed.
+    #[must_use]
+    pub fn swarm(&self, seed: u64) -> Swarm {
+        Swarm::draw(seed, self.robots, self.faults)
+    }
+
+    /// The command that runs one seed alone.
+    #[must_use]
+    pub fn reproduce(&self, seed: u64) -> String {
+        let robots = self.robots;
+        let faults = self.faults.map(|faults| format!(" --faults '{faults}'"));
+        let faults = faults.unwrap_or_default();
+        format!("crossguard fuzz --seeds 1 --robots {robots} --seed {seed}{faults}")
+    }
+
+    /// Runs all seeds. `progress` is told what they amount to so far; when it says `false`, what runs
+    /// is ended and the rest is left out.
+    pub fn run(&self, progress: &(dyn Fn(&Totals) -> bool + Sync)) -> Totals {
+        self.run_with(&Protocol, progress)
+    }
+
+    /// [`run`](Self::run) with another transition function in place of the kit's.
+    pub fn run_with(
+        &self,
+        rules: &'static dyn Rules,
+        progress: &(dyn Fn(&Totals) -> bool + Sync),
+    ) -> Totals {
+        let next = AtomicU64::new(0);
+        let enough = AtomicBool::new(false);
+        let totals = Mutex::new(Totals::default());
+        let work = || {
+            while !enough.load(Ordering::Relaxed) {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                if number >= self.seeds {
+                    return;
+                }
+                let seed = self.first.wrapping_add(number);
+                let outcome = self.one(seed, rules);
+                let mut totals = totals
+                    .lock()
+                    .unwrap_or_else(std::sync::PoisonError::into_inner);
+                totals.add(seed, &outcome);
+                if !progress(&totals) || totals.failures.len() >= self.failures_max {
+                    enough.store(true, Ordering::Relaxed);
+                }
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..self.threads.max(1) {
+                scope.spawn(work);
+            }
+        });
+        totals
+            .into_inner()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    /// One run; a panic in it is a finding as well.
+    fn one(&self, seed: u64, rules: &'static dyn Rules) -> Outcome {
+        let swarm = self.swarm(seed);
+        let outcome = catch_unwind(AssertUnwindSafe(|| run_with(&swarm, rules, None)));
+        outcome.unwrap_or_else(|_| Outcome {
+            finding: Some(Finding {
+                property: "panic".to_owned(),
+                statement: "nothing panics; what did is on standard error".to_owned(),
+                at_ms: 0,
+                robot: String::new(),
+            }),
+            virtual_ms: 0,
+            robots: swarm.robots.len(),
+            steps: 0,
+            packets: 0,
+            premises: std::collections::BTreeSet::new(),
+            hazards: swarm.hazards().collect(),
+            left_out: Vec::new(),
+            worst: Worst::default(),
+        })
+    }
+}

@@ -1,0 +1,162 @@
+//! What is written of a run that went wrong: its log, its packets, and what people look at.
+
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crossguard_model_check::node::{Protocol, Rules};
+use crossguard_model_check::sequence::ChartStep;
+use crossguard_robot::capture::Capture;
+use crossguard_robot::trace::{self, Log, Merged, Record};
+
+use super::fuzz::{Failure, Fuzz};
+use super::swarm::Swarm;
+use super::world::{Watch, run_with};
+use crate::report::Report;
+use crate::sequence::Sequence;
+use crate::validate;
+
+/// How many steps of the sequence chart are kept: the last ones before what went wrong.
+const CHART_STEPS: usize = 250;
+
+/// What was written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Files {
+    /// The log, one JSON object per line.
+    pub log: PathBuf,
+    /// The packets, for Wireshark.
+    pub pcap: PathBuf,
+    /// The sequence chart as text.
+    pub text: PathBuf,
+    /// The sequence chart as a picture.
+    pub svg: PathBuf,
+    /// The report.
+    pub html: PathBuf,
+}
+
+impl Files {
+    fn of(folder: &Path, seed: u64) -> Self {
+        let path = |kind: &str| folder.join(format!("seed-{seed}.{kind}"));
+        Self {
+            log: path("jsonl"),
+            pcap: path("pcap"),
+            text: path("txt"),
+            svg: path("svg"),
+            html: path("html"),
+        }
+    }
+}
+
+/// Runs a failed seed once more and writes what it did into `folder`.
+///
+/// # Errors
+/// Those of the files.
+pub fn write_failure(folder: &Path, fuzz: &Fuzz, failure: &Failure) -> std::io::Result<Files> {
+    write_failure_with(folder, fuzz, failure, &Protocol)
+}
+
+/// [`write_failure`] of a run with another transition function in place of the kit's.
+///
+/// # Errors
+/// Those of the files.
+pub fn write_failure_with(
+    folder: &Path,
+    fuzz: &Fuzz,
+    failure: &Failure,
+    rules: &'static dyn Rules,
+) -> std::io::Result<Files> {
+    std::fs::create_dir_all(folder)?;
+    let files = Files::of(folder, failure.seed);
+    let swarm = fuzz.swarm(failure.seed);
+    let mut recorder = Recorder::new(&files, &swarm)?;
+    // What panicked before does so again; what it did up to there is what is wanted.
+    let _ = catch_unwind(AssertUnwindSafe(|| {
+        run_with(&swarm, rules, Some(&mut recorder))
+    }));
+    let finding = &failure.finding;
+    let title = format!(
+        "{}: {} ({} at {:.3} s)",
+        finding.property,
+        finding.statement,
+        finding.robot,
+        Duration::from_millis(finding.at_ms).as_secs_f64()
+    );
+    let again = fuzz.reproduce(failure.seed);
+    recorder.finish(&files, &title, &again)?;
+    write_report(&files, failure.seed, &title, &again)?;
+    Ok(files)
+}
+
+/// Takes down what happens.
+struct Recorder {
+    log: BufWriter<File>,
+    pcap: Capture,
+    sequence: Sequence,
+    steps: VecDeque<ChartStep>,
+    written: std::io::Result<()>,
+}
+
+impl Recorder {
+    fn new(files: &Files, swarm: &Swarm) -> std::io::Result<Self> {
+        let robots = swarm.robots.iter();
+        let robots: Vec<_> = robots.map(|it| (it.name.as_str(), it.station)).collect();
+        Ok(Self {
+            log: BufWriter::new(File::create(&files.log)?),
+            pcap: Capture::create(&files.pcap).map_err(std::io::Error::other)?,
+            sequence: Sequence::new(&robots),
+            steps: VecDeque::new(),
+            written: Ok(()),
+        })
+    }
+
+    fn finish(mut self, files: &Files, title: &str, again: &str) -> std::io::Result<()> {
+        self.written?;
+        self.log.flush()?;
+        self.pcap.finish().map_err(std::io::Error::other)?;
+        let steps: Vec<_> = self.steps.into();
+        self.sequence.draw(title, &steps, |chart| {
+            let text = format!("{title}\n{again}\n\n{}", chart.text());
+            std::fs::write(&files.text, text)?;
+            std::fs::write(&files.svg, chart.svg())
+        })
+    }
+}
+
+impl Watch for Recorder {
+    fn record(&mut self, record: Record) {
+        if self.written.is_ok() {
+            self.written = trace::write(&mut self.log, &record);
+        }
+        self.steps.extend(self.sequence.steps(&record));
+        let surplus = self.steps.len().saturating_sub(CHART_STEPS);
+        self.steps.drain(..surplus);
+    }
+
+    fn packet(&mut self, at: Duration, packet: &[u8]) {
+        self.pcap.record_at(at, packet);
+    }
+}
+
+fn write_report(files: &Files, seed: u64, title: &str, again: &str) -> std::io::Result<()> {
+    let name = files.log.display().to_string();
+    let open = || -> std::io::Result<Vec<Log<'static>>> {
+        Ok(vec![Log {
+            name: name.clone(),
+            lines: Box::new(BufReader::new(File::open(&files.log)?)),
+        }])
+    };
+    let result = validate::all(open()?);
+    let report = Report {
+        title: &format!("Simulated street, seed {seed}"),
+        logs: std::slice::from_ref(&name),
+        verdict: result.as_ref(),
+        finding: Some(title),
+        time_scale: 1.0,
+        reproduce: Some(again),
+    };
+    let page = Merged::new(open()?).and_then(|logs| report.page(logs));
+    std::fs::write(&files.html, page.map_err(std::io::Error::other)?)
+}

@@ -1,0 +1,21 @@
+//! A robot whose transition function may be another one than the kit's: to show what a rule is good for.
+
+use crossguard_model_check::node::Rules;
+use crossguard_protocol::{Config, Input, Outputs, Robot, StateMachine};
+
+/// A robot under rules.
+#[derive(Debug)]
+pub(super) struct Ruled {
+    pub(super) robot: Robot,
+    pub(super) rules: &'static dyn Rules,
+}
+
+impl StateMachine for Ruled {
+    fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    fn step(&mut self, config: &Config, input: Input) -> Outputs {
+        self.rules.step(&mut self.robot, config, input)
+    }
+}

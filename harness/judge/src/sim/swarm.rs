@@ -1,0 +1,200 @@
+//! What is drawn for each seed.
+//!
+//! Every seed has some of the faults and not others, each in a strength of its own: a run with few
+//! faults goes far into a session, one with many goes astray in every way. A run that has a little of
+//! everything would do neither.
+
+mod draws;
+mod hazards;
+
+use crossguard_model_check::timed::longest;
+use crossguard_protocol::{Config, Millis, Settings, StationId};
+use crossguard_robot::body::Build;
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::Place;
+use crossguard_robot::transport::Faults;
+
+use self::draws::Draws;
+pub use self::hazards::Hazard;
+use super::script::Happening;
+
+/// By how much a station id grows when the robot changes its pseudonym.
+pub(super) const PSEUDONYM_STEP: u32 = 100;
+
+pub(super) const SECOND_US: u64 = 1_000_000;
+
+/// How long a message takes at most once the network is healed, in milliseconds.
+pub(super) const HEALED_DELAY_MS: u32 = 50;
+
+/// All that a run is made of.
+#[derive(Clone, Debug, Default)]
+pub struct Swarm {
+    /// The seed that it was drawn from.
+    pub seed: u64,
+    /// The robots, by place.
+    pub robots: Vec<RobotDraw>,
+    /// The faults of each way, `from * robots + to`.
+    pub ways: Vec<Faults>,
+    /// What happens, in order of time.
+    pub script: Vec<Happening>,
+    /// When the network is healed, in microseconds.
+    pub heals_us: u64,
+    /// By how much endpoints are late to be told of time at most, in microseconds, until the network is healed.
+    pub late_max_us: u64,
+    /// How probable it is that something happens to the team of a sign that begins to show *go*.
+    pub strikes: f64,
+    /// Which packets are sent once more, by somebody who has recorded them.
+    pub replays: Vec<Replay>,
+    /// Whether robots sign what they send, and take in nothing without a signature.
+    pub is_secured: bool,
+    /// The corner at which somebody waits once the network is healed, where a team can exist.
+    pub waits_at: Option<usize>,
+}
+
+/// What is drawn for one robot.
+#[derive(Clone, Debug)]
+pub struct RobotDraw {
+    /// Its name in logs.
+    pub name: String,
+    /// Its first station id.
+    pub station: StationId,
+    /// Its boot counter at its first boot.
+    pub boot: u16,
+    /// Its configuration.
+    pub config: Config,
+    /// What it does when it leads.
+    pub plan: Plan,
+    /// The corner at which it notices people, by number. The same crossing has the same number, whatever its
+    /// reference says.
+    pub corner: usize,
+    /// Its body.
+    pub build: Build,
+    /// Where it begins.
+    pub place: Place,
+    /// How many times as fast as real it moves.
+    pub time_scale: f64,
+    /// By how much its clock is off, in parts per million.
+    pub drift_ppm: i64,
+}
+
+/// Packets that are sent once more, to everybody.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Replay {
+    /// When, in microseconds since the run began.
+    pub at_us: u64,
+    /// Where it begins among the packets so far: 0 is the oldest, 1 the newest.
+    pub begins: f64,
+    /// How many packets.
+    pub packets: usize,
+    /// The time from one to the next, in microseconds.
+    pub every_us: u64,
+}
+
+impl Swarm {
+    /// The timers that runs are drawn with: those in use, and shorter ones, so that more happens.
+    #[must_use]
+    pub fn timers() -> [Settings; 2] {
+        let short = Settings {
+            t_safety: Millis(1_000),
+            t_lease: Millis(900),
+            t_leave: Millis(1_500),
+            t_ack: Millis(250),
+            t_offer: Millis(1_500),
+            t_help: Millis(4_000),
+            ..Settings::default()
+        };
+        [Settings::default(), short]
+    }
+
+    /// Draws a run of 2 to `robots` robots. With `faults`, every way has these instead of its own.
+    #[must_use]
+    pub fn draw(seed: u64, robots: usize, faults: Option<&Faults>) -> Self {
+        Draws::new(seed).swarm(seed, robots, faults)
+    }
+
+    /// The longest time that a message is under way, in milliseconds.
+    pub(super) fn delay_max(&self) -> Millis {
+        let delays = self.ways.iter().map(Faults::delay_max_ms);
+        Millis(delays.max().unwrap_or(0))
+    }
+
+    /// Whether endpoints are told of time within `delay_max`. A millisecond is lost to clocks that are read to
+    /// the millisecond.
+    pub(super) fn is_in_time(&self) -> bool {
+        let in_time = |robot: &RobotDraw| {
+            let delay_max = u64::from(robot.config.settings().delay_max.0);
+            self.late_max_us <= (delay_max * 1_000).saturating_sub(1_000)
+        };
+        self.robots.iter().all(in_time)
+    }
+
+    /// The robots that may notice somebody at a corner and can have a team: helpers enough, each of
+    /// which can do all that the plan asks for and has timers that fit.
+    pub(super) fn who_can_lead(&self, corner: usize) -> Vec<usize> {
+        let robots = self.robots.iter().enumerate();
+        let can = robots.filter(|(place, robot)| robot.corner == corner && self.can_lead(*place));
+        can.map(|(place, _)| place).collect()
+    }
+
+    fn can_lead(&self, place: usize) -> bool {
+        let leader = &self.robots[place];
+        let tasks = leader.plan.request().tasks;
+        let helps = |(other, helper): &(usize, &RobotDraw)| {
+            let settings = helper.config.settings();
+            *other != place
+                && settings.capabilities.intersection(tasks) == tasks
+                && leader.config.lease_fits(settings.t_safety)
+        };
+        let helpers = self.robots.iter().enumerate().filter(helps).count();
+        helpers >= usize::from(leader.plan.followers)
+            && leader.plan.lets_cross(leader.config.settings().guarding)
+    }
+
+    /// How long after healing a crossing is completed (W7): what went on before has ended, with people on the
+    /// road and duties of their guards, and so has one try that failed because of it.
+    pub(super) fn crossing_bound(&self) -> Millis {
+        let bound = |robot: &RobotDraw| {
+            let settings = robot.config.settings();
+            let parts = [
+                settings.t_help,
+                settings.t_cross,
+                settings.t_safety,
+                settings.t_leave,
+                settings.t_farewell,
+            ];
+            let patience = Millis(draws::PATIENCE_MS);
+            let one = parts.into_iter().fold(patience, Millis::saturating_add);
+            longest(one.saturating_add(one), settings)
+        };
+        self.robots.iter().map(bound).max().unwrap_or(Millis::ZERO)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::Deed;
+
+    #[test]
+    fn a_seed_draws_the_same_run_every_time_and_another_one_another() {
+        let draw = |seed| format!("{:?}", Swarm::draw(seed, 6, None));
+        assert_eq!(draw(7), draw(7));
+        assert_ne!(draw(7), draw(8));
+    }
+
+    #[test]
+    fn all_sizes_and_faults_are_drawn_at_some_time() {
+        let swarms: Vec<_> = (0..200).map(|seed| Swarm::draw(seed, 6, None)).collect();
+        for robots in 2..=6 {
+            assert!(swarms.iter().any(|swarm| swarm.robots.len() == robots));
+        }
+        let some = |has: fn(&Faults) -> bool| swarms.iter().any(|s| s.ways.iter().any(has));
+        assert!(some(|faults| faults.loss > 0.3));
+        assert!(some(|faults| faults.burst.is_some_and(|b| b.loss > 0.35)));
+        assert!(some(|faults| faults.duplication > 0.2));
+        assert!(some(|faults| faults.reordering > 0.2));
+        assert!(some(|faults| !faults.outages.is_empty()));
+        let crashes = |swarm: &&Swarm| swarm.script.iter().any(|h| h.deed == Deed::Crash);
+        assert!(swarms.iter().any(|swarm| crashes(&swarm)));
+    }
+}

@@ -1,0 +1,565 @@
+//! One run: robots, the radio between them, and time.
+
+mod deeds;
+mod people;
+mod radio;
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::rc::Rc;
+use std::time::Duration;
+
+use crossguard_codec::si::timestamp_its;
+use crossguard_endpoint::wire::MessageKind;
+use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
+use crossguard_model_check::monitor::{Broken, Monitor};
+use crossguard_model_check::node::{Protocol, Rules};
+use crossguard_model_check::timed::Limits;
+use crossguard_protocol::{Event, Phase, Robot, StationId};
+use crossguard_robot::machine::Machine;
+use crossguard_robot::sign::Sign;
+use crossguard_robot::trace::{Entry, Reception, Record, recorded};
+use crossguard_robot::transport::Channel;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
+
+use self::people::{Corner, OnRoad, Progress};
+use self::radio::Arrival;
+use super::clock::Drifting;
+use super::road::{Late, Post, Road, Sight};
+use super::ruled::Ruled;
+use super::swarm::{HEALED_DELAY_MS, Hazard, RobotDraw, Swarm};
+use super::times::{Judged, Measure, Times, Worst};
+
+/// When runs begin, in milliseconds since 1970: 2026-01-01. Any moment does.
+pub(super) const EPOCH_UNIX_MS: i64 = 1_767_225_600_000;
+
+/// How long after the network was healed, and a crossing was to be completed, all robots are at rest at the
+/// latest: a leader gives up after its patience of 40 s, and what it has set off takes as long again.
+const REST_US: u64 = 120_000_000;
+
+/// How long all robots must have been at rest for a run to be over, in microseconds. Messages that
+/// were still under way may set something off.
+const QUIET_US: u64 = 1_000_000;
+
+/// What a run has shown to be wrong.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Finding {
+    /// Id of the property.
+    pub property: String,
+    /// What it says.
+    pub statement: String,
+    /// When it was broken, in milliseconds since the run began.
+    pub at_ms: u64,
+    /// The robot whose step broke it.
+    pub robot: String,
+}
+
+/// What came of a run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Outcome {
+    /// What was wrong, if anything was. The run ended there.
+    pub finding: Option<Finding>,
+    /// How long the run was, in milliseconds of virtual time.
+    pub virtual_ms: u64,
+    /// How many robots there were.
+    pub robots: usize,
+    /// How many steps of the transition function there were.
+    pub steps: u64,
+    /// How many packets were sent.
+    pub packets: u64,
+    /// The properties whose premise was met, or of which a time was measured.
+    pub premises: BTreeSet<String>,
+    /// What made the run hard.
+    pub hazards: Vec<Hazard>,
+    /// What was not judged, because the run's own faults leave it open.
+    pub left_out: Vec<&'static str>,
+    /// The longest times.
+    pub worst: Worst,
+}
+
+/// Who sees what happens in a run.
+pub trait Watch {
+    /// A robot did something.
+    fn record(&mut self, record: Record);
+
+    /// A packet is on the air, at this time since 1970.
+    fn packet(&mut self, _at: Duration, _packet: &[u8]) {}
+}
+
+impl<F: FnMut(Record)> Watch for F {
+    fn record(&mut self, record: Record) {
+        self(record);
+    }
+}
+
+/// Runs a swarm to its end or to the first thing that is wrong. `watch`, if there is one, sees it.
+#[must_use]
+pub fn run<'a>(swarm: &'a Swarm, watch: Option<&'a mut dyn Watch>) -> Outcome {
+    run_with(swarm, &Protocol, watch)
+}
+
+/// [`run`] with another transition function in place of the kit's.
+pub fn run_with<'a>(
+    swarm: &'a Swarm,
+    rules: &'static dyn Rules,
+    watch: Option<&'a mut dyn Watch>,
+) -> Outcome {
+    let mut world = World::new(swarm, rules, watch);
+    let finding = world.go_on().err();
+    let mut worst = world.times.worst();
+    worst.add(world.road.worst());
+    let met = world.monitor.premises_met().map(|id| id.to_string());
+    let measured = Measure::ALL.into_iter();
+    let measured = measured.filter(|measure| worst.of(*measure).is_some());
+    let mut premises: BTreeSet<_> = met.collect();
+    premises.extend(measured.map(|measure| measure.property().to_owned()));
+    Outcome {
+        finding,
+        virtual_ms: world.now_us / 1_000,
+        robots: swarm.robots.len(),
+        steps: world.steps,
+        packets: world.packets,
+        premises,
+        hazards: swarm.hazards().collect(),
+        left_out: left_out(swarm),
+        worst,
+    }
+}
+
+/// What the faults of a run leave open, so that it is not judged.
+fn left_out(swarm: &Swarm) -> Vec<&'static str> {
+    let mut left_out = Vec::new();
+    if !swarm.is_in_time() {
+        left_out.extend(["I10", "I11 in ms", "L1 in ms", "W3 in ms", "W6", "W8"]);
+    }
+    if !swarm.is_in_time() || !swarm.replays.is_empty() {
+        left_out.push("L5 in ms");
+    }
+    if swarm.waits_at.is_none() {
+        left_out.push("W7");
+    }
+    left_out
+}
+
+/// What happens next somewhere.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Next {
+    /// Something of the script, by its place there.
+    Happens(usize),
+    /// The network is healed.
+    Heals,
+    /// A packet arrives.
+    Arrives(Arrival),
+    /// Recorded packets are sent once more, by the place in the swarm's list.
+    Replays(usize),
+    /// Somebody who waits at a corner looks at the signs.
+    Looks(usize),
+    /// Something happens to a robot whose team lets people cross.
+    Strikes(usize),
+    /// A robot that was struck boots again.
+    Boots(usize),
+    /// Robots notice who waits after the network was healed.
+    Notices,
+    /// A robot is told of time.
+    Wakes(usize),
+    /// A robot that hung goes on.
+    GoesOn(usize),
+}
+
+struct Seat<'a> {
+    draw: &'a RobotDraw,
+    /// The corner at which it is.
+    corner: usize,
+    clock: Drifting,
+    /// Its newest boot counter: what its boot file holds.
+    boot: u16,
+    machine: Option<Machine<Ruled>>,
+    /// What people see of it; that of a robot that is down ends by itself.
+    sign: Sign,
+    /// Whether it has asked for the next boot counter.
+    is_to_renew: bool,
+    /// How often it has changed its pseudonym.
+    changes: u32,
+    /// When it wakes up next.
+    wakes_us: Option<u64>,
+    /// Until when it hangs.
+    hangs_until_us: Option<u64>,
+    /// What has arrived meanwhile.
+    inbox: Vec<Arrival>,
+}
+
+struct World<'a> {
+    swarm: &'a Swarm,
+    rules: &'static dyn Rules,
+    watch: Option<&'a mut dyn Watch>,
+    now_us: u64,
+    seats: Vec<Seat<'a>>,
+    corners: Vec<Corner>,
+    people: Vec<OnRoad>,
+    progress: Option<Progress>,
+    road: Road,
+    /// The robots by the station ids that they have had.
+    names: BTreeMap<StationId, usize>,
+    ways: Vec<Channel>,
+    queue: BinaryHeap<Reverse<(u64, u64, Next)>>,
+    queued: u64,
+    draws: ChaCha8Rng,
+    monitor: Monitor,
+    times: Times,
+    /// Whether the packet that arrived last was understood as a RAM.
+    has_heard_ram: bool,
+    /// What was sent so far, with its sender, where it is to be sent once more.
+    aired: Vec<(usize, Rc<[u8]>)>,
+    is_healed: bool,
+    rests_since_us: Option<u64>,
+    steps: u64,
+    packets: u64,
+}
+
+impl<'a> World<'a> {
+    fn new(swarm: &'a Swarm, rules: &'static dyn Rules, watch: Option<&'a mut dyn Watch>) -> Self {
+        let mut draws = ChaCha8Rng::seed_from_u64(swarm.seed ^ 0x5741_4553);
+        let mut monitor = Monitor::new(swarm.is_in_time());
+        let seats = swarm.robots.iter().map(|draw| {
+            monitor.add(draw.station);
+            Seat {
+                draw,
+                corner: draw.corner,
+                clock: Drifting::new(draw.drift_ppm),
+                boot: draw.boot,
+                machine: None,
+                sign: Sign::default(),
+                is_to_renew: false,
+                changes: 0,
+                wakes_us: None,
+                hangs_until_us: None,
+                inbox: Vec::new(),
+            }
+        });
+        let seats: Vec<_> = seats.collect();
+        let ways = swarm.ways.iter();
+        let ways = ways.map(|faults| Channel::new(faults.clone(), draws.random()));
+        let limits = limits(swarm);
+        let mut world = Self {
+            ways: ways.collect(),
+            road: Road::new(posts(swarm, &limits), swarm.delay_max(), swarm.is_in_time()),
+            times: Times::new(limits, judged(swarm)),
+            corners: people::corners(swarm),
+            people: Vec::new(),
+            progress: None,
+            names: BTreeMap::new(),
+            has_heard_ram: false,
+            aired: Vec::new(),
+            swarm,
+            rules,
+            watch,
+            now_us: 0,
+            seats,
+            queue: BinaryHeap::new(),
+            queued: 0,
+            draws,
+            monitor,
+            is_healed: false,
+            rests_since_us: None,
+            steps: 0,
+            packets: 0,
+        };
+        for (i, happening) in swarm.script.iter().enumerate() {
+            world.at(happening.at_us, Next::Happens(i));
+        }
+        for (i, replay) in swarm.replays.iter().enumerate() {
+            world.at(replay.at_us, Next::Replays(i));
+        }
+        world.at(swarm.heals_us, Next::Heals);
+        world
+    }
+
+    fn at(&mut self, at_us: u64, next: Next) {
+        self.queued += 1;
+        self.queue.push(Reverse((at_us, self.queued, next)));
+    }
+
+    fn go_on(&mut self) -> Result<(), Finding> {
+        while let Some(Reverse((at_us, _, next))) = self.queue.pop() {
+            self.now_us = at_us;
+            if let Err(late) = self.road.pass(at_us) {
+                return Err(self.too_late(late));
+            }
+            self.get_across();
+            self.demand_progress()?;
+            if at_us > self.swarm.heals_us + self.crossing_us() + REST_US {
+                return Err(self.not_at_rest());
+            }
+            self.take(next)?;
+            if self.is_over() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, next: Next) -> Result<(), Finding> {
+        match next {
+            Next::Happens(i) => self.happen(self.swarm.script[i]),
+            Next::Heals => {
+                self.heal();
+                Ok(())
+            }
+            Next::Arrives(arrival) => self.arrive(arrival),
+            Next::Replays(i) => {
+                self.replay(self.swarm.replays[i]);
+                Ok(())
+            }
+            Next::Looks(corner) => self.look(corner),
+            Next::Strikes(place) => self.strike(place),
+            Next::Boots(place) => self.boot(place),
+            Next::Notices => self.notice_again(),
+            Next::Wakes(place) => {
+                let seat = &mut self.seats[place];
+                if seat.wakes_us != Some(self.now_us) {
+                    return Ok(());
+                }
+                seat.wakes_us = None;
+                if seat.hangs_until_us.is_some() {
+                    return Ok(());
+                }
+                self.handle(place, Stimulus::Time)
+            }
+            Next::GoesOn(place) => {
+                if self.seats[place].hangs_until_us != Some(self.now_us) {
+                    return Ok(());
+                }
+                self.go_on_after_hanging(place)
+            }
+        }
+    }
+
+    /// Whether the sign of a robot shows go.
+    fn shows_go(&self, place: usize) -> bool {
+        let seat = &self.seats[place];
+        seat.sign.shows_go(seat.clock.shows_us(self.now_us))
+    }
+
+    fn heal(&mut self) {
+        self.is_healed = true;
+        for way in &mut self.ways {
+            way.heal(HEALED_DELAY_MS);
+        }
+        self.begin_progress();
+    }
+
+    /// Whether all robots have been at rest for a while since the network was healed.
+    fn is_over(&mut self) -> bool {
+        let at_rest = |seat: &Seat| seat.machine.as_ref().is_none_or(Machine::is_at_rest);
+        let is_asked = self.progress.as_ref().is_some_and(|it| !it.is_done);
+        if !self.is_healed || is_asked || !self.seats.iter().all(at_rest) {
+            self.rests_since_us = None;
+            return false;
+        }
+        let since = *self.rests_since_us.get_or_insert(self.now_us);
+        self.now_us - since >= QUIET_US
+    }
+
+    fn not_at_rest(&self) -> Finding {
+        let busy = |seat: &&Seat| seat.machine.as_ref().is_some_and(|m| !m.is_at_rest());
+        let robot = self
+            .seats
+            .iter()
+            .find(busy)
+            .map(|seat| seat.draw.name.clone());
+        Finding {
+            property: "L4".to_owned(),
+            statement: "after the network is healed, all robots come to rest".to_owned(),
+            at_ms: self.now_us / 1_000,
+            robot: robot.unwrap_or_default(),
+        }
+    }
+
+    /// Hands something to a robot, and carries out what it wants; nothing if the robot is down.
+    fn handle(&mut self, place: usize, stimulus: Stimulus<'_>) -> Result<(), Finding> {
+        let seat = &mut self.seats[place];
+        let Some(machine) = &mut seat.machine else {
+            return Ok(());
+        };
+        let shows_us = seat.clock.shows_us(self.now_us);
+        // That of satellites, whatever the robot's own clock does.
+        let since_ms = i64::try_from(self.now_us / 1_000).unwrap_or(i64::MAX);
+        let moment = Moment {
+            now_ms: shows_us / 1_000,
+            timestamp_its: timestamp_its(EPOCH_UNIX_MS + since_ms),
+        };
+        #[expect(clippy::cast_precision_loss, reason = "runs take minutes")]
+        let now_s = shows_us as f64 / 1e6;
+        for effect in machine.handle(moment, now_s, stimulus) {
+            self.carry_out(place, effect)?;
+        }
+        let seat = &mut self.seats[place];
+        if std::mem::take(&mut seat.is_to_renew) {
+            seat.boot = seat.boot.saturating_add(1);
+            let renewed = Event::EpochRenewed(seat.boot);
+            return self.handle(place, Stimulus::Event(renewed));
+        }
+        let late = self
+            .times
+            .look(self.now_us, place, self.monitor.node(place));
+        self.plan_wakeup(place);
+        if let Some(measure) = late {
+            return Err(self.too_late((measure, place)));
+        }
+        self.see(place)
+    }
+
+    /// The road looks at a robot.
+    fn see(&mut self, place: usize) -> Result<(), Finding> {
+        let seat = &self.seats[place];
+        let robot = seat.machine.as_ref().map(|it| it.endpoint().robot());
+        let ends_us = seat.sign.ends_us(seat.clock.shows_us(self.now_us));
+        let sight = Sight {
+            go_ends_us: ends_us.map(|shown_us| seat.clock.true_us(shown_us)),
+            leads: robot
+                .filter(|robot| matches!(robot.phase(), Phase::Leading(_)))
+                .and_then(Robot::session),
+            guards: self.monitor.guards(place).map(|it| it.id.session),
+            is_awake: seat.machine.is_some() && seat.hangs_until_us.is_none(),
+        };
+        let showed_go = self.road.shows_go(place);
+        let seen = self.road.see(self.now_us, place, sight);
+        seen.map_err(|late| self.too_late(late))?;
+        if !showed_go && self.road.shows_go(place) {
+            self.plan_strike(place);
+        }
+        Ok(())
+    }
+
+    fn too_late(&self, (measure, place): Late) -> Finding {
+        Finding {
+            property: measure.property().to_owned(),
+            statement: measure.statement().to_owned(),
+            at_ms: self.now_us / 1_000,
+            robot: self.seats[place].draw.name.clone(),
+        }
+    }
+
+    fn finding(&self, broken: Broken, place: usize) -> Finding {
+        Finding {
+            property: broken.name(),
+            statement: broken.statement().to_owned(),
+            at_ms: self.now_us / 1_000,
+            robot: self.seats[place].draw.name.clone(),
+        }
+    }
+
+    fn carry_out(&mut self, place: usize, effect: Effect) -> Result<(), Finding> {
+        match &effect {
+            Effect::Stepped {
+                input,
+                outputs,
+                state,
+            } => {
+                self.steps += 1;
+                self.names.insert(state.station(), place);
+                if let Some(broken) = self.monitor.step(place, *input, outputs, state) {
+                    let finding = self.finding(broken, place);
+                    self.log(place, effect);
+                    return Err(finding);
+                }
+                let told = self.tell_road(place, *input, outputs);
+                told.map_err(|late| self.too_late(late))?;
+            }
+            Effect::Transmit { kind, packet, .. } => {
+                let packet = Rc::from(packet.as_slice());
+                self.transmit(place, &packet, *kind == MessageKind::Ram);
+            }
+            Effect::Heard { kind, .. } => self.has_heard_ram |= *kind == MessageKind::Ram,
+            Effect::Act(Act::RenewEpoch) => self.seats[place].is_to_renew = true,
+            _ => {}
+        }
+        self.log(place, effect);
+        Ok(())
+    }
+
+    fn log(&mut self, place: usize, effect: Effect) {
+        if self.watch.is_none() {
+            return;
+        }
+        let Some(mut entry) = recorded(effect) else {
+            return;
+        };
+        if let Entry::Heard { reception, .. } = &mut entry {
+            // The log's clock shows the true time, the robot's does not.
+            let clock = self.seats[place].clock;
+            *reception = reception.map(|shown| Reception {
+                arrived_us: clock.true_us(shown.arrived_us),
+                told_us: clock.true_us(shown.told_us),
+            });
+        }
+        self.record(place, entry);
+    }
+
+    /// Wakes the robot when it is to be told of time, give or take its lateness.
+    fn plan_wakeup(&mut self, place: usize) {
+        let late_max_us = self.late_max_us(place);
+        let seat = &mut self.seats[place];
+        let Some(machine) = &seat.machine else { return };
+        let shown_ms = machine.endpoint().next_wakeup_ms();
+        let due_us = seat
+            .clock
+            .true_us(shown_ms.saturating_mul(1_000))
+            .max(self.now_us);
+        if seat.wakes_us.is_some_and(|wakes_us| wakes_us <= due_us) {
+            return;
+        }
+        let wakes_us = due_us + self.draws.random_range(0..=late_max_us);
+        seat.wakes_us = Some(wakes_us);
+        self.at(wakes_us, Next::Wakes(place));
+    }
+
+    /// By how much an endpoint is late at most.
+    fn late_max_us(&self, place: usize) -> u64 {
+        let delay_max = self.seats[place].draw.config.settings().delay_max;
+        let in_time_us = (u64::from(delay_max.0) * 1_000).saturating_sub(2_000);
+        let late_max_us = self.swarm.late_max_us;
+        if self.is_healed {
+            late_max_us.min(in_time_us)
+        } else {
+            late_max_us
+        }
+    }
+
+    fn record(&mut self, place: usize, entry: Entry) {
+        if let Some(watch) = &mut self.watch {
+            watch.record(Record {
+                at_us: self.now_us,
+                robot: self.seats[place].draw.name.clone(),
+                entry,
+            });
+        }
+    }
+}
+
+/// The longest times for each robot of a swarm.
+fn limits(swarm: &Swarm) -> Vec<Limits> {
+    let delay = swarm.delay_max();
+    let robots = swarm.robots.iter();
+    robots
+        .map(|robot| Limits::new(&robot.config, delay))
+        .collect()
+}
+
+fn judged(swarm: &Swarm) -> Judged {
+    Judged {
+        is_in_time: swarm.is_in_time(),
+        delay_is_bounded: swarm.replays.is_empty(),
+    }
+}
+
+fn posts<'a>(swarm: &'a Swarm, limits: &'a [Limits]) -> impl Iterator<Item = Post> + 'a {
+    let of_robots = swarm.robots.iter().zip(limits);
+    of_robots.map(|(robot, limits)| {
+        let (plan, settings) = (&robot.plan, robot.config.settings());
+        let required = usize::from(plan.followers);
+        Post::new(robot.corner, required, plan.patience_s, settings, limits)
+    })
+}

@@ -1,0 +1,204 @@
+//! What happens to robots: they notice people, fail, hang, lose power and boot again.
+
+use crossguard_codec::TaskParameters;
+use crossguard_protocol::{Availability, Event, Robot, StationId};
+
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Endpoint, Stimulus};
+use crossguard_robot::application::Application;
+use crossguard_robot::body::Body;
+use crossguard_robot::machine::Machine;
+use crossguard_robot::trace::Entry;
+use rand::Rng;
+use rand::seq::IndexedRandom;
+
+use super::{EPOCH_UNIX_MS, Finding, Next, World};
+use crate::sim::ruled::Ruled;
+use crate::sim::script::{Deed, Happening};
+use crate::sim::security;
+use crate::sim::swarm::PSEUDONYM_STEP;
+
+/// How long after a sign began to show *go* something happens to its team, at most.
+const STRIKES_WITHIN_US: u64 = 1_500_000;
+
+impl World<'_> {
+    pub(super) fn happen(
+        &mut self,
+        Happening { place, deed, .. }: Happening,
+    ) -> Result<(), Finding> {
+        match deed {
+            Deed::Crash => return self.crash(place),
+            Deed::Boot => return self.boot(place),
+            Deed::Hang(ms) => return self.hang(place, ms),
+            _ => {}
+        }
+        let Some(event) = self.event(place, deed) else {
+            return Ok(());
+        };
+        let is_own_failure = match event {
+            Event::ManeuverFailed(_) => true,
+            Event::AvailabilityChanged(availability) => availability != Availability::Available,
+            _ => false,
+        };
+        if is_own_failure {
+            let nodes = (0..self.seats.len()).map(|place| self.monitor.node(place));
+            self.times.fail(self.now_us, place, nodes);
+        }
+        match event {
+            Event::CommandManeuver { follower, task } => {
+                let parameters = TaskParameters::default();
+                let order = Stimulus::Order {
+                    follower,
+                    task,
+                    parameters,
+                };
+                self.handle(place, order)
+            }
+            event => self.handle(place, Stimulus::Event(event)),
+        }
+    }
+
+    /// What a robot that is up is told.
+    fn event(&mut self, place: usize, deed: Deed) -> Option<Event> {
+        let corner = self.seats[place].corner;
+        let is_clear = self.corners[corner].street.is_clear() && !self.shows_go(place);
+        if deed == Deed::Detect {
+            let draw = self.seats[place].draw;
+            let crossing_us = draw.plan.crossing_us(draw.time_scale);
+            self.come_to_cross(draw.corner, crossing_us);
+        }
+        let seat = &mut self.seats[place];
+        if seat.hangs_until_us.is_some() {
+            return None;
+        }
+        let machine = seat.machine.as_mut()?;
+        Some(match deed {
+            Deed::Detect => Event::PedestrianDetected(seat.draw.plan.request()),
+            Deed::Fail => machine.finish(false)?,
+            Deed::Leave => Event::LeaveRequested,
+            Deed::Availability(availability) => Event::AvailabilityChanged(availability),
+            Deed::OpenCorridor => Event::OpenCorridor,
+            Deed::CloseCorridor => Event::CloseCorridor,
+            Deed::Command(follower, task) => Event::CommandManeuver { follower, task },
+            // Nobody says that who knows of people on the road.
+            Deed::TaskCompleted if !is_clear => return None,
+            Deed::TaskCompleted => Event::TaskCompleted,
+            Deed::ChangeIdentity => {
+                seat.changes += 1;
+                let station = seat.draw.station.0 + seat.changes * PSEUDONYM_STEP;
+                Event::IdentityChanged(StationId(station))
+            }
+            Deed::Crash | Deed::Boot | Deed::Hang(_) => return None,
+        })
+    }
+
+    fn crash(&mut self, place: usize) -> Result<(), Finding> {
+        let nodes = (0..self.seats.len()).map(|place| self.monitor.node(place));
+        self.times.crash(self.now_us, place, nodes);
+        self.monitor.crash(place);
+        self.seats[place].machine = None;
+        let seat = &mut self.seats[place];
+        (seat.wakes_us, seat.hangs_until_us) = (None, None);
+        seat.inbox.clear();
+        self.see(place)
+    }
+
+    /// A robot that is up does nothing for a while.
+    fn hang(&mut self, place: usize, ms: u32) -> Result<(), Finding> {
+        let seat = &mut self.seats[place];
+        if seat.machine.is_none() {
+            return Ok(());
+        }
+        let until_us = self.now_us + u64::from(ms) * 1_000;
+        let until_us = seat.hangs_until_us.map_or(until_us, |it| it.max(until_us));
+        seat.hangs_until_us = Some(until_us);
+        self.at(until_us, Next::GoesOn(place));
+        self.times.hang(place);
+        self.monitor.hang(place, true);
+        self.see(place)
+    }
+
+    /// A robot that hung takes in what has been waiting for it.
+    pub(super) fn go_on_after_hanging(&mut self, place: usize) -> Result<(), Finding> {
+        let seat = &mut self.seats[place];
+        seat.hangs_until_us = None;
+        self.monitor.hang(place, false);
+        self.times.go_on(place);
+        for arrival in std::mem::take(&mut seat.inbox) {
+            self.receive(&arrival)?;
+        }
+        self.handle(place, Stimulus::Time)
+    }
+
+    /// Boots a robot that is down, with the next boot counter.
+    pub(super) fn boot(&mut self, place: usize) -> Result<(), Finding> {
+        let seat = &mut self.seats[place];
+        if seat.machine.is_some() {
+            return Ok(());
+        }
+        let draw = seat.draw;
+        seat.boot += 1;
+        let robot = Robot::new(draw.station, seat.boot);
+        self.monitor.boot(place, &robot, &draw.config);
+        let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
+        let rules = self.rules;
+        let protocol = Ruled { robot, rules };
+        let mut endpoint = Endpoint::new(protocol, draw.config.clone(), Wire::default(), now_ms);
+        if self.swarm.is_secured {
+            endpoint = endpoint.with_security(security::of(place, self.now_us / 1_000));
+        }
+        let gait = self.swarm.seed.wrapping_add(place as u64);
+        let body = Body::new(
+            draw.build,
+            draw.plan.site,
+            draw.place,
+            draw.time_scale,
+            gait,
+        );
+        let body = body.holding(draw.config.settings().holding);
+        let application = Application::new(body, Some(draw.plan.clone()));
+        seat.sign = application.sign().clone();
+        seat.machine = Some(Machine::new(endpoint, application));
+        self.come_to(place, draw.corner);
+        let entry = Entry::Started {
+            station: draw.station,
+            boot: self.seats[place].boot,
+            settings: Box::new(draw.config.settings().clone()),
+            identifiers: Wire::default().identifiers,
+            unix_ms: u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_us / 1_000,
+        };
+        self.record(place, entry);
+        self.handle(place, Stimulus::Time)
+    }
+
+    /// The sign of a leader begins to show *go*: perhaps something happens to it or to one of its guards soon.
+    pub(super) fn plan_strike(&mut self, leader: usize) {
+        let is_drawn = self.draws.random_bool(self.swarm.strikes);
+        let after_us = self.draws.random_range(0..STRIKES_WITHIN_US);
+        let mut team = self.road.guards_of(leader);
+        team.push(leader);
+        let victim = *team.choose(&mut self.draws).unwrap_or(&leader);
+        if is_drawn && !self.is_healed && self.now_us + after_us < self.swarm.heals_us {
+            self.at(self.now_us + after_us, Next::Strikes(victim));
+        }
+    }
+
+    /// A robot loses power and boots again, hangs for a while, or its body fails.
+    pub(super) fn strike(&mut self, place: usize) -> Result<(), Finding> {
+        let deed = match self.draws.random_range(0..4) {
+            0 => Deed::Crash,
+            1 => Deed::Fail,
+            _ => {
+                let left_ms = (self.swarm.heals_us - self.now_us) / 1_000;
+                let ms = self.draws.random_range(100..6_000).min(left_ms);
+                Deed::Hang(u32::try_from(ms).unwrap_or(u32::MAX))
+            }
+        };
+        if deed == Deed::Crash {
+            let up_us = self.now_us + self.draws.random_range(0..STRIKES_WITHIN_US * 5);
+            self.at(up_us, Next::Boots(place));
+        }
+        let at_us = self.now_us;
+        self.happen(Happening { at_us, place, deed })
+    }
+}

@@ -1,0 +1,239 @@
+//! What is on the channel, for people who listen in: every packet as one line or one JSON object.
+//!
+//! Signatures are not verified here; whether a packet is signed is said.
+
+use crossguard_codec::geonet::{BasicHeader, LongPositionVector};
+use crossguard_codec::geonet::{Headers, NextHeader, Transport};
+use crossguard_codec::its::{Event, Identity, ItsMessage, Kind, RoadUser};
+use crossguard_codec::{Identifiers, Service};
+use crossguard_endpoint::counters::{Cause, Counters};
+use crossguard_endpoint::station::{LocalDynamicMap, Unobserved, peek, service_of};
+use crossguard_endpoint::wire::overhear;
+use serde::Serialize;
+
+use crate::chart::text_of;
+
+/// A packet that was seen.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Seen {
+    /// Seconds since the first packet.
+    pub at_s: f64,
+    /// What it is: the name of its message, or `?`.
+    pub kind: &'static str,
+    /// The station that sent the message.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub station: Option<u32>,
+    /// How many octets the packet has.
+    pub octets: usize,
+    /// Whether it has a security envelope, which is not verified.
+    pub is_signed: bool,
+    /// What the message says, or why there is none.
+    pub text: String,
+    /// Who is on the road, as the message tells.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub road_users: Vec<RoadUser>,
+    /// What happened on the road, as a DENM tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub event: Option<Event>,
+}
+
+/// Listens in, and remembers who is around.
+#[derive(Clone, Debug, Default)]
+pub struct Sniffer {
+    identifiers: Identifiers,
+    map: LocalDynamicMap,
+    counters: Counters,
+    began_ms: Option<u64>,
+}
+
+impl Sniffer {
+    /// A sniffer for a channel with these identifiers.
+    #[must_use]
+    pub fn new(identifiers: Identifiers) -> Self {
+        Self {
+            identifiers,
+            ..Self::default()
+        }
+    }
+
+    /// Who is around.
+    #[must_use]
+    pub const fn map(&self) -> &LocalDynamicMap {
+        &self.map
+    }
+
+    /// How often each kind of message was seen, and what could not be read.
+    #[must_use]
+    pub const fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Takes in a packet that was on the link at `now_ms` by any clock, which is `now_its` as
+    /// `TimestampIts`.
+    pub fn see(&mut self, packet: &[u8], now_ms: u64, now_its: u64) -> Seen {
+        let began_ms = *self.began_ms.get_or_insert(now_ms);
+        #[expect(clippy::cast_precision_loss, reason = "centuries of milliseconds fit")]
+        let at_s = now_ms.saturating_sub(began_ms) as f64 / 1e3;
+        self.map.forget(now_ms);
+        let is_signed =
+            BasicHeader::decode(packet).is_ok_and(|(basic, _)| basic.next == NextHeader::Secured);
+        let mut seen = Seen {
+            at_s,
+            kind: "?",
+            station: None,
+            octets: packet.len(),
+            is_signed,
+            text: String::new(),
+            road_users: Vec::new(),
+            event: None,
+        };
+        if let Err((cause, text)) = self.read(packet, now_ms, now_its, &mut seen) {
+            self.counters.count(cause);
+            seen.text = text;
+        }
+        seen
+    }
+
+    fn read(
+        &mut self,
+        packet: &[u8],
+        now_ms: u64,
+        now_its: u64,
+        seen: &mut Seen,
+    ) -> Result<(), (Cause, String)> {
+        let (headers, octets) =
+            peek(packet).map_err(|why| (Cause::Discarded(why.cause()), why.to_string()))?;
+        if let Some(service) = Service::at_port(&self.identifiers, headers.port) {
+            seen.kind = service.name();
+        }
+        let message = ItsMessage::decode(&self.identifiers, octets);
+        let message = message.map_err(|error| (Cause::from(&error), error.to_string()))?;
+        let message = message.message;
+        if let Some(service) = service_of(&message) {
+            seen.kind = service.name();
+            if service.port(&self.identifiers) != headers.port {
+                let found = Some(service);
+                let wrong = Unobserved::OtherService { service, found };
+                return Err((Cause::from(&wrong), format!("at port {}", headers.port)));
+            }
+        }
+        seen.station = Some(message.header().station_id.0);
+        seen.road_users = message.road_users(now_its);
+        seen.event = message.event();
+        for user in &seen.road_users {
+            self.map.observe(*user, now_ms);
+        }
+        seen.text = self.describe(&message, octets, &headers, &seen.road_users);
+        Ok(())
+    }
+
+    /// What a message says, in a few words.
+    fn describe(
+        &self,
+        message: &ItsMessage,
+        octets: &[u8],
+        headers: &Headers,
+        users: &[RoadUser],
+    ) -> String {
+        let mut parts = Vec::new();
+        match message {
+            ItsMessage::Ram(_) | ItsMessage::Rmcm(_) => {
+                parts.push(match overhear(&self.identifiers, octets) {
+                    Ok(heard) => {
+                        let texts: Vec<_> = heard.inputs.iter().map(text_of).collect();
+                        // Its kind stands in front already.
+                        let texts = texts.join("; ");
+                        let bare = texts.split_once(' ').map(|(_, text)| text.to_owned());
+                        bare.unwrap_or(texts)
+                    }
+                    Err(unheard) => unheard.to_string(),
+                });
+                parts.extend(users.first().map(place));
+                // The people around a robot.
+                parts.extend(users.iter().skip(1).map(cluster));
+            }
+            ItsMessage::Denm(denm) => parts.push(Event::from(&**denm).to_string()),
+            ItsMessage::Cpm(_) => {
+                parts.push(format!("{} objects", users.len()));
+                parts.push(place_of_packet(&headers.source));
+            }
+            _ => parts.extend(users.first().map(|user| match user.identity {
+                Identity::Station(_) if user.cardinality == 1 => {
+                    format!("{}, {}", name(user.kind), place(user))
+                }
+                _ => cluster(user),
+            })),
+        }
+        if let Transport::GeoBroadcast { .. } = headers.transport {
+            parts.push("geo-broadcast".to_owned());
+        }
+        parts.join(", ")
+    }
+}
+
+fn cluster(user: &RoadUser) -> String {
+    let id = match user.identity {
+        Identity::Object { number, .. } => format!("cluster {number}"),
+        Identity::Station(_) => "cluster".to_owned(),
+    };
+    format!("{id} of {} at {}", user.cardinality, place(user))
+}
+
+/// The name of a kind of road user.
+#[must_use]
+pub const fn name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Robot => "robot",
+        Kind::Vehicle => "vehicle",
+        Kind::Vru => "vulnerable road user",
+        Kind::RoadSideUnit => "road-side unit",
+        Kind::Object => "object",
+    }
+}
+
+/// Where somebody is, and how fast.
+#[must_use]
+pub fn place(user: &RoadUser) -> String {
+    let position = match (user.position.latitude, user.position.longitude) {
+        (Some(latitude), Some(longitude)) => format!("{latitude:.6} {longitude:.6}"),
+        _ => "somewhere".to_owned(),
+    };
+    match (user.speed, user.heading) {
+        (Some(speed), Some(heading)) => format!("{position}, {speed:.2} m/s to {heading:.0}°"),
+        (Some(speed), None) => format!("{position}, {speed:.2} m/s"),
+        (None, _) => position,
+    }
+}
+
+fn place_of_packet(source: &LongPositionVector) -> String {
+    let degrees = |number: i32| f64::from(number) / 1e7;
+    format!(
+        "{:.6} {:.6}",
+        degrees(source.latitude),
+        degrees(source.longitude)
+    )
+}
+
+/// Who somebody on the map is.
+#[must_use]
+pub fn identity(identity: Identity) -> String {
+    match identity {
+        Identity::Station(id) => format!("station {id}"),
+        Identity::Object { by, number } => format!("object {number} of station {by}"),
+    }
+}
+
+impl std::fmt::Display for Seen {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let station = self
+            .station
+            .map_or_else(|| "-".to_owned(), |id| id.to_string());
+        let signed = if self.is_signed { " signed" } else { "" };
+        write!(
+            f,
+            "{:>9.3}  {:<4} {station:>10} {:>5} B{signed}  {}",
+            self.at_s, self.kind, self.octets, self.text
+        )
+    }
+}

@@ -1,0 +1,478 @@
+//! Whether logs tell what could have happened.
+//!
+//! ```text
+//!   log of one robot ──┐                      ┌─► every step is one of the transition function
+//!   log of another ────┼─► in causal order ───┼─► what is put out is sent, what is heard is stepped
+//!   log of several ────┘  (sent before heard) ├─► every reception matches a transmission
+//!                                             └─► no property is broken: Monitor
+//! ```
+//!
+//! Logs may come from different machines. Their clocks are not compared: a log waits at a reception
+//! until the log of the sender has come to the transmission. Each record is looked at once, so the
+//! time grows with the length of the logs alone.
+//!
+//! Times are judged by what one log says of one clock, which is [never put](crossguard_robot::runtime::Clock):
+//!
+//! | what a log shows | |
+//! |---|---|
+//! | The robot is told of more time than has passed, or of less than had passed at its record before | refused: no robot that reads its clock first can have written that, however slow its machine is |
+//! | A message is taken in before the time up to then is told | refused |
+//! | A message is taken in that waited for longer than `delay_max` | refused |
+//! | A timer is told later than `delay_max` after it is due; a step is taken later than `delay_max` after the time that the robot was told last | counted, with the longest: a process may hang |
+//! | I10 is broken among robots that share a log, and so a clock | refused, unless a robot was late or silent: its lease then outlasts a safety timer, as the rules say |
+//!
+//! W1, W2 and W4 are judged for people who step on the road as soon as a sign shows go.
+//!
+//! And what no log shows: where people are, whether a sign ended when its time was over, and whether a body was
+//! where its application said; how long messages were under way, since the clocks of sender and receiver are not
+//! compared; for how long one waited in a socket of a process that hung, but for the limit that its
+//! thread vouches for; I10 between robots with logs of their own. Where receptions do not say when they arrived,
+//! how many is counted.
+//!
+//! A log that ends in the middle is what a killed process leaves. What others heard from it after its
+//! end cannot be matched, and is counted.
+
+mod clock;
+mod fault;
+mod road;
+mod robot;
+mod time;
+
+pub use fault::Fault;
+pub use time::Late;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::fmt;
+use std::io::BufRead;
+
+use crossguard_model_check::monitor::Monitor;
+use crossguard_model_check::timed::TimedProperty;
+use crossguard_protocol::{Event, Input, StationId};
+use serde::Serialize;
+
+use clock::{BrokenAt, Deed, SharedClock};
+pub use crossguard_robot::trace::Log;
+use crossguard_robot::trace::{Entry, Record, Records, Unreadable};
+use road::Road;
+use robot::Follow;
+
+/// What valid logs hold.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Validated {
+    /// How many robots.
+    pub robots: usize,
+    /// How many records.
+    pub records: usize,
+    /// How many steps of the transition function.
+    pub steps: usize,
+    /// How many messages were sent.
+    pub sent: usize,
+    /// How many receptions were matched with their transmissions.
+    pub heard: usize,
+    /// How many were heard from stations that none of the logs is of.
+    pub from_strangers: usize,
+    /// How many were heard from robots after the end of their logs.
+    pub beyond_logs: usize,
+    /// How many messages were taken in of which the logs do not say how long they had waited.
+    pub of_unknown_age: usize,
+    /// Steps that came later than the rules allow.
+    pub late: Late,
+    /// How many records the robots themselves say are missing, because the log was full.
+    pub missing: u64,
+    /// The robots whose logs end in the middle of a run, because they lost power or were killed.
+    pub cut_off: Vec<String>,
+    /// The properties that had something to say, and were kept.
+    pub properties: Vec<String>,
+    /// What was not judged, and why.
+    pub not_judged: Vec<String>,
+}
+
+/// Why logs are not valid: the first record that does not fit.
+#[derive(Debug)]
+pub struct Invalid {
+    /// The log.
+    pub log: String,
+    /// The line in it, counted from 1.
+    pub line: usize,
+    /// The robot, where the line says one.
+    pub robot: Option<String>,
+    /// What does not fit.
+    pub fault: Box<Fault>,
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.log.is_empty() {
+            write!(f, "{}, ", self.log)?;
+        }
+        write!(f, "line {}: ", self.line)?;
+        if let Some(robot) = &self.robot {
+            write!(f, "{robot} ")?;
+        }
+        write!(f, "{}", self.fault)
+    }
+}
+
+impl std::error::Error for Invalid {}
+
+/// Validates one log.
+///
+/// # Errors
+/// The first record that does not fit.
+pub fn one(lines: impl BufRead) -> Result<Validated, Invalid> {
+    all(vec![Log {
+        name: String::new(),
+        lines: Box::new(lines),
+    }])
+}
+
+/// Validates logs of robots that were together.
+///
+/// # Errors
+/// The first record that does not fit.
+pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
+    let mut street = Street::default();
+    let mut cursors = Vec::new();
+    for log in logs {
+        cursors.push(Cursor::new(log)?);
+    }
+    while let Some(next) = street.choose(&cursors) {
+        let cursor = &mut cursors[next];
+        if let Some(record) = cursor.head.take() {
+            let line = cursor.records.line();
+            street
+                .take(record, &mut cursor.clock, line)
+                .map_err(|refusal| cursor.refused(refusal))?;
+            cursor.advance()?;
+        }
+        let cursor = &mut cursors[next];
+        if cursor.head.is_none() {
+            let judged = cursor.clock.finish();
+            judged.map_err(|broken| cursor.refused(Refusal::Clock(broken)))?;
+            street.end(cursor);
+        }
+    }
+    Ok(street.finish(cursors.iter().map(|cursor| &cursor.clock)))
+}
+
+/// A log, and how far it has been read.
+struct Cursor<'a> {
+    records: Records<'a>,
+    head: Option<Record>,
+    /// The robots that it is of.
+    robots: BTreeSet<String>,
+    /// The same, at moments of their common clock.
+    clock: SharedClock,
+}
+
+/// Why a record is not taken.
+enum Refusal {
+    /// It does not fit.
+    Record(String, Fault),
+    /// An earlier one, which was held back, does not fit to those of other robots at its time.
+    Clock(BrokenAt),
+}
+
+impl<'a> Cursor<'a> {
+    fn new(log: Log<'a>) -> Result<Self, Invalid> {
+        let mut cursor = Self {
+            records: Records::new(log),
+            head: None,
+            robots: BTreeSet::new(),
+            clock: SharedClock::default(),
+        };
+        cursor.advance()?;
+        Ok(cursor)
+    }
+
+    fn advance(&mut self) -> Result<(), Invalid> {
+        self.head = self.records.take().map_err(|unreadable| {
+            let fault = match unreadable {
+                Unreadable::Io(cause) => Fault::Unreadable(cause),
+                Unreadable::Empty => Fault::Empty,
+                Unreadable::NotARecord(cause) => Fault::NotARecord(cause),
+            };
+            self.invalid(None, fault)
+        })?;
+        if let Some(record) = &self.head
+            && !self.robots.contains(&record.robot)
+        {
+            self.robots.insert(record.robot.clone());
+        }
+        Ok(())
+    }
+
+    /// About when the next record was written, in µs since 1970.
+    fn unix_us(&self) -> u64 {
+        self.head
+            .as_ref()
+            .map_or(0, |head| self.records.unix_us(head))
+    }
+
+    fn refused(&self, refusal: Refusal) -> Invalid {
+        match refusal {
+            Refusal::Record(robot, fault) => self.invalid(Some(robot), fault),
+            Refusal::Clock(BrokenAt { robot, line }) => Invalid {
+                line,
+                ..self.invalid(Some(robot), BrokenAt::fault())
+            },
+        }
+    }
+
+    fn invalid(&self, robot: Option<String>, fault: Fault) -> Invalid {
+        Invalid {
+            log: self.records.name().to_owned(),
+            line: self.records.line(),
+            robot,
+            fault: Box::new(fault),
+        }
+    }
+}
+
+/// All robots of the logs, and what has been on the air between them.
+struct Street {
+    monitor: Monitor,
+    road: Road,
+    robots: BTreeMap<String, Follow>,
+    /// The messages that were sent, each with its kind and octets.
+    sent: HashSet<Vec<u8>>,
+    /// By which robot a station id is or was used.
+    stations: HashMap<StationId, String>,
+    /// Robots whose newest run is not over.
+    running: BTreeSet<String>,
+    validated: Validated,
+}
+
+impl Default for Street {
+    fn default() -> Self {
+        Self {
+            // Logs are merged by cause and effect, not by true time; that is for each log's own clock.
+            monitor: Monitor::new(false),
+            road: Road::default(),
+            robots: BTreeMap::new(),
+            sent: HashSet::new(),
+            stations: HashMap::new(),
+            running: BTreeSet::new(),
+            validated: Validated::default(),
+        }
+    }
+}
+
+impl Street {
+    /// The log whose next record is taken: the earliest of those that need not wait for another, and
+    /// if all do, the earliest of all. `None` when all are at their ends.
+    fn choose(&self, cursors: &[Cursor]) -> Option<usize> {
+        let with_head = || (0..cursors.len()).filter(|&i| cursors[i].head.is_some());
+        let earliest = |i: &usize| cursors[*i].unix_us();
+        let alone = with_head().nth(1).is_none();
+        let ready = with_head().filter(|&i| alone || !self.must_wait(cursors, i));
+        ready
+            .min_by_key(earliest)
+            .or_else(|| with_head().min_by_key(earliest))
+    }
+
+    /// Whether another log may still bring what the next record of this one needs.
+    fn must_wait(&self, cursors: &[Cursor], i: usize) -> bool {
+        let Some(record) = &cursors[i].head else {
+            return false;
+        };
+        match &record.entry {
+            Entry::Heard { octets, .. } => !self.sent.contains(octets),
+            // The run before of the same robot, in another log, comes first.
+            Entry::Started { .. } => {
+                let others = cursors.iter().enumerate().filter(|(other, _)| *other != i);
+                let before = |cursor: &Cursor| cursor.robots.contains(&record.robot);
+                self.running.contains(&record.robot)
+                    && others
+                        .into_iter()
+                        .any(|(_, cursor)| cursor.head.is_some() && before(cursor))
+            }
+            _ => false,
+        }
+    }
+
+    fn take(
+        &mut self,
+        record: Record,
+        clock: &mut SharedClock,
+        line: usize,
+    ) -> Result<(), Refusal> {
+        self.validated.records += 1;
+        let Record {
+            at_us,
+            robot,
+            entry,
+        } = record;
+        if let Entry::Started { unix_ms, .. } = entry {
+            clock.show(at_us, unix_ms).map_err(Refusal::Clock)?;
+        }
+        match self.take_entry(&robot, at_us, entry) {
+            Ok(None) => Ok(()),
+            Ok(Some(deed)) => clock
+                .take(at_us, &robot, line, deed)
+                .map_err(Refusal::Clock),
+            Err(fault) => Err(Refusal::Record(robot, fault)),
+        }
+    }
+
+    /// What the robot did, for who judges the robots of a clock.
+    fn take_entry(&mut self, robot: &str, at_us: u64, entry: Entry) -> Result<Option<Deed>, Fault> {
+        if let Entry::Started { .. } = entry {
+            self.start(robot, at_us, entry)?;
+            let started = &self.robots[robot];
+            return Ok(Some(Deed::Boot {
+                robot: Box::new(started.robot().clone()),
+                effect_us: u64::from(started.config().settings().t_safety.0) * 1_000,
+            }));
+        }
+        let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
+        follow.tick(at_us)?;
+        match entry {
+            Entry::Started { .. } => Ok(None),
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => {
+                self.validated.steps += 1;
+                self.road.told(follow.robot(), input, &mut self.monitor);
+                let late_us = follow.step(input, &outputs, &state)?;
+                if let Some(late_us) = late_us {
+                    self.validated.late.count(late_us);
+                }
+                if let Input::Local(Event::IdentityChanged(station)) = input {
+                    self.stations.insert(station, robot.to_owned());
+                }
+                let broken = self.monitor.step(follow.place(), input, &outputs, &state);
+                let broken =
+                    broken.or_else(|| self.road.shown(&outputs, &state, &mut self.monitor));
+                let overdue_us = follow.overdue_us();
+                match broken {
+                    Some(broken) => Err(Fault::Broken(broken)),
+                    None => Ok(Some(Deed::Step {
+                        after: state,
+                        is_late: late_us.is_some(),
+                        overdue_us,
+                    })),
+                }
+            }
+            Entry::Sent {
+                message, octets, ..
+            } => {
+                self.validated.sent += 1;
+                follow.sent(message, &octets)?;
+                self.sent.insert(octets);
+                Ok(None)
+            }
+            Entry::Heard {
+                message,
+                from,
+                reception,
+                octets,
+            } => {
+                follow.heard(message, from, reception, &octets)?;
+                self.validated.of_unknown_age += usize::from(reception.is_none());
+                self.match_reception(robot, from, &octets).map(|()| None)
+            }
+            Entry::Dropped { cause, .. } => {
+                follow.dropped(cause);
+                Ok(None)
+            }
+            Entry::Stopped { counters } => {
+                self.validated.missing += follow.stopped(&counters)?;
+                self.running.remove(robot);
+                self.monitor.crash(follow.place());
+                Ok(Some(Deed::Stop))
+            }
+        }
+    }
+
+    fn start(&mut self, robot: &str, at_us: u64, entry: Entry) -> Result<(), Fault> {
+        let Entry::Started {
+            station,
+            boot,
+            settings,
+            identifiers,
+            ..
+        } = entry
+        else {
+            return Ok(());
+        };
+        let before = self.robots.get(robot);
+        if before.is_some_and(|before| !before.may_reboot_with(boot)) {
+            return Err(Fault::BootReused(boot));
+        }
+        let place = match before {
+            Some(before) => before.place(),
+            None => self.monitor.add(station),
+        };
+        let follow = Follow::started(place, at_us, station, boot, *settings, identifiers)?;
+        self.monitor.boot(place, follow.robot(), follow.config());
+        self.stations.insert(station, robot.to_owned());
+        self.running.insert(robot.to_owned());
+        self.robots.insert(robot.to_owned(), follow);
+        Ok(())
+    }
+
+    /// A reception must match a transmission, if a log of the sender should have it.
+    fn match_reception(
+        &mut self,
+        robot: &str,
+        from: StationId,
+        octets: &[u8],
+    ) -> Result<(), Fault> {
+        if self.sent.contains(octets) {
+            self.validated.heard += 1;
+            return Ok(());
+        }
+        match self.stations.get(&from) {
+            None => {
+                self.validated.from_strangers += 1;
+                self.monitor.has_strangers();
+                Ok(())
+            }
+            // Nobody hears itself: a stranger speaks in its name, and the protocol ignores it.
+            Some(sender) if sender == robot => {
+                self.validated.from_strangers += 1;
+                Ok(())
+            }
+            Some(sender) if self.running.contains(sender) && self.robots[sender].is_cut_off() => {
+                self.validated.beyond_logs += 1;
+                self.monitor.has_strangers();
+                Ok(())
+            }
+            Some(_) => Err(Fault::NoTransmission(from)),
+        }
+    }
+
+    /// A log is at its end: robots of it that run on are cut off.
+    fn end(&mut self, cursor: &Cursor) {
+        for robot in cursor.robots.intersection(&self.running) {
+            if let Some(follow) = self.robots.get_mut(robot) {
+                follow.cut_off();
+                self.validated.cut_off.push(robot.clone());
+            }
+        }
+    }
+
+    fn finish<'a>(self, clocks: impl Iterator<Item = &'a SharedClock>) -> Validated {
+        let met = self.monitor.premises_met();
+        let mut properties: Vec<_> = met.map(|id| id.to_string()).collect();
+        let verdicts: Vec<_> = clocks.map(SharedClock::verdict).collect();
+        let i10 = TimedProperty::I10.name();
+        if verdicts.iter().any(Result::is_ok) {
+            properties.push(i10.to_owned());
+        }
+        let reasons: BTreeSet<_> = verdicts.into_iter().filter_map(Result::err).collect();
+        let reasons = reasons.into_iter().map(|why| format!("{i10}: {why}"));
+        Validated {
+            robots: self.robots.len(),
+            properties,
+            not_judged: reasons.collect(),
+            ..self.validated
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,143 @@
+//! What may be wrong with a record.
+
+use crossguard_model_check::monitor::Broken;
+use crossguard_protocol::{BrokenInequality, StationId};
+
+use crossguard_endpoint::wire::Unheard;
+
+/// What does not fit in a record. Each reads on after the robot's name.
+#[derive(Debug, thiserror::Error)]
+pub enum Fault {
+    /// The log cannot be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::Error),
+    /// The log holds nothing.
+    #[error("there is nothing in this log")]
+    Empty,
+    /// The line is no record.
+    #[error("is not a record: {0}")]
+    NotARecord(serde_json::Error),
+    /// The robot runs with settings that break an inequality.
+    #[error("was started although {0}")]
+    Settings(BrokenInequality),
+    /// The robot does something without having been started.
+    #[error("does something and was never started")]
+    NotStarted,
+    /// The robot booted with a counter that it had before.
+    #[error("booted with counter {0}, which is not larger than at its boot before")]
+    BootReused(u16),
+    /// The robot's clock went back.
+    #[error("has a clock that went back from {before_us} µs to {at_us} µs")]
+    ClockWentBack {
+        /// What it showed before.
+        before_us: u64,
+        /// What it shows.
+        at_us: u64,
+    },
+    /// The robot was told of more time than has passed.
+    #[error("was told that {told_ms} ms passed since it was started, and it was {passed_ms} ms")]
+    TimeFromNowhere {
+        /// What it was told.
+        told_ms: u64,
+        /// What has passed.
+        passed_ms: u64,
+    },
+    /// The robot was told of less time than had passed when its record before was written.
+    #[error(
+        "was told that {told_ms} ms passed since it was started, and it had been {passed_ms} ms at its record before"
+    )]
+    TimeLost {
+        /// What it was told.
+        told_ms: u64,
+        /// What had passed.
+        passed_ms: u64,
+    },
+    /// The robot took in a message without having been told of the time before it.
+    #[error("took in a message at {taken_us} µs, and was told of the time until {told_us} µs")]
+    NotToldFirst {
+        /// When it took the message in.
+        taken_us: u64,
+        /// Until when it had been told of time.
+        told_us: u64,
+    },
+    /// The times of a reception are not in their order.
+    #[error(
+        "heard a message that arrived at {arrived_us} µs, took it in at {told_us} µs and recorded it at {at_us} µs"
+    )]
+    ReceivedBefore {
+        /// When it arrived.
+        arrived_us: u64,
+        /// When the robot was told of it.
+        told_us: u64,
+        /// When that was recorded.
+        at_us: u64,
+    },
+    /// The robot took in a message that had waited for too long.
+    #[error("took in a message that had waited for {waited_ms} ms; delay_max is {delay_max_ms} ms")]
+    TooOld {
+        /// For how long it waited.
+        waited_ms: u64,
+        /// For how long it may.
+        delay_max_ms: u64,
+    },
+    /// A step puts out something else.
+    #[error("on '{input}' put out [{found}]; the protocol puts out [{expected}]")]
+    Outputs {
+        /// What it took in.
+        input: String,
+        /// What the log says that it put out.
+        found: String,
+        /// What the transition function puts out.
+        expected: String,
+    },
+    /// A step leads into another state.
+    #[error("on '{input}' went into a state that the protocol does not lead to")]
+    State {
+        /// What it took in.
+        input: String,
+    },
+    /// A message was put out and not sent.
+    #[error("put out {0} and did not send it")]
+    NotSent(String),
+    /// A message was sent that the state does not say.
+    #[error("sent {found}, where its state says {expected}")]
+    SentOther {
+        /// What was sent.
+        found: String,
+        /// What is to be sent.
+        expected: String,
+    },
+    /// A message was heard and not taken in.
+    #[error("heard '{0}' and did not take it in")]
+    NotTakenIn(String),
+    /// A message was taken in that was not heard.
+    #[error("took in '{found}', which is not what it heard ({heard})")]
+    NotHeard {
+        /// What was taken in.
+        found: String,
+        /// What was heard.
+        heard: String,
+    },
+    /// The octets of a message are not what the record says of them.
+    #[error("recorded octets that are not the {0} it says")]
+    OtherOctets(String),
+    /// The octets of a message are none.
+    #[error("recorded octets that are no message: {0}")]
+    NoMessage(Unheard),
+    /// A message was heard that its sender did not send.
+    #[error("heard a message of station {0} that is not among those it had sent")]
+    NoTransmission(StationId),
+    /// What was counted is not what happened.
+    #[error("counted '{cause}' {counted} times, and its log has it {logged} times")]
+    Counter {
+        /// The cause.
+        cause: String,
+        /// How often it was counted.
+        counted: u64,
+        /// How often it is in the log.
+        logged: u64,
+    },
+    /// A property is broken.
+    #[error("broke {}: {}", .0.name(), .0.statement())]
+    Broken(Broken),
+}

@@ -1,0 +1,275 @@
+//! One robot's records, one after the other.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use crossguard_codec::Identifiers;
+use crossguard_codec::its::ItsMessage;
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::wire::{MessageKind, Unheard, overhear};
+use crossguard_protocol::{
+    Config, Decimetres, Input, Output, Outputs, Rmcm, Robot, Settings, StationId,
+};
+use crossguard_robot::trace::Reception;
+
+use super::fault::Fault;
+use super::time::Time;
+
+/// A message that a step put out and that is to be sent.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Owed {
+    Ram,
+    Rmcm(Rmcm),
+}
+
+/// What is known of a robot up to a record.
+#[derive(Debug)]
+pub(super) struct Follow {
+    place: usize,
+    robot: Robot,
+    config: Config,
+    identifiers: Identifiers,
+    time: Time,
+    owed: VecDeque<Owed>,
+    heard: VecDeque<Input>,
+    counted: BTreeMap<String, u64>,
+    is_cut_off: bool,
+}
+
+impl Follow {
+    pub(super) fn started(
+        place: usize,
+        at_us: u64,
+        station: StationId,
+        boot: u16,
+        settings: Settings,
+        identifiers: Identifiers,
+    ) -> Result<Self, Fault> {
+        let time = Time::new(&settings, at_us);
+        Ok(Self {
+            place,
+            robot: Robot::new(station, boot),
+            config: Config::new(settings).map_err(Fault::Settings)?,
+            identifiers,
+            time,
+            owed: VecDeque::new(),
+            heard: VecDeque::new(),
+            counted: BTreeMap::new(),
+            is_cut_off: false,
+        })
+    }
+
+    pub(super) const fn place(&self) -> usize {
+        self.place
+    }
+
+    pub(super) const fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    pub(super) const fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The log ends here although the robot had not stopped.
+    pub(super) const fn cut_off(&mut self) {
+        self.is_cut_off = true;
+    }
+
+    pub(super) const fn is_cut_off(&self) -> bool {
+        self.is_cut_off
+    }
+
+    pub(super) const fn may_reboot_with(&self, boot: u16) -> bool {
+        boot > self.robot.boot()
+    }
+
+    /// The robot's clock goes on.
+    pub(super) fn tick(&mut self, at_us: u64) -> Result<(), Fault> {
+        self.time.tick(at_us)
+    }
+
+    /// When the robot's next step comes too late, on the log's clock.
+    pub(super) fn overdue_us(&self) -> Option<u64> {
+        self.time.overdue_us(self.robot.next_due())
+    }
+
+    /// The robot takes a step. By how many µs it comes too late, if it does.
+    pub(super) fn step(
+        &mut self,
+        input: Input,
+        outputs: &Outputs,
+        after: &Robot,
+    ) -> Result<Option<u64>, Fault> {
+        self.settle_sending()?;
+        match input {
+            Input::Ram { .. } | Input::Rmcm(_) => self.take_in(input)?,
+            Input::Elapsed(_) | Input::Expired(_) | Input::Local(_) => self.settle_hearing()?,
+        }
+        let late = match input {
+            Input::Elapsed(elapsed) => self.time.elapse(elapsed, self.robot.next_due())?,
+            _ => self.time.take_in(),
+        };
+        let expected = self.robot.step(&self.config, input);
+        let input = || input.to_string();
+        if expected != *outputs {
+            return Err(Fault::Outputs {
+                input: input(),
+                found: list(outputs),
+                expected: list(&expected),
+            });
+        }
+        if self.robot != *after {
+            return Err(Fault::State { input: input() });
+        }
+        for output in outputs.iter() {
+            match *output {
+                Output::SendRam => self.owed.push_back(Owed::Ram),
+                Output::SendRmcm(rmcm) => self.owed.push_back(Owed::Rmcm(rmcm)),
+                Output::Ignored(reason) => self.count(Cause::Ignored(reason).name()),
+                _ => {}
+            }
+        }
+        Ok(late)
+    }
+
+    /// What was heard is taken in at once.
+    fn take_in(&mut self, input: Input) -> Result<(), Fault> {
+        let heard = self.heard.pop_front();
+        if heard.map(without_distance) == Some(without_distance(input)) {
+            return Ok(());
+        }
+        let heard = heard.map_or_else(|| "nothing".to_owned(), |heard| format!("'{heard}'"));
+        Err(Fault::NotHeard {
+            found: input.to_string(),
+            heard,
+        })
+    }
+
+    fn settle_hearing(&self) -> Result<(), Fault> {
+        match self.heard.front() {
+            Some(heard) => Err(Fault::NotTakenIn(heard.to_string())),
+            None => Ok(()),
+        }
+    }
+
+    fn settle_sending(&self) -> Result<(), Fault> {
+        match self.owed.front() {
+            Some(Owed::Ram) => Err(Fault::NotSent("a RAM".to_owned())),
+            Some(Owed::Rmcm(rmcm)) => Err(Fault::NotSent(Input::Rmcm(*rmcm).to_string())),
+            None => Ok(()),
+        }
+    }
+
+    /// A RAM says what the state is, an RMCM what a step has put out. A cluster VAM says nothing of either.
+    pub(super) fn sent(&mut self, kind: MessageKind, octets: &[u8]) -> Result<(), Fault> {
+        if kind == MessageKind::Vam {
+            let vam = ItsMessage::decode(&self.identifiers, octets);
+            return match vam
+                .map_err(Unheard::from)
+                .map_err(Fault::NoMessage)?
+                .message
+            {
+                ItsMessage::Vam(_) | ItsMessage::Vam211(_) => Ok(()),
+                _ => Err(Fault::OtherOctets(kind.name().to_owned())),
+            };
+        }
+        let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
+        if message.service != kind {
+            return Err(Fault::OtherOctets(kind.name().to_owned()));
+        }
+        let Some(&found) = message.inputs.iter().next() else {
+            return Err(Fault::OtherOctets(kind.name().to_owned()));
+        };
+        let ram = Input::Ram {
+            ram: self.robot.ram(),
+            distance: Decimetres(0),
+        };
+        let expected = match (self.owed.pop_front(), found) {
+            (Some(Owed::Rmcm(rmcm)), _) => Some(Input::Rmcm(rmcm)),
+            (Some(Owed::Ram), _) => Some(ram),
+            // Outside of a session the endpoint's own rules say when.
+            (None, Input::Ram { .. }) if self.robot.next_ram().is_none() => Some(ram),
+            (None, _) => None,
+        };
+        if expected.map(without_distance) == Some(without_distance(found)) {
+            return Ok(());
+        }
+        let expected = expected.map_or_else(|| "nothing".to_owned(), |e| format!("'{e}'"));
+        Err(Fault::SentOther {
+            found: format!("'{found}'"),
+            expected,
+        })
+    }
+
+    pub(super) fn heard(
+        &mut self,
+        kind: MessageKind,
+        from: StationId,
+        reception: Option<Reception>,
+        octets: &[u8],
+    ) -> Result<(), Fault> {
+        if let Some(reception) = reception {
+            self.time.receive(reception)?;
+        }
+        self.settle_hearing()?;
+        self.settle_sending()?;
+        let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
+        if (message.service, message.from) != (kind, from) {
+            let says = format!("{} of station {from}", kind.name());
+            return Err(Fault::OtherOctets(says));
+        }
+        self.heard = message.inputs.iter().copied().collect();
+        Ok(())
+    }
+
+    pub(super) fn dropped(&mut self, cause: String) {
+        if cause == Cause::NotSent.name() {
+            // A message that could not be made was not sent; one that the link did not take was.
+            self.owed.pop_front();
+        }
+        self.count(cause);
+    }
+
+    fn count(&mut self, cause: String) {
+        *self.counted.entry(cause).or_default() += 1;
+    }
+
+    /// The robot has stopped. How many records are missing by its own account.
+    pub(super) fn stopped(&self, counters: &BTreeMap<String, u64>) -> Result<u64, Fault> {
+        self.settle_hearing()?;
+        self.settle_sending()?;
+        let missing = counters.get(&Cause::LogFull.name()).copied().unwrap_or(0);
+        // What these count has no record of its own.
+        let silent = [Cause::LogFull, Cause::OutputFull, Cause::InboxFull].map(Cause::name);
+        let causes = counters.keys().chain(self.counted.keys());
+        for cause in causes.filter(|cause| !silent.contains(cause)) {
+            let of = |counts: &BTreeMap<String, u64>| counts.get(cause).copied().unwrap_or(0);
+            let (counted, logged) = (of(counters), of(&self.counted));
+            if counted != logged && missing == 0 {
+                let cause = cause.clone();
+                return Err(Fault::Counter {
+                    cause,
+                    counted,
+                    logged,
+                });
+            }
+        }
+        Ok(missing)
+    }
+}
+
+/// How far away the sender was is not in the message.
+fn without_distance(input: Input) -> Input {
+    match input {
+        Input::Ram { ram, .. } => Input::Ram {
+            ram,
+            distance: Decimetres(0),
+        },
+        other => other,
+    }
+}
+
+fn list(outputs: &Outputs) -> String {
+    let outputs = outputs.iter().map(ToString::to_string);
+    outputs.collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,218 @@
+//! Logs of simulated robots are valid; with one record altered they are not.
+
+use crossguard_protocol::{Input, Millis, Output};
+use crossguard_robot::trace;
+
+use super::*;
+use crate::sim::{Swarm, run};
+
+pub(super) fn records(seed: u64) -> Vec<Record> {
+    let mut records = Vec::new();
+    let mut watch = |record: Record| records.push(record);
+    let _ = run(&Swarm::draw(seed, 4, None), Some(&mut watch));
+    records
+}
+
+pub(super) fn text<'a>(records: impl IntoIterator<Item = &'a Record>) -> Vec<u8> {
+    let mut text = Vec::new();
+    for record in records {
+        trace::write(&mut text, record).unwrap();
+    }
+    text
+}
+
+fn validated(records: &[Record]) -> Result<Validated, String> {
+    one(&*text(records)).map_err(|invalid| invalid.to_string())
+}
+
+/// The logs of each robot by itself.
+fn apart(records: &[Record]) -> Vec<Vec<u8>> {
+    let names: BTreeSet<_> = records.iter().map(|record| &record.robot).collect();
+    let of = |name| records.iter().filter(move |record| &record.robot == name);
+    names.into_iter().map(|name| text(of(name))).collect()
+}
+
+fn together(logs: &[Vec<u8>]) -> Result<Validated, String> {
+    let log = |(i, lines): (usize, &'_ Vec<u8>)| Log {
+        name: format!("log {i}"),
+        lines: Box::new(std::io::Cursor::new(lines.clone())),
+    };
+    all(logs.iter().enumerate().map(log).collect()).map_err(|invalid| invalid.to_string())
+}
+
+#[test]
+fn what_simulated_robots_did_is_valid_in_one_log_and_in_one_for_each() {
+    for seed in 1..=12 {
+        let records = records(seed);
+        let whole = validated(&records).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        let parts = together(&apart(&records)).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        assert_eq!(whole.heard, parts.heard, "seed {seed}");
+        assert_eq!((whole.from_strangers, whole.beyond_logs), (0, 0));
+        assert_eq!(whole.steps, parts.steps);
+    }
+}
+
+#[test]
+fn one_robots_log_is_valid_by_itself_and_says_how_much_came_from_strangers() {
+    for log in apart(&records(2)) {
+        let validated = one(&*log).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(validated.heard, 0);
+        assert!(validated.from_strangers > 0);
+    }
+}
+
+/// Alters a record so that it tells something else; `None` where there is nothing to alter.
+fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
+    let with = |entry| Record {
+        entry,
+        ..record.clone()
+    };
+    match &record.entry {
+        Entry::Step {
+            input,
+            outputs,
+            state,
+        } => {
+            let step = |input, outputs: crossguard_protocol::Outputs| {
+                with(Entry::Step {
+                    input,
+                    outputs: Box::new(outputs),
+                    state: state.clone(),
+                })
+            };
+            let one_more = outputs
+                .iter()
+                .copied()
+                .chain([Output::CorridorOpened(Millis(1))]);
+            let one_less = outputs.iter().copied().skip(1);
+            let mut all = vec![step(*input, one_more.collect())];
+            if !outputs.is_empty() {
+                all.push(step(*input, one_less.collect()));
+            }
+            if let (Input::Elapsed(Millis(ms)), Some(_)) = (input, state.next_due()) {
+                all.push(step(Input::Elapsed(Millis(ms + 1)), **outputs));
+            }
+            all
+        }
+        Entry::Sent { trigger, .. } => {
+            let kinds = [
+                crossguard_endpoint::wire::MessageKind::Ram,
+                crossguard_endpoint::wire::MessageKind::Rmcm,
+            ];
+            let sent = |message| {
+                with(Entry::Sent {
+                    message,
+                    trigger: *trigger,
+                    octets: other_octets.to_vec(),
+                })
+            };
+            kinds.map(sent).into()
+        }
+        Entry::Heard {
+            message,
+            from,
+            reception,
+            ..
+        } => vec![with(Entry::Heard {
+            message: *message,
+            from: *from,
+            reception: *reception,
+            octets: other_octets.to_vec(),
+        })],
+        Entry::Started { .. } | Entry::Dropped { .. } | Entry::Stopped { .. } => Vec::new(),
+    }
+}
+
+#[test]
+fn a_log_with_one_altered_record_is_refused_at_that_record_or_the_next_of_its_robot() {
+    let records = records(5);
+    // A message that nobody here has sent.
+    let stranger = crossguard_protocol::Robot::new(StationId(77), 1).ram();
+    let octets = crossguard_endpoint::wire::Wire::default()
+        .ram(
+            &crossguard_codec::RobotState::default(),
+            &stranger,
+            crossguard_protocol::Availability::Available,
+            0,
+            false,
+            None,
+        )
+        .unwrap();
+    let mut tried = 0;
+    for i in (0..records.len()).step_by(records.len() / 150) {
+        for other in altered(&records[i], &octets) {
+            let mut log = records.clone();
+            log[i] = other;
+            let refusal = validated(&log).expect_err("an altered record is noticed");
+            let line: usize = refusal[5..].split(':').next().unwrap().parse().unwrap();
+            assert!(line > i, "line {} was altered: {refusal}", i + 1);
+            let of_robot = |at: &usize| log[*at].robot == log[i].robot;
+            let next = (i + 1..log.len()).find(of_robot).unwrap_or(log.len());
+            assert!(line <= next + 1, "line {} was altered: {refusal}", i + 1);
+            tried += 1;
+        }
+    }
+    assert!(tried > 100, "{tried}");
+}
+
+#[test]
+fn a_log_without_one_of_its_steps_or_messages_is_refused() {
+    let records = records(5);
+    for i in (0..records.len()).step_by(records.len() / 60) {
+        let is_silent = match &records[i].entry {
+            // Time that passes a robot without timers leaves no trace, nor does an event that is
+            // ignored, before the robot stops and says what it has counted.
+            Entry::Step {
+                input,
+                state,
+                outputs,
+            } => match input {
+                Input::Elapsed(_) => state.next_due().is_none(),
+                Input::Local(_) => outputs.ignored().is_some(),
+                _ => false,
+            },
+            Entry::Sent { .. } => records[i].robot.is_empty(),
+            _ => true,
+        };
+        // A RAM by the generation rules that nobody heard is missed by nobody.
+        let is_heard = |octets: &Vec<u8>| {
+            records
+                .iter()
+                .any(|r| matches!(&r.entry, Entry::Heard { octets: o, .. } if o == octets))
+        };
+        let is_missed = match &records[i].entry {
+            Entry::Sent { octets, .. } => is_heard(octets),
+            _ => true,
+        };
+        if is_silent || !is_missed {
+            continue;
+        }
+        let mut log = records.clone();
+        log.remove(i);
+        assert!(validated(&log).is_err(), "{:?} is not missed", records[i]);
+    }
+}
+
+#[test]
+fn what_is_not_a_log_is_told_apart() {
+    assert!(
+        validated(&records(1)[1..])
+            .unwrap_err()
+            .contains("was never started")
+    );
+    let error = |text: &[u8]| one(text).unwrap_err().to_string();
+    assert!(error(b"{}\n").starts_with("line 1: is not a record"));
+    assert!(error(b"").contains("there is nothing in this log"));
+}
+
+#[test]
+fn a_log_that_was_cut_off_in_the_middle_of_a_line_is_valid_up_to_there() {
+    let mut logs = apart(&records(2));
+    let whole = together(&logs).unwrap();
+    let half = logs[0].len() / 2;
+    logs[0].truncate(half);
+    let cut = together(&logs).unwrap();
+    assert!(cut.steps < whole.steps);
+    assert!(cut.beyond_logs > 0);
+    assert!(cut.cut_off.contains(&"R1".to_owned()));
+}

@@ -1,0 +1,571 @@
+//! The application of a robot: what moves its body, and what it does when it leads.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use crossguard_codec::{RobotState, TaskParameters};
+use crossguard_endpoint::Act;
+use crossguard_endpoint::ras::clustering::PerceivedVru;
+use crossguard_protocol::{
+    Config, Corridor, Duty, Event, Maneuver, ManeuverId, Notice, Phase, Robot, StationId, TaskSet,
+    TaskType,
+};
+
+use crate::body::{Body, Fallback, Pose, Report};
+use crate::plan::{Leg, Plan};
+use crate::sign::Sign;
+use crate::street::Road;
+
+/// What an application wants of its endpoint.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Wish {
+    /// To tell this event.
+    Tell(Event),
+    /// To have a follower do something.
+    Order {
+        /// The follower.
+        follower: StationId,
+        /// The maneuver.
+        task: TaskType,
+        /// Where and how.
+        parameters: TaskParameters,
+    },
+}
+
+/// How often a leg that failed is commanded again before the leader gives up.
+const ATTEMPTS: u8 = 3;
+
+/// How often a leader tries anew what did not come about: to open the corridor, to have people escorted. In seconds.
+const OPENING_PERIOD_S: f64 = 0.5;
+
+/// The longest list of wishes; more are not kept.
+const WISHES: usize = 64;
+
+/// The application of a robot: a simulated body, a sign, and a plan for when it leads.
+#[derive(Debug)]
+pub struct Application {
+    body: Body,
+    /// What people see while it leads.
+    sign: Sign,
+    /// What it knows of the people on the road.
+    road: Road,
+    /// What its robot still has to do on the road.
+    obligation: Option<Obligation>,
+    /// What the body was told to do last, until that is over.
+    maneuver: Option<Maneuver>,
+    /// A guarding maneuver that the body has finished before the people that it guards are off the road.
+    waits_for_people: Option<ManeuverId>,
+    /// What it does when it leads; without one, somebody else tells it.
+    plan: Option<Plan>,
+    /// How its plan goes while it leads.
+    errand: Option<Errand>,
+    wishes: VecDeque<Wish>,
+    rules: Rules,
+    /// Whether its corridor is known to be clear.
+    corridor: Corridor,
+    at_s: f64,
+}
+
+/// What a robot waits for with the road: that it is clear.
+#[derive(Clone, Copy, Debug)]
+struct Obligation {
+    about: About,
+    /// Since when, in seconds.
+    since_s: f64,
+    /// Whether a person has said that the road is clear.
+    is_said_clear: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum About {
+    /// The duty of a session or maneuver that ended early.
+    Duty(Duty),
+    /// The corridor that was closed, in a session that goes on.
+    Clearing,
+}
+
+/// What the protocol's settings say that the application goes by.
+#[derive(Clone, Copy, Debug)]
+struct Rules {
+    guarding: TaskSet,
+    holding: TaskSet,
+    t_safety_s: f64,
+}
+
+/// How a plan goes.
+#[derive(Debug, Default)]
+struct Errand {
+    /// Whether all stages are done.
+    is_done: bool,
+    stage: usize,
+    /// How far each follower is with its part of the stage.
+    followers: BTreeMap<StationId, Part>,
+    /// When the corridor was to be opened last.
+    tried_s: f64,
+    since_s: f64,
+}
+
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Part {
+    /// Commanded so often; not begun, or under way.
+    Commanded(u8),
+    /// Goes on until it is ended.
+    Holds,
+    /// Done, or nothing to do.
+    Done,
+}
+
+impl Rules {
+    fn of(config: &Config) -> Self {
+        let settings = config.settings();
+        Self {
+            guarding: settings.guarding,
+            holding: settings.holding,
+            t_safety_s: f64::from(settings.t_safety.0) / 1e3,
+        }
+    }
+}
+
+impl Application {
+    /// The application of a robot with this body, which knows nothing of the road.
+    #[must_use]
+    pub fn new(body: Body, plan: Option<Plan>) -> Self {
+        Self {
+            body,
+            sign: Sign::default(),
+            road: Road::default(),
+            obligation: None,
+            maneuver: None,
+            waits_for_people: None,
+            plan,
+            errand: None,
+            wishes: VecDeque::new(),
+            rules: Rules::of(&Config::default()),
+            corridor: Corridor::Clear,
+            at_s: 0.0,
+        }
+    }
+
+    /// The same, which knows this of the road.
+    #[must_use]
+    pub fn on(self, road: Road) -> Self {
+        Self { road, ..self }
+    }
+
+    /// It is at a road of which it knows this from now on.
+    pub fn come_to(&mut self, road: Road) {
+        self.road = road;
+    }
+
+    /// Its sign.
+    #[must_use]
+    pub const fn sign(&self) -> &Sign {
+        &self.sign
+    }
+
+    /// Lets time pass until `now_s`, in seconds on any clock that never goes back.
+    pub fn advance(&mut self, now_s: f64) {
+        let report = self.body.advance((now_s - self.at_s).max(0.0));
+        self.at_s = now_s;
+        match report {
+            Some(Report::InPosition(id)) => self.wish(Wish::Tell(Event::InPosition(id))),
+            Some(Report::Completed(id)) => self.waits_for_people = Some(id),
+            None => {}
+        }
+        self.complete();
+        if let Road::Own(street) = &self.road {
+            let shown = micros(now_s);
+            street.look(shown, self.sign.shows_go(shown));
+        }
+        self.watch_road();
+        self.lead_on();
+    }
+
+    /// Tells that a maneuver is completed. An escort that knows of its people is not done before they are.
+    fn complete(&mut self) {
+        let Some(id) = self.waits_for_people else {
+            return;
+        };
+        let guards = |maneuver: Maneuver| self.rules.guarding.contains(maneuver.task);
+        let has_people = match &self.road {
+            Road::Known(street) => self.maneuver.is_some_and(guards) && !street.is_clear(),
+            Road::Unknown | Road::Watched(_) | Road::Own(_) => false,
+        };
+        if !has_people {
+            self.waits_for_people = None;
+            self.wish(Wish::Tell(Event::ManeuverCompleted(id)));
+        }
+    }
+
+    /// Takes in what the protocol knows after a step.
+    pub fn learn(&mut self, robot: &Robot, config: &Config) {
+        self.rules = Rules::of(config);
+        self.corridor = match robot.phase() {
+            Phase::Leading(leading) => leading.corridor,
+            _ => Corridor::Clear,
+        };
+        let about = match robot.duty() {
+            Some(duty) => Some(About::Duty(duty)),
+            None => (self.corridor == Corridor::Clearing).then_some(About::Clearing),
+        };
+        if self.obligation.map(|it| it.about) == about {
+            return;
+        }
+        if self.obligation.is_some() && about.is_none() {
+            self.body.release();
+            if let Road::Watched(watched) = &mut self.road {
+                watched.forget();
+            }
+        }
+        self.obligation = about.map(|about| Obligation {
+            about,
+            since_s: self.at_s,
+            is_said_clear: false,
+        });
+    }
+
+    /// A person says that the road is clear. Whether there is something that waits for it.
+    pub fn say_clear(&mut self) -> bool {
+        let waits = self.obligation.as_mut();
+        waits.map(|it| it.is_said_clear = true).is_some()
+    }
+
+    /// The sensors have somebody, at a place on the site.
+    pub fn perceive(&mut self, vru: &PerceivedVru) {
+        if let Road::Watched(watched) = &mut self.road {
+            watched.perceive(self.at_s, vru);
+        }
+    }
+
+    /// Says that the road is clear as soon as that is so: the body has finished its fallback, and nobody is
+    /// on the road as far as the robot or a person knows.
+    fn watch_road(&mut self) {
+        let Some(obligation) = self.obligation else {
+            return;
+        };
+        let is_free = match self.body.fallback() {
+            None | Some(Fallback::Holding | Fallback::Finished) => true,
+            Some(Fallback::UnderWay) => false,
+        };
+        let is_own = matches!(
+            obligation.about,
+            About::Clearing | About::Duty(Duty::Crossing(_))
+        );
+        let road_is_clear = match &self.road {
+            // It knows nothing of the people that others let across.
+            Road::Own(_) if !is_own => false,
+            road => road.is_clear(self.at_s),
+        };
+        let is_clear = match obligation.about {
+            _ if obligation.is_said_clear => true,
+            // Nobody was let across by what it did.
+            About::Duty(Duty::FallingBack(maneuver))
+                if !self.rules.guarding.contains(maneuver.task) =>
+            {
+                true
+            }
+            // No sign that counts on this robot shows go for longer than its own `t_safety`.
+            About::Duty(_) => {
+                road_is_clear && self.at_s - obligation.since_s >= self.rules.t_safety_s
+            }
+            About::Clearing => road_is_clear,
+        };
+        if is_free && is_clear {
+            self.wish(Wish::Tell(Event::RoadClear));
+        }
+    }
+
+    /// What the sensors say.
+    #[must_use]
+    pub fn state(&self) -> RobotState {
+        self.body.state()
+    }
+
+    /// The body.
+    #[must_use]
+    pub const fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The next thing that the application wants of its endpoint.
+    pub fn next_wish(&mut self) -> Option<Wish> {
+        self.wishes.pop_front()
+    }
+
+    fn wish(&mut self, wish: Wish) {
+        if self.wishes.len() < WISHES {
+            self.wishes.push_back(wish);
+        }
+    }
+
+    /// Ends the motion of the body, whatever it is.
+    pub fn stop(&mut self) {
+        self.waits_for_people = None;
+        self.body.stop();
+    }
+
+    /// The driver of the body says that its fallback is finished.
+    pub fn finish_fallback(&mut self) {
+        self.body.finish_fallback();
+    }
+
+    /// Others say where the body is.
+    pub fn moved(&mut self, pose: Pose) {
+        self.body.moved(pose);
+    }
+
+    /// Carries the body back to where it began.
+    pub fn reset(&mut self) {
+        self.body.carry_to_safe_place();
+    }
+
+    /// Does what the endpoint says.
+    pub fn act(&mut self, act: &Act) {
+        match act {
+            Act::Start(maneuver, parameters) => {
+                (self.maneuver, self.waits_for_people) = (Some(*maneuver), None);
+                self.body.start(*maneuver, *parameters);
+            }
+            Act::Stop(..) => {
+                (self.maneuver, self.waits_for_people) = (None, None);
+                self.body.stop();
+            }
+            Act::FallBack(_, policy) => {
+                (self.maneuver, self.waits_for_people) = (None, None);
+                self.body.fall_back(*policy);
+            }
+            Act::Notice(notice) => self.notice(*notice),
+            Act::OpenCorridor(time) | Act::ExtendCorridor(time) => {
+                self.sign.go(micros(self.at_s), *time);
+            }
+            Act::CloseCorridor(_) => self.sign.stop(),
+            Act::LockIdentity(_) | Act::RenewEpoch | Act::Ignored(..) => {}
+        }
+    }
+
+    /// Follows the plan when it leads.
+    fn notice(&mut self, notice: Notice) {
+        if let (Notice::RolesEstablished(_), Some(plan)) = (notice, &self.plan) {
+            if let Some(place) = plan.own_place {
+                self.body.walk_to(place);
+            }
+            if let Road::Own(street) = &self.road {
+                street.arrive(plan.crossing_us(self.body.time_scale()));
+            }
+            self.errand = Some(Errand {
+                since_s: self.at_s,
+                ..Errand::default()
+            });
+        }
+        if self.errand.is_none() {
+            return;
+        }
+        match notice {
+            Notice::FollowerJoined(follower) => self.begin_part(follower),
+            Notice::ManeuverReported(follower, _) => self.report(follower, false),
+            Notice::ManeuverInPosition(follower, _) => self.report(follower, true),
+            Notice::ManeuverCompleted(follower, _) => self.set(follower, Part::Done),
+            Notice::ManeuverFailed(follower, ..)
+            | Notice::FollowerSafeIdle(follower, _)
+            | Notice::CommandRejected(follower, ..) => self.command(follower),
+            Notice::FollowerGone(follower, _) => self.miss(follower),
+            // The session ends once the road is clear.
+            Notice::Yielded(_) | Notice::SessionEnded(..) => self.errand = None,
+            _ => {}
+        }
+        self.finish_stage();
+    }
+
+    /// The follower's leg of this stage.
+    fn leg(&self, follower: StationId) -> Option<Leg> {
+        let (plan, errand) = (self.plan.as_ref()?, self.errand.as_ref()?);
+        plan.stages.get(errand.stage)?.leg(follower)
+    }
+
+    fn set(&mut self, follower: StationId, part: Part) {
+        if let Some(errand) = &mut self.errand {
+            errand.followers.insert(follower, part);
+        }
+    }
+
+    fn begin_part(&mut self, follower: StationId) {
+        self.set(follower, Part::Commanded(0));
+        self.command(follower);
+    }
+
+    /// A follower executes its leg; `in_position` where it guards from a place and is there.
+    fn report(&mut self, follower: StationId, in_position: bool) {
+        let holds = |leg: Leg| self.rules.holding.contains(leg.task);
+        if in_position && self.leg(follower).is_some_and(holds) {
+            self.set(follower, Part::Holds);
+        }
+        self.open_corridor();
+    }
+
+    /// Asks for the corridor to be opened in the last stage, where the leader's own body does its part in it.
+    /// While it is open no guard is commanded anything, so an earlier stage would be the last one.
+    fn open_corridor(&mut self) {
+        let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
+            return;
+        };
+        if errand.stage + 1 < plan.stages.len() {
+            return;
+        }
+        errand.tried_s = self.at_s;
+        let stands = |place| self.body.stands_at(place);
+        if self.corridor != Corridor::Open && plan.own_place.is_none_or(stands) {
+            self.wish(Wish::Tell(Event::OpenCorridor));
+        }
+    }
+
+    /// A follower is gone, and with it a part of the plan that nobody else does.
+    fn miss(&mut self, follower: StationId) {
+        if let Some(errand) = &mut self.errand {
+            errand.followers.remove(&follower);
+            if !errand.followers.is_empty() {
+                self.wish(Wish::Tell(Event::LeaveRequested));
+            }
+        }
+    }
+
+    /// Commands the follower's leg, again if it failed; in the end the leader gives up.
+    fn command(&mut self, follower: StationId) {
+        let Some(leg) = self.leg(follower) else {
+            return self.set(follower, Part::Done);
+        };
+        let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
+            return;
+        };
+        let attempts = match errand.followers.get(&follower) {
+            Some(Part::Commanded(attempts)) => *attempts,
+            // A part that was begun well has all its attempts before it.
+            Some(Part::Holds | Part::Done) => 0,
+            None => return,
+        };
+        if attempts >= ATTEMPTS {
+            return self.wish(Wish::Tell(Event::LeaveRequested));
+        }
+        errand
+            .followers
+            .insert(follower, Part::Commanded(attempts + 1));
+        let parameters = TaskParameters {
+            target: Some(plan.site.target(leg.to)),
+            maximum_speed: Some(leg.speed_mps),
+            ..TaskParameters::default()
+        };
+        self.wish(Wish::Order {
+            follower,
+            task: leg.task,
+            parameters,
+        });
+    }
+
+    /// Goes on to the next stage when every follower has done its part or holds it.
+    fn finish_stage(&mut self) {
+        let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
+            return;
+        };
+        let is_ready = |part: &Part| !matches!(part, Part::Commanded(_));
+        let everybody = errand.followers.len() >= usize::from(plan.followers);
+        errand.is_done = false;
+        if !everybody || !errand.followers.values().all(is_ready) {
+            return;
+        }
+        if errand.stage + 1 < plan.stages.len() {
+            let next = errand.stage + 1;
+            self.begin_stage(next);
+        } else {
+            errand.is_done = true;
+        }
+    }
+
+    fn begin_stage(&mut self, stage: usize) {
+        let Some(errand) = &mut self.errand else {
+            return;
+        };
+        errand.stage = stage;
+        errand.is_done = false;
+        let followers: Vec<_> = errand.followers.keys().copied().collect();
+        for follower in followers {
+            // Who holds goes on holding unless the stage has something else for it.
+            if self.leg(follower).is_some() {
+                self.begin_part(follower);
+            }
+        }
+    }
+
+    /// What a leader does by the clock: it opens the corridor when it did not open before, ends the
+    /// task when the pedestrian is across, and gives up in the end.
+    fn lead_on(&mut self) {
+        let (Some(plan), Some(errand)) = (&self.plan, &self.errand) else {
+            return;
+        };
+        let is_clear = self.corridor == Corridor::Clear;
+        let lets_cross = plan.lets_cross(self.rules.guarding);
+        let is_across = self.road.everybody_is_across() || (!lets_cross && is_clear);
+        // An escort that is there already is done as soon as it is commanded: it is not commanded without end.
+        let may_try = self.at_s - errand.tried_s >= OPENING_PERIOD_S;
+        if errand.is_done && is_across {
+            self.wish(Wish::Tell(Event::TaskCompleted));
+        } else if self.at_s - errand.since_s > plan.patience_s && is_clear {
+            self.errand = None;
+            self.wish(Wish::Tell(Event::LeaveRequested));
+        } else if may_try && errand.is_done && is_clear && plan.is_escort(errand.stage) {
+            // The escort is over there, and nobody came along.
+            self.begin_stage(0);
+        } else if may_try && self.corridor != Corridor::Open {
+            self.open_corridor();
+        }
+    }
+}
+
+/// Microseconds on the same clock.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clocks show centuries at most, and nothing below 0"
+)]
+fn micros(seconds: f64) -> u64 {
+    (seconds * 1e6) as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_protocol::{RequestId, SessionId, SessionNumber, UniqueNumber};
+
+    use super::*;
+    use crate::body::Build;
+    use crate::plan::Stage;
+    use crate::site::{Place, Site};
+
+    #[test]
+    fn an_escort_that_is_across_already_is_commanded_anew_at_the_opening_period_and_not_without_end()
+     {
+        let follower = StationId(2);
+        let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+        let leader = StationId(1);
+        let session = SessionId { leader, number };
+        let across = Place::new(1.0, 8.0);
+        let plan = Plan {
+            stages: vec![Stage::everybody(Leg::new(TaskType::MOVE, across))],
+            ..Plan::crossing(Site::default())
+        };
+        let body = Body::new(Build::Humanoid, Site::default(), across, 1.0, 1);
+        let mut application = Application::new(body, Some(plan));
+        application.act(&Act::Notice(Notice::RolesEstablished(session)));
+        application.act(&Act::Notice(Notice::FollowerJoined(follower)));
+        let mut orders = 0;
+        for step in 0..1_000 {
+            application.advance(f64::from(step) / 100.0);
+            while let Some(wish) = application.next_wish() {
+                let Wish::Order { .. } = wish else { continue };
+                let request = RequestId(orders);
+                let id = ManeuverId { session, request };
+                orders += 1;
+                application.act(&Act::Notice(Notice::ManeuverReported(follower, id)));
+                application.act(&Act::Notice(Notice::ManeuverCompleted(follower, id)));
+            }
+        }
+        // Ten seconds, an attempt each half second.
+        assert!((15..=20).contains(&orders), "{orders} orders");
+    }
+}

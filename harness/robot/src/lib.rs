@@ -1,0 +1,40 @@
+//! A robot as a process: what surrounds the endpoint of [`crossguard_endpoint`] where a robot really is.
+//!
+//! ```text
+//!   packets ──► transport ──► runtime ──► machine ──┬──► endpoint
+//!   sensors ──► perception ─────┘  │                └──► application ──► body, sign
+//!   log     ◄── journal ◄──────────┘
+//! ```
+//!
+//! - [`machine::Machine`] joins an endpoint and an [`application`] with a [`body`] and a [`plan`], still without
+//!   input and output.
+//! - [`runtime`] drives it, with threads and a bounded inbox; [`journal`] is where its records go, and waits
+//!   for no reader. [`robot_file`] is its configuration.
+//! - [`transport`] has UDP to peers, UDP multicast, Ethernet, zenoh, queues within a process, and a layer of
+//!   seeded faults over any of them; [`capture`] writes packets to pcap files and reads them.
+//! - [`site`], [`street`] and [`perception`] are what the robot knows of the crossing and the people there;
+//!   [`sign`] is what people at the road see.
+//! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up; [`observe`] hands it to `tracing`.
+//! - [`boot`] is the counter that makes session numbers unique over power failures.
+//! - [`pki`] has the certificates and keys that it signs with, for tests.
+//!
+//! The feature `zenoh` brings the transport of that name.
+
+pub mod application;
+pub mod body;
+pub mod boot;
+pub mod capture;
+pub mod journal;
+pub mod machine;
+pub mod observe;
+pub mod perception;
+pub mod pki;
+pub mod plan;
+pub mod robot_file;
+pub mod runtime;
+pub mod sign;
+pub mod site;
+pub mod street;
+pub mod tally;
+pub mod trace;
+pub mod transport;

@@ -1,0 +1,158 @@
+//! A robot without input and output: its endpoint, its application, and how the two turn.
+//!
+//! ```text
+//!                ┌────────────── Machine::handle ───────────────┐
+//!   time ──────► │ body moves ─► endpoint ─► acts ─► wishes ─┐  │
+//!   stimulus ──► │                  ▲                        │  │ ──► effects, in order
+//!                │                  └────────────────────────┘  │
+//!                └──────────────────────────────────────────────┘
+//! ```
+//!
+//! [`runtime`](crate::runtime) drives it by a real clock and a socket, the simulator of `crossguard-judge` in
+//! virtual time; both do what the effects say.
+
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{Event, Phase, Robot, StateMachine};
+
+use crate::application::{Application, Wish};
+
+/// How many wishes of the application are fulfilled in one turn; the others wait for the next.
+const WISHES_PER_TURN: usize = 32;
+
+/// A robot's endpoint and application.
+#[derive(Debug)]
+pub struct Machine<P = Robot> {
+    endpoint: Endpoint<P>,
+    application: Application,
+}
+
+impl<P: StateMachine> Machine<P> {
+    /// The robot with this endpoint and application.
+    #[must_use]
+    pub const fn new(endpoint: Endpoint<P>, application: Application) -> Self {
+        Self {
+            endpoint,
+            application,
+        }
+    }
+
+    /// The endpoint.
+    #[must_use]
+    pub const fn endpoint(&self) -> &Endpoint<P> {
+        &self.endpoint
+    }
+
+    /// The endpoint, to count what came to nothing outside of it.
+    pub const fn endpoint_mut(&mut self) -> &mut Endpoint<P> {
+        &mut self.endpoint
+    }
+
+    /// The application.
+    #[must_use]
+    pub const fn application(&self) -> &Application {
+        &self.application
+    }
+
+    /// The application, to carry its body somewhere.
+    pub const fn application_mut(&mut self) -> &mut Application {
+        &mut self.application
+    }
+
+    /// Takes in what happened at `moment`, which is `now_s` seconds on the clock of the body. What
+    /// concerns body and application is carried out; every effect is returned.
+    pub fn handle(&mut self, moment: Moment, now_s: f64, stimulus: Stimulus<'_>) -> Vec<Effect> {
+        self.application.advance(now_s);
+        let mut effects = self.turn(moment, stimulus);
+        for _ in 0..WISHES_PER_TURN {
+            let Some(wish) = self.application.next_wish() else {
+                break;
+            };
+            effects.extend(self.turn(moment, stimulus_of(wish)));
+        }
+        if self.endpoint.all_have_answered() {
+            effects.extend(self.turn(moment, Stimulus::Event(Event::AllAnswered)));
+        }
+        effects
+    }
+
+    fn turn(&mut self, moment: Moment, stimulus: Stimulus<'_>) -> Vec<Effect> {
+        let state = self.application.state();
+        let effects = self.endpoint.handle(moment, &state, stimulus);
+        for effect in &effects {
+            if let Effect::Act(act) = effect {
+                self.application.act(act);
+            }
+        }
+        let (robot, config) = (self.endpoint.robot(), self.endpoint.config());
+        self.application.learn(robot, config);
+        effects
+    }
+
+    /// The event that the body holds the place from which the maneuver that runs guards. `None` when none
+    /// runs.
+    #[must_use]
+    pub fn in_position(&self) -> Option<Event> {
+        let Phase::Following(following) = self.endpoint.robot().phase() else {
+            return None;
+        };
+        Some(Event::InPosition(following.executing()?.id))
+    }
+
+    /// The event that the maneuver which runs is finished, well or not; the body stops. `None` when
+    /// none runs; then a fallback that runs is finished.
+    pub fn finish(&mut self, well: bool) -> Option<Event> {
+        let executing = match self.endpoint.robot().phase() {
+            Phase::Following(following) => following.executing(),
+            _ => None,
+        };
+        let Some(maneuver) = executing else {
+            self.application.finish_fallback();
+            return None;
+        };
+        self.application.stop();
+        Some(if well {
+            Event::ManeuverCompleted(maneuver.id)
+        } else {
+            Event::ManeuverFailed(maneuver.id)
+        })
+    }
+
+    /// Whether the robot has no part in a session, says farewell to none, and has no duty on the road.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        is_at_rest(self.endpoint.robot())
+    }
+
+    /// Whether the robot may be switched off: it has no part in a session, says farewell to none, and its
+    /// body is on no way that its fallback takes. Who holds a place goes on holding it.
+    #[must_use]
+    pub fn may_stop(&self) -> bool {
+        let robot = self.endpoint.robot();
+        let is_under_way = self.application.body().walks_back();
+        matches!(robot.phase(), Phase::Idle) && robot.farewell().is_none() && !is_under_way
+    }
+}
+
+/// Whether a robot has no part in a session, says farewell to none, and has no duty on the road.
+#[must_use]
+pub fn is_at_rest(robot: &Robot) -> bool {
+    let is_idle = matches!(robot.phase(), Phase::Idle);
+    is_idle && robot.farewell().is_none() && robot.duty().is_none()
+}
+
+/// What a wish is to an endpoint.
+#[must_use]
+pub const fn stimulus_of(wish: Wish) -> Stimulus<'static> {
+    match wish {
+        Wish::Tell(event) => Stimulus::Event(event),
+        Wish::Order {
+            follower,
+            task,
+            parameters,
+        } => Stimulus::Order {
+            follower,
+            task,
+            parameters,
+        },
+    }
+}

@@ -1,0 +1,131 @@
+//! What a running robot does, as events of [`tracing`], for whoever has set up a subscriber.
+//!
+//! | level | what |
+//! |---|---|
+//! | error | the log has no room, the link has failed |
+//! | warn | something was dropped, with its cause; the application is told that something went wrong |
+//! | info | boots, states, maneuvers, the corridor |
+//! | debug | what the transition function ignored, with its cause; what the fault layer dropped; messages |
+//! | trace | every step |
+
+use std::io::IsTerminal;
+
+use crossguard_endpoint::counters::Cause;
+use crossguard_protocol::{Input, Notice, Output, Outputs, State};
+use tracing::{debug, info, trace, warn};
+use tracing_appender::non_blocking::WorkerGuard;
+
+use crate::trace::Entry;
+
+/// Has what these crates observe written to standard error, by a thread of its own: a robot does not wait
+/// for whoever reads it, and lines that are not read in time are lost. What is left is written when the guard
+/// is dropped.
+///
+/// `verbose` is how often `-v` was given: `info`, `debug`, and from three on `trace`. Without it nothing is
+/// written, unless the environment variable `RUST_LOG` says what. It sets up the subscriber of the process;
+/// where there is one already, that one stays.
+pub fn to_standard_error(verbose: u8, crates: &[&str]) -> WorkerGuard {
+    let level = match verbose {
+        0 => "off",
+        1 => "info",
+        2 => "debug",
+        _ => "trace",
+    };
+    let wanted = std::env::var("RUST_LOG").ok().filter(|_| verbose == 0);
+    let filter = wanted.unwrap_or_else(|| {
+        let levels: Vec<String> = crates
+            .iter()
+            .map(|name| format!("{name}={level}"))
+            .collect();
+        levels.join(",")
+    });
+    let (stderr, guard) = tracing_appender::non_blocking(std::io::stderr());
+    let subscriber = tracing_subscriber::fmt()
+        .with_env_filter(tracing_subscriber::EnvFilter::new(filter))
+        .with_writer(stderr)
+        .with_target(false)
+        .with_ansi(std::io::stderr().is_terminal());
+    // It can only fail when there is a subscriber already.
+    let _ = subscriber.try_init();
+    guard
+}
+
+/// Tells of an entry of the log. `before` is the state before it.
+pub fn entry(entry: &Entry, before: &mut State) {
+    match entry {
+        Entry::Started { station, boot, .. } => {
+            info!(%station, boot, "started");
+        }
+        Entry::Step {
+            input,
+            outputs,
+            state,
+        } => {
+            step(input, outputs);
+            let after = state.state();
+            if *before != after {
+                info!(from = ?before, to = ?after, role = %state.role(), "state");
+                *before = after;
+            }
+        }
+        Entry::Sent {
+            message,
+            trigger,
+            octets,
+        } => debug!(
+            message = message.name(),
+            ?trigger,
+            octets = octets.len(),
+            "sent"
+        ),
+        Entry::Heard {
+            message,
+            from,
+            octets,
+            ..
+        } => debug!(message = message.name(), %from, octets = octets.len(), "heard"),
+        Entry::Dropped { cause, detail, .. } if cause.starts_with("simulated ") => {
+            debug!(cause, detail, "dropped");
+        }
+        Entry::Dropped { cause, detail, .. } => warn!(cause, detail, "dropped"),
+        Entry::Stopped { counters } => {
+            info!("stopped");
+            for (cause, count) in counters {
+                debug!(cause, count, "came to nothing");
+            }
+        }
+    }
+}
+
+fn step(input: &Input, outputs: &Outputs) {
+    trace!(%input, outputs = outputs.len(), "step");
+    for output in outputs.iter() {
+        match output {
+            Output::Ignored(reason) => {
+                debug!(cause = Cause::Ignored(*reason).name(), %input, "ignored");
+            }
+            Output::StartManeuver(_)
+            | Output::StopManeuver(..)
+            | Output::FallBack(..)
+            | Output::CorridorOpened(_)
+            | Output::CorridorClosed(_)
+            | Output::RenewEpoch => info!(%output, "output"),
+            Output::Notify(
+                Notice::FollowerGone(..)
+                | Notice::LeaseExpired(_)
+                | Notice::CommandRejected(..)
+                | Notice::ManeuverFailed(..)
+                | Notice::FollowerSafeIdle(..)
+                | Notice::OfferLapsed(_)
+                | Notice::Yielded(_)
+                | Notice::ContactLost(_),
+            ) => warn!(%output, "notice"),
+            Output::Notify(_) => debug!(%output, "notice"),
+            Output::CorridorExtended(_)
+            | Output::SendRam
+            | Output::SendRmcm(_)
+            | Output::LockIdentity
+            | Output::UnlockIdentity => {}
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! The configuration of one robot: a TOML file for `crossguard run`.
+
+use std::net::{SocketAddr, SocketAddrV4};
+use std::path::{Path, PathBuf};
+
+use crossguard_codec::{IdentifierClash, Identifiers};
+use crossguard_endpoint::ras::clustering;
+use crossguard_endpoint::ras::surroundings::Awareness;
+use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
+use crossguard_endpoint::station::Security;
+use crossguard_endpoint::wire::Wire;
+use crossguard_protocol::{self as protocol, BrokenInequality, Config, Settings, StationId};
+use serde::Deserialize;
+
+use crate::application::Application;
+use crate::body::{Body, Build};
+use crate::boot::Boot;
+use crate::journal::Journal;
+use crate::plan::Plan;
+use crate::runtime::{Clock, Setup};
+use crate::site::{CrossingReference, NoCrossing, Place, Site};
+use crate::street::{Road, Street, Watched, Zone};
+use crate::transport::{Halves, Link, Zenoh};
+
+/// A robot's configuration, checked.
+#[derive(Clone, Debug)]
+pub struct RobotFile {
+    /// Its name.
+    pub name: String,
+    /// Its station id.
+    pub station: StationId,
+    /// What kind of robot it is.
+    pub build: Build,
+    /// Where its boot counter is kept.
+    pub boot_file: PathBuf,
+    /// Where it stands.
+    pub place: Place,
+    /// Where the origin of places is.
+    pub site: Site,
+    /// How many times as fast as real its simulated body moves.
+    pub speed: f64,
+    /// Whether it leads the crossing by itself once a pedestrian is detected. The pedestrian is simulated
+    /// then.
+    pub autopilot: bool,
+    /// The part of the road on which people cross, if its sensors have everybody there.
+    pub zone: Option<Zone>,
+    /// Its link.
+    pub link: Link,
+    /// The protocol's configuration.
+    pub config: Config,
+    /// What no standard has assigned.
+    pub identifiers: Identifiers,
+    /// How it announces the people around it.
+    pub awareness: Awareness,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    name: String,
+    station: u32,
+    build: Build,
+    boot_file: PathBuf,
+    #[serde(default)]
+    place: [f64; 2],
+    #[serde(default = "one")]
+    speed: f64,
+    #[serde(default)]
+    autopilot: bool,
+    crossing: Option<String>,
+    zone_m: Option<[f64; 4]>,
+    #[serde(default)]
+    site: Option<SiteTable>,
+    link: LinkTable,
+    #[serde(default)]
+    protocol: Settings,
+    #[serde(default)]
+    identifiers: Identifiers,
+    #[serde(default)]
+    people: clustering::Settings,
+    #[serde(default)]
+    cluster_vam: bool,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SiteTable {
+    latitude: f64,
+    longitude: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LinkTable {
+    address: Option<SocketAddr>,
+    #[serde(default)]
+    peers: Vec<SocketAddr>,
+    multicast: Option<SocketAddrV4>,
+    interface: Option<String>,
+    ethernet: Option<String>,
+    zenoh: Option<Zenoh>,
+}
+
+/// Why a robot cannot be configured.
+#[derive(Debug, thiserror::Error)]
+pub enum RobotFileError {
+    /// The file cannot be read.
+    #[error("{}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// The text is no configuration.
+    #[error("{}: {cause}", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// What and where.
+        cause: Box<toml::de::Error>,
+    },
+    /// The text is a configuration that makes no sense.
+    #[error("{}: {cause}", path.display())]
+    Impossible {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        cause: Impossibility,
+    },
+}
+
+/// What is wrong with a configuration.
+#[derive(Debug, thiserror::Error)]
+pub enum Impossibility {
+    /// Timers contradict each other.
+    #[error("[protocol] {0}")]
+    Settings(#[from] BrokenInequality),
+    /// Identifiers contradict each other.
+    #[error("[identifiers] {0}")]
+    Identifiers(#[from] IdentifierClash),
+    /// There is no link, or there are two.
+    #[error(
+        "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', or 'ethernet', or \
+         a table [link.zenoh] with a 'mode'"
+    )]
+    Link,
+    /// A peer is not on the loopback interface.
+    #[error(
+        "[link] {0} is not a loopback address; to reach other machines, use 'multicast' and \
+         'interface', or [link.zenoh]"
+    )]
+    NotLoopback(SocketAddr),
+    /// The body's time does not pass, or goes back.
+    #[error("speed is {0}: a number from 1 to 100 is wanted")]
+    Speed(f64),
+    /// People cannot be clustered so.
+    #[error("[people] {0}")]
+    People(&'static str),
+    /// The crossing has no such name.
+    #[error("crossing: {0}")]
+    Crossing(#[from] NoCrossing),
+    /// The zone has no area.
+    #[error(
+        "zone_m is {0:?}: west, south, east and north in metres are wanted, west < east and south < north"
+    )]
+    Zone([f64; 4]),
+    /// A site that is not on earth.
+    #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
+    Site(f64, f64),
+}
+
+impl RobotFile {
+    /// Reads a configuration. Paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn read(path: &Path) -> Result<Self, RobotFileError> {
+        let owned = || path.to_owned();
+        let text = std::fs::read_to_string(path).map_err(|cause| RobotFileError::Unreadable {
+            path: owned(),
+            cause,
+        })?;
+        let file: Text = toml::from_str(&text).map_err(|cause| RobotFileError::Syntax {
+            path: owned(),
+            cause: Box::new(cause),
+        })?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        file.check(folder)
+            .map_err(|cause| RobotFileError::Impossible {
+                path: owned(),
+                cause,
+            })
+    }
+
+    /// A simulated body at its place; `seed` is that of its gait.
+    #[must_use]
+    pub fn body(&self, seed: u64) -> Body {
+        Body::new(self.build, self.site, self.place, self.speed, seed)
+            .holding(self.config.settings().holding)
+    }
+
+    /// What it knows of the people on the road: nothing, unless its sensors have everybody there, or it
+    /// simulates a crossing.
+    #[must_use]
+    pub fn road(&self) -> Road {
+        match self.zone {
+            _ if self.autopilot => Road::Own(Street::default()),
+            Some(zone) => Road::Watched(Watched::new(zone)),
+            None => Road::Unknown,
+        }
+    }
+
+    /// What makes and reads its messages.
+    #[must_use]
+    pub const fn wire(&self) -> Wire {
+        Wire {
+            identifiers: self.identifiers,
+        }
+    }
+
+    /// The robot with this boot counter and body, on a clock that begins now.
+    #[must_use]
+    pub fn setup(
+        &self,
+        boot: Boot,
+        body: Body,
+        security: Security,
+        link: Halves,
+        journal: Journal,
+    ) -> Setup {
+        let plan = self.autopilot.then(|| Plan::crossing(self.site));
+        Setup {
+            name: self.name.clone(),
+            station: self.station,
+            boot,
+            config: self.config.clone(),
+            wire: self.wire(),
+            security,
+            awareness: self.awareness,
+            application: Application::new(body, plan).on(self.road()),
+            link,
+            journal,
+            clock: Clock::start(),
+        }
+    }
+}
+
+impl Text {
+    fn check(self, folder: &Path) -> Result<RobotFile, Impossibility> {
+        if !(1.0..=100.0).contains(&self.speed) {
+            return Err(Impossibility::Speed(self.speed));
+        }
+        let site = self.site.map_or_else(Site::default, |site| Site {
+            latitude: site.latitude,
+            longitude: site.longitude,
+            ..Site::default()
+        });
+        let crossing = self.crossing.as_deref().map(str::parse);
+        let crossing = crossing.transpose()?;
+        let site = Site {
+            crossing: crossing.map_or(protocol::Place::UNKNOWN, |CrossingReference(place)| place),
+            ..site
+        };
+        let zone = self.zone_m.map(zone).transpose()?;
+        if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
+            return Err(Impossibility::Site(site.latitude, site.longitude));
+        }
+        self.identifiers.check()?;
+        self.people.check().map_err(Impossibility::People)?;
+        Ok(RobotFile {
+            name: self.name,
+            station: StationId(self.station),
+            build: self.build,
+            boot_file: folder.join(self.boot_file),
+            place: Place::new(self.place[0], self.place[1]),
+            site,
+            speed: self.speed,
+            autopilot: self.autopilot,
+            zone,
+            link: self.link.check(folder)?,
+            config: Config::new(self.protocol)?,
+            identifiers: self.identifiers,
+            awareness: Awareness {
+                clustering: self.people,
+                cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
+            },
+        })
+    }
+}
+
+fn zone(metres: [f64; 4]) -> Result<Zone, Impossibility> {
+    let [west, south, east, north] = metres;
+    if west < east && south < north {
+        Ok(Zone {
+            south_west: Place::new(west, south),
+            north_east: Place::new(east, north),
+        })
+    } else {
+        Err(Impossibility::Zone(metres))
+    }
+}
+
+impl LinkTable {
+    fn check(self, folder: &Path) -> Result<Link, Impossibility> {
+        match self {
+            Self {
+                address: Some(address),
+                peers,
+                multicast: None,
+                interface: None,
+                ethernet: None,
+                zenoh: None,
+            } => {
+                let all = std::iter::once(&address).chain(&peers);
+                match all.copied().find(|address| !address.ip().is_loopback()) {
+                    Some(outside) => Err(Impossibility::NotLoopback(outside)),
+                    None => Ok(Link::Peers { address, peers }),
+                }
+            }
+            Self {
+                address: None,
+                peers,
+                multicast: Some(group),
+                interface: Some(interface),
+                ethernet: None,
+                zenoh: None,
+            } if peers.is_empty() => Ok(Link::Multicast { group, interface }),
+            Self {
+                address: None,
+                peers,
+                multicast: None,
+                interface: None,
+                ethernet: Some(interface),
+                zenoh: None,
+            } if peers.is_empty() => Ok(Link::Ethernet { interface }),
+            Self {
+                address: None,
+                peers,
+                multicast: None,
+                interface: None,
+                ethernet: None,
+                zenoh: Some(part),
+            } if peers.is_empty() => Ok(Link::Zenoh(Zenoh {
+                config: part.config.map(|file| folder.join(file)),
+                ..part
+            })),
+            _ => Err(Impossibility::Link),
+        }
+    }
+}

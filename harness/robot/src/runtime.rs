@@ -1,0 +1,479 @@
+//! One robot as a running program: its endpoint, link and application in one loop.
+//!
+//! ```text
+//!   socket ──► reader thread ──► inbox ──┐               ┌──► link     (never waits for a receiver)
+//!   orders ──────────────────────────────┼──► Machine ───┤
+//!   clock  ── when something is due ─────┘               └──► journal  (never waits for a reader)
+//! ```
+//!
+//! 1. The loop waits for the inbox, at most until the machine or the body has something to do.
+//! 2. What came in is handed to the [`Machine`], and then that time has passed.
+//! 3. Effects are carried out in order: what is sent is put into the [`Journal`] first, so that no
+//!    receiver logs it before its sender.
+//!
+//! The loop owns the machine, the sending half of the link, and the journal; nothing is locked. It
+//! waits for nobody but the clock: a link that does not take a packet, and a reader that does not take
+//! a record, lose it, and that is counted. The inbox takes a limited number of datagrams and drops the
+//! newest; orders have places of their own in it, so that a flood does not keep a robot from stopping.
+//!
+//! A robot that is told to stop leaves its session by name, says so for `T_farewell`, and then ends.
+
+mod epochs;
+mod reader;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use crossguard_codec::si::timestamp_its;
+use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::ras::clustering::PerceivedVru;
+use crossguard_endpoint::ras::surroundings::Awareness;
+use crossguard_endpoint::station::Security;
+use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
+
+use self::epochs::Epochs;
+use self::reader::{Reader, Waiting};
+use crate::application::{Application, Wish};
+use crate::body::Pose;
+use crate::boot::Boot;
+use crate::journal::Journal;
+use crate::machine::{Machine, stimulus_of};
+use crate::observe;
+use crate::perception::seen_from;
+use crate::trace::{Entry, Record, recorded};
+use crate::transport::{Arrival, Halves, Sender};
+
+/// How many datagrams may wait.
+const DATAGRAMS: usize = 256;
+
+/// How many orders may wait besides, before who gives them has to.
+const ORDERS: usize = 16;
+
+/// How long the last record waits for a reader that is slow.
+const LAST_RECORD_WAIT: Duration = Duration::from_secs(1);
+
+/// How often the body moves at least.
+const BODY_PERIOD: Duration = Duration::from_millis(5);
+
+/// A clock that several robots share, so that their logs line up.
+#[derive(Clone, Copy, Debug)]
+pub struct Clock {
+    start: Instant,
+}
+
+impl Clock {
+    /// A clock that starts now.
+    #[must_use]
+    pub fn start() -> Self {
+        Self {
+            start: Instant::now(),
+        }
+    }
+
+    /// Microseconds since the start.
+    #[must_use]
+    pub fn now_us(&self) -> u64 {
+        u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
+    }
+
+    /// What it showed at an instant, in ms; 0 before the start.
+    fn at_ms(&self, instant: Instant) -> u64 {
+        let since = instant.saturating_duration_since(self.start);
+        u64::try_from(since.as_millis()).unwrap_or(u64::MAX)
+    }
+}
+
+/// This moment, which the clock shows as `now_us`.
+fn moment_at(now_us: u64) -> Moment {
+    let unix_ms = i64::try_from(unix_ms()).unwrap_or(i64::MAX);
+    Moment {
+        now_ms: now_us / 1_000,
+        timestamp_its: timestamp_its(unix_ms),
+    }
+}
+
+fn unix_ms() -> u64 {
+    let now = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .unwrap_or_default();
+    u64::try_from(now.as_millis()).unwrap_or(u64::MAX)
+}
+
+/// What a running robot can be told from outside.
+#[derive(Clone, Copy, Debug)]
+pub enum Order {
+    /// Something for its endpoint.
+    Wish(Wish),
+    /// The body holds the place from which the maneuver that runs guards.
+    InPosition,
+    /// A person says that the road is clear.
+    Clear,
+    /// The maneuver that runs is finished, well or not; or the fallback that runs.
+    Finish {
+        /// Whether it was completed.
+        well: bool,
+    },
+    /// The sensors have this person, at this place on the site.
+    Perceived(PerceivedVru),
+    /// The body, which others move, is here.
+    Moved(Pose),
+    /// Carry the body back to where it began.
+    Reset,
+    /// Leave whatever session it is in, say farewell, and stop.
+    Stop,
+    /// Lose power: end at once and say nothing.
+    Die,
+}
+
+enum Delivery {
+    Arrived(Arrival),
+    Order(Order),
+    LinkFailed(std::io::Error),
+}
+
+/// A robot that can be run.
+pub struct Setup {
+    /// Its name in logs.
+    pub name: String,
+    /// Its station id.
+    pub station: StationId,
+    /// Its boot counter.
+    pub boot: Boot,
+    /// Its configuration.
+    pub config: Config,
+    /// Encodes and decodes.
+    pub wire: Wire,
+    /// Whether it signs and verifies.
+    pub security: Security,
+    /// How it announces the people around it.
+    pub awareness: Awareness,
+    /// Moves the body, and leads.
+    pub application: Application,
+    /// Its link, open.
+    pub link: Halves,
+    /// Where its records go.
+    pub journal: Journal,
+    /// The clock.
+    pub clock: Clock,
+}
+
+/// A robot that runs.
+pub struct Running {
+    orders: SyncSender<Delivery>,
+    waiting: Arc<Waiting>,
+    threads: Vec<JoinHandle<()>>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Setup {
+    /// Starts the robot in threads of its own.
+    #[must_use]
+    pub fn start(self) -> Running {
+        let (deliveries, inbox) = sync_channel(DATAGRAMS + ORDERS);
+        let stop = Arc::new(AtomicBool::new(false));
+        let waiting = Arc::new(Waiting::default());
+        let reader = Reader {
+            receiver: self.link.receiver,
+            deliveries: deliveries.clone(),
+            waiting: Arc::clone(&waiting),
+            stop: Arc::clone(&stop),
+        };
+        // The log begins when the robot's clock does.
+        let began_us = self.clock.now_us();
+        let now_ms = began_us / 1_000;
+        let robot = Robot::new(self.station, self.boot.counter);
+        let mut turn = Loop {
+            began_us,
+            machine: Machine::new(
+                Endpoint::new(robot, self.config, self.wire, now_ms)
+                    .with_security(self.security)
+                    .with_awareness(self.awareness),
+                self.application,
+            ),
+            name: self.name,
+            sender: self.link.sender,
+            journal: self.journal,
+            clock: self.clock,
+            waiting: Arc::clone(&waiting),
+            epochs: Epochs::start(self.boot),
+            observed: State::Idle,
+            stopping: false,
+            is_dead: false,
+        };
+        let stopped = Arc::clone(&stop);
+        let threads = vec![
+            std::thread::spawn(move || reader.run()),
+            std::thread::spawn(move || {
+                turn.run(&inbox);
+                stopped.store(true, Ordering::Relaxed);
+            }),
+        ];
+        Running {
+            orders: deliveries,
+            waiting,
+            threads,
+            stop,
+        }
+    }
+}
+
+impl Running {
+    /// Tells the robot something. It has no effect on a robot that has stopped.
+    pub fn order(&self, order: Order) {
+        let _ = self.orders.send(Delivery::Order(order));
+    }
+
+    /// Whether the robot has stopped, of its own accord or because it was told to.
+    #[must_use]
+    pub fn has_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// How many datagrams have been dropped so far because the inbox was full.
+    #[must_use]
+    pub fn inbox_full(&self) -> u64 {
+        self.waiting.dropped_in_all.load(Ordering::Relaxed)
+    }
+
+    /// Tells the robot to stop and waits until it has said farewell.
+    pub fn stop(self) {
+        self.order(Order::Stop);
+        self.wait();
+    }
+
+    /// Waits until the robot has stopped.
+    pub fn wait(self) {
+        drop(self.orders);
+        for thread in self.threads {
+            // A panic has been printed by its thread; there is nothing to add.
+            let _ = thread.join();
+        }
+    }
+}
+
+struct Loop {
+    /// When the robot's clock began.
+    began_us: u64,
+    machine: Machine,
+    name: String,
+    sender: Box<dyn Sender>,
+    journal: Journal,
+    clock: Clock,
+    waiting: Arc<Waiting>,
+    epochs: Epochs,
+    /// The newest state that was told to whoever observes.
+    observed: State,
+    stopping: bool,
+    is_dead: bool,
+}
+
+impl Loop {
+    fn run(&mut self, inbox: &Inbox<Delivery>) {
+        let _span = tracing::info_span!("robot", name = self.name).entered();
+        let since_ms = self.clock.now_us().saturating_sub(self.began_us) / 1_000;
+        let started = self.record_at(
+            self.began_us,
+            Entry::Started {
+                station: self.machine.endpoint().robot().station(),
+                boot: self.machine.endpoint().robot().boot(),
+                settings: Box::new(self.machine.endpoint().config().settings().clone()),
+                identifiers: self.machine.endpoint().wire().identifiers,
+                unix_ms: unix_ms().saturating_sub(since_ms),
+            },
+        );
+        self.put(started);
+        while !self.is_done() {
+            match inbox.recv_timeout(self.patience()) {
+                Ok(Delivery::Order(order)) => self.obey(order),
+                Ok(delivery) => {
+                    self.waiting.datagrams.fetch_sub(1, Ordering::Relaxed);
+                    self.take(delivery);
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                // Nobody is left who could tell it to stop.
+                Err(RecvTimeoutError::Disconnected) => self.begin_to_stop(),
+            }
+            if self.is_dead {
+                return;
+            }
+            self.renew_epoch();
+            self.handle(Stimulus::Time);
+        }
+        self.count_overflow();
+        let counters = self.machine.endpoint().counters().by_name().clone();
+        let last = self.record(Entry::Stopped { counters });
+        self.journal.put_last(last, LAST_RECORD_WAIT);
+    }
+
+    /// How long the loop may wait for something to arrive.
+    fn patience(&self) -> Duration {
+        let now_us = self.clock.now_us();
+        let due_us = self
+            .machine
+            .endpoint()
+            .next_wakeup_ms()
+            .saturating_mul(1_000);
+        Duration::from_micros(due_us.saturating_sub(now_us)).min(BODY_PERIOD)
+    }
+
+    /// Takes in what comes from the reader.
+    fn take(&mut self, delivery: Delivery) {
+        match delivery {
+            Delivery::Arrived(Arrival::Datagram { octets, at, .. }) => {
+                self.handle(Stimulus::Datagram {
+                    packet: &octets,
+                    arrived_ms: self.clock.at_ms(at),
+                });
+            }
+            Delivery::Arrived(Arrival::Lost { how, octets }) => {
+                let detail = "by the fault layer".to_owned();
+                self.drop(Cause::Simulated(how), detail, octets);
+            }
+            Delivery::Arrived(Arrival::Overflow(datagrams)) => {
+                for _ in 0..datagrams {
+                    self.machine.endpoint_mut().count(Cause::LinkFull);
+                }
+            }
+            Delivery::LinkFailed(cause) => {
+                self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
+            }
+            Delivery::Order(order) => self.obey(order),
+        }
+        self.count_overflow();
+    }
+
+    /// Counts what the reader had no place for.
+    fn count_overflow(&mut self) {
+        for _ in 0..self.waiting.dropped.swap(0, Ordering::Relaxed) {
+            self.machine.endpoint_mut().count(Cause::InboxFull);
+        }
+    }
+
+    fn obey(&mut self, order: Order) {
+        match order {
+            Order::Wish(wish) => self.handle(stimulus_of(wish)),
+            Order::InPosition => {
+                if let Some(event) = self.machine.in_position() {
+                    self.handle(Stimulus::Event(event));
+                }
+            }
+            Order::Clear => {
+                // Where nothing waits for it, the robot says so.
+                if !self.machine.application_mut().say_clear() {
+                    self.handle(Stimulus::Event(Event::RoadClear));
+                }
+            }
+            Order::Finish { well } => {
+                if let Some(event) = self.machine.finish(well) {
+                    self.handle(Stimulus::Event(event));
+                }
+            }
+            Order::Perceived(vru) => {
+                let place = self.machine.application().body().place();
+                self.machine.application_mut().perceive(&vru);
+                self.handle(Stimulus::Perceived(&[seen_from(place, vru)]));
+            }
+            Order::Moved(pose) => self.machine.application_mut().moved(pose),
+            Order::Reset => self.machine.application_mut().reset(),
+            Order::Stop => self.begin_to_stop(),
+            Order::Die => self.is_dead = true,
+        }
+    }
+
+    /// Tells the robot of a boot counter that has been persisted meanwhile.
+    fn renew_epoch(&mut self) {
+        match self.epochs.answer() {
+            None => {}
+            Some(Ok(boot)) => self.handle(Stimulus::Event(Event::EpochRenewed(boot))),
+            // The robot asks again with the next number that it gives out.
+            Some(Err(error)) => {
+                tracing::error!(%error, "the boot counter is not renewed");
+                self.drop(Cause::EpochNotRenewed, error.to_string(), Vec::new());
+            }
+        }
+    }
+
+    /// A robot that is to stop leaves its session in order first.
+    fn begin_to_stop(&mut self) {
+        if !self.stopping {
+            self.stopping = true;
+            if !matches!(self.machine.endpoint().robot().phase(), Phase::Idle) {
+                self.handle(Stimulus::Event(Event::LeaveRequested));
+            }
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.stopping && self.machine.may_stop()
+    }
+
+    /// Hands something to the endpoint and carries out what it wants.
+    fn handle(&mut self, stimulus: Stimulus<'_>) {
+        // Read once: the sign counts from the moment that the protocol counts from.
+        let shown = self.clock.now_us();
+        let moment = moment_at(shown);
+        #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
+        let now_s = shown as f64 / 1e6;
+        for effect in self.machine.handle(moment, now_s, stimulus) {
+            self.carry_out(effect);
+        }
+    }
+
+    fn carry_out(&mut self, effect: Effect) {
+        let packet = match &effect {
+            Effect::Transmit { packet, .. } => Some(packet.clone()),
+            _ => None,
+        };
+        if matches!(effect, Effect::Act(Act::RenewEpoch)) {
+            self.epochs.ask();
+        }
+        // What is sent is logged first: no receiver logs it before its sender.
+        if let Some(entry) = recorded(effect) {
+            self.log(entry);
+        }
+        if let Some(packet) = packet
+            && let Err(error) = self.sender.send(&packet)
+        {
+            self.drop(Cause::NotSent, error.to_string(), Vec::new());
+        }
+    }
+
+    fn drop(&mut self, cause: Cause, detail: String, octets: Vec<u8>) {
+        self.machine.endpoint_mut().count(cause);
+        self.log(Entry::Dropped {
+            cause: cause.name(),
+            detail,
+            octets,
+        });
+    }
+
+    fn log(&mut self, entry: Entry) {
+        let record = self.record(entry);
+        self.put(record);
+    }
+
+    fn put(&mut self, record: Record) {
+        for lost in self.journal.put(record) {
+            tracing::error!(cause = lost.name(), "dropped");
+            self.machine.endpoint_mut().count(lost);
+        }
+    }
+
+    fn record(&mut self, entry: Entry) -> Record {
+        self.record_at(self.clock.now_us(), entry)
+    }
+
+    fn record_at(&mut self, at_us: u64, entry: Entry) -> Record {
+        observe::entry(&entry, &mut self.observed);
+        Record {
+            at_us,
+            robot: self.name.clone(),
+            entry,
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! How a running robot is, at a glance: for status lines and metrics.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use crossguard_endpoint::wire::MessageKind;
+use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
+
+use crate::trace::{Entry, Record};
+
+/// The newest known of a robot, and how often what happened, from its records as they come.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Its name.
+    pub robot: String,
+    /// Its state; `None` before it has booted.
+    pub state: Option<Robot>,
+    /// Messages by direction and kind.
+    pub messages: BTreeMap<(Way, MessageKind), u64>,
+    /// Steps of the transition function.
+    pub steps: u64,
+    /// What came to nothing, by cause.
+    pub causes: BTreeMap<String, u64>,
+    /// When a message of whom was heard last, in µs on the clock of the log.
+    pub heard_us: BTreeMap<StationId, u64>,
+    /// The newest record, likewise.
+    pub at_us: u64,
+    /// Whether it has stopped.
+    pub has_stopped: bool,
+    /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
+    pub go_until: Option<Instant>,
+}
+
+/// The way of a message.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Way {
+    /// It was sent.
+    Sent,
+    /// It was heard.
+    Heard,
+}
+
+impl Way {
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sent => "sent",
+            Self::Heard => "heard",
+        }
+    }
+}
+
+/// For how many stations the time of the last message is kept.
+const STATIONS: usize = 256;
+
+impl Tally {
+    /// Takes a record in.
+    pub fn record(&mut self, record: &Record) {
+        self.at_us = record.at_us;
+        match &record.entry {
+            Entry::Started { station, boot, .. } => {
+                self.robot.clone_from(&record.robot);
+                self.state = Some(Robot::new(*station, *boot));
+                self.go_until = None;
+            }
+            Entry::Step { outputs, state, .. } => {
+                self.steps += 1;
+                if let Some(reason) = outputs.ignored() {
+                    self.count(&crossguard_endpoint::counters::Cause::Ignored(reason).name());
+                }
+                self.state = Some((**state).clone());
+                self.sign(outputs);
+            }
+            Entry::Sent { message, .. } => self.message(Way::Sent, *message),
+            Entry::Heard { message, from, .. } => {
+                self.message(Way::Heard, *message);
+                if self.heard_us.len() < STATIONS || self.heard_us.contains_key(from) {
+                    self.heard_us.insert(*from, record.at_us);
+                }
+            }
+            Entry::Dropped { cause, .. } => self.count(cause),
+            Entry::Stopped { counters } => {
+                self.causes.clone_from(counters);
+                self.has_stopped = true;
+            }
+        }
+    }
+
+    fn sign(&mut self, outputs: &Outputs) {
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+                    let time = Duration::from_millis(time.0.into());
+                    self.go_until = Instant::now().checked_add(time);
+                }
+                Output::CorridorClosed(_) => self.go_until = None,
+                _ => {}
+            }
+        }
+    }
+
+    fn message(&mut self, way: Way, kind: MessageKind) {
+        *self.messages.entry((way, kind)).or_default() += 1;
+    }
+
+    fn count(&mut self, cause: &str) {
+        match self.causes.get_mut(cause) {
+            Some(count) => *count += 1,
+            None => {
+                self.causes.insert(cause.to_owned(), 1);
+            }
+        }
+    }
+
+    /// How many messages went which way.
+    #[must_use]
+    pub fn messages(&self, way: Way) -> u64 {
+        let those = self.messages.iter().filter(|((it, _), _)| *it == way);
+        those.map(|(_, count)| count).sum()
+    }
+
+    /// Whether the pedestrian may cross: the sign shows go now, whether the robot still runs or not.
+    #[must_use]
+    pub fn corridor_open(&self) -> bool {
+        self.go_until.is_some_and(|until| Instant::now() < until)
+    }
+
+    /// Whether it has a duty on the road, or leads and waits for the road to be clear.
+    #[must_use]
+    pub fn is_on_duty(&self) -> bool {
+        self.state.as_ref().is_some_and(|state| {
+            let is_clearing = matches!(
+                state.phase(),
+                Phase::Leading(leading) if leading.corridor == Corridor::Clearing
+            );
+            is_clearing || state.duty().is_some()
+        })
+    }
+
+    /// How many followers it leads.
+    #[must_use]
+    pub fn followers(&self) -> usize {
+        match self.state.as_ref().map(Robot::phase) {
+            Some(Phase::Leading(leading)) => leading.members.len(),
+            _ => 0,
+        }
+    }
+
+    /// How the robot is, in one line.
+    #[must_use]
+    pub fn line(&self) -> String {
+        let Some(state) = &self.state else {
+            return "starting".to_owned();
+        };
+        let mut line = format!("{} {:?}", self.robot, state.state());
+        if let Some(session) = state.session() {
+            let _ = write!(line, ", {} in {session}", state.role());
+        }
+        match state.phase() {
+            Phase::Leading(leading) => {
+                for member in leading.members.iter() {
+                    let _ = write!(line, ", {}", member.station);
+                    let order = member.order.map(|order| (order.task, order.progress));
+                    match order {
+                        Some((task, Some(progress))) => {
+                            let _ = write!(line, " {task} {progress}");
+                        }
+                        Some((task, None)) => {
+                            let _ = write!(line, " {task}");
+                        }
+                        None => {}
+                    }
+                    if !member.lease.stands() {
+                        line.push_str(" (out of contact)");
+                    }
+                }
+                let corridor = match leading.corridor {
+                    Corridor::Open if self.corridor_open() => "open",
+                    Corridor::Open => "ended by itself, since nothing renewed it",
+                    Corridor::Clear => "closed",
+                    Corridor::Clearing => "closed, road not known to be clear",
+                };
+                let _ = write!(line, ", corridor {corridor}");
+            }
+            Phase::Following(following) => {
+                if let Some(maneuver) = following.executing() {
+                    let _ = write!(line, ", executes {}", maneuver.task);
+                }
+            }
+            _ => {}
+        }
+        if let Some(duty) = state.duty() {
+            let _ = write!(line, ", on duty: {duty}");
+        }
+        if state.role() == Role::None {
+            let _ = write!(line, ", {}", state.availability());
+        }
+        let nothing: u64 = self.causes.values().sum();
+        let _ = write!(
+            line,
+            "; sent {}, heard {} of {} stations, {nothing} came to nothing",
+            self.messages(Way::Sent),
+            self.messages(Way::Heard),
+            self.heard_us.len(),
+        );
+        line
+    }
+}

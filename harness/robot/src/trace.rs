@@ -1,0 +1,183 @@
+//! Logs: everything that an endpoint did, one JSON object per line.
+//!
+//! A log holds every input of the transition function with what it put out and the state after it, and
+//! every message. [`validate`](crossguard_judge::validate) replays it; so a log proves that the robot did what the
+//! verified transition function does, or shows the first record that does not fit.
+
+mod reader;
+
+pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Unreadable};
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use crossguard_codec::Identifiers;
+use crossguard_protocol::{Input, Outputs, Robot, Settings, StationId};
+use serde::{Deserialize, Serialize};
+
+use crossguard_endpoint::Effect;
+use crossguard_endpoint::ras::generation::Trigger;
+use crossguard_endpoint::wire::MessageKind;
+
+/// One line of a log.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Record {
+    /// Microseconds since the log's clock started.
+    pub at_us: u64,
+    /// The robot's name.
+    pub robot: String,
+    /// What it did.
+    #[serde(flatten)]
+    pub entry: Entry,
+}
+
+/// What a robot did.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(
+    tag = "entry",
+    rename_all = "camelCase",
+    rename_all_fields = "camelCase"
+)]
+pub enum Entry {
+    /// It booted.
+    Started {
+        /// Its station id.
+        station: StationId,
+        /// Its boot counter.
+        boot: u16,
+        /// Its configuration.
+        settings: Box<Settings>,
+        /// What no standard has assigned; without it its messages are not understood.
+        #[serde(default)]
+        identifiers: Identifiers,
+        /// Milliseconds since 1970 (UTC), to line up logs of several robots.
+        unix_ms: u64,
+    },
+    /// The transition function took a step.
+    Step {
+        /// What it took in.
+        input: Input,
+        /// What it put out.
+        outputs: Box<Outputs>,
+        /// The state after it.
+        state: Box<Robot>,
+    },
+    /// A message went out.
+    Sent {
+        /// Which message.
+        message: MessageKind,
+        /// Why.
+        trigger: Trigger,
+        /// The message.
+        #[serde(with = "hex::serde")]
+        octets: Vec<u8>,
+    },
+    /// A message came in and was understood.
+    Heard {
+        /// Which message.
+        message: MessageKind,
+        /// Who sent it.
+        from: StationId,
+        /// When; `None` in the log of a robot that does not say.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reception: Option<Reception>,
+        /// The message.
+        #[serde(with = "hex::serde")]
+        octets: Vec<u8>,
+    },
+    /// Something came to nothing.
+    Dropped {
+        /// The cause that it is counted under.
+        cause: String,
+        /// What exactly.
+        detail: String,
+        /// The datagram, if there was one.
+        #[serde(with = "hex::serde", default)]
+        octets: Vec<u8>,
+    },
+    /// It stopped in order.
+    Stopped {
+        /// How often what came to nothing.
+        counters: BTreeMap<String, u64>,
+    },
+}
+
+/// When a message came in, in microseconds on the log's clock.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Reception {
+    /// When it arrived.
+    pub arrived_us: u64,
+    /// When the robot was told of it: for so long it waited. What became of it stands in the log somewhat
+    /// later.
+    pub told_us: u64,
+}
+
+impl Reception {
+    /// For so long the message waited, in µs.
+    #[must_use]
+    pub const fn waited_us(&self) -> u64 {
+        self.told_us.saturating_sub(self.arrived_us)
+    }
+}
+
+/// What the log says of an effect, if the log's clock is that of the endpoint. What the application is to do is in the outputs of its step.
+#[must_use]
+pub fn recorded(effect: Effect) -> Option<Entry> {
+    Some(match effect {
+        Effect::Stepped {
+            input,
+            outputs,
+            state,
+        } => Entry::Step {
+            input,
+            outputs,
+            state,
+        },
+        Effect::Heard {
+            kind,
+            from,
+            arrived_ms,
+            told_ms,
+            octets,
+        } => Entry::Heard {
+            message: kind,
+            from,
+            reception: Some(Reception {
+                arrived_us: arrived_ms * 1_000,
+                told_us: told_ms * 1_000,
+            }),
+            octets,
+        },
+        Effect::Transmit {
+            kind,
+            trigger,
+            octets,
+            ..
+        } => Entry::Sent {
+            message: kind,
+            trigger,
+            octets,
+        },
+        Effect::Dropped {
+            cause,
+            detail,
+            octets,
+        } => Entry::Dropped {
+            cause: cause.name(),
+            detail,
+            octets,
+        },
+        Effect::Act(_) => return None,
+    })
+}
+
+/// Writes a record as a line.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(to: &mut impl Write, record: &Record) -> std::io::Result<()> {
+    serde_json::to_writer(&mut *to, record)?;
+    to.write_all(b"\n")
+}

@@ -1,0 +1,136 @@
+//! Datagrams between robots, over whatever carries them.
+//!
+//! ```text
+//!   Transport::open ──► Sender    (one datagram to everybody in reach)
+//!                   └─► Receiver  (what comes in, one by one)
+//! ```
+//!
+//! [`Link`] is UDP, to the peers on the loopback interface or to a multicast group, Ethernet, or a zenoh
+//! network ([`Zenoh`], with the feature `zenoh`). [`Air`] joins robots in one process. [`WithFaults`] lays
+//! seeded faults over any of them: what becomes of a datagram is drawn by a [`Channel`], the one place
+//! where faults are made; the simulator draws from it as well. [`Reopening`] opens one again that has
+//! failed.
+
+mod attention;
+mod ethernet;
+mod faults;
+mod layer;
+mod link;
+mod memory;
+mod reopening;
+mod udp;
+mod zenoh;
+
+pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Outage};
+pub use layer::WithFaults;
+pub use link::{Link, LinkError};
+pub use memory::{Air, Port};
+pub use reopening::Reopening;
+pub use zenoh::{Zenoh, ZenohError, ZenohMode, ZenohRouter};
+
+use std::io::ErrorKind;
+use std::net::SocketAddr;
+use std::time::{Duration, Instant};
+
+use crossguard_endpoint::counters::Loss;
+
+/// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
+const DATAGRAM_MAX: usize = 2_048;
+
+/// A way to reach other robots.
+pub trait Transport {
+    /// Opens it. The two halves may be used by two threads.
+    ///
+    /// # Errors
+    /// Why it cannot be opened.
+    fn open(&self) -> Result<Halves, LinkError>;
+}
+
+/// An open transport.
+pub struct Halves {
+    /// Where datagrams go out.
+    pub sender: Box<dyn Sender>,
+    /// Where datagrams come in.
+    pub receiver: Box<dyn Receiver>,
+}
+
+/// Where datagrams go out.
+pub trait Sender: Send {
+    /// Sends one datagram to everybody in reach. It never waits for a receiver.
+    ///
+    /// # Errors
+    /// When it was not taken for everybody.
+    fn send(&mut self, octets: &[u8]) -> Result<(), NotSent>;
+}
+
+/// A datagram that did not go out to everybody.
+#[derive(Debug, thiserror::Error)]
+#[error("not sent to {failed} of {receivers}: {cause}")]
+pub struct NotSent {
+    /// How many receivers it did not go out to.
+    pub failed: usize,
+    /// How many there are.
+    pub receivers: usize,
+    /// Why not to the last of them.
+    pub cause: std::io::Error,
+}
+
+impl NotSent {
+    /// Whether it passes without the transport being opened again: there is no room now, or the transport
+    /// is looking for whoever is at the other end by itself.
+    #[must_use]
+    pub fn is_passing(&self) -> bool {
+        matches!(
+            self.cause.kind(),
+            ErrorKind::WouldBlock | ErrorKind::NotConnected
+        )
+    }
+}
+
+/// Where datagrams come in.
+pub trait Receiver: Send {
+    /// Waits for the next datagram, for so long at most. `None` when there was none.
+    ///
+    /// # Errors
+    /// Those of the operating system that will not go away by themselves.
+    fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>>;
+}
+
+/// Who sent a datagram, as far as the transport can tell.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Source {
+    /// The address that it came from.
+    Address(SocketAddr),
+    /// The link-layer address that it came from.
+    LinkLayer([u8; 6]),
+    /// The port of the [`Air`] that it came from.
+    Port(usize),
+    /// The zenoh id by which its sender goes.
+    Zenoh(u128),
+    /// Nobody that the transport could name.
+    Unknown,
+}
+
+/// What came in.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Arrival {
+    /// A datagram.
+    Datagram {
+        /// Who sent it.
+        from: Source,
+        /// What it holds.
+        octets: Vec<u8>,
+        /// When it arrived, as far as the transport can tell, and not later: what waits from then on grows
+        /// old.
+        at: Instant,
+    },
+    /// A datagram that the fault layer lost on purpose.
+    Lost {
+        /// How.
+        how: Loss,
+        /// What it held.
+        octets: Vec<u8>,
+    },
+    /// So many datagrams, at least one, found no place in the transport's own queue.
+    Overflow(u64),
+}

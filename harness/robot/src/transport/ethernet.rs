@@ -1,0 +1,146 @@
+//! Ethernet: `GeoNetworking` packets in frames of ethertype 0x8947, over a raw socket.
+//!
+//! It takes the right to open such sockets (`CAP_NET_RAW`); within a network namespace of one's own
+//! everybody has it.
+
+use std::io::ErrorKind;
+use std::os::fd::{AsRawFd, OwnedFd};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crossguard_codec::geonet::ethernet;
+use crossguard_endpoint::station::link_layer_of;
+use nix::errno::Errno;
+use nix::ifaddrs::getifaddrs;
+use nix::sys::socket::{
+    AddressFamily, LinkAddr, MsgFlags, SockFlag, SockProtocol, SockType, bind, recv, send,
+    setsockopt, socket, sockopt::ReceiveTimeout,
+};
+use nix::sys::time::TimeVal;
+
+use super::attention::Attention;
+use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
+
+/// Opens a raw socket on an interface.
+///
+/// # Errors
+/// When there is no such interface, or the right to open raw sockets is missing.
+pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
+    let failed = |errno: Errno| LinkError::Ethernet {
+        interface: interface.to_owned(),
+        cause: errno.into(),
+    };
+    let address = link_address(interface)?;
+    let socket = socket(
+        AddressFamily::Packet,
+        SockType::Raw,
+        SockFlag::SOCK_CLOEXEC,
+        SockProtocol::EthAll,
+    );
+    let socket = Arc::new(socket.map_err(failed)?);
+    bind(socket.as_raw_fd(), &address).map_err(failed)?;
+    let receiver = EthernetReceiver {
+        socket: Arc::clone(&socket),
+        buffer: Box::new([0; DATAGRAM_MAX]),
+        wait: Duration::ZERO,
+        attention: Attention::new(Instant::now()),
+    };
+    Ok(Halves {
+        sender: Box::new(EthernetSender { socket }),
+        receiver: Box::new(receiver),
+    })
+}
+
+/// The address that stands for an interface.
+fn link_address(name: &str) -> Result<LinkAddr, LinkError> {
+    let links: Vec<_> = getifaddrs()
+        .into_iter()
+        .flatten()
+        .filter_map(|interface| {
+            let address = *interface.address?.as_link_addr()?;
+            Some((interface.interface_name, address))
+        })
+        .collect();
+    let found = links.iter().find(|(interface, _)| interface == name);
+    found
+        .map(|(_, address)| *address)
+        .ok_or_else(|| LinkError::NoInterface {
+            name: name.to_owned(),
+            known: links
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect::<Vec<_>>()
+                .join(", "),
+        })
+}
+
+struct EthernetSender {
+    socket: Arc<OwnedFd>,
+}
+
+impl Sender for EthernetSender {
+    fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
+        let frame = [&ethernet::header(link_layer_of(octets))[..], octets].concat();
+        match send(self.socket.as_raw_fd(), &frame, MsgFlags::MSG_DONTWAIT) {
+            Ok(_) => Ok(()),
+            Err(errno) => Err(NotSent {
+                failed: 1,
+                receivers: 1,
+                cause: errno.into(),
+            }),
+        }
+    }
+}
+
+struct EthernetReceiver {
+    socket: Arc<OwnedFd>,
+    buffer: Box<[u8; DATAGRAM_MAX]>,
+    /// For how long the socket waits.
+    wait: Duration,
+    attention: Attention,
+}
+
+impl Receiver for EthernetReceiver {
+    fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
+        // Zero would stand for no limit.
+        let wait = at_most.max(Duration::from_micros(1));
+        if wait != self.wait {
+            let (seconds, micros) = (wait.as_secs(), wait.subsec_micros());
+            let time = TimeVal::new(i64::try_from(seconds).unwrap_or(i64::MAX), micros.into());
+            setsockopt(&*self.socket, ReceiveTimeout, &time)?;
+            self.wait = wait;
+        }
+        let fd = self.socket.as_raw_fd();
+        let may_wait = self.attention.may_wait(wait);
+        let flags = match may_wait {
+            Duration::ZERO => MsgFlags::MSG_DONTWAIT,
+            _ => MsgFlags::empty(),
+        };
+        let called = Instant::now();
+        let received = recv(fd, &mut *self.buffer, flags);
+        let now = Instant::now();
+        let length = match received {
+            Ok(length) => length,
+            Err(errno) => {
+                let error = std::io::Error::from(errno);
+                return match error.kind() {
+                    ErrorKind::WouldBlock | ErrorKind::TimedOut => {
+                        self.attention.saw_empty(called, may_wait, now);
+                        Ok(None)
+                    }
+                    ErrorKind::Interrupted => Ok(None),
+                    _ => Err(error),
+                };
+            }
+        };
+        let at = self.attention.took(may_wait, now);
+        // What is not for the service is not looked at, and not worth a count.
+        Ok(
+            ethernet::packet(&self.buffer[..length]).map(|(source, packet)| Arrival::Datagram {
+                from: Source::LinkLayer(source),
+                octets: packet.to_vec(),
+                at,
+            }),
+        )
+    }
+}

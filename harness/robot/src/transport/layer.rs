@@ -1,0 +1,244 @@
+//! The fault layer: any transport, with faults on the way in.
+//!
+//! A datagram that is held back is still on its way: it arrives when its delay is over, and waits from then on.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::time::{Duration, Instant};
+
+use crossguard_endpoint::counters::Loss;
+
+use super::{Arrival, Channel, Fate, Faults, Halves, LinkError, Receiver, Source, Transport};
+
+/// How many datagrams may be under way to one receiver.
+const UNDER_WAY_MAX: usize = 1_024;
+
+/// How many senders are told apart; those beyond share one channel.
+const SOURCES_MAX: usize = 64;
+
+/// A transport with faults. Each sender has a channel of its own to the receiver, so bursts of one
+/// are not those of another, and each may have faults of its own.
+#[derive(Clone, Debug)]
+pub struct WithFaults<T> {
+    /// What the datagrams go over.
+    pub transport: T,
+    /// The faults on the way from every sender.
+    pub faults: Faults,
+    /// The faults on the way from these senders instead: ways need not be alike in both directions.
+    pub by_source: BTreeMap<Source, Faults>,
+    /// Seed of the draws.
+    pub seed: u64,
+}
+
+impl<T: Transport> WithFaults<T> {
+    /// The same faults on the way from every sender.
+    pub const fn new(transport: T, faults: Faults, seed: u64) -> Self {
+        Self {
+            transport,
+            faults,
+            by_source: BTreeMap::new(),
+            seed,
+        }
+    }
+}
+
+impl<T: Transport> Transport for WithFaults<T> {
+    fn open(&self) -> Result<Halves, LinkError> {
+        let Halves { sender, receiver } = self.transport.open()?;
+        let receiver = Faulty {
+            receiver,
+            faults: self.faults.clone(),
+            by_source: self.by_source.clone(),
+            seed: self.seed,
+            began: Instant::now(),
+            channels: BTreeMap::new(),
+            under_way: BTreeMap::new(),
+            count: 0,
+            lost: VecDeque::new(),
+        };
+        Ok(Halves {
+            sender,
+            receiver: Box::new(receiver),
+        })
+    }
+}
+
+/// A receiver with faults.
+struct Faulty {
+    receiver: Box<dyn Receiver>,
+    faults: Faults,
+    by_source: BTreeMap<Source, Faults>,
+    seed: u64,
+    began: Instant,
+    channels: BTreeMap<Option<Source>, Channel>,
+    /// By when they arrive, in µs, and in which order they came.
+    under_way: BTreeMap<(u64, u64), (Source, Vec<u8>)>,
+    count: u64,
+    /// What has been lost and not been told yet.
+    lost: VecDeque<(Vec<u8>, Loss)>,
+}
+
+impl Faulty {
+    fn now_us(&self) -> u64 {
+        u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX)
+    }
+
+    /// Decides what becomes of a datagram that came in `at` this time.
+    fn take(&mut self, from: Source, octets: Vec<u8>, at: Instant) {
+        let came = at.saturating_duration_since(self.began);
+        let came_us = u64::try_from(came.as_micros()).unwrap_or(u64::MAX);
+        let known = self.channels.contains_key(&Some(from));
+        let key = (known || self.channels.len() < SOURCES_MAX).then_some(from);
+        let seed = self.seed.wrapping_add(self.channels.len() as u64);
+        let (faults, by_source) = (&self.faults, &self.by_source);
+        let channel = self
+            .channels
+            .entry(key)
+            .or_insert_with(|| Channel::new(by_source.get(&from).unwrap_or(faults).clone(), seed));
+        match channel.fate(came_us) {
+            Fate::Lost(how) => self.lose(octets, how),
+            Fate::Arrives {
+                after_us,
+                again_after_us,
+            } => {
+                if let Some(after_us) = again_after_us {
+                    self.hold(came_us + after_us, from, octets.clone());
+                }
+                self.hold(came_us + after_us, from, octets);
+            }
+        }
+    }
+
+    fn hold(&mut self, until_us: u64, from: Source, octets: Vec<u8>) {
+        if self.under_way.len() >= UNDER_WAY_MAX {
+            return self.lose(octets, Loss::Overflow);
+        }
+        self.count += 1;
+        self.under_way
+            .insert((until_us, self.count), (from, octets));
+    }
+
+    fn lose(&mut self, octets: Vec<u8>, how: Loss) {
+        self.lost.push_back((octets, how));
+    }
+
+    /// What is to be told now: what was lost, and what has arrived.
+    fn due(&mut self) -> Option<Arrival> {
+        if let Some((octets, how)) = self.lost.pop_front() {
+            return Some(Arrival::Lost { how, octets });
+        }
+        let now_us = self.now_us();
+        let first = self.under_way.first_entry()?;
+        let due_us = first.key().0;
+        (due_us <= now_us).then(|| {
+            let at = self.began + Duration::from_micros(due_us);
+            let (from, octets) = first.remove();
+            Arrival::Datagram { from, octets, at }
+        })
+    }
+
+    /// How long to wait for the transport, so that nothing under way arrives late.
+    fn patience(&self, at_most: Duration) -> Duration {
+        self.under_way
+            .first_key_value()
+            .map_or(at_most, |(&(at, _), _)| {
+                at_most.min(Duration::from_micros(at.saturating_sub(self.now_us())))
+            })
+    }
+}
+
+impl Receiver for Faulty {
+    fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
+        if let Some(due) = self.due() {
+            return Ok(Some(due));
+        }
+        let patience = self.patience(at_most);
+        match self.receiver.receive(patience)? {
+            Some(Arrival::Datagram { from, octets, at }) => {
+                self.take(from, octets, at);
+                Ok(self.due())
+            }
+            Some(other) => Ok(Some(other)),
+            None => Ok(self.due()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Air;
+    use super::*;
+
+    /// What a receiver with these faults takes in of 200 datagrams, by number.
+    fn arrivals(faults: &str, by_source: &[(Source, &str)]) -> (Vec<u8>, usize) {
+        let air = Air::new(3);
+        let by_source = by_source.iter().map(|(s, f)| (*s, f.parse().unwrap()));
+        let receiving = WithFaults {
+            transport: air.port(2),
+            faults: faults.parse().unwrap(),
+            by_source: by_source.collect(),
+            seed: 7,
+        };
+        let mut receiver = receiving.open().unwrap().receiver;
+        let mut senders = [0, 1].map(|port| air.port(port).open().unwrap().sender);
+        for number in 0..200_u8 {
+            senders[usize::from(number % 2)].send(&[number]).unwrap();
+        }
+        let (mut arrived, mut lost) = (Vec::new(), 0);
+        let deadline = Instant::now() + Duration::from_millis(400);
+        while Instant::now() < deadline {
+            match receiver.receive(Duration::from_millis(5)).unwrap() {
+                Some(Arrival::Datagram { octets, .. }) => arrived.push(octets[0]),
+                Some(Arrival::Lost { .. }) => lost += 1,
+                Some(Arrival::Overflow(_)) | None => {}
+            }
+        }
+        (arrived, lost)
+    }
+
+    #[test]
+    fn without_faults_everything_arrives_in_order() {
+        assert_eq!(arrivals("", &[]), ((0..200).collect(), 0));
+    }
+
+    #[test]
+    fn what_is_lost_and_what_arrives_is_everything() {
+        let (arrived, lost) = arrivals("loss=0.5", &[]);
+        assert!((60..140).contains(&lost), "{lost}");
+        assert_eq!(arrived.len() + lost, 200);
+    }
+
+    #[test]
+    fn delayed_and_repeated_datagrams_arrive_each_in_its_time() {
+        let (arrived, lost) = arrivals("delay=1..20,duplication=1", &[]);
+        assert_eq!((arrived.len(), lost), (400, 0));
+        assert!(!arrived.is_sorted(), "some have overtaken others");
+    }
+
+    #[test]
+    fn a_delayed_datagram_is_on_its_way_until_it_is_due_and_waits_from_then_on() {
+        let air = Air::new(2);
+        let receiving = WithFaults::new(air.port(1), "delay=60..60".parse().unwrap(), 7);
+        let mut receiver = receiving.open().unwrap().receiver;
+        let mut sender = air.port(0).open().unwrap().sender;
+        let before = Instant::now();
+        sender.send(b"hello").unwrap();
+        let after = Instant::now();
+        assert_eq!(receiver.receive(Duration::from_millis(1)).unwrap(), None);
+        // It is taken late.
+        std::thread::sleep(Duration::from_millis(120));
+        let heard = receiver.receive(Duration::from_millis(1)).unwrap();
+        let Some(Arrival::Datagram { at, .. }) = heard else {
+            panic!("nothing has arrived");
+        };
+        // Times are kept to the microsecond here.
+        let (delay, rounding) = (Duration::from_millis(60), Duration::from_micros(2));
+        assert!(at + rounding >= before + delay && at <= after + delay + rounding);
+    }
+
+    #[test]
+    fn a_way_may_be_dead_while_another_is_good() {
+        let (arrived, lost) = arrivals("", &[(Source::Port(0), "loss=1")]);
+        assert_eq!(lost, 100);
+        assert!(arrived.iter().all(|number| number % 2 == 1));
+    }
+}
