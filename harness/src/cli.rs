@@ -49,7 +49,7 @@ struct Arguments {
 }
 
 const VERBOSE: &str = "Tell on standard error what robots do, and why they drop what they drop: -v for a \
-    little, -vv and -vvv for more. Without it, RUST_LOG says it in detail, like crossguard_harness=debug";
+    little, -vv and -vvv for more. Without it, RUST_LOG says it in detail, like crossguard_robot=debug";
 
 #[derive(Subcommand)]
 enum Command {

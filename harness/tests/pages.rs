@@ -246,13 +246,82 @@ fn the_readmes_example_is_the_one_of_the_state_machines_crate() {
 }
 
 #[test]
-fn the_readmes_state_diagram_is_the_one_that_the_code_makes() {
-    let readme = include_str!("../../README.md");
+fn the_state_diagram_of_the_protocols_page_is_the_one_that_the_code_makes() {
+    let page = include_str!("../../protocol/doc/protocol.md");
     let diagram = stdout(&run(&["fsm"]));
     assert!(
-        readme.contains(diagram.trim()),
-        "put this into README.md:\n{diagram}"
+        page.contains(diagram.trim()),
+        "put this into protocol/doc/protocol.md:\n{diagram}"
     );
+}
+
+/// The README is read in one go.
+#[test]
+fn the_readme_has_at_most_150_lines() {
+    let lines = include_str!("../../README.md").lines().count();
+    assert!(lines <= 150, "{lines}");
+}
+
+/// The crates of this repository that a crate needs, by the last word of their names.
+fn needed(manifest: &Path) -> (String, BTreeSet<String>) {
+    let text = std::fs::read_to_string(manifest).unwrap();
+    let manifest: toml::Table = text.parse().unwrap();
+    let short = |name: &str| name.strip_prefix("crossguard-").map(str::to_owned);
+    let package = manifest["package"]["name"].as_str().and_then(short);
+    let needs = manifest.get("dependencies").and_then(|it| it.as_table());
+    let needs = needs.into_iter().flat_map(toml::Table::keys);
+    (
+        package.unwrap(),
+        needs.filter_map(|name| short(name)).collect(),
+    )
+}
+
+/// Everything that can be reached by one arrow or more.
+fn reached(arrows: &BTreeMap<String, BTreeSet<String>>, from: &str) -> BTreeSet<String> {
+    let (mut open, mut found) = (vec![from.to_owned()], BTreeSet::new());
+    while let Some(name) = open.pop() {
+        for next in arrows.get(&name).into_iter().flatten() {
+            if found.insert(next.clone()) {
+                open.push(next.clone());
+            }
+        }
+    }
+    found
+}
+
+/// An arrow that leads where others lead together is left out; all others are drawn, and no more.
+#[test]
+fn the_readmes_picture_of_the_crates_is_that_of_the_manifests() {
+    let mut manifests = Vec::new();
+    files(&repository(), "toml", &mut manifests);
+    let is_member = |path: &&PathBuf| {
+        let text = std::fs::read_to_string(path).unwrap();
+        path.ends_with("Cargo.toml") && text.contains("[package]") && !text.contains("[workspace]")
+    };
+    let crates: BTreeMap<_, _> = manifests
+        .iter()
+        .filter(is_member)
+        .map(|it| needed(it))
+        .collect();
+    let readme = include_str!("../../README.md");
+    let (_, picture) = readme.split_once("flowchart TD\n").expect("a picture");
+    let (picture, _) = picture.split_once("```").expect("it ends");
+    let mut drawn: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for line in picture.lines() {
+        let name = |side: &str| side.split('[').next().unwrap().trim().to_owned();
+        let (from, to) = line.split_once("-->").expect("an arrow");
+        let is_new = drawn.entry(name(from)).or_default().insert(name(to));
+        assert!(is_new, "drawn twice: {line}");
+    }
+    for (name, needs) in &crates {
+        if name == "mutants" {
+            continue; // a tool that runs the others as programs
+        }
+        assert_eq!(reached(&drawn, name), reached(&crates, name), "{name}");
+        for arrow in drawn.get(name).into_iter().flatten() {
+            assert!(needs.contains(arrow), "{name} does not need {arrow}");
+        }
+    }
 }
 
 /// What the README says has been explored is what the scenario files pin.
