@@ -15,7 +15,7 @@ use crossguard_endpoint::station::Security;
 use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Config, Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
 use crossguard_robot::application::{Application, Wish};
-use crossguard_robot::body::{Body, Build};
+use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::boot::Boot;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::plan::Plan;
@@ -97,7 +97,7 @@ fn start(leader: Halves, follower: Halves) -> Pair {
     let records = journal.reader(65_536, WhenFull::End, Cause::LogFull);
     let clock = Clock::start();
     let robot = |name: &str, station, link| {
-        let body = Body::new(
+        let body = Simulated::new(
             Build::Quadruped,
             Site::default(),
             Place::new(0.0, f64::from(station)),
@@ -112,7 +112,7 @@ fn start(leader: Halves, follower: Halves) -> Pair {
             wire: Wire::default(),
             security: Security::default(),
             awareness: Awareness::default(),
-            application: Application::new(body, None),
+            application: Application::new(Box::new(body), None),
             link,
             journal: journal.clone(),
             clock,

@@ -12,7 +12,7 @@ use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId};
 use crossguard_robot::application::Application;
-use crossguard_robot::body::{Body, Build};
+use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::machine::Machine;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
@@ -28,8 +28,8 @@ fn machine(station: u32, plan: Option<Plan>) -> Machine {
     let robot = Robot::new(StationId(station), 1);
     let endpoint = Endpoint::new(robot, Config::default(), Wire::default(), 0);
     let place = Place::new(f64::from(station), 0.0);
-    let body = Body::new(Build::Quadruped, Site::default(), place, 3.0, 1);
-    Machine::new(endpoint, Application::new(body, plan))
+    let body = Simulated::new(Build::Quadruped, Site::default(), place, 3.0, 1);
+    Machine::new(endpoint, Application::new(Box::new(body), plan))
 }
 
 /// A CAM, to be given a station id of its own.

@@ -25,7 +25,7 @@ use crossguard_endpoint::wire::Wire;
 use crossguard_judge::timing::{Summary, Timing};
 use crossguard_judge::validate::{self, Validated};
 use crossguard_robot::application::{Application, Wish};
-use crossguard_robot::body::Body;
+use crossguard_robot::body::Simulated;
 use crossguard_robot::boot::Boot;
 use crossguard_robot::capture::Capture;
 use crossguard_robot::journal::{Journal, WhenFull};
@@ -208,8 +208,8 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
         let (site, seed) = (Site::default(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
-        let body = Body::new(build, site, place, options.time_scale, seed);
-        let application = Application::new(body, participant.plan.clone());
+        let body = Simulated::new(build, site, place, options.time_scale, seed);
+        let application = Application::new(Box::new(body), participant.plan.clone());
         let application = application.on(Road::Known(street.clone()));
         signs.push(application.sign().clone());
         let running = Setup {

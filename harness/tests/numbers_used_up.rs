@@ -10,7 +10,7 @@ use crossguard_endpoint::station::Security;
 use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Config, Event, Input, StationId};
 use crossguard_robot::application::{Application, Wish};
-use crossguard_robot::body::{Body, Build};
+use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::boot;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::plan::Plan;
@@ -33,7 +33,7 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
 
     let mut journal = Journal::new();
     let records = journal.reader(4_096, WhenFull::Skip, Cause::OutputFull);
-    let body = Body::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
+    let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
     let robot = Setup {
         name: "R1".to_owned(),
         station: StationId(1),
@@ -42,7 +42,7 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
         wire: Wire::default(),
         security: Security::default(),
         awareness: Awareness::default(),
-        application: Application::new(body, None),
+        application: Application::new(Box::new(body), None),
         link: Air::new(1).port(0).open().unwrap(),
         journal,
         clock: Clock::start(),

@@ -5,7 +5,7 @@ use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
 use crossguard_robot::application::Application;
-use crossguard_robot::body::{Body, Build};
+use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::machine::Machine;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
@@ -21,8 +21,8 @@ fn machine(station: StationId) -> Machine {
         0,
     );
     let place = Place::new(f64::from(station.0), 0.0);
-    let body = Body::new(Build::Quadruped, Site::default(), place, 30.0, 1);
-    Machine::new(endpoint, Application::new(body, None))
+    let body = Simulated::new(Build::Quadruped, Site::default(), place, 30.0, 1);
+    Machine::new(endpoint, Application::new(Box::new(body), None))
 }
 
 struct Street {

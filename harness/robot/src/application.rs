@@ -6,11 +6,11 @@ use crossguard_codec::{RobotState, TaskParameters};
 use crossguard_endpoint::Act;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::{
-    Config, Corridor, Duty, Event, Maneuver, ManeuverId, Notice, Phase, Robot, StationId, TaskSet,
-    TaskType,
+    Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Notice, Phase, Robot,
+    StationId, TaskSet, TaskType, Unavailability,
 };
 
-use crate::body::{Body, Fallback, Pose, Report};
+use crate::body::{Body, BodyAct, Fallback, Pose, Report};
 use crate::plan::{Leg, Plan};
 use crate::sign::Sign;
 use crate::street::Road;
@@ -40,10 +40,10 @@ const OPENING_PERIOD_S: f64 = 0.5;
 /// The longest list of wishes; more are not kept.
 const WISHES: usize = 64;
 
-/// The application of a robot: a simulated body, a sign, and a plan for when it leads.
+/// The application of a robot: a body, a sign, and a plan for when it leads.
 #[derive(Debug)]
 pub struct Application {
-    body: Body,
+    body: Box<dyn Body>,
     /// What people see while it leads.
     sign: Sign,
     /// What it knows of the people on the road.
@@ -128,7 +128,7 @@ impl Rules {
 impl Application {
     /// The application of a robot with this body, which knows nothing of the road.
     #[must_use]
-    pub fn new(body: Body, plan: Option<Plan>) -> Self {
+    pub fn new(body: Box<dyn Body>, plan: Option<Plan>) -> Self {
         Self {
             body,
             sign: Sign::default(),
@@ -282,8 +282,8 @@ impl Application {
 
     /// The body.
     #[must_use]
-    pub const fn body(&self) -> &Body {
-        &self.body
+    pub fn body(&self) -> &dyn Body {
+        &*self.body
     }
 
     /// The next thing that the application wants of its endpoint.
@@ -300,7 +300,7 @@ impl Application {
     /// Ends the motion of the body, whatever it is.
     pub fn stop(&mut self) {
         self.waits_for_people = None;
-        self.body.stop();
+        self.body.halt();
     }
 
     /// The driver of the body says that its fallback is finished.
@@ -323,15 +323,15 @@ impl Application {
         match act {
             Act::Start(maneuver, parameters) => {
                 (self.maneuver, self.waits_for_people) = (Some(*maneuver), None);
-                self.body.start(*maneuver, *parameters);
+                self.act_by_body(BodyAct::Start(*maneuver, *parameters));
             }
-            Act::Stop(..) => {
+            Act::Stop(maneuver, why) => {
                 (self.maneuver, self.waits_for_people) = (None, None);
-                self.body.stop();
+                self.act_by_body(BodyAct::Stop(*maneuver, *why));
             }
-            Act::FallBack(_, policy) => {
+            Act::FallBack(maneuver, policy) => {
                 (self.maneuver, self.waits_for_people) = (None, None);
-                self.body.fall_back(*policy);
+                self.act_by_body(BodyAct::FallBack(*maneuver, *policy));
             }
             Act::Notice(notice) => self.notice(*notice),
             Act::OpenCorridor(time) | Act::ExtendCorridor(time) => {
@@ -340,6 +340,18 @@ impl Application {
             Act::CloseCorridor(_) => self.sign.stop(),
             Act::LockIdentity(_) | Act::RenewEpoch | Act::Ignored(..) => {}
         }
+    }
+
+    /// Hands an act to the body. One that is not taken is a fault of the robot, which says so before anything
+    /// else: a body that was not stopped may still move.
+    fn act_by_body(&mut self, act: BodyAct) {
+        let Err(error) = self.body.act(act) else {
+            return;
+        };
+        tracing::error!(%error, ?act, "a fault of the body");
+        let fault = Availability::Unavailable(Unavailability::LocalFault);
+        self.wishes
+            .push_front(Wish::Tell(Event::AvailabilityChanged(fault)));
     }
 
     /// Follows the plan when it leads.
@@ -530,10 +542,10 @@ fn micros(seconds: f64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_protocol::{RequestId, SessionId, SessionNumber, UniqueNumber};
+    use crossguard_protocol::{RequestId, SessionId, SessionNumber, StopReason, UniqueNumber};
 
     use super::*;
-    use crate::body::Build;
+    use crate::body::{Build, External, NotTaken, Simulated};
     use crate::plan::Stage;
     use crate::site::{Place, Site};
 
@@ -549,8 +561,8 @@ mod tests {
             stages: vec![Stage::everybody(Leg::new(TaskType::MOVE, across))],
             ..Plan::crossing(Site::default())
         };
-        let body = Body::new(Build::Humanoid, Site::default(), across, 1.0, 1);
-        let mut application = Application::new(body, Some(plan));
+        let body = Simulated::new(Build::Humanoid, Site::default(), across, 1.0, 1);
+        let mut application = Application::new(Box::new(body), Some(plan));
         application.act(&Act::Notice(Notice::RolesEstablished(session)));
         application.act(&Act::Notice(Notice::FollowerJoined(follower)));
         let mut orders = 0;
@@ -567,5 +579,29 @@ mod tests {
         }
         // Ten seconds, an attempt each half second.
         assert!((15..=20).contains(&orders), "{orders} orders");
+    }
+
+    #[test]
+    fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
+        let driver = |act| match act {
+            BodyAct::Start(..) => Ok(()),
+            _ => Err(NotTaken("the bus is down".to_owned())),
+        };
+        let (place, site) = (Place::default(), Site::default());
+        let body = External::new(Build::Quadruped, site, place, Box::new(driver));
+        let mut application = Application::new(Box::new(body), None);
+        let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+        let leader = StationId(1);
+        let session = SessionId { leader, number };
+        let request = RequestId(0);
+        let id = ManeuverId { session, request };
+        let (task, why) = (TaskType::MOVE, StopReason::Superseded);
+        let maneuver = Maneuver { id, task };
+        application.act(&Act::Start(maneuver, TaskParameters::default()));
+        assert_eq!(application.next_wish(), None);
+        application.act(&Act::Stop(maneuver, why));
+        let fault = Availability::Unavailable(Unavailability::LocalFault);
+        let told = Wish::Tell(Event::AvailabilityChanged(fault));
+        assert_eq!(application.next_wish(), Some(told));
     }
 }

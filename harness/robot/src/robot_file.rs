@@ -13,7 +13,7 @@ use crossguard_protocol::{self as protocol, BrokenInequality, Config, Settings, 
 use serde::Deserialize;
 
 use crate::application::Application;
-use crate::body::{Body, Build};
+use crate::body::{Body, Build, Driver, External, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
 use crate::plan::Plan;
@@ -199,9 +199,15 @@ impl RobotFile {
 
     /// A simulated body at its place; `seed` is that of its gait.
     #[must_use]
-    pub fn body(&self, seed: u64) -> Body {
-        Body::new(self.build, self.site, self.place, self.speed, seed)
+    pub fn body(&self, seed: u64) -> Simulated {
+        Simulated::new(self.build, self.site, self.place, self.speed, seed)
             .holding(self.config.settings().holding)
+    }
+
+    /// A body that others move, by this driver.
+    #[must_use]
+    pub fn external_body(&self, driver: Driver) -> External {
+        External::new(self.build, self.site, self.place, driver)
     }
 
     /// What it knows of the people on the road: nothing, unless its sensors have everybody there, or it
@@ -228,7 +234,7 @@ impl RobotFile {
     pub fn setup(
         &self,
         boot: Boot,
-        body: Body,
+        body: Box<dyn Body>,
         security: Security,
         link: Halves,
         journal: Journal,

@@ -26,6 +26,7 @@
 //! - CDR is that of `cdr-encoding`, which `RustDDS` is built on; XXH3 is of `xxhash-rust`, SHA-256 of `sha2`.
 
 pub mod attachment;
+mod body;
 pub mod command;
 pub mod entity;
 pub mod graph;

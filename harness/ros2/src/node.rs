@@ -20,11 +20,13 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use crossguard_robot::body::BodyAct;
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::runtime::Order;
 use crossguard_robot::trace::Record;
 use door::{Delivery, Door, Ears, Told};
 
+use crate::body::Acts;
 use crate::command;
 use crate::entity::NodeName;
 use crate::graph::{Call, Graph, Meeting, Node, RosError};
@@ -141,6 +143,8 @@ struct Turn {
     file: Option<RobotFile>,
     active: Option<Active>,
     reporter: Option<Reporter>,
+    /// What the body is to do.
+    acts: Option<Receiver<BodyAct>>,
     /// Where the body was said to be.
     pose_before: Option<PoseStamped>,
     /// Who asked for the transition that is under way.
@@ -178,6 +182,7 @@ impl Turn {
             file: None,
             active: None,
             reporter: None,
+            acts: None,
             pose_before: None,
             waiting: None,
             causes: BTreeMap::new(),
@@ -192,7 +197,10 @@ impl Turn {
         loop {
             let due = self.corridor_due.min(self.status_due);
             let patience = due.saturating_duration_since(Instant::now());
-            match deliveries.recv_timeout(patience) {
+            let delivery = deliveries.recv_timeout(patience);
+            // A body is told before anything else is looked at.
+            self.tell_acts();
+            match delivery {
                 Ok(delivery) => self.take(delivery),
                 Err(RecvTimeoutError::Timeout) => {}
                 // The door is this thread's own.
@@ -386,14 +394,17 @@ impl Turn {
     }
 
     fn reporter(file: &RobotFile) -> Reporter {
-        Reporter::new(&file.name, file.station, file.site, file.wire())
+        Reporter::new(&file.name, file.station)
     }
 
     fn activate(&mut self) -> Result<(), NoRobot> {
         let Some(file) = &self.file else {
             return Ok(());
         };
-        let (active, records) = Active::start(&self.robot, file)?;
+        let wake = self.door.clone();
+        let (acts, taken) = Acts::new(Box::new(move || wake.wake()));
+        let (active, records) = Active::start(&self.robot, file, acts)?;
+        self.acts = Some(taken);
         self.reporter = Some(Self::reporter(file));
         let inbox = self.door.inbox.clone();
         // It ends with the robot's records, or with the node.
@@ -431,6 +442,8 @@ impl Turn {
 
     /// The robot has stopped: because it was told to, or of its own accord.
     fn ended(&mut self) {
+        self.tell_acts();
+        self.acts = None;
         if let Some(active) = self.active.take() {
             active.put_away();
         }

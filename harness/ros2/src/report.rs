@@ -2,19 +2,16 @@
 
 use std::time::Duration;
 
-use crossguard_codec::{RobotState, Target, TaskParameters};
-use crossguard_endpoint::wire::{MessageKind, Wire};
 use crossguard_protocol::{
-    self as protocol, Availability, CorridorClosure, Duty, FallbackPolicy, Input, Leading,
-    ManeuverId, Member, Notice, Output, Phase, Progress, Robot, Role, SessionId, State, StationId,
-    TaskType, Unavailability,
+    self as protocol, Availability, CorridorClosure, Duty, Input, Leading, ManeuverId, Member,
+    Notice, Output, Phase, Progress, Robot, Role, SessionId, State, StationId, TaskType,
+    Unavailability,
 };
-use crossguard_robot::site::Site;
 use crossguard_robot::tally::{Tally, Way};
 use crossguard_robot::trace::{Entry, Record};
 
 use crate::msgs::{Corridor, Event, Follower, Session, Status, Task};
-use crate::standard::{self, DiagnosticStatus, Header, KeyValue, Point, Time};
+use crate::standard::{self, DiagnosticStatus, Header, KeyValue, Time};
 
 /// The frame of places on the site.
 pub const SITE_FRAME: &str = "site";
@@ -23,11 +20,7 @@ pub const SITE_FRAME: &str = "site";
 #[derive(Debug)]
 pub(crate) struct Reporter {
     station: StationId,
-    site: Site,
-    wire: Wire,
     tally: Tally,
-    /// Parameters of the newest command to this robot.
-    parameters: Option<TaskParameters>,
     /// Until when the pedestrian may cross, by the leases that stand, in µs on the clock of the robot.
     go_ends_us: u64,
     /// Why the corridor was closed last, while that is news.
@@ -37,16 +30,13 @@ pub(crate) struct Reporter {
 }
 
 impl Reporter {
-    pub(crate) fn new(name: &str, station: StationId, site: Site, wire: Wire) -> Self {
+    pub(crate) fn new(name: &str, station: StationId) -> Self {
         Self {
             station,
-            site,
-            wire,
             tally: Tally {
                 robot: name.to_owned(),
                 ..Tally::default()
             },
-            parameters: None,
             go_ends_us: 0,
             closure: None,
             dropped_before: 0,
@@ -57,17 +47,6 @@ impl Reporter {
     pub(crate) fn take(&mut self, record: &Record) -> Vec<Event> {
         self.tally.record(record);
         match &record.entry {
-            Entry::Heard {
-                message: MessageKind::Rmcm,
-                octets,
-                ..
-            } => {
-                let state = RobotState::default();
-                if let Ok(heard) = self.wire.hear(self.station, &state, octets) {
-                    self.parameters = heard.parameters.or(self.parameters);
-                }
-                Vec::new()
-            }
             Entry::Step {
                 input,
                 outputs,
@@ -91,21 +70,6 @@ impl Reporter {
 
     fn event(&mut self, input: &Input, output: &Output) -> Option<Event> {
         let event = match output {
-            Output::StartManeuver(maneuver) => {
-                self.started(about(Event::START_MANEUVER, maneuver.id, maneuver.task))
-            }
-            Output::StopManeuver(maneuver, _) => {
-                about(Event::STOP_MANEUVER, maneuver.id, maneuver.task)
-            }
-            Output::FallBack(maneuver, policy) => Event {
-                policy: match policy {
-                    FallbackPolicy::StopInPlace => Event::POLICY_STOP_IN_PLACE,
-                    FallbackPolicy::GoToSafePosition => Event::POLICY_GO_TO_SAFE_POSITION,
-                    FallbackPolicy::EscortToKerb => Event::POLICY_ESCORT_TO_KERB,
-                    FallbackPolicy::HoldUntilClear => Event::POLICY_HOLD_UNTIL_CLEAR,
-                },
-                ..about(Event::FALL_BACK, maneuver.id, maneuver.task)
-            },
             Output::LockIdentity => of(Event::LOCK_IDENTITY),
             Output::UnlockIdentity => of(Event::UNLOCK_IDENTITY),
             Output::Notify(notice) => news(*notice),
@@ -126,8 +90,11 @@ impl Reporter {
                     ..of(Event::COMMAND_IGNORED)
                 });
             }
-            // The node renews the boot counter by itself.
-            Output::CorridorExtended(_)
+            // What the body is to do comes from its port; the node renews the boot counter by itself.
+            Output::StartManeuver(_)
+            | Output::StopManeuver(..)
+            | Output::FallBack(..)
+            | Output::CorridorExtended(_)
             | Output::RenewEpoch
             | Output::SendRam
             | Output::SendRmcm(_) => return None,
@@ -136,29 +103,6 @@ impl Reporter {
             text: output.to_string(),
             ..event
         })
-    }
-
-    /// A maneuver that begins, with where and how.
-    fn started(&self, event: Event) -> Event {
-        let parameters = self.parameters.unwrap_or_default();
-        let target = match parameters.target {
-            Some(Target::Position {
-                latitude,
-                longitude,
-                ..
-            }) => Some(self.site.place(latitude, longitude)),
-            _ => None,
-        };
-        Event {
-            has_target: target.is_some(),
-            target: target.map_or_else(Point::default, |place| Point {
-                x: place.east,
-                y: place.north,
-                z: 0.0,
-            }),
-            maximum_speed: parameters.maximum_speed.unwrap_or_default(),
-            ..event
-        }
     }
 
     /// When it was as it is known, in µs on the clock of the robot.
@@ -439,7 +383,7 @@ fn with(kind: u8, station: StationId) -> Event {
 }
 
 /// About a command to this robot.
-fn about(kind: u8, id: ManeuverId, of_kind: TaskType) -> Event {
+pub(crate) fn about(kind: u8, id: ManeuverId, of_kind: TaskType) -> Event {
     Event {
         station: id.session.leader.0,
         request: id.request.0,

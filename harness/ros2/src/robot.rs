@@ -11,6 +11,7 @@ use std::time::Duration;
 use crossguard_codec::security::Unsigned;
 use crossguard_endpoint::counters::Cause;
 use crossguard_endpoint::station::{Mode, Security};
+use crossguard_robot::body::Body;
 use crossguard_robot::boot::{self, BootError};
 use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_robot::pki::{self, PkiError};
@@ -18,6 +19,8 @@ use crossguard_robot::robot_file::{RobotFile, RobotFileError};
 use crossguard_robot::runtime::{Clock, Order, Running};
 use crossguard_robot::trace::{self, Record};
 use crossguard_robot::transport::{LinkError, Reopening, Transport};
+
+use crate::body::{Acts, Announced};
 
 /// After how many milliseconds a pseudonym changes, outside of sessions.
 const PSEUDONYM_PERIOD_MS: u64 = 300_000;
@@ -89,10 +92,12 @@ pub(crate) struct Active {
 }
 
 impl Active {
-    /// Has the robot of `file` be there. Its records come out of the queue, which ends with it.
+    /// Has the robot of `file` be there, whose body's acts go to `acts`. Its records come out of the queue,
+    /// which ends with it.
     pub(crate) fn start(
         robot: &Robot,
         file: &RobotFile,
+        acts: Acts,
     ) -> Result<(Self, Receiver<Arc<Record>>), NoRobot> {
         let link = Reopening(file.link.clone()).open()?;
         let security = security(robot, &file.name)?;
@@ -107,9 +112,12 @@ impl Active {
         };
         // The counter is taken last, when nothing else can go wrong, and before anything is sent.
         let boot = boot::take(&file.boot_file)?;
-        let body = match robot.body {
-            BodyKind::Simulated => file.body(robot.seed),
-            BodyKind::External => file.body(robot.seed).moved_by_others(),
+        let body: Box<dyn Body> = match robot.body {
+            BodyKind::Simulated => {
+                let body = file.body(robot.seed);
+                Box::new(Announced { body, acts })
+            }
+            BodyKind::External => Box::new(file.external_body(acts.driver())),
         };
         let setup = file.setup(boot, body, security, link, journal);
         let clock = setup.clock;

@@ -128,7 +128,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
     let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
     let counter = boot.counter;
-    let body = file.body(arguments.seed);
+    let body = Box::new(file.body(arguments.seed));
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     if arguments.cluster_vam {
         setup.awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);

@@ -78,6 +78,11 @@ impl Door {
         }
     }
 
+    /// Has the node look. One whose inbox is full looks anyway.
+    pub(super) fn wake(&self) {
+        let _ = self.inbox.try_send(Delivery::Look);
+    }
+
     fn topic<M: Message + 'static>(
         &self,
         node: &Node,

@@ -3,11 +3,16 @@
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use crossguard_protocol::{self as protocol, Availability, Unavailability};
+use crossguard_robot::application::Wish;
+use crossguard_robot::runtime::Order;
+
 use super::{CORRIDOR_PERIOD, CORRIDOR_VALID_FOR, STATUS_PERIOD, Turn};
+use crate::body;
 use crate::graph::{RosError, now_ns};
 use crate::msgs::{Corridor, Event, Status};
 use crate::report::{OK, SITE_FRAME, WARN, duration, header, value};
-use crate::robot::Active;
+use crate::robot::{Active, BodyKind};
 use crate::standard::{DiagnosticArray, DiagnosticStatus, TransitionEvent};
 
 impl Turn {
@@ -84,11 +89,33 @@ impl Turn {
     }
 
     pub(super) fn tell_event(&mut self, event: Event) {
-        let told = self.told.event.publish(&Event {
+        let told = self.publish_event(event);
+        self.note(told);
+    }
+
+    fn publish_event(&self, event: Event) -> Result<(), RosError> {
+        self.told.event.publish(&Event {
             header: header(now_ns(), SITE_FRAME),
             ..event
-        });
-        self.note(told);
+        })
+    }
+
+    /// Publishes what the body is to do. What cannot be published is not done, and so a fault of a body that
+    /// others move.
+    pub(super) fn tell_acts(&mut self) {
+        while let Some(act) = self.acts.as_ref().and_then(|acts| acts.try_recv().ok()) {
+            let Some(file) = &self.file else { return };
+            let told = self.publish_event(body::event(act, &file.site));
+            if told.is_err()
+                && self.robot.body == BodyKind::External
+                && let Some(active) = &self.active
+            {
+                let fault = Availability::Unavailable(Unavailability::LocalFault);
+                let wish = Wish::Tell(protocol::Event::AvailabilityChanged(fault));
+                active.order(Order::Wish(wish));
+            }
+            self.note(told);
+        }
     }
 
     pub(super) fn tell_transition(&mut self, event: TransitionEvent) {

@@ -75,7 +75,7 @@ fn opening() -> Vec<Record> {
 }
 
 fn reporter() -> Reporter {
-    Reporter::new("ARI", StationId(1), Site::default(), Wire::default())
+    Reporter::new("ARI", StationId(1))
 }
 
 #[test]

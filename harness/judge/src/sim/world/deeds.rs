@@ -6,7 +6,7 @@ use crossguard_protocol::{Availability, Event, Robot, StationId};
 use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Endpoint, Stimulus};
 use crossguard_robot::application::Application;
-use crossguard_robot::body::Body;
+use crossguard_robot::body::Simulated;
 use crossguard_robot::machine::Machine;
 use crossguard_robot::trace::Entry;
 use rand::Rng;
@@ -148,7 +148,7 @@ impl World<'_> {
             endpoint = endpoint.with_security(security::of(place, self.now_us / 1_000));
         }
         let gait = self.swarm.seed.wrapping_add(place as u64);
-        let body = Body::new(
+        let body = Simulated::new(
             draw.build,
             draw.plan.site,
             draw.place,
@@ -156,7 +156,7 @@ impl World<'_> {
             gait,
         );
         let body = body.holding(draw.config.settings().holding);
-        let application = Application::new(body, Some(draw.plan.clone()));
+        let application = Application::new(Box::new(body), Some(draw.plan.clone()));
         seat.sign = application.sign().clone();
         seat.machine = Some(Machine::new(endpoint, application));
         self.come_to(place, draw.corner);
