@@ -22,6 +22,8 @@ pub struct Heard {
     pub from: StationId,
     /// What the transition function takes in, in order.
     pub inputs: List<Input, MAX_FOLLOWERS>,
+    /// `generationDeltaTime`: when the message was made, in ms modulo 65,536 of `TimestampIts`.
+    pub generation_delta_time: u16,
     /// Parameters of the command to the robot that hears it, if there is one.
     pub parameters: Option<TaskParameters>,
     /// The sender's state, from a RAM.
@@ -67,6 +69,7 @@ impl Heard {
                     service: Service::Ram,
                     from: view.station,
                     inputs: [input].into_iter().collect(),
+                    generation_delta_time: ram.ram.generation_delta_time.0,
                     parameters: None,
                     state: Some(state),
                     availability: Some(availability_of(&ram)),
@@ -83,6 +86,7 @@ impl Heard {
                     service: Service::Rmcm,
                     from: views.iter().next().map_or(StationId(0), sender),
                     inputs: views.iter().copied().map(Input::Rmcm).collect(),
+                    generation_delta_time: rmcm.rmcm.generation_delta_time.0,
                     parameters: task_parameters_of(&rmcm, me),
                     state: None,
                     availability: None,

@@ -54,7 +54,8 @@ fn coverage_is_what_python_computes_from_the_same_traces() {
 
 /// What `judges/coverage.py` says of results; `None` where there is no Python.
 fn judge(folder: &Path, preset: &str, results: &[u8]) -> Option<(Option<i32>, String)> {
-    let traces = ["20", "50", "100"].map(|people| format!("traces/{preset}-{people}.json.gz"));
+    let traces =
+        ["20", "50", "100"].map(|people| format!("evaluation/traces/{preset}-{people}.json.gz"));
     let mut python = Command::new("python3")
         .current_dir(folder)
         .arg("judges/coverage.py")

@@ -128,10 +128,10 @@ fn alter_times(lines: &mut [Value], alter: fn(u64) -> u64) {
     }
 }
 
-/// A message that the robot was told of when its clock showed more than a tenth of a second.
+/// A message that arrived when the robot's clock showed more than a tenth of a second.
 fn is_heard_later(line: &Value) -> bool {
-    let told_us = line["reception"]["toldUs"].as_u64();
-    is(line, "heard") && told_us.is_some_and(|told_us| told_us > 100_000)
+    let arrived_us = line["reception"]["arrivedUs"].as_u64();
+    is(line, "heard") && arrived_us.is_some_and(|arrived_us| arrived_us > 100_000)
 }
 
 /// The message arrived so many ms earlier, and was told so many earlier.

@@ -7,11 +7,10 @@ use crate::asn1::cam::{CAM, HighFrequencyContainer};
 use crate::asn1::cdd::{BasicContainer, Shape as BoundingShape, Speed, Wgs84AngleValue};
 use crate::asn1::cdd211::ObjectClass211;
 use crate::asn1::cpm::{CartesianCoordinateWithConfidence, ObjectClass, Velocity3dWithConfidence};
-use crate::core::cdd::{CartesianCoordinate, Shape};
-use crate::core::ram::RAM;
+use crate::core::cdd::{CartesianCoordinate, Shape, VruClusterInformation};
 use crate::distance::moved;
 use crate::si;
-use crate::state::Position;
+use crate::state::{Position, RobotState};
 
 /// What somebody on the road is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
@@ -101,9 +100,18 @@ impl ItsMessage {
     pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
         match self {
             Self::Ram(ram) => {
-                let robot = of_robot(ram, now);
-                let cluster = cluster_around(ram, &robot);
-                std::iter::once(robot).chain(cluster).collect()
+                let parameters = &ram.ram.ram_parameters;
+                let cluster = parameters.vru_cluster_information_container;
+                let around = cluster.map(|container| container.vru_cluster_information);
+                let measured = si::rebuild_timestamp(now, ram.ram.generation_delta_time.0);
+                RoadUser::of_robot(
+                    ram.header.station_id.0,
+                    parameters.basic_container.station_type.0,
+                    &crate::view::state_of(ram),
+                    around.as_ref(),
+                    measured,
+                )
+                .collect()
             }
             Self::Rmcm(_) | Self::Denm(_) => Vec::new(),
             Self::Cam(cam) => vec![of_cam(cam, now)],
@@ -154,25 +162,36 @@ impl ItsMessage {
     }
 }
 
-fn of_robot(ram: &RAM, now: u64) -> RoadUser {
-    let state = crate::view::state_of(ram);
-    let container = &ram.ram.ram_parameters.basic_container;
-    RoadUser {
-        identity: Identity::Station(ram.header.station_id.0),
-        kind: Kind::Robot,
-        station_type: Some(container.station_type.0),
-        position: state.position,
-        speed: state.speed.map(|speed| speed.value),
-        heading: state.heading.map(|heading| heading.value),
-        cardinality: 1,
-        measured_its: si::rebuild_timestamp(now, ram.ram.generation_delta_time.0),
+impl RoadUser {
+    /// Who is on the road by a RAM: the robot that sent it, which is in this state, and the people around it
+    /// that it announces, at the middle of their bounding shape.
+    pub fn of_robot(
+        station: u32,
+        station_type: u8,
+        state: &RobotState,
+        around: Option<&VruClusterInformation>,
+        measured_its: u64,
+    ) -> impl Iterator<Item = Self> {
+        let robot = Self {
+            identity: Identity::Station(station),
+            kind: Kind::Robot,
+            station_type: Some(station_type),
+            position: state.position,
+            speed: state.speed.map(|speed| speed.value),
+            heading: state.heading.map(|heading| heading.value),
+            cardinality: 1,
+            measured_its,
+        };
+        let cluster = around.and_then(|cluster| cluster_around(station, cluster, &robot));
+        std::iter::once(robot).chain(cluster)
     }
 }
 
-/// The people around a robot that its RAM announces: at the middle of their bounding shape.
-fn cluster_around(ram: &RAM, robot: &RoadUser) -> Option<RoadUser> {
-    let container = ram.ram.ram_parameters.vru_cluster_information_container;
-    let cluster = container?.vru_cluster_information;
+fn cluster_around(
+    station: u32,
+    cluster: &VruClusterInformation,
+    robot: &RoadUser,
+) -> Option<RoadUser> {
     let middle = match cluster.cluster_bounding_box_shape? {
         Shape::Circular(circle) => circle.shape_reference_point,
         Shape::Rectangular(rectangle) => rectangle.shape_reference_point,
@@ -183,7 +202,7 @@ fn cluster_around(ram: &RAM, robot: &RoadUser) -> Option<RoadUser> {
         [metres(middle.x_coordinate), metres(middle.y_coordinate)]
     });
     Some(RoadUser {
-        identity: identity_of(ram.header.station_id.0, cluster.cluster_id.map(|id| id.0)),
+        identity: identity_of(station, cluster.cluster_id.map(|id| id.0)),
         kind: Kind::Vru,
         station_type: None,
         position: moved(&robot.position, east, north),

@@ -380,7 +380,7 @@ impl<P: StateMachine> Endpoint<P> {
         });
         if let Some(state) = &heard.state {
             let (ego, now_ms) = (turn.ego(), turn.moment.now_ms);
-            self.station.observe_robot(heard.from, state, &ego, now_ms);
+            self.station.observe_robot(heard, &ego, now_ms);
             let (from, position) = (heard.from.0, &state.position);
             if let Some(plane) = self.surroundings.plane() {
                 let cluster = heard.cluster.as_ref();

@@ -5,7 +5,7 @@
 use crossguard_codec::RobotState;
 use crossguard_endpoint::{Endpoint, Moment, Stimulus};
 use crossguard_endpoint::wire::Wire;
-use crossguard_protocol::{Config, Event, HelpRequest, Robot, StationId, TaskSet, Urgency};
+use crossguard_protocol::{Config, Event, HelpRequest, Place, Robot, StationId, TaskSet, Urgency};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|octets: &[u8]| {
@@ -25,6 +25,7 @@ fuzz_target!(|octets: &[u8]| {
         urgency: Urgency::High,
         followers: 1,
         tasks: TaskSet(1),
+        place: Place(7),
     })));
     let mut rest = octets;
     while let Some((length, behind)) = rest.split_first_chunk::<2>() {

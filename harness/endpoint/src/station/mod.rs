@@ -20,9 +20,10 @@ use crossguard_codec::geonet::{
     Address, BasicHeader, Discarded, EgoPosition, Envelope, GeonetError, Headers, Indication,
     NextHeader, PACKET_LEN_MAX, Permits, SendError, Signer, Stack,
 };
-use crossguard_codec::its::{Identity, ItsMessage, Kind, RoadUser};
+use crossguard_codec::its::{ItsMessage, RoadUser};
 use crossguard_codec::security::SignedMessage;
-use crossguard_codec::{DecodeError, Identifiers, Part, RobotState, Service};
+use crossguard_codec::si::rebuild_timestamp;
+use crossguard_codec::{DecodeError, Identifiers, Part, Service};
 use crossguard_protocol::{Input, StationId};
 
 pub use namesakes::NAMES_MAX;
@@ -157,25 +158,15 @@ impl Station {
         self.map.forget(now_ms);
     }
 
-    /// Puts the sender of a RAM on the map.
-    pub fn observe_robot(
-        &mut self,
-        station: StationId,
-        state: &RobotState,
-        ego: &EgoPosition,
-        now_ms: u64,
-    ) {
-        let user = RoadUser {
-            identity: Identity::Station(station.0),
-            kind: Kind::Robot,
-            station_type: Some(self.identifiers.robot_station_type),
-            position: state.position,
-            speed: state.speed.map(|speed| speed.value),
-            heading: state.heading.map(|heading| heading.value),
-            cardinality: 1,
-            measured_its: ego.timestamp_its,
-        };
-        self.map.observe(user, now_ms);
+    /// Puts the sender of a RAM on the map, and the people that it announces.
+    pub fn observe_robot(&mut self, heard: &Heard, ego: &EgoPosition, now_ms: u64) {
+        let Some(state) = &heard.state else { return };
+        let measured = rebuild_timestamp(ego.timestamp_its, heard.generation_delta_time);
+        let station_type = self.identifiers.robot_station_type;
+        let around = heard.cluster.as_ref();
+        for user in RoadUser::of_robot(heard.from.0, station_type, state, around, measured) {
+            self.map.observe(user, now_ms);
+        }
     }
 
     /// Puts on the map whom a message of another station tells of, and gives the message.
