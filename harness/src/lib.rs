@@ -1,4 +1,4 @@
-//! The demonstration, and what the `crossguard` command adds to the crates under it.
+//! The demonstration, and what the `crossguard` command adds to the crates below it.
 //!
 //! ```text
 //!   crossguard-harness     the command, the demonstration

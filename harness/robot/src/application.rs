@@ -34,7 +34,7 @@ pub enum Wish {
 /// How often a leg that failed is commanded again before the leader gives up.
 const ATTEMPTS: u8 = 3;
 
-/// How often a leader tries anew what did not come about: to open the corridor, to have people escorted. In seconds.
+/// How long a leader waits before it asks again for an open corridor or an escort, in seconds.
 const OPENING_PERIOD_S: f64 = 0.5;
 
 /// The longest list of wishes; more are not kept.

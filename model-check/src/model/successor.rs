@@ -25,8 +25,7 @@ impl Model {
         Some((self.interned(next), step))
     }
 
-    /// The same, with the state that stands for all those that differ from the successor in which of the
-    /// symmetric robots is which.
+    /// The same, with one state for all successors that differ only by a permutation of the symmetric robots.
     #[must_use]
     pub fn successor_up_to_symmetry(
         &self,

@@ -11,8 +11,8 @@
 //!
 //! A run has two phases. At first robots detect pedestrians, crash, hang, boot again, change their minds and
 //! hear each other badly: the safety properties must hold all the same. Then the network is healed. Where a
-//! team can exist somebody waits, and a crossing must be completed; then all robots must come to rest. Everything is drawn from the seed, so
-//! one number tells the whole run; the same machine code does the same steps in every run.
+//! team can exist somebody waits, and a crossing must be completed; then all robots must come to rest. Everything is
+//! drawn from the seed, so one number names the whole run; the same program takes the same steps in every run.
 //!
 //! The robots run the code that real ones run: [`Machine`](crossguard_robot::machine::Machine), codec and ITS
 //! station included. What the simulator has of its own is a clock, an order of events and a radio.
