@@ -1,8 +1,8 @@
 //! The Robot Awareness Service: when a robot tells of itself, and of the people around it.
 //!
 //! Pure rules, without a clock, a link or a random source of their own: what was perceived, heard and
-//! how late it is goes in, what to send and why comes out. The live [endpoint](crate::endpoint) and
-//! the [evaluation](crossguard_evaluation) call the same functions.
+//! how late it is goes in, what to send and why comes out. The live [`Endpoint`](crate::Endpoint) and
+//! the robots of `crossguard-evaluation` call the same functions.
 //!
 //! ```text
 //!  perceived road users ──► clustering ──► containers ──► RAM ───────► vru (understands RAM)

@@ -1,7 +1,7 @@
 //! Logs: everything that an endpoint did, one JSON object per line.
 //!
 //! A log holds every input of the transition function with what it put out and the state after it, and
-//! every message. [`validate`](crossguard_judge::validate) replays it; so a log proves that the robot did what the
+//! every message. `validate` of `crossguard-judge` replays it; so a log proves that the robot did what the
 //! verified transition function does, or shows the first record that does not fit.
 
 mod reader;

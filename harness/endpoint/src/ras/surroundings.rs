@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Places are kept on a plane that stays where it is while the robot moves, so that people do not move
-//! with it. Without input and output; the live [endpoint](crate::endpoint) and the robots of the
-//! [evaluation](crossguard_evaluation) are the same here.
+//! with it. Without input and output; the live [`Endpoint`](crate::Endpoint) and the robots of
+//! `crossguard-evaluation` are the same here.
 
 use crossguard_codec::Position;
 

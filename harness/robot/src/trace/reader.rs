@@ -132,7 +132,7 @@ impl<'a> Records<'a> {
 /// The records of several logs in the order of time, as the clocks of their machines tell it.
 ///
 /// Clocks of different machines are not corrected: where they are apart, a message may be heard before
-/// it is sent. [`validate`](crossguard_judge::validate) orders by cause and effect instead.
+/// it is sent. `validate` of `crossguard-judge` orders by cause and effect instead.
 ///
 /// Robots that share a log write it from threads of their own, so that a record may be a moment late in it:
 /// for that each is held back for a second of the logs' time.
