@@ -337,6 +337,60 @@ fn the_readmes_sum_of_states_is_that_of_the_scenarios() {
     assert!(include_str!("../../README.md").contains(&said), "{said}");
 }
 
+/// Everything that the index of rules names is there, and every property is of some rule.
+#[test]
+fn the_index_of_rules_names_what_there_is() {
+    let text = |path: String| std::fs::read_to_string(repository().join(path)).unwrap();
+    let has = |path: String, name: &str| {
+        let is_there = text(path.clone()).contains(&format!("fn {name}("));
+        assert!(is_there, "no {name} in {path}");
+    };
+    let page = text("protocol/doc/protocol.md".to_owned());
+    let missed = ["weakenings", "timed_weakenings"].map(|file| {
+        let path = format!("model-check/tests/{file}.rs");
+        text(path)
+    });
+    let (mut rules, mut named) = (0, BTreeSet::new());
+    for row in page.lines().filter(|line| line.starts_with("| R")) {
+        let cells: Vec<_> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [id, _, functions, properties, weakening, law, script] = cells[..] else {
+            panic!("another number of columns: {row}");
+        };
+        rules += 1;
+        assert_eq!(id, format!("R{rules}"));
+        for name in quoted(functions) {
+            let (file, function) = name.split_once("::").expect("a file and a function");
+            has(format!("protocol/src/{file}.rs"), function);
+        }
+        for name in quoted(weakening) {
+            let is_there = missed.iter().any(|it| it.contains(&format!("fn {name}(")));
+            assert!(is_there, "no weakening {name}");
+        }
+        for name in quoted(law) {
+            let (file, function) = name.split_once("::").expect("a file and a law");
+            has(format!("protocol/src/laws/{file}.rs"), function);
+        }
+        let [script] = &quoted(script)[..] else {
+            panic!("one script: {row}");
+        };
+        assert!(text(format!("protocol/tests/{script}.rs")).contains("#[test]"));
+        named.extend(properties.split(", ").map(str::to_owned));
+    }
+    let verified = text("model-check/doc/verification.md".to_owned());
+    let is_property = |id: &&str| {
+        let number = id.get(1..).and_then(|number| number.parse::<u8>().ok());
+        id.starts_with(['I', 'L', 'W']) && number.is_some()
+    };
+    let rows = verified.lines().filter_map(|line| line.strip_prefix("| "));
+    let ids = rows.filter_map(|row| row.split(" | ").next());
+    let all: BTreeSet<_> = ids.filter(is_property).map(str::to_owned).collect();
+    assert!(all.len() > 30, "{all:?}");
+    assert_eq!(
+        named, all,
+        "a property of no rule, or one that there is not"
+    );
+}
+
 /// The identifiers that the page for ITS engineers shows can be a robot's, and others are refused.
 #[test]
 fn the_identifiers_on_the_its_page_can_be_configured() {
