@@ -528,9 +528,11 @@ impl<P: StateMachine> Endpoint<P> {
     fn generate(&mut self, turn: &mut Turn) {
         let (moment, own) = (turn.moment, self.robot().station().0);
         let position = turn.state.position;
-        let vams =
-            self.surroundings
-                .cluster_vams(moment.now_ms, moment.timestamp_its, own, &position);
+        let ids = &self.wire.identifiers;
+        let (now_ms, now_its) = (moment.now_ms, moment.timestamp_its);
+        let vams = self
+            .surroundings
+            .cluster_vams(ids, now_ms, now_its, own, &position);
         for (_, vam) in vams {
             self.transmit(turn, MessageKind::Vam, Trigger::Interval, vam);
         }

@@ -133,9 +133,13 @@ impl<'a> Robot<'a> {
             messages.push(self.ram(now_ms, trigger)?);
         }
         let position = self.state.position;
-        let vams = self
-            .surroundings
-            .cluster_vams(now_ms, now_ms, self.station, &position);
+        let vams = self.surroundings.cluster_vams(
+            &Identifiers::default(),
+            now_ms,
+            now_ms,
+            self.station,
+            &position,
+        );
         for (cluster, octets) in vams {
             messages.push(self.cluster_vam(&cluster, octets?.len()));
         }

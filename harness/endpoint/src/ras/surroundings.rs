@@ -12,7 +12,7 @@
 //! with it. Without input and output; the live [`Endpoint`](crate::Endpoint) and the robots of
 //! `crossguard-evaluation` are the same here.
 
-use crossguard_codec::Position;
+use crossguard_codec::{Identifiers, Position};
 
 use super::clustering::{Cluster, Clustering, PerceivedVru, Settings};
 use super::containers::Announced;
@@ -141,6 +141,7 @@ impl Surroundings {
     /// `timestamp_its` is the time of the position.
     pub fn cluster_vams(
         &mut self,
+        ids: &Identifiers,
         now_ms: u64,
         timestamp_its: u64,
         station: u32,
@@ -156,7 +157,7 @@ impl Surroundings {
         self.last_cluster_vam_ms = Some(now_ms);
         let clusters = self.clustering.clusters().into_iter();
         let vams = clusters.map(|cluster| {
-            let vam = cluster_vam(station, position, timestamp_its, &cluster, &plane);
+            let vam = cluster_vam(ids, station, position, timestamp_its, &cluster, &plane);
             (cluster, vam)
         });
         vams.collect()
@@ -237,7 +238,7 @@ mod tests {
             let near = [person(1, [5.0, 0.0])];
             let people: &[PerceivedVru] = if now_ms < 1_000 { &near } else { &[] };
             around.perceive(now_ms, &at(0.0), people).unwrap();
-            let vams = around.cluster_vams(now_ms, now_ms, 7, &at(0.0));
+            let vams = around.cluster_vams(&Identifiers::default(), now_ms, now_ms, 7, &at(0.0));
             sent.extend(vams.iter().map(|(_, vam)| (now_ms, vam.is_ok())));
         }
         // Who is no longer perceived is forgotten a second after the last time, at 900 ms.

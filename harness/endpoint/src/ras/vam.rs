@@ -5,18 +5,24 @@
 //! made as those of a RAM are.
 
 use crossguard_codec::asn1::cdd::{
-    ClusterJoinInfo, ClusterLeaveInfo, ClusterLeaveReason, DeltaTimeQuarterSecond, ExteriorLights,
-    Identifier1B, ItsPduHeader, LongitudinalAcceleration, LongitudinalAccelerationValue, MessageId,
-    OrdinalNumber1B, StationId, TrafficParticipantType, VruExteriorLights, VruProfileAndSubprofile,
-    VruSizeClass, VruSpecificExteriorLights, VruSubProfilePedestrian,
+    AccelerationComponent, ClusterJoinInfo, ClusterLeaveInfo, ClusterLeaveReason,
+    DeltaTimeQuarterSecond, ExteriorLights, Identifier1B, ItsPduHeader, LongitudinalAcceleration,
+    LongitudinalAccelerationValue, MessageId, OrdinalNumber1B, PathDeltaTimeChoice,
+    PathPointPredicted, StationId, TrafficParticipantType, VruExteriorLights,
+    VruProfileAndSubprofile, VruSizeClass, VruSpecificExteriorLights, VruSubProfilePedestrian,
 };
-use crossguard_codec::asn1::ram::RAM;
+use crossguard_codec::asn1::cdd211::{
+    PathPointPredicted211, PathPredicted211, VAM211, VamParameters211, VruAwareness211,
+    VruClusterInformationContainer211, VruHighFrequencyContainer211,
+    VruMotionPredictionContainer211,
+};
+use crossguard_codec::asn1::ram::{RAM, RobotAwareness};
 use crossguard_codec::asn1::vam::{
     VAM, VamParameters, VruAwareness, VruClusterOperationContainer, VruHighFrequencyContainer,
     VruLowFrequencyContainer,
 };
 use crossguard_codec::{
-    DecodeError, EncodeError, Identifiers, Pdu, Position, RobotState, encode, ram_from,
+    DecodeError, Dictionary, EncodeError, Identifiers, Pdu, Position, RobotState, encode, ram_from,
 };
 use crossguard_protocol::{Availability, Coordination, Ram};
 
@@ -41,12 +47,13 @@ const PEDESTRIAN: u8 = 1;
 pub const CLUSTER_INTERVAL_MS: u64 = 500;
 
 /// The octets of the VAM by which `station`, a robot at `position` on `plane`, announces a cluster to
-/// devices that do not understand RAM. Its motion is that of the cluster. `now_ms` is the time of the
-/// position in `TimestampIts`.
+/// devices that do not understand RAM, on the dictionary that `ids` say. Its motion is that of the cluster.
+/// `now_ms` is the time of the position in `TimestampIts`.
 ///
 /// # Errors
 /// When the message cannot be encoded.
 pub fn cluster_vam(
+    ids: &Identifiers,
     station: u32,
     position: &Position,
     now_ms: u64,
@@ -60,11 +67,19 @@ pub fn cluster_vam(
         speed: Some(east.hypot(north).into()),
         ..RobotState::default()
     };
-    vam(station, &state, now_ms, Content::Cluster(cluster, plane))
+    let content = Content::Cluster(cluster, plane);
+    match ids.dictionary {
+        Dictionary::V2_4_1 => vam(station, &state, now_ms, content),
+        Dictionary::V2_1_1 => {
+            let shared = shared(station, &state, now_ms, content)?;
+            let vam = VAM211::new(header(station), awareness_211(shared));
+            Ok(encode(ids, &vam)?)
+        }
+    }
 }
 
-/// The octets of a VAM from `station`, which is where and moves as `state` says. `now_ms` is the time
-/// of its position in `TimestampIts`.
+/// The octets of a VAM from `station` on the dictionary v2.4.1, which is where and moves as `state` says.
+/// `now_ms` is the time of its position in `TimestampIts`.
 ///
 /// # Errors
 /// When the message cannot be encoded.
@@ -74,29 +89,12 @@ pub fn vam(
     now_ms: u64,
     content: Content<'_>,
 ) -> Result<Vec<u8>, VamError> {
-    let ids = Identifiers::default();
-    let view = Ram {
-        station: crossguard_protocol::StationId(station),
-        coordination: Coordination::None,
-        farewell: None,
-        on_duty: false,
-    };
-    let time = crossguard_codec::si::generation_delta_time(now_ms);
-    let mut shared = ram_from(&ids, state, &view, Availability::Available, time, false)?;
-    if let Content::Cluster(cluster, plane) = content {
-        containers::write(&mut shared, plane, Some(cluster));
-    }
-    let shared = RAM::try_from(&shared)?.ram;
-    let mut basic = shared.ram_parameters.basic_container;
+    let shared = shared(station, state, now_ms, content)?;
     let motion = shared.ram_parameters.robot_high_frequency_container;
-    basic.station_type = TrafficParticipantType(PEDESTRIAN);
     let high_frequency = VruHighFrequencyContainer::new(
         motion.heading,
         motion.speed,
-        LongitudinalAcceleration::new(
-            LongitudinalAccelerationValue(motion.longitudinal_acceleration.value.0),
-            motion.longitudinal_acceleration.confidence,
-        ),
+        acceleration(&motion.longitudinal_acceleration),
         None,
         None,
         None,
@@ -114,24 +112,108 @@ pub fn vam(
         Content::Cluster(..) => (None, None),
     };
     let parameters = VamParameters::new(
-        basic,
+        shared.ram_parameters.basic_container,
         high_frequency,
         low_frequency,
         shared.ram_parameters.vru_cluster_information_container,
         operation.map(operation_container),
         shared.ram_parameters.vru_motion_prediction_container,
     );
-    let (protocol_version, message_id) = VAM::expected_header(&ids);
-    let header = ItsPduHeader::new(
+    let vam = VAM::new(
+        header(station),
+        VruAwareness::new(shared.generation_delta_time, parameters),
+    );
+    Ok(encode(&Identifiers::default(), &vam)?)
+}
+
+/// What a VAM shares with a RAM.
+fn shared(
+    station: u32,
+    state: &RobotState,
+    now_ms: u64,
+    content: Content<'_>,
+) -> Result<RobotAwareness, VamError> {
+    let ids = Identifiers::default();
+    let view = Ram {
+        station: crossguard_protocol::StationId(station),
+        coordination: Coordination::None,
+        farewell: None,
+        on_duty: false,
+    };
+    let time = crossguard_codec::si::generation_delta_time(now_ms);
+    let mut shared = ram_from(&ids, state, &view, Availability::Available, time, false)?;
+    if let Content::Cluster(cluster, plane) = content {
+        containers::write(&mut shared, plane, Some(cluster));
+    }
+    let mut shared = RAM::try_from(&shared)?.ram;
+    shared.ram_parameters.basic_container.station_type = TrafficParticipantType(PEDESTRIAN);
+    Ok(shared)
+}
+
+fn acceleration(of_robot: &AccelerationComponent) -> LongitudinalAcceleration {
+    LongitudinalAcceleration::new(
+        LongitudinalAccelerationValue(of_robot.value.0),
+        of_robot.confidence.clone(),
+    )
+}
+
+fn header(station: u32) -> ItsPduHeader {
+    let (protocol_version, message_id) = VAM::expected_header(&Identifiers::default());
+    ItsPduHeader::new(
         OrdinalNumber1B(protocol_version),
         MessageId(message_id),
         StationId(station),
+    )
+}
+
+/// The same of a cluster on the dictionary v2.1.1, whose predicted points are others.
+fn awareness_211(shared: RobotAwareness) -> VruAwareness211 {
+    let parameters = shared.ram_parameters;
+    let motion = parameters.robot_high_frequency_container;
+    let high_frequency = VruHighFrequencyContainer211::new(
+        motion.heading,
+        motion.speed,
+        acceleration(&motion.longitudinal_acceleration),
+        None,
+        None,
+        None,
+        None,
+        None,
+        None,
+        None,
+        None,
+        None,
+        None,
+        None,
     );
-    let vam = VAM::new(
-        header,
-        VruAwareness::new(shared.generation_delta_time, parameters),
-    );
-    Ok(encode(&ids, &vam)?)
+    let cluster = parameters.vru_cluster_information_container;
+    let cluster =
+        cluster.map(|it| VruClusterInformationContainer211::new(it.vru_cluster_information));
+    let prediction = parameters.vru_motion_prediction_container;
+    let path = prediction.and_then(|prediction| prediction.path_prediction);
+    let prediction = path.map(|path| {
+        let points = path.0.into_iter().filter_map(point_211).collect();
+        let path = Some(PathPredicted211(points));
+        VruMotionPredictionContainer211::new(None, path, None, None, None, None, None)
+    });
+    let basic = parameters.basic_container;
+    let parameters = VamParameters211::new(basic, high_frequency, None, cluster, None, prediction);
+    VruAwareness211::new(shared.generation_delta_time, parameters)
+}
+
+/// A predicted point, which the older dictionary has only with a time of its own in tenths of a second.
+fn point_211(point: PathPointPredicted) -> Option<PathPointPredicted211> {
+    let Some(PathDeltaTimeChoice::deltaTimeHighPrecision(time)) = point.path_delta_time else {
+        return None;
+    };
+    Some(PathPointPredicted211::new(
+        point.delta_latitude,
+        point.delta_longitude,
+        point.horizontal_position_confidence,
+        point.delta_altitude,
+        point.altitude_confidence,
+        time,
+    ))
 }
 
 /// An ordinary pedestrian of medium size with a light at the helmet, as in the golden vectors.
@@ -187,6 +269,7 @@ pub enum VamError {
 
 #[cfg(test)]
 mod tests {
+    use crossguard_codec::its::ItsMessage;
     use crossguard_codec::{ConfidenceEllipse, Measurement, Position, golden};
 
     use super::super::area::Area;
@@ -298,6 +381,46 @@ mod tests {
             direction_rad: 45_f64.to_radians(),
         };
         assert_eq!(golden(Content::Cluster(&cluster, &plane)), vector("V8"));
+    }
+
+    #[test]
+    fn a_cluster_is_told_on_the_dictionary_that_is_configured() {
+        let plane = Plane::at(48.765_432_1, 9.123_456_7);
+        let cluster = Cluster {
+            id: 7,
+            area: Area::Circle {
+                center: [3.0, 1.0],
+                radius_m: 4.94,
+            },
+            cardinality: 5,
+            profiles: VruClass::Pedestrian.bit(),
+            center: [3.0, 1.0],
+            velocity_mps: [0.0, 1.5],
+        };
+        let now_its = 694_694_400_000;
+        let heard = |dictionary| {
+            let ids = Identifiers {
+                dictionary,
+                ..Identifiers::default()
+            };
+            let position = plane.position([0.0, 0.0]);
+            let vam = cluster_vam(&ids, 9, &position, now_its, &cluster, &plane).unwrap();
+            ItsMessage::decode(&ids, &vam).unwrap().message
+        };
+        let (new, old) = (heard(Dictionary::V2_4_1), heard(Dictionary::V2_1_1));
+        let ItsMessage::Vam211(vam) = &old else {
+            panic!("{old:?}");
+        };
+        assert_eq!(old.road_users(now_its), new.road_users(now_its));
+        let prediction = &vam.vam.vam_parameters.vru_motion_prediction_container;
+        let path = prediction.as_ref().unwrap().path_prediction.as_ref();
+        let times: Vec<_> = path
+            .unwrap()
+            .0
+            .iter()
+            .map(|it| it.path_delta_time.0)
+            .collect();
+        assert_eq!(times, [10, 20, 30]);
     }
 
     #[test]
