@@ -44,7 +44,7 @@ struct Street {
 
 type Open = fn() -> Result<Street, LinkError>;
 
-/// Ports that nobody has now; whoever takes them in between makes the benchmark fail.
+/// Ports that are free now; where another process takes them in between, the benchmark fails.
 fn udp() -> Result<Street, LinkError> {
     let free = || UdpSocket::bind("127.0.0.1:0").and_then(|socket| socket.local_addr());
     let (first, second) = (free().expect("a port"), free().expect("a port"));

@@ -193,7 +193,7 @@ fn finish_capture(capture: Option<Capture>) -> Result<(), Failure> {
     }
 }
 
-/// Opens a file of people whom sensors have.
+/// Opens a file of people that sensors report.
 fn open_feed(path: Option<&Path>) -> Result<Option<Feed>, Failure> {
     path.map(Feed::open).transpose().map_err(Failure::Input)
 }

@@ -68,7 +68,7 @@ pub struct Options {
     pub security: Vec<Security>,
     /// Where packets are recorded.
     pub capture: Option<Capture>,
-    /// People whom the robots' sensors have.
+    /// People that the robots' sensors report.
     pub perceived: Option<Feed>,
     /// How robots announce the people around them.
     pub awareness: Awareness,
@@ -108,7 +108,7 @@ pub struct Outcome {
     pub zenoh: Option<Meeting>,
     /// The state of each robot in the end.
     pub final_states: BTreeMap<String, String>,
-    /// What came to nothing, by robot and cause.
+    /// What was dropped or ignored, by robot and cause.
     pub counters: BTreeMap<String, BTreeMap<String, u64>>,
 }
 
@@ -144,7 +144,7 @@ struct Demo<'a> {
     signs: Vec<Sign>,
     /// Whether the victim of the scenario has lost power.
     has_struck: bool,
-    /// People whom the robots' sensors have.
+    /// People that the robots' sensors report.
     perceived: Option<Feed>,
     /// What the robots meet through.
     _router: Option<ZenohRouter>,
@@ -327,7 +327,7 @@ impl Demo<'_> {
         }
     }
 
-    /// Tells all robots whom their sensors have. A pipe that says something else has no more to say.
+    /// Tells all robots which people their sensors report. A pipe that says something else has no more to say.
     fn tell_perceived(&mut self) {
         match self.perceived.as_ref().map(Feed::due) {
             None => {}

@@ -153,7 +153,7 @@ pub fn text(tally: &Tally) -> String {
     page.family(
         "crossguard_without_effect_total",
         "counter",
-        "Messages and inputs that came to nothing, by layer and cause.",
+        "Messages that were dropped and inputs that were ignored, by layer and cause.",
     );
     for (cause, count) in &tally.causes {
         let (layer, _) = cause.split_once(": ").unwrap_or((cause, ""));

@@ -149,7 +149,7 @@ fn an_endpoint_that_does_something_else_than_the_model_is_noticed() {
     assert!(noticed.count() > 10);
 }
 
-/// Whoever asked for help forgets each offer.
+/// A requester forgets each offer.
 struct ForgetsOffers;
 
 impl Rules for ForgetsOffers {

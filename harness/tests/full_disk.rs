@@ -43,7 +43,7 @@ fn a_robot_whose_counter_cannot_be_written_does_not_start_and_keeps_the_old_one(
     assert_refused(&output, "the boot counter cannot be kept in");
     assert_refused(&output, "File too large");
     assert_eq!(counter(folder.path()), "crossguard boot counter 1\n");
-    // Whoever does not hear the signal dies of it, and leaves the old counter too.
+    // A process that does not handle the signal dies of it, and leaves the old counter too.
     let killed = shell(
         "ulimit -f 0; exec \"$1\" run --config \"$2\"",
         &[PROGRAM, &config],

@@ -143,7 +143,7 @@ fn prometheus_reads_the_metrics_of_a_robot_that_leads() {
     client.read_to_string(&mut answer).unwrap();
     let (head, body) = answer.split_once("\r\n\r\n").unwrap();
     assert!(head.starts_with("HTTP/1.1 200"), "{head}");
-    // Whoever reads the output reads it to its end.
+    // The output is read to its end.
     for _ in lines {}
     type_to(&mut dog, "quit\n");
     for child in [&mut robot, &mut dog] {

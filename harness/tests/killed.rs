@@ -46,7 +46,7 @@ fn kill(victim: usize, after_ms: u64) {
     let before = folder.path().join("before.log");
     fs::rename(Path::new(configs[victim]).with_extension("log"), &before).unwrap();
 
-    // The survivor becomes idle, whoever is silent, and crosses with the one that is back.
+    // The survivor becomes idle, whichever is silent, and crosses with the one that is back.
     robots[victim] = start(configs[victim]);
     // A follower that fell back helps again once somebody says that the road is clear.
     type_to(&mut robots[1], "until idle 30\nclear\n");

@@ -25,7 +25,7 @@ fn scenario(name: &str, more: &[&str]) -> (Value, Vec<Value>) {
     (result, records(&std::fs::read_to_string(log).unwrap()))
 }
 
-/// The outputs of the transition function with this name, in order: at whom, and what.
+/// The outputs of the transition function with this name, in order: at which robot, and what.
 fn outputs<'a>(log: &'a [Value], name: &str) -> Vec<(&'a str, &'a Value)> {
     let mut found = Vec::new();
     for record in log {
@@ -49,7 +49,7 @@ fn started(log: &[Value]) -> Vec<(&str, u64)> {
     outputs.map(task).collect()
 }
 
-/// At whom the transition function put this out, in order.
+/// The robots at which the transition function put this out, in order.
 fn at<'a>(log: &'a [Value], name: &str) -> Vec<&'a str> {
     let outputs = outputs(log, name).into_iter();
     outputs.map(|(robot, _)| robot).collect()

@@ -1,4 +1,4 @@
-//! SIGTERM in the middle of a maneuver: whoever gets it leaves its session by name, and says so before
+//! SIGTERM in the middle of a maneuver: the robot that gets it leaves its session by name, and says so before
 //! it ends.
 
 mod support;

@@ -39,7 +39,7 @@ c_decl {
 #define IS_DONE (leader.phase == LEADING && (leader.progress == COMPLETED || leader.progress == IN_POSITION))
 
 inline check_state() {
-    /* I1 beyond the shape of the model: whom a follower follows has opened that session. */
+    /* I1 beyond the shape of the model: the leader of a follower has opened that session. */
     PREMISE(1, leader.phase == LEADING && FOLLOWS);
     CHECK(1, !FOLLOWS || (follower.session != 0 && follower.session <= leader.session));
     PREMISE(2, FOLLOWS);

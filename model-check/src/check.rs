@@ -38,7 +38,7 @@ pub struct Options {
     pub stop: Stop,
 }
 
-/// A request to give up, which whoever watches a check may make. Clones are the same request.
+/// A request to give up, which an observer of a check may make. Clones are the same request.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicBool>);
 

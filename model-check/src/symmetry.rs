@@ -65,7 +65,7 @@ pub enum Asymmetry {
     Detects(StationId),
     /// A requester may choose.
     #[error(
-        "followers = {followers}: where a requester may choose, the station ids tell whom, so \
+        "followers = {followers}: where a requester may choose, the station ids decide, so \
          symmetric robots need followers = {needed}, all robots but the requester"
     )]
     Chosen {
@@ -77,7 +77,7 @@ pub enum Asymmetry {
     /// A robot may change its pseudonym.
     #[error(
         "disturbances = {0}: a robot that offers under two pseudonyms gives a requester a choice, and \
-         the station ids tell whom; symmetric robots need disturbances = 0"
+         the station ids decide; symmetric robots need disturbances = 0"
     )]
     Pseudonyms(u8),
     /// A timed scenario.

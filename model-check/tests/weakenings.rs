@@ -269,7 +269,7 @@ fn silence_that_is_taken_for_an_acknowledgement_is_none() {
     assert_breaks_alone("pair", TakesSilenceForAnAnswer, &[I6]);
 }
 
-/// A leader of whom nothing is outstanding has no timers.
+/// A leader with nothing outstanding has no timers.
 struct LeadsWithoutTimers;
 
 impl Rules for LeadsWithoutTimers {

@@ -30,7 +30,7 @@ pub trait Renaming {
     /// given by the old names of their stations.
     ///
     /// What the renamed robots do is what the robots did, renamed, if the order of requesters stays, all
-    /// offers are equally good, and a requester confirms all whom it hears. Then whom a leader has
+    /// offers are equally good, and a requester confirms all that it hears. Then the followers that a leader has
     /// confirmed stand in the order of their station ids, and do so again under the new ones.
     fn station(&mut self, station: StationId) -> StationId {
         station
@@ -64,7 +64,7 @@ fn offer_number(to: &mut impl Renaming, owner: StationId, number: OfferNumber) -
     OfferNumber(to.number(owner, number.0))
 }
 
-/// Those whom a leader has confirmed, under other names. Where no station changes their order is that
+/// The followers that a leader has confirmed, under other names. Where no station changes their order is that
 /// of the selection, whatever it was by.
 fn confirmed<T: Copy, const N: usize>(
     list: &List<T, N>,

@@ -1,7 +1,7 @@
 //! Stage 5, Termination: how sessions end, how robots leave them, and how both are announced.
 //!
 //! The end of a session is announced by naming it; a bare `helpStatus = none` ends nothing. A
-//! farewell stands for a while, and is repeated to whoever still believes in the session.
+//! farewell stands for a while, and is repeated to every robot that still believes in the session.
 
 use crate::id::{OfferNumber, SessionId, StationId};
 use crate::message::{Ending, Farewell};

@@ -243,11 +243,7 @@ fn an_offer_to_an_older_session_is_not_taken_for_the_present_one() {
         street.hears_ram(ARI, offer_to(other_session(ARI)));
         assert_eq!(*street[ARI].phase(), before);
         let ended = Farewell::Ended(other_session(ARI).number, Ending::Aborted);
-        assert_eq!(
-            street[ARI].farewell(),
-            Some(ended),
-            "whoever offers is told"
-        );
+        assert_eq!(street[ARI].farewell(), Some(ended), "who offers is told");
     }
 }
 

@@ -1,4 +1,4 @@
-//! Every message and input that came to nothing, counted under a named cause.
+//! Every message that was dropped and every input that was ignored, counted under a named cause.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use crossguard_codec::{DecodeError, Service, ViewError};
 use crossguard_protocol::Ignored;
 use serde::Serialize;
 
-/// Why something came to nothing.
+/// Why something was dropped or ignored.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Cause {
     /// A packet is not one for this station.

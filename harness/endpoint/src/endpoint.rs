@@ -1,6 +1,6 @@
 //! One robot's endpoint: the transition function joined to the wire and to generation rules.
 //!
-//! It does no input or output and reads no clock. Whoever drives it says what time it is, hands it
+//! It does no input or output and reads no clock. Its driver says what time it is, hands it
 //! datagrams and events, and carries out the effects in order:
 //!
 //! ```text
@@ -111,7 +111,7 @@ pub enum Effect {
     },
     /// The application is to do something.
     Act(Act),
-    /// A datagram came to nothing, or a message could not be sent.
+    /// A datagram was dropped, or a message could not be sent.
     Dropped {
         /// Why.
         cause: Cause,
@@ -206,7 +206,7 @@ impl<P: StateMachine> Endpoint<P> {
         &self.station
     }
 
-    /// What came to nothing so far.
+    /// What was dropped or ignored so far.
     #[must_use]
     pub const fn counters(&self) -> &Counters {
         &self.counters
@@ -219,7 +219,7 @@ impl<P: StateMachine> Endpoint<P> {
         self.answers.are_all_in(self.told_ms, self.robot())
     }
 
-    /// Counts something that came to nothing outside of the endpoint.
+    /// Counts something that was dropped outside of the endpoint.
     pub fn count(&mut self, cause: Cause) {
         self.counters.count(cause);
     }

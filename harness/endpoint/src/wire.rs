@@ -120,7 +120,7 @@ pub enum Unsendable {
     NotEncodable(#[from] EncodeError),
 }
 
-/// What `octets`, a message or a packet with one, say to whoever listens in: for charts and tools.
+/// What `octets`, a message or a packet with one, say to a listener: for charts and tools.
 ///
 /// # Errors
 /// Why they say nothing.

@@ -1,4 +1,4 @@
-//! The observation coverage ratio: the share of people on foot whom a robot sees.
+//! The observation coverage ratio: the share of people on foot that a robot sees.
 //!
 //! A robot sees everybody within its perception radius. The ratio is the mean over people and time of
 //! being seen by at least one robot, at every sample of the trace.
@@ -7,7 +7,7 @@ use crossguard_endpoint::ras::motion::{Point, distance_m};
 
 use super::trace::{Run, Track};
 
-/// The observation coverage ratio of robots on these ways, 0..1. Whoever is in the zones of two robots
+/// The observation coverage ratio of robots on these ways, 0..1. A person in the zones of two robots
 /// is seen once.
 #[must_use]
 pub fn coverage(run: &Run, robots: &[Track], radius_m: f64) -> f64 {

@@ -166,7 +166,7 @@ mod tests {
         let octets = |name| golden::vector(golden::VAM, name).len() / 2;
         let sizes = Sizes::measure(5).unwrap();
         assert_eq!(sizes.vam, [octets("V1"), octets("V2")]);
-        // Whoever says that it left has the low-frequency container as well.
+        // A device that says that it left sends the low-frequency container as well.
         let left = octets("V2") + octets("V5") - octets("V1");
         assert_eq!(sizes.vam_operation, [octets("V4"), left]);
     }

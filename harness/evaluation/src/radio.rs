@@ -1,4 +1,4 @@
-//! The radio channel: who senses whom, how long the channel is busy, and who has to wait.
+//! The radio channel: which station senses which, how long the channel is busy, and who has to wait.
 //!
 //! IEEE 802.11p in 10 MHz outside of a cell: path loss by distance, carrier sense at a threshold,
 //! enhanced distributed channel access (EDCA) with one queue per station, broadcast without
@@ -173,7 +173,7 @@ impl Channel {
         self.access[station].is_some_and(|access| access.at_us == now_us)
     }
 
-    /// A station that may sends for `duration_us`. Whoever has to wait longer for it is told when it will
+    /// A station that may sends for `duration_us`. A station that has to wait longer for it is told when it will
     /// send now.
     pub fn send(
         &mut self,
@@ -233,7 +233,7 @@ impl Channel {
         }
     }
 
-    /// Whoever waits and hears a transmission begin waits on: what is left of its slots counts again once
+    /// A station that waits and hears a transmission begin waits on: what is left of its slots counts again once
     /// the channel is idle. Who would have sent in this very slot still does, which is a collision.
     fn postpone(
         &mut self,

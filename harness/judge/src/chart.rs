@@ -1,6 +1,6 @@
 //! A sequence chart, line by line as things happen.
 //!
-//! Each robot has a column. Messages are drawn when they arrive at whom they are for; of the RAM that
+//! Each robot has a column. Messages are drawn when they arrive at their receiver; of the RAM that
 //! repeat what is known only the first is drawn.
 
 use std::collections::HashMap;
@@ -356,7 +356,7 @@ fn essence(mut ram: Ram) -> Ram {
     ram
 }
 
-/// Whom an RMCM is for; `None` for what everybody may hear.
+/// The receiver of an RMCM; `None` for what everybody may hear.
 const fn addressee(input: &Input) -> Option<StationId> {
     match input {
         Input::Rmcm(Rmcm::Command(command)) => Some(command.to),

@@ -1,4 +1,4 @@
-//! What logs tell, fact by fact: states, places, messages, the corridor, what came to nothing.
+//! What logs tell, fact by fact: states, places, messages, the corridor, drops.
 //!
 //! ```text
 //!   records ──► Observer ──► facts ──┬──► mcap_file (for Foxglove and ROS 2 tools)
@@ -67,7 +67,7 @@ pub enum Fact {
     },
     /// Places that its followers hold or go to, all of them: there are new ones, or none any more.
     Areas(Vec<Area>),
-    /// Something came to nothing once more.
+    /// One more was dropped or ignored.
     Counted {
         /// The cause that it is counted under.
         cause: String,

@@ -142,7 +142,7 @@ pub trait Body: fmt::Debug + Send {
     }
 }
 
-/// Where a real body is, as whoever moves it says.
+/// Where a real body is, as its driver says.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pose {
     /// Where it is.

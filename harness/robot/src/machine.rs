@@ -42,7 +42,7 @@ impl<P: StateMachine> Machine<P> {
         &self.endpoint
     }
 
-    /// The endpoint, to count what came to nothing outside of it.
+    /// The endpoint, to count what was dropped outside of it.
     pub const fn endpoint_mut(&mut self) -> &mut Endpoint<P> {
         &mut self.endpoint
     }

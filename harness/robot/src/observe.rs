@@ -1,4 +1,4 @@
-//! What a running robot does, as events of [`tracing`], for whoever has set up a subscriber.
+//! What a running robot does, as events of [`tracing`], for a subscriber.
 //!
 //! | level | what |
 //! |---|---|
@@ -18,7 +18,7 @@ use tracing_appender::non_blocking::WorkerGuard;
 use crate::trace::Entry;
 
 /// Has what these crates observe written to standard error, by a thread of its own: a robot does not wait
-/// for whoever reads it, and lines that are not read in time are lost. What is left is written when the guard
+/// for its reader, and lines that are not read in time are lost. What is left is written when the guard
 /// is dropped.
 ///
 /// `verbose` is how often `-v` was given: `info`, `debug`, and from three on `trace`. Without it nothing is
@@ -91,7 +91,7 @@ pub fn entry(entry: &Entry, before: &mut State) {
         Entry::Stopped { counters } => {
             info!("stopped");
             for (cause, count) in counters {
-                debug!(cause, count, "came to nothing");
+                debug!(cause, count, "dropped or ignored");
             }
         }
     }

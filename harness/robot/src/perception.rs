@@ -1,4 +1,4 @@
-//! People whom a robot's sensors have, as lines of JSON: one line for each person and observation.
+//! People that a robot's sensors report, as lines of JSON: one line for each person and observation.
 //!
 //! ```json
 //! {"at_s": 1.5, "id": 7, "position_m": [3.0, -1.5], "velocity_mps": [1.2, 0.0], "class": "pedestrian",

@@ -229,7 +229,7 @@ impl Pki {
         Ok(Self { root, authority })
     }
 
-    /// Whom a robot of this PKI trusts.
+    /// The certificates that a robot of this PKI trusts.
     ///
     /// # Errors
     /// Why nobody can trust it.

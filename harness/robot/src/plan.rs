@@ -26,7 +26,7 @@ pub struct Stage {
 /// Who does a part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Who {
-    /// Whoever follows and has no part of its own in the stage.
+    /// Every follower without a part of its own in the stage.
     Everybody,
     /// This robot.
     Station(StationId),

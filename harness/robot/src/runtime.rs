@@ -266,7 +266,7 @@ struct Loop {
     clock: Clock,
     waiting: Arc<Waiting>,
     epochs: Epochs,
-    /// The newest state that was told to whoever observes.
+    /// The newest state that observers were told.
     observed: State,
     stopping: bool,
     is_dead: bool,

@@ -20,9 +20,9 @@ pub struct Tally {
     pub messages: BTreeMap<(Way, MessageKind), u64>,
     /// Steps of the transition function.
     pub steps: u64,
-    /// What came to nothing, by cause.
+    /// What was dropped or ignored, by cause.
     pub causes: BTreeMap<String, u64>,
-    /// When a message of whom was heard last, in µs on the clock of the log.
+    /// When each station was heard last, in µs on the clock of the log.
     pub heard_us: BTreeMap<StationId, u64>,
     /// The newest record, likewise.
     pub at_us: u64,
@@ -200,7 +200,7 @@ impl Tally {
         let nothing: u64 = self.causes.values().sum();
         let _ = write!(
             line,
-            "; sent {}, heard {} of {} stations, {nothing} came to nothing",
+            "; sent {}, heard {} of {} stations, {nothing} dropped or ignored",
             self.messages(Way::Sent),
             self.messages(Way::Heard),
             self.heard_us.len(),

@@ -86,7 +86,7 @@ pub enum Entry {
         #[serde(with = "hex::serde")]
         octets: Vec<u8>,
     },
-    /// Something came to nothing.
+    /// Something was dropped.
     Dropped {
         /// The cause that it is counted under.
         cause: String,
@@ -98,7 +98,7 @@ pub enum Entry {
     },
     /// It stopped in order.
     Stopped {
-        /// How often what came to nothing.
+        /// How often each cause occurred.
         counters: BTreeMap<String, u64>,
     },
 }

@@ -77,7 +77,7 @@ pub struct NotSent {
 
 impl NotSent {
     /// Whether it passes without the transport being opened again: there is no room now, or the transport
-    /// is looking for whoever is at the other end by itself.
+    /// is looking for the other end by itself.
     #[must_use]
     pub fn is_passing(&self) -> bool {
         matches!(

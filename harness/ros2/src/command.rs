@@ -201,7 +201,7 @@ fn seconds(time: Time) -> f64 {
 
 fn place(point: Point) -> Result<Place, Refused> {
     let Point { x, y, .. } = point;
-    // As far as a person can be whom the sensors have.
+    // As far away as sensors report a person.
     let is_place = |metres: f64| (-1e5..=1e5).contains(&metres);
     if is_place(x) && is_place(y) {
         Ok(Place::new(x, y))
@@ -241,7 +241,7 @@ fn availability(command: &Command) -> Result<Availability, Refused> {
     }))
 }
 
-/// Whom a message says that the sensors have.
+/// The person that a message reports.
 ///
 /// # Errors
 /// Why there cannot be anybody like that.

@@ -107,7 +107,7 @@ pub struct Command {
     pub availability: u8,
 }
 
-/// A person whom the robot's sensors have.
+/// A person that the robot's sensors report.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Person {
     pub id: u32,

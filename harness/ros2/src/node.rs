@@ -149,7 +149,7 @@ struct Turn {
     pose_before: Option<PoseStamped>,
     /// Who asked for the transition that is under way.
     waiting: Option<Call<ChangeState>>,
-    /// What came to nothing here, by cause.
+    /// What was dropped here, by cause.
     causes: BTreeMap<&'static str, u64>,
     status_due: Instant,
     corridor_due: Instant,

@@ -25,7 +25,7 @@ pub(crate) struct Reporter {
     go_ends_us: u64,
     /// Why the corridor was closed last, while that is news.
     closure: Option<CorridorClosure>,
-    /// How much had come to nothing, but for what was ignored, when diagnostics were told last.
+    /// How much had been dropped when diagnostics were told last.
     dropped_before: u64,
 }
 
@@ -228,7 +228,7 @@ impl Reporter {
         }
     }
 
-    /// What came to nothing, by cause, with what else tells how the robot is.
+    /// What was dropped or ignored, by cause, with what else says how the robot is.
     pub(crate) fn diagnostic(&mut self, name: String, is_fresh: bool) -> DiagnosticStatus {
         let causes = &self.tally.causes;
         let is_drop = |(cause, _): &(&String, &u64)| !cause.starts_with("ignored: ");
@@ -241,10 +241,7 @@ impl Reporter {
                 "nothing was heard of the robot for too long".to_owned(),
             ),
             (true, 0) => (OK, self.tally.line()),
-            (true, _) => (
-                WARN,
-                format!("{news} came to nothing since the last report"),
-            ),
+            (true, _) => (WARN, format!("{news} dropped since the last report")),
         };
         let sent = ("messages sent".to_owned(), self.tally.messages(Way::Sent));
         let heard = ("messages heard".to_owned(), self.tally.messages(Way::Heard));

@@ -1,4 +1,4 @@
-//! A body that is not simulated: whoever moves it knows by messages what to do, and says what it did.
+//! A body that is not simulated: the node that moves it knows by messages what to do, and says what it did.
 
 mod support;
 

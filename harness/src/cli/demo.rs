@@ -50,7 +50,7 @@ pub(super) struct Arguments {
     /// Write all packets to this file, for Wireshark.
     #[arg(long, value_name = "FILE")]
     pcap: Option<PathBuf>,
-    /// People whom the robots' sensors have: a file of JSON lines as for `crossguard run`.
+    /// People that the robots' sensors report: a file of JSON lines as for `crossguard run`.
     #[arg(long, value_name = "FILE")]
     perceived: Option<PathBuf>,
     /// Announce clusters of people by ETSI's cluster VAM as well.
@@ -253,7 +253,7 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
             .collect();
         if !causes.is_empty() {
             print(format_args!(
-                "What came to nothing at {robot}: {}.",
+                "Dropped or ignored at {robot}: {}.",
                 causes.join(", ")
             ))?;
         }

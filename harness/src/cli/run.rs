@@ -74,7 +74,7 @@ pub(super) struct Arguments {
     /// Seed of the faults and of the robot's gait.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// People whom the robot's sensors have: a file or pipe of JSON lines, see below.
+    /// People that the robot's sensors report: a file or pipe of JSON lines, see below.
     #[arg(long, value_name = "FILE")]
     perceived: Option<PathBuf>,
     /// Announce clusters of people by ETSI's cluster VAM as well, for devices that do not understand RAM.
@@ -211,7 +211,7 @@ struct Console<'a> {
     robot: Robot,
     pending: VecDeque<Line>,
     hold: Option<Hold>,
-    /// Whom the robot's sensors have, from a file.
+    /// The people that the robot's sensors report, from a file.
     perceived: Option<Feed>,
     announced: Announced,
     /// How many records did not get into a log, by the robot's own account.
@@ -320,7 +320,7 @@ impl Console<'_> {
         texts
     }
 
-    /// What is new in whom a RAM announces.
+    /// What is new among the people that a RAM announces.
     fn announced(&mut self, record: &Record) -> Option<String> {
         let Entry::Sent {
             message: MessageKind::Ram,

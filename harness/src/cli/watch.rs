@@ -137,7 +137,7 @@ impl Watch {
 }
 
 impl Drop for Watch {
-    /// Takes the status line away, but does not wait for whoever holds standard output or error up: a
+    /// Takes the status line away, but does not wait for a reader that holds standard output or error up: a
     /// line above the status line may be on its way to one who does not read.
     fn drop(&mut self) {
         let (tell, is_done) = sync_channel(1);

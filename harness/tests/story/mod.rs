@@ -430,7 +430,7 @@ impl Street {
         }
     }
 
-    /// A leader whom no RAM reaches may take as long as its lease to learn that a maneuver is over.
+    /// A leader that no RAM reaches may take as long as its lease to learn that a maneuver is over.
     fn has_just_ended(&self, actor: &Actor) -> bool {
         let lease_ms = u64::from(self.config.settings().t_lease.0) + TICK_MS;
         actor

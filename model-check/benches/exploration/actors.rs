@@ -108,7 +108,7 @@ impl RobotActor {
         }
     }
 
-    /// Puts a message under way to whom it can concern.
+    /// Puts a message under way to the robots that it can concern.
     fn send(&self, node: &Node, output: &Output, out: &mut Out<Self>) {
         let message = match (output, &node.robot) {
             (Output::SendRam, Some(robot)) => Message::Ram(robot.ram()),

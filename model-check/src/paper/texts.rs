@@ -121,7 +121,7 @@ pub(super) const fn on_road(property: Property, task: Task) -> Text {
             id: "W3",
             title: "two robots that invite at one crossing",
             statement: "at one place one sign shows go, once the leader that goes behind has heard the other one twice",
-            explanation: "Two robots invite people onto the same crossing, and only one of them has a guard. The helper of the first one has fallen back, detects the pedestrian itself and leads a team of its own; the first one counts on it as before. The people whom the first one invites are guarded by nobody. The second one has heard the first one's RAM as a leader twice, and the wording gives it nothing to do about it.",
+            explanation: "Two robots invite people onto the same crossing, and only one of them has a guard. The helper of the first one has fallen back, detects the pedestrian itself and leads a team of its own; the first one counts on it as before. The people that the first one invites are guarded by nobody. The second one has heard the first one's RAM as a leader twice, and the wording gives it nothing to do about it.",
             closed_by: "Requests and sessions name their place. Of two leaders at one place the one behind shows stop at once and ends when its road is clear (W3).",
         },
         (Property::W4, _) => Text {

@@ -103,7 +103,7 @@ pub(crate) struct StepRule {
     pub(crate) looks_back: bool,
 }
 
-/// Whom a liveness property speaks about, one at a time.
+/// The robots that a liveness property speaks about, one at a time.
 #[derive(Clone, Copy)]
 pub(crate) enum Subjects {
     /// Each robot.

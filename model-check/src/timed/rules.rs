@@ -196,7 +196,7 @@ fn is_out_of_contact(robot: &Robot) -> bool {
     matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost())
 }
 
-/// The followers on whom a leader's lease stands.
+/// The followers on which a leader's lease stands.
 pub fn leases(robot: &Robot) -> impl Iterator<Item = (SessionId, StationId)> {
     let leading = match robot.phase() {
         Phase::Leading(leading) => robot.session().map(|session| (session, leading)),
@@ -313,7 +313,7 @@ pub fn has_lease_on_lost<'a>(robots: &(impl Iterator<Item = &'a Robot> + Clone))
     })
 }
 
-/// Whoever has a part in a session waits for a time, and not in vain for a message.
+/// A robot with a part in a session waits for a time, and not in vain for a message.
 fn can_progress(node: &Node) -> bool {
     node.is_idle()
         || node

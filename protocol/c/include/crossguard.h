@@ -882,7 +882,7 @@ typedef struct CrossguardTurn {
   size_t log_length;
   // Out: who was heard.
   struct CrossguardHeard heard;
-  // Out: why a packet came to nothing, ends with NUL; empty if it did not.
+  // Out: why a packet was dropped, ends with NUL; empty if it did not.
   char dropped[CROSSGUARD_CAUSE_LEN];
   // Out: how many outputs there are.
   uint32_t outputs_length;
@@ -1052,7 +1052,7 @@ CrossguardStatus crossguard_tell(struct CrossguardRobot *robot,
                                  const struct CrossguardEvent *event,
                                  struct CrossguardTurn *turn);
 
-// Hands a robot a `GeoNetworking` packet that was received. One that comes to nothing is not an error:
+// Hands a robot a `GeoNetworking` packet that was received. One that is dropped is not an error:
 // the turn's `dropped` says why, and it is counted.
 //
 // Errors: as for `crossguard_elapse`.
@@ -1082,7 +1082,7 @@ CrossguardStatus crossguard_announce(struct CrossguardRobot *robot,
 // Errors: `Null`, `Misaligned`, `NotInitialised`, `Finished`, `WrongVersion`.
 CrossguardStatus crossguard_view(const struct CrossguardRobot *robot, struct CrossguardView *view);
 
-// What came to nothing so far: the cause number `index`, as text that ends with NUL, cut to
+// What was dropped or ignored so far: the cause number `index`, as text that ends with NUL, cut to
 // `name_capacity` octets, and how often it occurred. Causes are numbered from 0 as they first occur.
 //
 // Errors: as for `crossguard_view`; `ShortBuffer` for a name without room, `End` behind the last.
@@ -1100,7 +1100,7 @@ CrossguardStatus crossguard_log_start(struct CrossguardRobot *robot,
                                       uint64_t unix_ms,
                                       struct CrossguardTurn *turn);
 
-// Ends the log of a robot: how often what came to nothing.
+// Ends the log of a robot, with how often each cause occurred.
 //
 // Errors: as for `crossguard_log_start`.
 CrossguardStatus crossguard_log_stop(struct CrossguardRobot *robot, struct CrossguardTurn *turn);

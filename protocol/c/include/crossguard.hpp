@@ -268,7 +268,7 @@ public:
     if (plain_.heard.message == CROSSGUARD_MESSAGE_NONE) return std::nullopt;
     return plain_.heard;
   }
-  /// Why a packet came to nothing, if it did.
+  /// Why a packet was dropped, if it was.
   std::optional<std::string_view> dropped() const noexcept {
     if (plain_.dropped[0] == '\0') return std::nullopt;
     return std::string_view{plain_.dropped};
@@ -403,7 +403,7 @@ public:
     }
     return *this;
   }
-  /// Says no farewell; whoever wants one tells `Event::leave()` and waits until the robot is idle.
+  /// Says no farewell; for one, tell `Event::leave()` and wait until the robot is idle.
   ~Robot() { crossguard_robot_finish(&plain_); }
 
   /// Tells that time has passed: before every other call, and no later than `next_due()`.

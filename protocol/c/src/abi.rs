@@ -338,7 +338,7 @@ pub struct CrossguardTurn {
     pub log_length: usize,
     /// Out: who was heard.
     pub heard: CrossguardHeard,
-    /// Out: why a packet came to nothing, ends with NUL; empty if it did not.
+    /// Out: why a packet was dropped, ends with NUL; empty if it did not.
     pub dropped: [c_char; CROSSGUARD_CAUSE_LEN],
     /// Out: how many outputs there are.
     pub outputs_length: u32,

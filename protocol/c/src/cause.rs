@@ -1,4 +1,4 @@
-//! What came to nothing, counted under a named cause. The names are those of the `crossguard` command.
+//! What was dropped or ignored, counted under a named cause. The names are those of the `crossguard` command.
 
 use core::fmt::{self, Display, Formatter, Write};
 
@@ -6,7 +6,7 @@ use crossguard_codec::geonet::Discarded;
 use crossguard_codec::{Service, Unheard};
 use crossguard_protocol::{Disengagement, Ignored, StationId};
 
-/// Why something came to nothing.
+/// Why something was dropped or ignored.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Cause {
     /// A packet is not one for this station.

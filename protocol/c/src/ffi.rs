@@ -440,7 +440,7 @@ pub unsafe extern "C" fn crossguard_tell(
     unsafe { with(robot, turn, act) }
 }
 
-/// Hands a robot a `GeoNetworking` packet that was received. One that comes to nothing is not an error:
+/// Hands a robot a `GeoNetworking` packet that was received. One that is dropped is not an error:
 /// the turn's `dropped` says why, and it is counted.
 ///
 /// Errors: as for `crossguard_elapse`.
@@ -518,7 +518,7 @@ pub unsafe extern "C" fn crossguard_view(
     status(both.map(|(live, view)| *view = CrossguardView::of(live.robot())))
 }
 
-/// What came to nothing so far: the cause number `index`, as text that ends with NUL, cut to
+/// What was dropped or ignored so far: the cause number `index`, as text that ends with NUL, cut to
 /// `name_capacity` octets, and how often it occurred. Causes are numbered from 0 as they first occur.
 ///
 /// Errors: as for `crossguard_view`; `ShortBuffer` for a name without room, `End` behind the last.
@@ -578,7 +578,7 @@ pub unsafe extern "C" fn crossguard_log_start(
     unsafe { with(robot, turn, act) }
 }
 
-/// Ends the log of a robot: how often what came to nothing.
+/// Ends the log of a robot, with how often each cause occurred.
 ///
 /// Errors: as for `crossguard_log_start`.
 #[unsafe(no_mangle)]

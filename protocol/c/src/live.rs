@@ -373,7 +373,7 @@ impl Live {
         }
     }
 
-    /// Counts what came to nothing, and tells of it.
+    /// Counts a drop, and reports it.
     fn drop(&mut self, turn: &mut Turn<'_>, cause: Cause, detail: &dyn Display, octets: &[u8]) {
         self.counters.count(cause);
         let name = Text::<{ crate::abi::CROSSGUARD_CAUSE_LEN }>::of(&cause);

@@ -1,6 +1,6 @@
 //! From the road users that a robot perceives to clusters that it can announce.
 //!
-//! The robot is the implicit head: nobody joins, whoever is perceived belongs. Departures from the
+//! The robot is the implicit head: nobody joins, everybody who is perceived belongs. Departures from the
 //! clustering of TS 103 300-3 clause 5.4, and why:
 //!
 //! | ETSI | here |
@@ -262,7 +262,7 @@ impl Clustering {
         self.regroup(now_ms);
     }
 
-    /// How many road users the robot perceives in its zone, also those whom it leaves to another robot.
+    /// How many road users the robot perceives in its zone, also the ones that it leaves to another robot.
     #[must_use]
     pub fn members(&self) -> usize {
         self.members.len()

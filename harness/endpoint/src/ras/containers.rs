@@ -184,7 +184,7 @@ mod tests {
     }
 
     proptest! {
-        /// Through the real octets of a RAM, everybody whom the robot counts is inside of what a
+        /// Through the real octets of a RAM, everybody that the robot counts is inside of what a
         /// device understands.
         #[test]
         fn members_are_inside_of_what_is_received(

@@ -14,7 +14,7 @@
 //! A device that [understands RAM](Understands::Ram) is passive as soon as a RAM covers it: the robot
 //! has seen it, so there is nothing to join. An [unmodified](Understands::ClusterVam) one knows cluster
 //! VAMs only, and joins by their rules; being inside of the bounding shape after it fell silent stands for
-//! the confirmation, since a robot counts whom it sees. Both resume by the same timers.
+//! the confirmation, since a robot counts the people that it sees. Both resume by the same timers.
 //!
 //! Where zones overlap, a device stays with the head that it is with. One that understands RAM goes over
 //! to another head without a VAM in between, once it is outside of the one's shape and inside of the

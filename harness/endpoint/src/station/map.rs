@@ -1,7 +1,7 @@
 //! The local dynamic map: who is around, as heard lately.
 //!
 //! Each kind of road user has room of its own, so that a flood of one does not push out another; when
-//! the room is full, whoever was heard of longest ago makes place. What is not heard of again is
+//! the room is full, the user that was heard of longest ago makes place. What is not heard of again is
 //! forgotten.
 
 use std::collections::BTreeMap;
@@ -48,7 +48,7 @@ impl LocalDynamicMap {
             user,
             heard_ms: now_ms,
         };
-        // Whoever is something else now, like a road user that got into a car, is so only.
+        // A user that is something else now, like a pedestrian who got into a car, is only that.
         for (kind, users) in &mut self.kinds {
             if *kind != user.kind {
                 users.remove(&user.identity);
@@ -88,7 +88,7 @@ impl LocalDynamicMap {
         self.kinds.get(&kind).into_iter().flat_map(BTreeMap::values)
     }
 
-    /// Whoever goes by this identity.
+    /// The user of this identity.
     #[must_use]
     pub fn get(&self, identity: Identity) -> Option<&Neighbour> {
         self.kinds.values().find_map(|users| users.get(&identity))

@@ -169,7 +169,7 @@ impl Station {
         }
     }
 
-    /// Puts on the map whom a message of another station tells of, and gives the message.
+    /// Puts the road users of another station's message on the map, and returns the message.
     ///
     /// # Errors
     /// Why the octets are not the message of this service.
@@ -259,7 +259,7 @@ impl From<&Unobserved> for Cause {
     }
 }
 
-/// The headers of a packet and the message in it, whoever it is for; also of one with a security
+/// The headers of a packet and the message in it, for any receiver; also of one with a security
 /// envelope, whose content is not verified then. For those who listen in.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 //! Who goes by which station id.
 //!
-//! A ticket says nothing of station ids, so whoever has one could speak in the name of another robot.
+//! A ticket says nothing of station ids, so the holder of one could speak in the name of another robot.
 //! But a robot changes its id only together with its ticket. So an id belongs to the ticket under
 //! which it was heard first, until it has been silent for a while.
 

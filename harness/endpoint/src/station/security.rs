@@ -62,7 +62,7 @@ impl FromStr for Mode {
 /// What a robot needs to sign and to verify.
 #[derive(Clone, Debug, Default)]
 pub struct Credentials {
-    /// Whom it trusts.
+    /// The certificates that it trusts.
     pub trust: TrustStore,
     /// Its pseudonyms.
     pub tickets: Vec<Ticket>,

@@ -127,7 +127,7 @@ pub(super) struct Message {
     pub(super) octets: String,
 }
 
-/// What came to nothing so far.
+/// What was dropped or ignored so far.
 #[expect(
     clippy::struct_field_names,
     reason = "it is named after what matters in it"

@@ -26,7 +26,7 @@ pub(super) fn page(report: &Report, run: &Run) -> Markup {
             Some(street.unwrap_or_else(|| html! { p { "No robot says where it is." } })),
         ),
         ("times", "Times", Some(times(report, run))),
-        ("nothing", "What came to nothing", Some(counters(run))),
+        ("nothing", "Dropped or ignored", Some(counters(run))),
         ("properties", "Properties", properties(report)),
         ("robots", "Robots", Some(robots(run))),
         ("sequence", "Sequence of messages", Some(sequence(run))),

@@ -206,7 +206,7 @@ pub(super) struct Times {
 #[derive(Clone, Copy, Debug)]
 struct Running {
     measure: Measure,
-    /// Whom it is about: the follower of a crashed leader, or the leader of a failed follower.
+    /// The robot that it is about: the follower of a crashed leader, or the leader of a failed follower.
     place: usize,
     session: SessionId,
     since_us: u64,

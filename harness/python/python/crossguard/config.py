@@ -110,7 +110,7 @@ _IDENTIFIERS: dict[str, Any] = json.loads(_crossguard.default_identifiers())
 
 @dataclass(frozen=True, kw_only=True)
 class Identifiers:
-    """What no standard has assigned; whoever shares a channel agrees on it.
+    """What no standard has assigned; all stations on a channel agree on it.
 
     Raises `ValueError` where RAM and RMCM cannot be told from each other or from the messages of ETSI.
     """

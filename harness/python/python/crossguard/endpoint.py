@@ -42,7 +42,7 @@ class Endpoint:
 
     It is the endpoint that `crossguard run` drives: it tells the state machine of elapsed time before
     everything else, makes and takes GeoNetworking packets, sends RAM by the generation rules outside of a
-    session, counts what comes to nothing, and writes a log that `crossguard.validate` and
+    session, counts what is dropped or ignored, and writes a log that `crossguard.validate` and
     `crossguard validate` read. Packets are not signed.
 
     `station` is its station id, 0..4294967295; `boot` its boot counter, 0..65535, see `Boot`; `name` what
@@ -107,7 +107,7 @@ class Endpoint:
         return self._effects(self._native.elapse(at.now_ms, at.unix_ms))
 
     def stop(self, at: Moment) -> None:
-        """Ends the log in order, with what came to nothing."""
+        """Ends the log in order, with the counters."""
         self._native.stop(at.now_ms)
         self._write_log()
 
@@ -144,7 +144,7 @@ class Endpoint:
 
     @property
     def counters(self) -> dict[str, int]:
-        """How often what came to nothing, by the names that `crossguard run` has for it."""
+        """How often each cause occurred, by the names that `crossguard run` has for it."""
         return self._native.counters()
 
     def _effects(self, effects: str) -> list[Effect]:

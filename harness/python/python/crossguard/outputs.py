@@ -1,7 +1,7 @@
 """What a robot is to do, in this order.
 
 `Robot.step` gives an `Output`: the state machine's own. `Endpoint` gives an `Effect`: the same with
-packets in place of `SendRam` and `SendRmcm`, and with what it understood and what came to nothing.
+packets in place of `SendRam` and `SendRmcm`, and with what it understood and what it dropped.
 """
 
 from __future__ import annotations
@@ -180,7 +180,7 @@ class Heard(Variant):
 
 @dataclass(frozen=True, slots=True)
 class Dropped(Variant):
-    """A packet came to nothing, or a message could not be sent."""
+    """A packet was dropped, or a message could not be sent."""
 
     cause: str
     """The cause that it is counted under, see `Endpoint.counters`."""

@@ -18,7 +18,7 @@ class Robot:
     """The state machine of one robot that has just booted.
 
     `station` is its station id, 0..4294967295; `boot` its boot counter, 0..65535, which must be larger
-    than at any boot before: see `Boot`. It reads no clock and does no input or output: whoever drives it
+    than at any boot before: see `Boot`. It reads no clock and does no input or output: its driver
     tells it what was received, what happened and how much time has passed, and carries out what comes
     back, in order. The rules that a driver keeps are in the integrator's guide.
 

@@ -20,7 +20,7 @@ pub struct Air(Arc<Vec<Seat>>);
 #[derive(Debug)]
 struct Seat {
     queue: SyncSender<Datagram>,
-    /// Taken by whoever opens the port.
+    /// Taken when the port is opened.
     receiver: Mutex<Option<mpsc::Receiver<Datagram>>>,
 }
 

@@ -57,7 +57,7 @@ pub enum ZenohMode {
 pub struct Zenoh {
     /// What it is there.
     pub mode: ZenohMode,
-    /// Whom it connects to, like `tcp/192.0.2.1:7447`.
+    /// The endpoints that it connects to, like `tcp/192.0.2.1:7447`.
     #[serde(default)]
     pub connect: Vec<String>,
     /// Where it listens, like `tcp/0.0.0.0:7447`.

@@ -170,10 +170,7 @@ impl Turn {
             name: name.to_owned(),
             message: match dropped {
                 0 => self.lifecycle.state().label().to_owned(),
-                _ => format!(
-                    "{}; {dropped} came to nothing",
-                    self.lifecycle.state().label()
-                ),
+                _ => format!("{}; {dropped} dropped", self.lifecycle.state().label()),
             },
             hardware_id: self
                 .file

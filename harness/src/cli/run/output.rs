@@ -14,7 +14,7 @@ use indicatif::ProgressBar;
 
 use super::super::Failure;
 
-/// How many lines for people wait for whoever reads them.
+/// How many lines for people wait for their reader.
 const LINES: usize = 1_024;
 
 /// How long the end of the program waits for what is still to be written.

@@ -133,7 +133,7 @@ static void command(uint32_t station, uint8_t task) {
     event.parameters.maximum_speed_mps = 1.4;
 }
 
-/* Whom the leader commands. */
+/* The follower that the leader commands. */
 static uint32_t follower_station;
 
 /* Carries out what is not a packet. */

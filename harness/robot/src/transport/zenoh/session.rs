@@ -23,7 +23,7 @@ use super::super::link::interface_of;
 use super::super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 use super::{Zenoh, ZenohError, ZenohMode};
 
-/// How many datagrams may wait between zenoh's threads and whoever receives.
+/// How many datagrams may wait between zenoh's threads and the receiver.
 const WAITING: usize = 256;
 
 /// After how long a link that is silent is taken for dead, in ms; zenoh's default is ten seconds, which is
@@ -89,7 +89,7 @@ pub(super) fn open(part: &Zenoh) -> Result<Halves, LinkError> {
     })
 }
 
-/// A session, and whether it was told whom to connect to.
+/// A session, and whether it is configured to connect to others.
 pub(super) fn enter(part: &Zenoh) -> Result<(Session, bool), LinkError> {
     let config = config(part)?;
     let is_connecting = names_endpoints(&config, "connect/endpoints", part.mode);
@@ -104,7 +104,7 @@ pub(super) fn enter(part: &Zenoh) -> Result<(Session, bool), LinkError> {
                 _ => part.connect.join(", "),
             },
         },
-        // Whom a peer or a router connects to may come later.
+        // The other end of a peer or a router may come later.
         _ => ZenohError::Unavailable {
             endpoints: part.listens_on().join(", "),
             cause: in_words(&*error),
@@ -232,7 +232,7 @@ fn source_of(sample: &Sample) -> Source {
 
 struct ZenohSender {
     publisher: Publisher<'static>,
-    /// Whether it was told whom to connect to, so that being connected to nobody is a failure.
+    /// Whether it is configured to connect to others, so that being connected to nobody is a failure.
     is_connecting: bool,
     /// The interface on which it looks for others, where it can be opened anew, and its index then: another
     /// of that name is not it.
