@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 use crossguard_codec::geonet::{EgoPosition, Indication};
 use crossguard_codec::si::generation_delta_time;
-use crossguard_codec::{RobotState, Service, TaskParameters};
+use crossguard_codec::{ControlMode, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
     Config, Event, Identity, Input, Millis, Output, Outputs, Rmcm, Robot, StateMachine, StationId,
     TaskType, Timer,
@@ -247,9 +247,11 @@ impl<P: StateMachine> Endpoint<P> {
     ) -> Vec<Effect> {
         let mut turn = Turn {
             moment,
-            state: self.complete(state),
+            control_mode: state.control_mode,
+            state: state.clone(),
             effects: Vec::new(),
         };
+        self.complete(&mut turn);
         self.elapse(&mut turn);
         self.renew_pseudonym(&mut turn);
         match stimulus {
@@ -277,11 +279,10 @@ impl<P: StateMachine> Endpoint<P> {
         turn.effects
     }
 
-    /// The application's state, with what the protocol knows better.
-    fn complete(&self, state: &RobotState) -> RobotState {
-        let mut state = state.clone();
-        state.correct(self.robot(), &self.config);
-        state
+    /// Puts into the application's state what the protocol knows better now.
+    fn complete(&self, turn: &mut Turn) {
+        turn.state.control_mode = turn.control_mode;
+        turn.state.correct(self.robot(), &self.config);
     }
 
     /// Tells the robot how much time has passed since it was told the last time.
@@ -437,6 +438,8 @@ impl<P: StateMachine> Endpoint<P> {
         parameters: Option<TaskParameters>,
     ) -> Outputs {
         let outputs = self.protocol.step(&self.config, input);
+        // What is sent with a step says how the robot is after it.
+        self.complete(turn);
         let state = Box::new(self.robot().clone());
         turn.effects.push(Effect::Stepped {
             input,
@@ -485,7 +488,7 @@ impl<P: StateMachine> Endpoint<P> {
                 let parameters = self.orders.get(&command.to).copied().unwrap_or_default();
                 self.wire.command(&turn.state, command, parameters, time)
             }
-            Rmcm::Answer(answer) => self.wire.answer(&self.complete(&turn.state), answer, time),
+            Rmcm::Answer(answer) => self.wire.answer(&turn.state, answer, time),
         };
         self.transmit(turn, MessageKind::Rmcm, Trigger::Protocol, octets);
     }
@@ -565,6 +568,9 @@ impl<P: StateMachine> Endpoint<P> {
 /// What one call of [`Endpoint::handle`] works with.
 struct Turn {
     moment: Moment,
+    /// How the application says that the robot is steered.
+    control_mode: ControlMode,
+    /// The application's state, completed.
     state: RobotState,
     effects: Vec<Effect>,
 }

@@ -1,0 +1,63 @@
+//! The RAM that a step sends says how the robot is after the step, not before it: a receiver must not take a
+//! robot that has just been stopped for one that drives itself, until the next RAM comes.
+
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::{ControlMode, Identifiers, Position, RobotState, decode, state_of};
+use crossguard_endpoint::wire::{MessageKind, Wire};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{
+    Availability, Config, Event, HelpRequest, Place, Robot, StationId, TaskSet, TaskType,
+    Unavailability, Urgency,
+};
+
+/// The control modes in the RAM that are sent when this happens.
+fn modes(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<ControlMode> {
+    let moment = Moment {
+        now_ms,
+        timestamp_its: 694_694_400_000 + now_ms,
+    };
+    let state = RobotState {
+        position: Position::at(48.7, 9.1),
+        control_mode: ControlMode::Autonomous,
+        ..RobotState::default()
+    };
+    let effects = endpoint.handle(moment, &state, Stimulus::Event(event));
+    let sent = effects.iter().filter_map(|effect| match effect {
+        Effect::Transmit {
+            kind: MessageKind::Ram,
+            octets,
+            ..
+        } => decode::<RAM>(&Identifiers::default(), octets).ok(),
+        _ => None,
+    });
+    sent.map(|ram| state_of(&ram.message).control_mode)
+        .collect()
+}
+
+#[test]
+fn a_robot_that_becomes_unavailable_says_at_once_who_steers_it() {
+    let robot = Robot::new(StationId(1), 1);
+    let mut endpoint = Endpoint::new(robot, Config::default(), Wire::default(), 0);
+    let detected = Event::PedestrianDetected(HelpRequest {
+        urgency: Urgency::Medium,
+        followers: 1,
+        tasks: TaskSet::of(&[TaskType::MOVE]),
+        place: Place(7),
+    });
+    let first = modes(&mut endpoint, 10, detected);
+    assert_eq!(first.last(), Some(&ControlMode::Autonomous));
+    let stop = Availability::Unavailable(Unavailability::EmergencyStop);
+    let stopped = modes(&mut endpoint, 20, Event::AvailabilityChanged(stop));
+    assert!(!stopped.is_empty(), "it ends its session at once");
+    assert!(
+        stopped
+            .iter()
+            .all(|mode| *mode == ControlMode::EmergencyStop),
+        "{stopped:?}"
+    );
+    // The application's word counts again as soon as it is available.
+    let back = Event::AvailabilityChanged(Availability::Available);
+    modes(&mut endpoint, 30, back);
+    let again = modes(&mut endpoint, 2_000, detected);
+    assert_eq!(again.last(), Some(&ControlMode::Autonomous), "{again:?}");
+}
