@@ -46,6 +46,28 @@ const PEDESTRIAN: u8 = 1;
 /// as every 5 s, and members take a head for lost after 2 s (`timeClusterContinuity`).
 pub const CLUSTER_INTERVAL_MS: u64 = 500;
 
+/// How it moves, which both dictionaries say in the same fields.
+macro_rules! high_frequency {
+    ($container:ident, $motion:expr) => {{
+        let motion = $motion;
+        $container::new(
+            motion.heading,
+            motion.speed,
+            acceleration(&motion.longitudinal_acceleration),
+            None,
+            None,
+            None,
+            None,
+            None,
+            None,
+            None,
+            None,
+            None,
+            None,
+            None,
+        )
+    }};
+}
 /// The octets of the VAM by which `station`, a robot at `position` on `plane`, announces a cluster to
 /// devices that do not understand RAM, on the dictionary that `ids` say. Its motion is that of the cluster.
 /// `now_ms` is the time of the position in `TimestampIts`.
@@ -91,22 +113,7 @@ pub fn vam(
 ) -> Result<Vec<u8>, VamError> {
     let shared = shared(station, state, now_ms, content)?;
     let motion = shared.ram_parameters.robot_high_frequency_container;
-    let high_frequency = VruHighFrequencyContainer::new(
-        motion.heading,
-        motion.speed,
-        acceleration(&motion.longitudinal_acceleration),
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-    );
+    let high_frequency = high_frequency!(VruHighFrequencyContainer, motion);
     let (low_frequency, operation) = match content {
         Content::Individual(due) => (due.low_frequency.then(low_frequency), due.operation),
         Content::Cluster(..) => (None, None),
@@ -170,22 +177,7 @@ fn header(station: u32) -> ItsPduHeader {
 fn awareness_211(shared: RobotAwareness) -> VruAwareness211 {
     let parameters = shared.ram_parameters;
     let motion = parameters.robot_high_frequency_container;
-    let high_frequency = VruHighFrequencyContainer211::new(
-        motion.heading,
-        motion.speed,
-        acceleration(&motion.longitudinal_acceleration),
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-        None,
-    );
+    let high_frequency = high_frequency!(VruHighFrequencyContainer211, motion);
     let cluster = parameters.vru_cluster_information_container;
     let cluster =
         cluster.map(|it| VruClusterInformationContainer211::new(it.vru_cluster_information));
