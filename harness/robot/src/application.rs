@@ -1,6 +1,7 @@
 //! The application of a robot: what moves its body, and what it does when it leads.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::fmt;
 
 use crossguard_codec::{RobotState, TaskParameters};
 use crossguard_endpoint::Act;
@@ -40,6 +41,15 @@ const OPENING_PERIOD_S: f64 = 0.5;
 /// The longest list of wishes; more are not kept.
 const WISHES: usize = 64;
 
+/// What is told every act of an application, in order and before the body is. It returns at once.
+pub struct Listener(pub Box<dyn FnMut(&Act) + Send>);
+
+impl fmt::Debug for Listener {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Listener")
+    }
+}
+
 /// The application of a robot: a body, a sign, and a plan for when it leads.
 #[derive(Debug)]
 pub struct Application {
@@ -59,6 +69,7 @@ pub struct Application {
     /// How its plan goes while it leads.
     errand: Option<Errand>,
     wishes: VecDeque<Wish>,
+    listener: Option<Listener>,
     rules: Rules,
     /// Whether its corridor is known to be clear.
     corridor: Corridor,
@@ -139,6 +150,7 @@ impl Application {
             plan,
             errand: None,
             wishes: VecDeque::new(),
+            listener: None,
             rules: Rules::of(&Config::default()),
             corridor: Corridor::Clear,
             at_s: 0.0,
@@ -149,6 +161,13 @@ impl Application {
     #[must_use]
     pub fn on(self, road: Road) -> Self {
         Self { road, ..self }
+    }
+
+    /// The same, which tells a listener every act.
+    #[must_use]
+    pub fn heard_by(self, listener: Listener) -> Self {
+        let listener = Some(listener);
+        Self { listener, ..self }
     }
 
     /// It is at a road of which it knows this from now on.
@@ -320,6 +339,9 @@ impl Application {
 
     /// Does what the endpoint says.
     pub fn act(&mut self, act: &Act) {
+        if let Some(Listener(hear)) = &mut self.listener {
+            hear(act);
+        }
         match act {
             Act::Start(maneuver, parameters) => {
                 (self.maneuver, self.waits_for_people) = (Some(*maneuver), None);

@@ -17,6 +17,7 @@ use crossguard_codec::{
     Battery, Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, Position,
     RobotCategory, RobotState, SlowState, TaskParameters,
 };
+use crossguard_endpoint::Act;
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
 
@@ -83,6 +84,16 @@ pub enum BodyAct {
     Stop(Maneuver, StopReason),
     /// End the maneuver by a policy. That takes time: see [`Body::fallback`].
     FallBack(Maneuver, FallbackPolicy),
+}
+
+impl From<BodyAct> for Act {
+    fn from(act: BodyAct) -> Self {
+        match act {
+            BodyAct::Start(maneuver, parameters) => Self::Start(maneuver, parameters),
+            BodyAct::Stop(maneuver, why) => Self::Stop(maneuver, why),
+            BodyAct::FallBack(maneuver, policy) => Self::FallBack(maneuver, policy),
+        }
+    }
 }
 
 /// A body did not take what it was to do.

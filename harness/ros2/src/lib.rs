@@ -25,8 +25,8 @@
 //!   a newer Rust than this workspace.
 //! - CDR is that of `cdr-encoding`, which `RustDDS` is built on; XXH3 is of `xxhash-rust`, SHA-256 of `sha2`.
 
+mod acts;
 pub mod attachment;
-mod body;
 pub mod command;
 pub mod entity;
 pub mod graph;

@@ -20,13 +20,12 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use crossguard_robot::body::BodyAct;
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::runtime::Order;
 use crossguard_robot::trace::Record;
 use door::{Delivery, Door, Ears, Told};
 
-use crate::body::Acts;
+use crate::acts::{Acts, Taken};
 use crate::command;
 use crate::entity::NodeName;
 use crate::graph::{Call, Graph, Meeting, Node, RosError};
@@ -143,8 +142,8 @@ struct Turn {
     file: Option<RobotFile>,
     active: Option<Active>,
     reporter: Option<Reporter>,
-    /// What the body is to do.
-    acts: Option<Receiver<BodyAct>>,
+    /// What the robot does and tells.
+    acts: Option<Taken>,
     /// Where the body was said to be.
     pose_before: Option<PoseStamped>,
     /// Who asked for the transition that is under way.
@@ -402,8 +401,8 @@ impl Turn {
             return Ok(());
         };
         let wake = self.door.clone();
-        let (acts, taken) = Acts::new(Box::new(move || wake.wake()));
-        let (active, records) = Active::start(&self.robot, file, acts)?;
+        let (acts, taken) = Acts::new(Arc::new(move || wake.wake()));
+        let (active, records) = Active::start(&self.robot, file, &acts)?;
         self.acts = Some(taken);
         self.reporter = Some(Self::reporter(file));
         let inbox = self.door.inbox.clone();
@@ -424,9 +423,7 @@ impl Turn {
         let Some(reporter) = &mut self.reporter else {
             return;
         };
-        for event in reporter.take(record) {
-            self.tell_event(event);
-        }
+        reporter.take(record);
         if self.corridor().open != self.corridor_before.open {
             self.tell_corridor();
         }

@@ -3,9 +3,8 @@
 use std::time::Duration;
 
 use crossguard_protocol::{
-    self as protocol, Availability, CorridorClosure, Duty, Input, Leading, ManeuverId, Member,
-    Notice, Output, Phase, Progress, Robot, Role, SessionId, State, StationId, TaskType,
-    Unavailability,
+    self as protocol, Availability, CorridorClosure, Duty, Leading, ManeuverId, Member, Notice,
+    Output, Phase, Progress, Robot, Role, SessionId, State, StationId, TaskType, Unavailability,
 };
 use crossguard_robot::tally::{Tally, Way};
 use crossguard_robot::trace::{Entry, Record};
@@ -43,66 +42,27 @@ impl Reporter {
         }
     }
 
-    /// Takes a record in. The events that it tells of.
-    pub(crate) fn take(&mut self, record: &Record) -> Vec<Event> {
+    /// Takes a record in.
+    pub(crate) fn take(&mut self, record: &Record) {
         self.tally.record(record);
-        match &record.entry {
-            Entry::Step {
-                input,
-                outputs,
-                state,
-            } => {
-                if !matches!(state.phase(), Phase::Leading(_)) {
-                    self.closure = None;
-                }
-                for output in outputs.iter() {
-                    if let Output::CorridorOpened(left) | Output::CorridorExtended(left) = output {
-                        self.go_ends_us = record.at_us + u64::from(left.0) * 1_000;
+        let Entry::Step { outputs, state, .. } = &record.entry else {
+            return;
+        };
+        if !matches!(state.phase(), Phase::Leading(_)) {
+            self.closure = None;
+        }
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(left) | Output::CorridorExtended(left) => {
+                    self.go_ends_us = record.at_us + u64::from(left.0) * 1_000;
+                    if let Output::CorridorOpened(_) = output {
+                        self.closure = None;
                     }
                 }
-                let told = outputs.iter();
-                told.filter_map(|output| self.event(input, output))
-                    .collect()
+                Output::CorridorClosed(why) => self.closure = Some(*why),
+                _ => {}
             }
-            _ => Vec::new(),
         }
-    }
-
-    fn event(&mut self, input: &Input, output: &Output) -> Option<Event> {
-        let event = match output {
-            Output::LockIdentity => of(Event::LOCK_IDENTITY),
-            Output::UnlockIdentity => of(Event::UNLOCK_IDENTITY),
-            Output::Notify(notice) => news(*notice),
-            Output::CorridorOpened(_) => {
-                self.closure = None;
-                return None;
-            }
-            Output::CorridorClosed(why) => {
-                self.closure = Some(*why);
-                return None;
-            }
-            Output::Ignored(why) => {
-                let Input::Local(event) = input else {
-                    return None;
-                };
-                return Some(Event {
-                    text: format!("{event}: {why}"),
-                    ..of(Event::COMMAND_IGNORED)
-                });
-            }
-            // What the body is to do comes from its port; the node renews the boot counter by itself.
-            Output::StartManeuver(_)
-            | Output::StopManeuver(..)
-            | Output::FallBack(..)
-            | Output::CorridorExtended(_)
-            | Output::RenewEpoch
-            | Output::SendRam
-            | Output::SendRmcm(_) => return None,
-        };
-        Some(Event {
-            text: output.to_string(),
-            ..event
-        })
     }
 
     /// When it was as it is known, in µs on the clock of the robot.
@@ -398,7 +358,7 @@ fn to_follower(kind: u8, station: StationId, id: ManeuverId) -> Event {
     }
 }
 
-fn news(notice: Notice) -> Event {
+pub(crate) fn news(notice: Notice) -> Event {
     match notice {
         Notice::RolesEstablished(session) => in_session(Event::ROLES_ESTABLISHED, session),
         Notice::FollowerJoined(follower) => with(Event::FOLLOWER_JOINED, follower),

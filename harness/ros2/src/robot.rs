@@ -20,7 +20,7 @@ use crossguard_robot::runtime::{Clock, Order, Running};
 use crossguard_robot::trace::{self, Record};
 use crossguard_robot::transport::{LinkError, Reopening, Transport};
 
-use crate::body::{Acts, Announced};
+use crate::acts::Acts;
 
 /// After how many milliseconds a pseudonym changes, outside of sessions.
 const PSEUDONYM_PERIOD_MS: u64 = 300_000;
@@ -92,12 +92,12 @@ pub(crate) struct Active {
 }
 
 impl Active {
-    /// Has the robot of `file` be there, whose body's acts go to `acts`. Its records come out of the queue,
+    /// Has the robot of `file` be there, whose acts go to `acts`. Its records come out of the queue,
     /// which ends with it.
     pub(crate) fn start(
         robot: &Robot,
         file: &RobotFile,
-        acts: Acts,
+        acts: &Acts,
     ) -> Result<(Self, Receiver<Arc<Record>>), NoRobot> {
         let link = Reopening(file.link.clone()).open()?;
         let security = security(robot, &file.name)?;
@@ -113,13 +113,12 @@ impl Active {
         // The counter is taken last, when nothing else can go wrong, and before anything is sent.
         let boot = boot::take(&file.boot_file)?;
         let body: Box<dyn Body> = match robot.body {
-            BodyKind::Simulated => {
-                let body = file.body(robot.seed);
-                Box::new(Announced { body, acts })
-            }
+            BodyKind::Simulated => Box::new(file.body(robot.seed)),
             BodyKind::External => Box::new(file.external_body(acts.driver())),
         };
-        let setup = file.setup(boot, body, security, link, journal);
+        let mut setup = file.setup(boot, body, security, link, journal);
+        let listener = acts.listener(robot.body == BodyKind::Simulated);
+        setup.application = setup.application.heard_by(listener);
         let clock = setup.clock;
         let running = setup.start();
         let active = Self {

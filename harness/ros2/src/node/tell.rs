@@ -8,7 +8,7 @@ use crossguard_robot::application::Wish;
 use crossguard_robot::runtime::Order;
 
 use super::{CORRIDOR_PERIOD, CORRIDOR_VALID_FOR, STATUS_PERIOD, Turn};
-use crate::body;
+use crate::acts::{self, Taken};
 use crate::graph::{RosError, now_ns};
 use crate::msgs::{Corridor, Event, Status};
 use crate::report::{OK, SITE_FRAME, WARN, duration, header, value};
@@ -100,14 +100,19 @@ impl Turn {
         })
     }
 
-    /// Publishes what the body is to do. What cannot be published is not done, and so a fault of a body that
-    /// others move.
+    /// Publishes what the robot does and tells. What the body is to do and cannot be published is not done, and
+    /// so a fault of a body that others move.
     pub(super) fn tell_acts(&mut self) {
-        while let Some(act) = self.acts.as_ref().and_then(|acts| acts.try_recv().ok()) {
+        while let Some(act) = self.acts.as_ref().and_then(Taken::next) {
             let Some(file) = &self.file else { return };
-            let told = self.publish_event(body::event(act, &file.site));
+            let Some(event) = acts::event(&act, &file.site) else {
+                continue;
+            };
+            let told = self.publish_event(event);
+            let is_external = self.robot.body == BodyKind::External;
             if told.is_err()
-                && self.robot.body == BodyKind::External
+                && is_external
+                && acts::is_of_body(&act)
                 && let Some(active) = &self.active
             {
                 let fault = Availability::Unavailable(Unavailability::LocalFault);
@@ -153,6 +158,10 @@ impl Turn {
             "ros: inbox full".to_owned(),
             self.door.full.load(Ordering::Relaxed),
         );
+        let lost = (
+            "ros: events full".to_owned(),
+            self.acts.as_ref().map_or(0, Taken::lost),
+        );
         let inbox = self
             .active
             .as_ref()
@@ -161,7 +170,7 @@ impl Turn {
             .causes
             .iter()
             .map(count)
-            .chain([full])
+            .chain([full, lost])
             .chain(inbox)
             .collect();
         let dropped: u64 = counted.iter().map(|(_, count)| count).sum();

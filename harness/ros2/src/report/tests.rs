@@ -1,8 +1,13 @@
 use crossguard_protocol::{
-    Config, Decimetres, Event as Local, HelpRequest, Millis, Outputs, Settings, TaskSet, Urgency,
+    Config, Decimetres, Event as Local, HelpRequest, Input, Millis, Outputs, Settings, TaskSet,
+    Urgency,
 };
 
+use crossguard_endpoint::Act;
+use crossguard_robot::site::Site;
+
 use super::*;
+use crate::acts;
 
 /// A leader and its follower, who hear each other.
 struct Team {
@@ -93,7 +98,7 @@ fn a_corridor_is_open_while_the_robot_says_so_and_is_heard_of() {
     assert_eq!(first, (false, Corridor::REASON_NOT_LEADING));
     let mut reasons = Vec::new();
     for record in opening() {
-        let _ = reporter.take(&record);
+        reporter.take(&record);
         reasons.push(corridor(&reporter, true).1);
     }
     reasons.dedup();
@@ -120,7 +125,14 @@ fn a_corridor_is_open_while_the_robot_says_so_and_is_heard_of() {
 #[test]
 fn the_news_of_a_leader_are_events_with_the_follower_and_the_session() {
     let mut reporter = reporter();
-    let events: Vec<_> = opening().iter().flat_map(|it| reporter.take(it)).collect();
+    let mut events = Vec::new();
+    for record in opening() {
+        reporter.take(&record);
+        if let Entry::Step { outputs, .. } = &record.entry {
+            let told = outputs.notices().map(Act::Notice);
+            events.extend(told.filter_map(|act| acts::event(&act, &Site::default())));
+        }
+    }
     let of_kind = |kind| events.iter().find(|it| it.kind == kind).unwrap();
     assert_eq!(of_kind(Event::FOLLOWER_JOINED).station, 2);
     let session = of_kind(Event::ROLES_ESTABLISHED).session;
