@@ -93,7 +93,7 @@ fn worst_with_timers_of(scenario: &Scenario) -> Worst {
 fn the_longest_times_stay_within_those_that_the_timed_model_computes() {
     let scenario = Scenario::load("timed-pair").unwrap();
     let worst = worst_with_timers_of(&scenario);
-    // Those that the checker holds its own figures against.
+    // The checker has figures of its own for these.
     let delay = scenario.timed.as_ref().unwrap().delay;
     let limits = Limits::new(&scenario.config, delay);
     let observed = [

@@ -1,0 +1,63 @@
+//! What an application does with its body and its plan.
+
+use crossguard_protocol::{RequestId, SessionId, SessionNumber, StopReason, UniqueNumber};
+
+use super::*;
+use crate::body::{Build, External, NotTaken, Simulated};
+use crate::plan::Stage;
+use crate::site::{Place, Site};
+
+#[test]
+fn an_escort_that_is_across_already_is_commanded_anew_at_the_opening_period_and_not_without_end() {
+    let follower = StationId(2);
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let session = SessionId { leader, number };
+    let across = Place::new(1.0, 8.0);
+    let plan = Plan {
+        stages: vec![Stage::everybody(Leg::new(TaskType::MOVE, across))],
+        ..Plan::crossing(Site::default())
+    };
+    let body = Simulated::new(Build::Humanoid, Site::default(), across, 1.0, 1);
+    let mut application = Application::new(Box::new(body), Some(plan));
+    application.act(&Act::Notice(Notice::RolesEstablished(session)));
+    application.act(&Act::Notice(Notice::FollowerJoined(follower)));
+    let mut orders = 0;
+    for step in 0..1_000 {
+        application.advance(f64::from(step) / 100.0);
+        while let Some(wish) = application.next_wish() {
+            let Wish::Order { .. } = wish else { continue };
+            let request = RequestId(orders);
+            let id = ManeuverId { session, request };
+            orders += 1;
+            application.act(&Act::Notice(Notice::ManeuverReported(follower, id)));
+            application.act(&Act::Notice(Notice::ManeuverCompleted(follower, id)));
+        }
+    }
+    // Ten seconds, an attempt each half second.
+    assert!((15..=20).contains(&orders), "{orders} orders");
+}
+
+#[test]
+fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
+    let driver = |act| match act {
+        BodyAct::Start(..) => Ok(()),
+        _ => Err(NotTaken("the bus is down".to_owned())),
+    };
+    let (place, site) = (Place::default(), Site::default());
+    let body = External::new(Build::Quadruped, site, place, Box::new(driver));
+    let mut application = Application::new(Box::new(body), None);
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let session = SessionId { leader, number };
+    let request = RequestId(0);
+    let id = ManeuverId { session, request };
+    let (task, why) = (TaskType::MOVE, StopReason::Superseded);
+    let maneuver = Maneuver { id, task };
+    application.act(&Act::Start(maneuver, TaskParameters::default()));
+    assert_eq!(application.next_wish(), None);
+    application.act(&Act::Stop(maneuver, why));
+    let fault = Availability::Unavailable(Unavailability::LocalFault);
+    let told = Wish::Tell(Event::AvailabilityChanged(fault));
+    assert_eq!(application.next_wish(), Some(told));
+}
