@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn logs_of_crossings_put_the_properties_of_the_road_to_the_test() {
         let mut met = BTreeSet::new();
-        for seed in 1..=8 {
+        for seed in 1..=40 {
             let log = text(&records(seed));
             met.extend(crate::validate::one(&*log).unwrap().properties);
         }
