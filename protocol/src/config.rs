@@ -25,7 +25,7 @@ pub struct Settings {
     /// How long a requester gathers offers, counted from the first, before it selects; 300 ms by default.
     /// It selects sooner when [`Event::AllAnswered`](crate::Event::AllAnswered) says that no other offer can come.
     pub t_select: Millis,
-    /// How long a helper reserves itself for a requester of which it hears no newer heartbeat; 3 s by
+    /// How long a helper stays reserved after the newest heartbeat of its requester; 3 s by
     /// default.
     pub t_offer: Millis,
     /// How long a request for help stands; 10 s by default.

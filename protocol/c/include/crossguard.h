@@ -622,7 +622,7 @@ typedef struct CrossguardSettings {
   uint32_t ram_period_ms;
   // How long a requester gathers offers, counted from the first.
   uint32_t t_select_ms;
-  // How long a helper reserves itself for a requester of which it hears no newer heartbeat.
+  // How long a helper stays reserved after the newest heartbeat of its requester.
   uint32_t t_offer_ms;
   // How long a request for help stands.
   uint32_t t_help_ms;

@@ -58,7 +58,7 @@ pub struct CrossguardSettings {
     pub ram_period_ms: u32,
     /// How long a requester gathers offers, counted from the first.
     pub t_select_ms: u32,
-    /// How long a helper reserves itself for a requester of which it hears no newer heartbeat.
+    /// How long a helper stays reserved after the newest heartbeat of its requester.
     pub t_offer_ms: u32,
     /// How long a request for help stands.
     pub t_help_ms: u32,

@@ -36,7 +36,7 @@ class Config:
     """How long a requester gathers offers, counted from the first. It selects sooner at
     `events.AllAnswered`. 300 ms."""
     t_offer_ms: int = _DEFAULTS["t_offer"]
-    """How long a helper reserves itself for a requester of which it hears no newer heartbeat. 3000 ms."""
+    """How long a helper stays reserved after the newest heartbeat of its requester. 3000 ms."""
     t_help_ms: int = _DEFAULTS["t_help"]
     """How long a request for help stands. 10000 ms."""
     t_ack_ms: int = _DEFAULTS["t_ack"]
