@@ -8,11 +8,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use crossguard_codec::TaskParameters;
-use crossguard_endpoint::counters::Cause;
+use crossguard_codec::{Identifiers, TaskParameters};
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Config, Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
 use crossguard_robot::application::{Application, Wish};
 use crossguard_robot::body::{Build, Simulated};
@@ -109,7 +108,7 @@ fn start(leader: Halves, follower: Halves) -> Pair {
             station: StationId(station),
             boot: Boot::first_of_its_kind(),
             config: Config::default(),
-            wire: Wire::default(),
+            wire: Identifiers::default(),
             security: Security::default(),
             awareness: Awareness::default(),
             application: Application::new(Box::new(body), None),

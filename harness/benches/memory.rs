@@ -5,10 +5,8 @@
 
 use std::hint::black_box;
 
-use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Identifiers, Service, golden};
-use crossguard_endpoint::station::Station;
-use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId};
 use crossguard_robot::application::Application;
@@ -26,7 +24,7 @@ const MINUTE_MS: u64 = 60_000;
 
 fn machine(station: u32, plan: Option<Plan>) -> Machine {
     let robot = Robot::new(StationId(station), 1);
-    let endpoint = Endpoint::new(robot, Config::default(), Wire::default(), 0);
+    let endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
     let place = Place::new(f64::from(station), 0.0);
     let body = Simulated::new(Build::Quadruped, Site::default(), place, 3.0, 1);
     Machine::new(endpoint, Application::new(Box::new(body), plan))

@@ -4,10 +4,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Identifiers, RobotState, Service, golden};
-use crossguard_endpoint::station::Station;
-use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, StationId};
 
@@ -20,7 +18,7 @@ fn moment(now_ms: u64) -> Moment {
 
 fn endpoint(station: u32) -> Endpoint {
     let robot = Robot::new(StationId(station), 1);
-    Endpoint::new(robot, Config::default(), Wire::default(), 0)
+    Endpoint::new(robot, Config::default(), Identifiers::default(), 0)
 }
 
 /// A RAM of a robot that has no part in anything.

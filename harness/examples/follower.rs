@@ -18,8 +18,7 @@ use std::net::UdpSocket;
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crossguard_codec::{Position, RobotState, si};
-use crossguard_endpoint::wire::Wire;
+use crossguard_codec::{Identifiers, Position, RobotState, si};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, ManeuverId, Notice, Robot, StationId};
 use crossguard_robot::boot;
@@ -127,7 +126,7 @@ impl Follower {
             station,
             boot,
             settings: Box::new(self.endpoint.config().settings().clone()),
-            identifiers: self.endpoint.wire().identifiers,
+            identifiers: *self.endpoint.identifiers(),
             unix_ms: u64::try_from(unix_ms())?,
         })?;
         let mut packet = [0; DATAGRAM_MAX];
@@ -148,7 +147,7 @@ impl Follower {
             }
             self.advance()?;
         }
-        let counters = self.endpoint.counters().by_name().clone();
+        let counters = self.endpoint.counters().named();
         self.record(Entry::Stopped { counters })
     }
 }
@@ -180,7 +179,7 @@ pub(crate) fn follow(arguments: &[String]) -> Result<usize, Box<dyn Error>> {
     let socket = UdpSocket::bind(("127.0.0.1", port.parse()?))?;
     socket.set_read_timeout(Some(Duration::from_millis(10)))?;
     let mut follower = Follower {
-        endpoint: Endpoint::new(robot, Config::default(), Wire::default(), 0),
+        endpoint: Endpoint::new(robot, Config::default(), Identifiers::default(), 0),
         socket,
         peer: peer.parse()?,
         log: rest.first().map(File::create).transpose()?,

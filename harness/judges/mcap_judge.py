@@ -56,11 +56,13 @@ def expected(path):
                 topics["/tf"].append((at_ns, token(robot)))
                 topics["/robots"].append((at_ns, token(robot)))
         elif entry == "dropped":
-            counters[robot][record["cause"]] += 1
-            if record["cause"].startswith("simulated "):
+            counters[robot][(record["layer"], record["cause"])] += 1
+            if record["layer"] == "simulated":
                 topics[topic + "/message"].append((at_ns, "lost", record["octets"]))
         elif entry == "stopped":
-            topics[topic + "/stopped"] = record["counters"]
+            counts = record["counters"].items()
+            topics[topic + "/stopped"] = {
+                (layer, cause): count for layer, causes in counts for cause, count in causes.items()}
     # Robots that share a log write it from threads of their own, and one may be a moment late.
     for messages in topics.values():
         if isinstance(messages, list):
@@ -144,13 +146,13 @@ def judge_robot(topic, found, log):
     same(topic + "/state", changes(roles), changes(log[topic + "/role"]))
     counted = found.topics[topic + "/counters"]
     if counted:
-        last = {it["cause"]: it["count"] for it in counted[-1][1]["counters"]}
+        last = {(it["layer"], it["cause"]): it["count"] for it in counted[-1][1]["counters"]}
         stopped = log.get(topic + "/stopped")
         if stopped is not None:
             assert last == stopped, (topic, last, stopped)
         else:
             of_log = log[topic + "/counted"]
-            ignored = sum(count for cause, count in last.items() if cause.startswith("ignored: "))
+            ignored = sum(count for (layer, _), count in last.items() if layer == "protocol")
             assert ignored == of_log["ignored"], (topic, ignored, of_log)
 
 

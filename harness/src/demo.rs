@@ -15,13 +15,14 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
+use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Config, EndReason, Event, Notice, Output};
 use serde::Serialize;
 
-use crossguard_endpoint::counters::Cause;
+use crossguard_codec::Identifiers;
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::{Mode, Security};
-use crossguard_endpoint::wire::Wire;
 use crossguard_judge::timing::{Summary, Timing};
 use crossguard_judge::validate::{self, Validated};
 use crossguard_robot::application::{Application, Wish};
@@ -109,7 +110,7 @@ pub struct Outcome {
     /// The state of each robot in the end.
     pub final_states: BTreeMap<String, String>,
     /// What was dropped or ignored, by robot and cause.
-    pub counters: BTreeMap<String, BTreeMap<String, u64>>,
+    pub counters: BTreeMap<String, Counts>,
 }
 
 impl Outcome {
@@ -136,7 +137,7 @@ struct Demo<'a> {
     log: Vec<u8>,
     /// For each robot, whether it is idle and says farewell to nothing, and its state's name.
     rest: BTreeMap<String, (bool, String)>,
-    counters: BTreeMap<String, BTreeMap<String, u64>>,
+    counters: BTreeMap<String, Counts>,
     /// How the newest session ended.
     end: Option<End>,
     /// The pedestrian, and what shows him or her when to cross.
@@ -218,7 +219,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
             // Nothing of a demonstration outlives it, so each of its boots is the first.
             boot: Boot::first_of_its_kind(),
             config: Config::default(),
-            wire: Wire::default(),
+            identifiers: Identifiers::default(),
             security: securities.next().unwrap_or_default(),
             awareness: options.awareness,
             application,
@@ -394,7 +395,7 @@ impl Demo<'_> {
         let lost_records = self
             .counters
             .values()
-            .filter_map(|counters| counters.get(&Cause::LogFull.name()))
+            .map(|counters| counters.of(&Cause::LogFull.into()))
             .sum::<u64>();
         let validated = validate::one(&*self.log).map_err(|error| error.to_string());
         let validated = match validated {

@@ -7,6 +7,7 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Role, State};
 
 use crossguard_robot::tally::Tally;
@@ -155,9 +156,9 @@ pub fn text(tally: &Tally) -> String {
         "counter",
         "Messages that were dropped and inputs that were ignored, by layer and cause.",
     );
-    for (cause, count) in &tally.causes {
-        let (layer, _) = cause.split_once(": ").unwrap_or((cause, ""));
-        page.value(&[robot, ("layer", layer), ("cause", cause)], *count);
+    for (CauseName { layer, reason }, count) in tally.causes.iter() {
+        let labels = [robot, ("layer", layer.name()), ("cause", &reason)];
+        page.value(&labels, count);
     }
     page.text
 }
@@ -192,6 +193,9 @@ fn escaped(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use crossguard_endpoint::cause::Cause;
+    use crossguard_protocol::Ignored;
+
     use super::*;
 
     fn ask(address: SocketAddr, request: &str) -> String {
@@ -207,14 +211,16 @@ mod tests {
         let tally = Shared::default();
         tally.with(|tally| {
             tally.robot = "A \"robot\"\n".to_owned();
-            tally.causes.insert("ignored: nothing new".to_owned(), 7);
+            tally
+                .causes
+                .set(&Cause::from(Ignored::NothingNew).into(), 7);
         });
         let address = serve("127.0.0.1:0".parse().unwrap(), tally).unwrap();
         let answer = ask(address, "GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n");
         let (head, body) = answer.split_once("\r\n\r\n").unwrap();
         assert!(head.starts_with("HTTP/1.1 200 OK\r\nContent-Type: text/plain; version=0.0.4"));
         assert!(head.contains(&format!("Content-Length: {}", body.len())));
-        let line = r#"crossguard_without_effect_total{robot="A \"robot\"\n",layer="ignored",cause="ignored: nothing new"} 7"#;
+        let line = r#"crossguard_without_effect_total{robot="A \"robot\"\n",layer="protocol",cause="nothing new"} 7"#;
         assert!(body.lines().any(|it| it == line), "{body}");
         assert!(ask(address, "GET /other HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 404"));
         assert!(ask(address, "POST /metrics HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 405"));

@@ -6,9 +6,8 @@ mod support;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crossguard_codec::RobotState;
-use crossguard_endpoint::counters::Cause;
-use crossguard_endpoint::wire::Wire;
+use crossguard_codec::{Identifiers, RobotState};
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_judge::sim::{Deed, Happening, Swarm, run as simulate};
 use crossguard_protocol::{Config, Robot, StationId};
@@ -21,7 +20,7 @@ const DELAY_MAX_MS: u64 = 50;
 
 fn endpoint(station: u32) -> Endpoint {
     let robot = Robot::new(StationId(station), 1);
-    Endpoint::new(robot, Config::default(), Wire::default(), 0)
+    Endpoint::new(robot, Config::default(), Identifiers::default(), 0)
 }
 
 fn handle(endpoint: &mut Endpoint, now_ms: u64, stimulus: Stimulus<'_>) -> Vec<Effect> {

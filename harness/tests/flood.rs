@@ -6,9 +6,8 @@ use std::net::UdpSocket;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Identifiers, Service, golden};
-use crossguard_endpoint::station::Station;
 use crossguard_protocol::StationId;
 use support::*;
 

@@ -6,10 +6,8 @@ use std::net::UdpSocket;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Identifiers, MessageIdentifiers, RobotState, Service, golden};
-use crossguard_endpoint::station::Station;
-use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Availability, Robot, StationId};
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -4,7 +4,6 @@
 use crossguard_codec::its::{Identity, Kind};
 use crossguard_codec::{Identifiers, Position, RobotState};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
-use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_judge::sniffer::Sniffer;
 use crossguard_protocol::{Config, Robot, StationId};
@@ -13,7 +12,7 @@ const BEGAN_ITS: u64 = 694_694_400_000;
 
 fn endpoint(station: u32) -> Endpoint {
     let robot = Robot::new(StationId(station), 1);
-    Endpoint::new(robot, Config::default(), Wire::default(), 0)
+    Endpoint::new(robot, Config::default(), Identifiers::default(), 0)
 }
 
 fn at(now_ms: u64) -> Moment {

@@ -4,10 +4,10 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use crossguard_endpoint::counters::Cause;
+use crossguard_codec::Identifiers;
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Config, Event, Input, StationId};
 use crossguard_robot::application::{Application, Wish};
 use crossguard_robot::body::{Build, Simulated};
@@ -39,7 +39,7 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
         station: StationId(1),
         boot,
         config: Config::default(),
-        wire: Wire::default(),
+        wire: Identifiers::default(),
         security: Security::default(),
         awareness: Awareness::default(),
         application: Application::new(Box::new(body), None),

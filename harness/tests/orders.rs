@@ -1,7 +1,6 @@
 //! A command has the parameters that it was given with, and not those of the one before.
 
-use crossguard_codec::TaskParameters;
-use crossguard_endpoint::wire::Wire;
+use crossguard_codec::{Identifiers, TaskParameters};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
 use crossguard_robot::application::Application;
@@ -17,7 +16,7 @@ fn machine(station: StationId) -> Machine {
     let endpoint = Endpoint::new(
         Robot::new(station, 1),
         Config::default(),
-        Wire::default(),
+        Identifiers::default(),
         0,
     );
     let place = Place::new(f64::from(station.0), 0.0);

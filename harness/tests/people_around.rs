@@ -6,12 +6,11 @@ use std::collections::BTreeMap;
 use std::process::Command;
 
 use crossguard_codec::core::ram::RAM;
-use crossguard_codec::{Identifiers, Position, RobotState, decode};
+use crossguard_codec::{Identifiers, Position, RobotState, Service, decode};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::ras::containers::{self, Announced};
 use crossguard_endpoint::ras::generation::Trigger;
 use crossguard_endpoint::ras::motion::Plane;
-use crossguard_endpoint::wire::{MessageKind, Wire};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
     Availability, Config, Event, Robot, Settings, StationId, Unavailability,
@@ -40,7 +39,7 @@ impl Street {
         let config = Config::new(Settings::default()).unwrap();
         let robot = Robot::new(StationId(7), 1);
         Self {
-            endpoint: Endpoint::new(robot, config, Wire::default(), 0),
+            endpoint: Endpoint::new(robot, config, Identifiers::default(), 0),
             state: RobotState {
                 position: Position::at(49.01, 8.41),
                 ..RobotState::default()
@@ -70,7 +69,7 @@ impl Street {
         let effects = self.endpoint.handle(moment, &self.state, stimulus);
         let sent = effects.iter().filter_map(|effect| match effect {
             Effect::Transmit {
-                kind: MessageKind::Ram,
+                kind: Service::Ram,
                 trigger,
                 octets,
                 ..

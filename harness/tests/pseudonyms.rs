@@ -7,8 +7,8 @@ use crossguard_codec::geonet::{Address, BasicHeader, Headers};
 use crossguard_codec::security::{SignedMessage, Time64};
 use crossguard_codec::{Identifiers, Position, RobotState, TaskParameters};
 
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::station::{Mode, Security};
-use crossguard_endpoint::wire::{Wire, overhear};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
     Config, Event, Identity, Input, ManeuverId, Phase, Robot, StationId, TaskType,
@@ -44,7 +44,7 @@ impl Street {
             Endpoint::new(
                 Robot::new(StationId(id), 1),
                 Config::default(),
-                Wire::default(),
+                Identifiers::default(),
                 0,
             )
             .with_security(security.unwrap())

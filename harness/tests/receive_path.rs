@@ -1,10 +1,8 @@
 //! The whole receive path of an endpoint against octets of all kinds: the same entry point as the
 //! fuzz target `receive` in `harness/fuzz`.
 
-use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Identifiers, RobotState, Service, golden};
-use crossguard_endpoint::station::Station;
-use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, StationId};
 use rand::{Rng, RngCore, SeedableRng};
@@ -56,7 +54,7 @@ fn endpoint(station: StationId) -> Endpoint {
     Endpoint::new(
         Robot::new(station, 1),
         Config::default(),
-        Wire::default(),
+        Identifiers::default(),
         0,
     )
 }

@@ -1,9 +1,8 @@
 //! When a robot that fell back says that the road is clear: never by itself where it knows nothing of the
 //! road, and otherwise once everybody that its sensors had on the road was seen beside it.
 
-use crossguard_codec::TaskParameters;
+use crossguard_codec::{Identifiers, TaskParameters};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
-use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
 use crossguard_robot::application::Application;
@@ -24,7 +23,7 @@ struct Pair {
 
 fn machine(station: u32, road: Road) -> Machine {
     let robot = Robot::new(StationId(station), 1);
-    let endpoint = Endpoint::new(robot, Config::default(), Wire::default(), 0);
+    let endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
     let place = Place::new(f64::from(station), 2.0);
     let body = Simulated::new(Build::Quadruped, Site::default(), place, 1.0, 1);
     Machine::new(endpoint, Application::new(Box::new(body), None).on(road))

@@ -9,14 +9,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration as StdDuration;
 
-use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::security::{
     Duration, Permission, PrivateKey, Ssp, Ticket, Time64, Unit, Validity, issue,
 };
 use crossguard_codec::{Identifiers, Part, RobotState, Service};
 
-use crossguard_endpoint::station::{Credentials, Mode, Security, Station};
-use crossguard_endpoint::wire::Wire;
+use crossguard_endpoint::station::{Credentials, Mode, Security};
 use crossguard_protocol::{Availability, Event, Input, Robot, StationId};
 use crossguard_robot::pki::{self, Holder, Pki, Term};
 use crossguard_robot::plan::Plan;
@@ -79,7 +78,7 @@ fn ram(id: StationId, asks: bool) -> Vec<u8> {
         );
     }
     let available = Availability::Available;
-    Wire::default()
+    Identifiers::default()
         .ram(
             &RobotState::default(),
             &robot.ram(),

@@ -2,8 +2,7 @@
 //! robot that has just been stopped for one that drives itself, until the next RAM comes.
 
 use crossguard_codec::core::ram::RAM;
-use crossguard_codec::{ControlMode, Identifiers, Position, RobotState, decode, state_of};
-use crossguard_endpoint::wire::{MessageKind, Wire};
+use crossguard_codec::{ControlMode, Identifiers, Position, RobotState, Service, decode, state_of};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
     Availability, Config, Event, HelpRequest, Place, Robot, StationId, TaskSet, TaskType,
@@ -24,7 +23,7 @@ fn modes(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<ControlMode>
     let effects = endpoint.handle(moment, &state, Stimulus::Event(event));
     let sent = effects.iter().filter_map(|effect| match effect {
         Effect::Transmit {
-            kind: MessageKind::Ram,
+            kind: Service::Ram,
             octets,
             ..
         } => decode::<RAM>(&Identifiers::default(), octets).ok(),
@@ -37,7 +36,7 @@ fn modes(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<ControlMode>
 #[test]
 fn a_robot_that_becomes_unavailable_says_at_once_who_steers_it() {
     let robot = Robot::new(StationId(1), 1);
-    let mut endpoint = Endpoint::new(robot, Config::default(), Wire::default(), 0);
+    let mut endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
     let detected = Event::PedestrianDetected(HelpRequest {
         urgency: Urgency::Medium,
         followers: 1,

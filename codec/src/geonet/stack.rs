@@ -6,6 +6,8 @@
 //!                   └────────────┴─────────────┴──────────┴─────────┴──► Discarded
 //! ```
 
+use crossguard_protocol::StationId;
+
 use super::{
     Address, Area, BASIC_LEN, BasicHeader, Duplicates, EgoPosition, Envelope, EnvelopeError,
     GeonetError, HEADERS_LEN_MAX, Headers, Lifetime, LongPositionVector, NextHeader,
@@ -167,6 +169,13 @@ impl Stack {
         }
     }
 
+    /// The stack of the robot that goes by this station id, without security.
+    #[must_use]
+    pub fn of_robot(identifiers: Identifiers, station: StationId) -> Self {
+        let address = Address::of_station(station.0, identifiers.robot_station_type);
+        Self::new(identifiers, address, Envelope::Off)
+    }
+
     /// The address of the own station.
     #[must_use]
     pub const fn address(&self) -> Address {
@@ -226,6 +235,23 @@ impl Stack {
         let room = room.get_mut(..behind.len()).ok_or(SendError::NoRoom)?;
         room.copy_from_slice(behind);
         within_limit(length)
+    }
+
+    /// The packet with a message of this service.
+    ///
+    /// # Errors
+    /// Why it cannot be sent.
+    #[cfg(feature = "std")]
+    pub fn packet(
+        &mut self,
+        ego: &EgoPosition,
+        service: Service,
+        message: &[u8],
+    ) -> Result<Vec<u8>, SendError> {
+        let request = service.request(&self.identifiers);
+        let mut packet = [0; PACKET_LEN_MAX];
+        let length = self.send(ego, &request, message, &mut packet)?;
+        Ok(packet[..length].to_vec())
     }
 
     fn headers(&mut self, ego: &EgoPosition, request: &Request) -> Headers {

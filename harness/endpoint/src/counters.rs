@@ -1,144 +1,150 @@
-//! Every message that was dropped and every input that was ignored, counted under a named cause.
+//! Every message that was dropped and every input that was ignored, counted under its cause.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::fmt::{self, Display, Formatter};
 
-use crossguard_codec::geonet::Discarded;
-use crossguard_codec::{DecodeError, Service, ViewError};
-use crossguard_protocol::Ignored;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-/// Why something was dropped or ignored.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Cause {
-    /// A packet is not one for this station.
-    Discarded(&'static str),
-    /// A packet cannot be relied on.
-    Rejected(&'static str),
-    /// A message that this station has no use for.
-    NoUse(Service),
-    /// A datagram is not a message.
-    Undecodable(&'static str),
-    /// A message contradicts itself.
-    Contradictory(&'static str),
-    /// The transition function ignored an input.
-    Ignored(Ignored),
-    /// A datagram waited for longer than `delay_max` from its arrival until the robot was told of it.
-    WaitedTooLong,
-    /// A datagram arrived while the inbox was full.
-    InboxFull,
-    /// The robot perceived people and did not know where it is itself.
-    Unplaced,
-    /// The fault layer dropped a datagram on purpose.
-    Simulated(Loss),
-    /// The operating system did not take a datagram.
-    NotSent,
-    /// The operating system gave no datagrams any more.
-    LinkFailed,
-    /// Datagrams came faster than they were taken off the link.
-    LinkFull,
-    /// The next boot counter could not be persisted; the robot goes on with the one that it has.
-    EpochNotRenewed,
-    /// The log's reader was too slow; the log ended before this record.
-    LogFull,
-    /// A reader of records that need not have all was too slow.
-    OutputFull,
-}
+use crate::cause::{Cause, Layer};
 
-impl Cause {
-    /// The cause's name: layer and reason.
-    #[must_use]
-    pub fn name(self) -> String {
-        match self {
-            Self::Discarded(why) => format!("packet: {why}"),
-            Self::Rejected(why) => format!("security: {why}"),
-            Self::NoUse(service) => format!("no use for: {}", service.name()),
-            Self::Undecodable(why) => format!("undecodable: {why}"),
-            Self::Contradictory(why) => format!("contradictory: {why}"),
-            // Not which robot it was about; that is in the log.
-            Self::Ignored(Ignored::NotEngaged(..)) => "ignored: not engaged".to_owned(),
-            Self::Ignored(why) => format!("ignored: {why}"),
-            Self::WaitedTooLong => "waited too long".to_owned(),
-            Self::InboxFull => "inbox full".to_owned(),
-            Self::Unplaced => "perceived without a position".to_owned(),
-            Self::Simulated(how) => how.name().to_owned(),
-            Self::NotSent => "not sent".to_owned(),
-            Self::LinkFailed => "link failed".to_owned(),
-            Self::LinkFull => "link full".to_owned(),
-            Self::EpochNotRenewed => "boot counter not renewed".to_owned(),
-            Self::LogFull => "log full".to_owned(),
-            Self::OutputFull => "output full".to_owned(),
-        }
-    }
-}
-
-/// How a datagram was lost on purpose.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
-pub enum Loss {
-    /// By itself.
-    Random,
-    /// In a burst.
-    Burst,
-    /// In an outage.
-    Outage,
-    /// Too many datagrams were under way already.
-    Overflow,
-}
-
-impl Loss {
-    /// The cause that it is counted under.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Random => "simulated loss",
-            Self::Burst => "simulated burst loss",
-            Self::Outage => "simulated outage",
-            Self::Overflow => "simulated overflow",
-        }
-    }
-}
-
-impl From<Discarded> for Cause {
-    fn from(discarded: Discarded) -> Self {
-        match discarded {
-            Discarded::Envelope(_) | Discarded::WrongPermission { .. } => {
-                Self::Rejected(discarded.cause())
-            }
-            _ => Self::Discarded(discarded.cause()),
-        }
-    }
-}
-
-impl From<&DecodeError> for Cause {
-    fn from(error: &DecodeError) -> Self {
-        Self::Undecodable(error.cause())
-    }
-}
-
-impl From<&ViewError> for Cause {
-    fn from(error: &ViewError) -> Self {
-        Self::Contradictory(error.cause())
-    }
-}
-
-/// How often each cause occurred, by its name.
-#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
-pub struct Counters(BTreeMap<String, u64>);
+/// How often each cause occurred.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Counters(BTreeMap<Cause, u64>);
 
 impl Counters {
     /// Counts one occurrence.
     pub fn count(&mut self, cause: Cause) {
-        *self.0.entry(cause.name()).or_default() += 1;
+        *self.0.entry(cause).or_default() += 1;
     }
 
     /// How often `cause` occurred.
     #[must_use]
     pub fn of(&self, cause: Cause) -> u64 {
-        self.0.get(&cause.name()).copied().unwrap_or_default()
+        self.0.get(&cause).copied().unwrap_or_default()
     }
 
-    /// The names of the causes that occurred, with how often.
+    /// The causes that occurred, each with how often.
+    pub fn iter(&self) -> impl Iterator<Item = (Cause, u64)> {
+        self.0.iter().map(|(cause, count)| (*cause, *count))
+    }
+
+    /// The same by name, for records.
     #[must_use]
-    pub const fn by_name(&self) -> &BTreeMap<String, u64> {
-        &self.0
+    pub fn named(&self) -> Counts {
+        let mut counts = Counts::default();
+        for (cause, count) in self.iter() {
+            counts.add(&cause.into(), count);
+        }
+        counts
+    }
+}
+
+/// A cause by name, as records have it.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+pub struct CauseName {
+    /// Where it was dropped or ignored.
+    pub layer: Layer,
+    /// Why.
+    #[serde(rename = "cause")]
+    pub reason: Cow<'static, str>,
+}
+
+impl From<Cause> for CauseName {
+    fn from(cause: Cause) -> Self {
+        let reason = match cause {
+            Cause::Discarded(why)
+            | Cause::Rejected(why)
+            | Cause::Undecodable(why)
+            | Cause::Contradictory(why) => Cow::Borrowed(why),
+            _ => Cow::Owned(cause.reason().to_string()),
+        };
+        let layer = cause.layer();
+        Self { layer, reason }
+    }
+}
+
+impl Display for CauseName {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.layer, self.reason)
+    }
+}
+
+/// How often each cause occurred, by layer and reason: `{"packet": {"duplicate": 3}}`.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Counts(BTreeMap<Layer, BTreeMap<Cow<'static, str>, u64>>);
+
+impl Counts {
+    /// Adds `count` occurrences; how many there are then.
+    pub fn add(&mut self, cause: &CauseName, count: u64) -> u64 {
+        let counted = self.0.entry(cause.layer).or_default();
+        let counted = match counted.get_mut(&cause.reason) {
+            Some(counted) => counted,
+            None => counted.entry(cause.reason.clone()).or_default(),
+        };
+        *counted += count;
+        *counted
+    }
+
+    /// Says how often `cause` occurred in all.
+    pub fn set(&mut self, cause: &CauseName, count: u64) {
+        let counted = self.0.entry(cause.layer).or_default();
+        counted.insert(cause.reason.clone(), count);
+    }
+
+    /// How often `cause` occurred.
+    #[must_use]
+    pub fn of(&self, cause: &CauseName) -> u64 {
+        let counted = self.0.get(&cause.layer);
+        let counted = counted.and_then(|counted| counted.get(&cause.reason));
+        counted.copied().unwrap_or_default()
+    }
+
+    /// The causes that occurred, by layer and reason, each with how often.
+    pub fn iter(&self) -> impl Iterator<Item = (CauseName, u64)> {
+        self.0.iter().flat_map(|(&layer, counted)| {
+            counted.iter().map(move |(reason, &count)| {
+                let reason = reason.clone();
+                (CauseName { layer, reason }, count)
+            })
+        })
+    }
+
+    /// How often something was dropped or ignored for any cause in these layers.
+    #[must_use]
+    pub fn total(&self, is_counted: impl Fn(Layer) -> bool) -> u64 {
+        let counted = self.0.iter().filter(|(layer, _)| is_counted(**layer));
+        counted.flat_map(|(_, counted)| counted.values()).sum()
+    }
+
+    /// Whether nothing was dropped or ignored.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_protocol::Ignored;
+
+    use super::*;
+
+    #[test]
+    fn counters_are_read_back_as_they_were_written() {
+        let mut counters = Counters::default();
+        counters.count(Cause::Discarded("duplicate"));
+        counters.count(Cause::Discarded("duplicate"));
+        counters.count(Ignored::NothingNew.into());
+        let counts = counters.named();
+        let json = serde_json::to_string(&counts).unwrap();
+        assert_eq!(
+            json,
+            r#"{"packet":{"duplicate":2},"protocol":{"nothing new":1}}"#
+        );
+        assert_eq!(serde_json::from_str::<Counts>(&json).unwrap(), counts);
+        assert_eq!(counts.total(|_| true), 3);
+        assert_eq!(counts.of(&Cause::Discarded("duplicate").into()), 2);
     }
 }

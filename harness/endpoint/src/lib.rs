@@ -4,28 +4,36 @@
 //! a loop of its own embeds this crate; `crossguard-robot` is such a loop.
 //!
 //! ```text
-//!   packet ──► station ──► wire ──► inputs ─┐                  ┌─► act (start, stop, corridor, notice)
-//!   event ──────────────────────────────────┼─► Robot::step ───┤
-//!   time ───────────────────────────────────┘                  └─► ras ──► wire ──► station ──► packet
+//!   packet ──► stack ──► message ──► inputs ─┐                  ┌─► act (start, stop, corridor, notice)
+//!   event ───────────────────────────────────┼─► Robot::step ───┤
+//!   time ────────────────────────────────────┘                  └─► message ──► stack ──► packet
 //! ```
 //!
-//! - [`Endpoint`] joins them.
-//! - [`station`] is what makes it an ITS station: messages in `GeoNetworking` packets, security, and a map of
-//!   the stations around.
-//! - [`wire`] encodes and decodes the messages of robots.
+//! - [`exchange`] is that picture, without heap and standard library. The C library is a skin on it.
+//! - [`Endpoint`] adds what needs a heap: a map of the stations around, clusters of people, security.
 //! - [`ras`] has the rules of the Robot Awareness Service: when a RAM is sent and why, and clusters of the
 //!   people around a robot.
-//! - [`counters`] names the cause of every drop.
+//! - [`station`] has the map, pseudonyms, and what a listener makes of packets.
+//! - [`cause`] names why something is dropped, [`counters`] counts it.
+//!
+//! Without the feature `std` there are [`exchange`], [`cause`] and the generation rules.
+#![cfg_attr(not(any(feature = "std", test)), no_std)]
 
+pub mod cause;
+#[cfg(feature = "std")]
 pub mod counters;
+#[cfg(feature = "std")]
 mod endpoint;
+pub mod exchange;
 pub mod ras;
+#[cfg(feature = "std")]
 pub mod station;
-pub mod wire;
 
-pub use endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+#[cfg(feature = "std")]
+pub use endpoint::{Act, Effect, Endpoint, Stimulus};
+pub use exchange::Moment;
 
 /// The Rust in the README compiles.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "std"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

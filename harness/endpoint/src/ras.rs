@@ -18,11 +18,17 @@
 //! - [`vru`] is the station of a road user: when it sends a VAM, when it leaves that to a robot, and
 //!   when it takes it up again. [`vam`] makes the message.
 
+#[cfg(feature = "std")]
 pub mod area;
+#[cfg(feature = "std")]
 pub mod clustering;
+#[cfg(feature = "std")]
 pub mod containers;
 pub mod generation;
 pub mod motion;
+#[cfg(feature = "std")]
 pub mod surroundings;
+#[cfg(feature = "std")]
 pub mod vam;
+#[cfg(feature = "std")]
 pub mod vru;

@@ -7,5 +7,5 @@ use libfuzzer_sys::fuzz_target;
 fuzz_target!(|octets: &[u8]| {
     let _ = SignedMessage::decode(octets);
     let _ = Certificate::decode(octets);
-    let _ = crossguard_endpoint::station::peek(octets);
+    let _ = crossguard_endpoint::station::listen::peek(octets);
 });

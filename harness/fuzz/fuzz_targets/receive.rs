@@ -2,15 +2,14 @@
 //! for help. The ordinary tests do the same with a bounded number of packets.
 #![no_main]
 
-use crossguard_codec::RobotState;
+use crossguard_codec::{RobotState, Identifiers};
 use crossguard_endpoint::{Endpoint, Moment, Stimulus};
-use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{Config, Event, HelpRequest, Place, Robot, StationId, TaskSet, Urgency};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|octets: &[u8]| {
     let robot = Robot::new(StationId(1), 1);
-    let mut endpoint = Endpoint::new(robot, Config::default(), Wire::default(), 0);
+    let mut endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
     let state = RobotState::default();
     let mut now_ms = 200;
     let mut handle = |stimulus: Stimulus<'_>| {

@@ -6,13 +6,14 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-use crossguard_codec::Identifiers;
+use crossguard_codec::{Heard, Identifiers, Service};
+use crossguard_endpoint::cause::Layer;
 use crossguard_protocol::{
     Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Outputs, Ram, Rmcm, State,
     StationId,
 };
 
-use crossguard_endpoint::wire::{Heard, MessageKind, overhear};
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_robot::trace::{Entry, Record};
 
 /// Where the first column begins, and how far apart columns are, of two robots and of more.
@@ -224,7 +225,7 @@ impl Chart {
                 notes.into_iter().map(note).collect()
             }
             Entry::Heard { octets, .. } => self.arrow(lane, octets, false),
-            Entry::Dropped { cause, octets, .. } if cause.starts_with("simulated ") => {
+            Entry::Dropped { cause, octets, .. } if cause.layer == Layer::Simulated => {
                 self.arrow(lane, octets, true)
             }
             Entry::Dropped { cause, detail, .. } => {
@@ -310,7 +311,7 @@ impl Chart {
 
     /// A message from column to column, unless it repeats what was drawn.
     fn message(&mut self, from: usize, to: usize, heard: &Heard, is_lost: bool) -> Option<Mark> {
-        if heard.service == MessageKind::Ram && !self.is_news(from, to, heard, is_lost) {
+        if heard.service == Service::Ram && !self.is_news(from, to, heard, is_lost) {
             return None;
         }
         let text: Vec<_> = heard.inputs.iter().map(text_of).collect();

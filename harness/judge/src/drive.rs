@@ -13,7 +13,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use crossguard_codec::{Position, RobotState};
+use crossguard_codec::{Identifiers, Position, RobotState};
 use crossguard_model_check::model::{Action, Delivery, Model, State};
 use crossguard_model_check::network::{Message, Transmission, concerns};
 use crossguard_model_check::replay::{Followed, Replay};
@@ -22,7 +22,7 @@ use crossguard_protocol::{
     UniqueNumber,
 };
 
-use crossguard_endpoint::wire::{Wire, overhear};
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 
 /// All robots of the model are equally far apart; here all are at one place.
@@ -265,7 +265,7 @@ impl<'a> Street<'a> {
 
     fn transmit(&mut self, from: usize, octets: &[u8], packet: &[u8]) -> Result<(), Disagreement> {
         self.datagrams += 1;
-        let heard = overhear(&Wire::default().identifiers, octets).map_err(|unheard| {
+        let heard = overhear(&Identifiers::default(), octets).map_err(|unheard| {
             let (station, detail) = (self.robots[from].station, unheard.to_string());
             Disagreement::Dropped { station, detail }
         })?;
@@ -383,7 +383,7 @@ impl Driver {
         self.boot += 1;
         let robot = Robot::new(self.station, self.boot);
         let config = model.scenario().config.clone();
-        self.endpoint = Some(Endpoint::new(robot, config, Wire::default(), 0));
+        self.endpoint = Some(Endpoint::new(robot, config, Identifiers::default(), 0));
     }
 }
 

@@ -14,12 +14,13 @@ mod view;
 pub use area::Area;
 pub use view::{FollowerView, View};
 
-use std::collections::BTreeMap;
-
 use area::Areas;
-use crossguard_codec::{ConfidenceEllipse, Dimensions, Identifiers, RobotCategory, RobotState};
-use crossguard_endpoint::counters::Cause;
-use crossguard_endpoint::wire::{Heard, overhear};
+use crossguard_codec::{
+    ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotCategory, RobotState,
+};
+use crossguard_endpoint::cause::{Cause, Layer};
+use crossguard_endpoint::counters::{CauseName, Counts};
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 use crossguard_robot::trace::{Entry, Record};
 
@@ -70,7 +71,7 @@ pub enum Fact {
     /// One more was dropped or ignored.
     Counted {
         /// The cause that it is counted under.
-        cause: String,
+        cause: CauseName,
         /// How often by now.
         count: u64,
     },
@@ -151,7 +152,7 @@ struct Observed {
     view: Option<View>,
     /// Until when its sign shows go, if it does.
     go_until_us: Option<u64>,
-    counters: BTreeMap<String, u64>,
+    counters: Counts,
 }
 
 /// Works out facts from records, as they come.
@@ -245,7 +246,7 @@ impl Observer {
             } => {
                 let observed = &mut self.robots[robot];
                 observed.identifiers = *identifiers;
-                observed.counters.clear();
+                observed.counters = Counts::default();
                 let mut facts = vec![Fact::Started {
                     station: *station,
                     boot: *boot,
@@ -276,8 +277,8 @@ impl Observer {
                 .into_iter()
                 .collect(),
             Entry::Dropped { cause, octets, .. } => {
-                let lost = if cause.starts_with("simulated ") {
-                    self.message(robot, Direction::Lost, cause.clone(), octets)
+                let lost = if cause.layer == Layer::Simulated {
+                    self.message(robot, Direction::Lost, cause.to_string(), octets)
                 } else {
                     None
                 };
@@ -290,14 +291,10 @@ impl Observer {
             }
             Entry::Stopped { counters } => {
                 let observed = &mut self.robots[robot];
-                let silent = counters.iter().filter(|(cause, count)| {
-                    observed.counters.get(*cause).copied().unwrap_or(0) != **count
-                });
+                let silent = counters.iter();
+                let silent = silent.filter(|(cause, count)| observed.counters.of(cause) != *count);
                 let mut facts: Vec<_> = silent
-                    .map(|(cause, &count)| Fact::Counted {
-                        cause: cause.clone(),
-                        count,
-                    })
+                    .map(|(cause, count)| Fact::Counted { cause, count })
                     .collect();
                 observed.counters.clone_from(counters);
                 facts.push(Fact::Stopped);
@@ -322,7 +319,7 @@ impl Observer {
             });
         }
         if let Some(reason) = outputs.ignored() {
-            facts.push(self.count(robot, Cause::Ignored(reason).name()));
+            facts.push(self.count(robot, Cause::from(reason).into()));
         }
         facts.extend(self.sign(robot, at_us, outputs));
         facts.extend(self.view(robot, state));
@@ -380,18 +377,13 @@ impl Observer {
             from: heard.from,
             text: texts.join("; "),
             why,
-            octets: crossguard_endpoint::station::message_of(octets).to_vec(),
+            octets: crossguard_endpoint::station::listen::message_of(octets).to_vec(),
         };
         Some((heard, message))
     }
 
-    fn count(&mut self, robot: usize, cause: String) -> Fact {
-        let count = self.robots[robot]
-            .counters
-            .entry(cause.clone())
-            .or_default();
-        *count += 1;
-        let count = *count;
+    fn count(&mut self, robot: usize, cause: CauseName) -> Fact {
+        let count = self.robots[robot].counters.add(&cause, 1);
         Fact::Counted { cause, count }
     }
 

@@ -22,6 +22,7 @@ mod schemas;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Seek, Write};
 
+use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::State as Stage;
 use crossguard_robot::site::Site;
 use crossguard_robot::trace::{LogError, Merged, Record};
@@ -81,7 +82,7 @@ struct Shown {
     topic: String,
     view: Option<View>,
     areas: Vec<Area>,
-    counters: BTreeMap<String, u64>,
+    counters: BTreeMap<CauseName, u64>,
 }
 
 impl<W: Write + Seek> Recording<W> {
@@ -192,7 +193,8 @@ impl<W: Write + Seek> Recording<W> {
     fn counters(&mut self, at_us: u64, robot: usize) -> Result<(), McapError> {
         let shown = &self.robots[robot];
         let counters = shown.counters.iter().map(|(cause, &count)| Counter {
-            cause: cause.clone(),
+            layer: cause.layer.name().to_owned(),
+            cause: cause.reason.to_string(),
             count,
         });
         let message = schemas::Counters {

@@ -6,9 +6,10 @@ use crossguard_codec::geonet::{BasicHeader, LongPositionVector};
 use crossguard_codec::geonet::{Headers, NextHeader, Transport};
 use crossguard_codec::its::{Event, Identity, ItsMessage, Kind, RoadUser};
 use crossguard_codec::{Identifiers, Service};
-use crossguard_endpoint::counters::{Cause, Counters};
-use crossguard_endpoint::station::{LocalDynamicMap, Unobserved, peek, service_of};
-use crossguard_endpoint::wire::overhear;
+use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::counters::Counters;
+use crossguard_endpoint::station::LocalDynamicMap;
+use crossguard_endpoint::station::listen::{Unobserved, overhear, peek, service_of};
 use serde::Serialize;
 
 use crate::chart::text_of;

@@ -375,7 +375,7 @@ impl Street {
                 self.match_reception(robot, from, &octets).map(|()| None)
             }
             Entry::Dropped { cause, .. } => {
-                follow.dropped(cause);
+                follow.dropped(&cause);
                 Ok(None)
             }
             Entry::Stopped { counters } => {

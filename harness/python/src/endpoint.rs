@@ -1,11 +1,9 @@
 //! A whole robot, without input and output: the harness's endpoint and its log.
 
-use std::collections::BTreeMap;
-
 use crossguard_codec::si::timestamp_its;
-use crossguard_codec::{RobotState, TaskParameters};
+use crossguard_codec::{RobotState, Service, TaskParameters};
+use crossguard_endpoint::counters::CauseName;
 use crossguard_endpoint::ras::generation::Trigger;
-use crossguard_endpoint::wire::{MessageKind, Wire};
 use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
 use crossguard_protocol::{
     Config, CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, StationId,
@@ -25,7 +23,7 @@ use crate::settings::{config, identifiers};
 #[serde(rename_all = "camelCase")]
 enum Told<'a> {
     Send {
-        service: MessageKind,
+        service: Service,
         trigger: Trigger,
         #[serde(with = "hex::serde")]
         packet: &'a [u8],
@@ -44,13 +42,14 @@ enum Told<'a> {
     Notify(&'a Notice),
     Ignored(&'a Ignored),
     Heard {
-        service: MessageKind,
+        service: Service,
         station: StationId,
         #[serde(with = "hex::serde")]
         message: &'a [u8],
     },
     Dropped {
-        cause: String,
+        #[serde(flatten)]
+        cause: CauseName,
         detail: &'a str,
     },
 }
@@ -79,7 +78,7 @@ impl<'a> Told<'a> {
                 message: octets,
             },
             Effect::Dropped { cause, detail, .. } => Self::Dropped {
-                cause: cause.name(),
+                cause: (*cause).into(),
                 detail,
             },
             Effect::Act(act) => match act {
@@ -127,10 +126,9 @@ impl Endpoint {
         let identifiers = self::identifiers(identifiers)?;
         let station = StationId(station);
         let robot = crossguard_protocol::Robot::new(station, boot);
-        let wire = Wire { identifiers };
         let mut endpoint = Self {
             name,
-            inner: crossguard_endpoint::Endpoint::new(robot, config.clone(), wire, now_ms),
+            inner: crossguard_endpoint::Endpoint::new(robot, config.clone(), identifiers, now_ms),
             config,
             body: RobotState::default(),
             began_ms: now_ms,
@@ -193,7 +191,7 @@ impl Endpoint {
 
     fn stop(&mut self, now_ms: u64) -> PyResult<()> {
         self.advance(now_ms)?;
-        let counters = self.counters();
+        let counters = self.inner.counters().named();
         self.write(Entry::Stopped { counters })
     }
 
@@ -206,8 +204,8 @@ impl Endpoint {
         Robot::of(self.inner.robot(), &self.config)
     }
 
-    fn counters(&self) -> BTreeMap<String, u64> {
-        self.inner.counters().by_name().clone()
+    fn counters(&self) -> PyResult<String> {
+        to_json(&self.inner.counters().named())
     }
 
     #[getter]

@@ -1,8 +1,8 @@
 //! The shapes of the types that cross, which a test holds the package's classes against.
 
 use crossguard_codec as codec;
+use crossguard_codec::Service;
 use crossguard_endpoint::ras::generation::Trigger;
-use crossguard_endpoint::wire::MessageKind;
 use crossguard_protocol as protocol;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -75,6 +75,6 @@ fn trace() -> serde_reflection::Result<Registry> {
         codec::TaskParameters,
         codec::TaskProgression,
     );
-    trace!(MessageKind, Trigger);
+    trace!(Service, Trigger);
     tracer.registry()
 }

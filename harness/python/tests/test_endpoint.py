@@ -103,10 +103,10 @@ def test_what_comes_to_nothing_is_named_and_counted() -> None:
     go2 = robot(2)
     effects = go2.receive(b"nonsense", at(10))
     (dropped,) = [effect for effect in effects if isinstance(effect, outputs.Dropped)]
-    assert dropped.cause.startswith("packet: ")
-    assert go2.counters[dropped.cause] == 1
+    assert dropped.layer == "packet"
+    assert go2.counters["packet"][dropped.cause] == 1
     go2.tell(events.TaskCompleted(), at(20))
-    assert go2.counters["ignored: not leading"] == 1
+    assert go2.counters["protocol"]["not leading"] == 1
 
 
 def test_an_idle_robot_announces_itself() -> None:

@@ -10,7 +10,7 @@ use std::sync::mpsc::{Receiver as Queue, SyncSender, sync_channel};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::geonet::ethernet;
-use crossguard_endpoint::station::link_layer_of;
+use crossguard_endpoint::station::listen::link_layer_of;
 use pcap_file::PcapError;
 use pcap_file::pcap::{PcapPacket, PcapReader, PcapWriter};
 

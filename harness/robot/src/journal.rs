@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::cause::Cause;
 
 use crate::trace::Record;
 
@@ -149,7 +149,7 @@ impl Queue {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
+    use crossguard_endpoint::counters::Counts;
 
     use super::*;
     use crate::trace::Entry;
@@ -159,7 +159,7 @@ mod tests {
             at_us,
             robot: "R1".to_owned(),
             entry: Entry::Stopped {
-                counters: BTreeMap::new(),
+                counters: Counts::default(),
             },
         }
     }

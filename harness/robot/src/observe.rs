@@ -10,7 +10,8 @@
 
 use std::io::IsTerminal;
 
-use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::cause::{Cause, Layer};
+use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Input, Notice, Output, Outputs, State};
 use tracing::{debug, info, trace, warn};
 use tracing_appender::non_blocking::WorkerGuard;
@@ -84,14 +85,18 @@ pub fn entry(entry: &Entry, before: &mut State) {
             octets,
             ..
         } => debug!(message = message.name(), %from, octets = octets.len(), "heard"),
-        Entry::Dropped { cause, detail, .. } if cause.starts_with("simulated ") => {
-            debug!(cause, detail, "dropped");
+        Entry::Dropped { cause, detail, .. } => {
+            let CauseName { layer, reason } = cause;
+            if *layer == Layer::Simulated {
+                debug!(%layer, cause = %reason, detail, "dropped");
+            } else {
+                warn!(%layer, cause = %reason, detail, "dropped");
+            }
         }
-        Entry::Dropped { cause, detail, .. } => warn!(cause, detail, "dropped"),
         Entry::Stopped { counters } => {
             info!("stopped");
-            for (cause, count) in counters {
-                debug!(cause, count, "dropped or ignored");
+            for (CauseName { layer, reason }, count) in counters.iter() {
+                debug!(%layer, cause = %reason, count, "dropped or ignored");
             }
         }
     }
@@ -102,7 +107,7 @@ fn step(input: &Input, outputs: &Outputs) {
     for output in outputs.iter() {
         match output {
             Output::Ignored(reason) => {
-                debug!(cause = Cause::Ignored(*reason).name(), %input, "ignored");
+                debug!(cause = %Cause::from(*reason).reason(), %input, "ignored");
             }
             Output::StartManeuver(_)
             | Output::StopManeuver(..)

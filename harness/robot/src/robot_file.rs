@@ -8,7 +8,6 @@ use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::wire::Wire;
 use crossguard_protocol::{self as protocol, BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
@@ -221,14 +220,6 @@ impl RobotFile {
         }
     }
 
-    /// What makes and reads its messages.
-    #[must_use]
-    pub const fn wire(&self) -> Wire {
-        Wire {
-            identifiers: self.identifiers,
-        }
-    }
-
     /// The robot with this boot counter and body, on a clock that begins now.
     #[must_use]
     pub fn setup(
@@ -245,7 +236,7 @@ impl RobotFile {
             station: self.station,
             boot,
             config: self.config.clone(),
-            wire: self.wire(),
+            identifiers: self.identifiers,
             security,
             awareness: self.awareness,
             application: Application::new(body, plan).on(self.road()),

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! 1. The loop waits for the inbox, at most until the machine or the body has something to do.
-//! 2. What came in is handed to the [`Machine`], and then that time has passed.
+//! 2. What came in is handed to the [`Machine`] with the time, in one turn; if nothing did, the time alone.
 //! 3. Effects are carried out in order: what is sent is put into the [`Journal`] first, so that no
 //!    receiver logs it before its sender.
 //!
@@ -27,12 +27,12 @@ use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, SyncSender, sync_chan
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
+use crossguard_codec::Identifiers;
 use crossguard_codec::si::timestamp_its;
-use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
@@ -146,8 +146,8 @@ pub struct Setup {
     pub boot: Boot,
     /// Its configuration.
     pub config: Config,
-    /// Encodes and decodes.
-    pub wire: Wire,
+    /// What no standard has assigned.
+    pub identifiers: Identifiers,
     /// Whether it signs and verifies.
     pub security: Security,
     /// How it announces the people around it.
@@ -190,7 +190,7 @@ impl Setup {
         let mut turn = Loop {
             began_us,
             machine: Machine::new(
-                Endpoint::new(robot, self.config, self.wire, now_ms)
+                Endpoint::new(robot, self.config, self.identifiers, now_ms)
                     .with_security(self.security)
                     .with_awareness(self.awareness),
                 self.application,
@@ -282,7 +282,7 @@ impl Loop {
                 station: self.machine.endpoint().robot().station(),
                 boot: self.machine.endpoint().robot().boot(),
                 settings: Box::new(self.machine.endpoint().config().settings().clone()),
-                identifiers: self.machine.endpoint().wire().identifiers,
+                identifiers: *self.machine.endpoint().identifiers(),
                 unix_ms: unix_ms().saturating_sub(since_ms),
             },
         );
@@ -294,18 +294,17 @@ impl Loop {
                     self.waiting.datagrams.fetch_sub(1, Ordering::Relaxed);
                     self.take(delivery);
                 }
-                Err(RecvTimeoutError::Timeout) => {}
-                // Nobody is left who could tell it to stop.
+                Err(RecvTimeoutError::Timeout) => self.handle(Stimulus::Time),
+                // Nobody is left who could order it to stop.
                 Err(RecvTimeoutError::Disconnected) => self.begin_to_stop(),
             }
             if self.is_dead {
                 return;
             }
             self.renew_epoch();
-            self.handle(Stimulus::Time);
         }
         self.count_overflow();
-        let counters = self.machine.endpoint().counters().by_name().clone();
+        let counters = self.machine.endpoint().counters().named();
         let last = self.record(Entry::Stopped { counters });
         self.journal.put_last(last, LAST_RECORD_WAIT);
     }
@@ -321,17 +320,17 @@ impl Loop {
         Duration::from_micros(due_us.saturating_sub(now_us)).min(BODY_PERIOD)
     }
 
-    /// Takes in what comes from the reader.
+    /// Takes in what comes from the reader, in one turn.
     fn take(&mut self, delivery: Delivery) {
+        self.count_overflow();
         match delivery {
             Delivery::Arrived(Arrival::Datagram { octets, at, .. }) => {
-                self.handle(Stimulus::Datagram {
-                    packet: &octets,
-                    arrived_ms: self.clock.at_ms(at),
-                });
+                let arrived_ms = self.clock.at_ms(at);
+                let packet = &octets;
+                return self.handle(Stimulus::Datagram { packet, arrived_ms });
             }
             Delivery::Arrived(Arrival::Lost { how, octets }) => {
-                let detail = "by the fault layer".to_owned();
+                let detail = "by the fault injector".to_owned();
                 self.drop(Cause::Simulated(how), detail, octets);
             }
             Delivery::Arrived(Arrival::Overflow(datagrams)) => {
@@ -342,9 +341,9 @@ impl Loop {
             Delivery::LinkFailed(cause) => {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }
-            Delivery::Order(order) => self.obey(order),
+            Delivery::Order(order) => return self.obey(order),
         }
-        self.count_overflow();
+        self.handle(Stimulus::Time);
     }
 
     /// Counts what the reader had no place for.
@@ -354,35 +353,39 @@ impl Loop {
         }
     }
 
+    /// Carries out an order, in one turn.
     fn obey(&mut self, order: Order) {
-        match order {
-            Order::Wish(wish) => self.handle(stimulus_of(wish)),
-            Order::InPosition => {
-                if let Some(event) = self.machine.in_position() {
-                    self.handle(Stimulus::Event(event));
-                }
-            }
+        let seen;
+        let stimulus = match order {
+            Order::Wish(wish) => stimulus_of(wish),
+            Order::InPosition => event(self.machine.in_position()),
             Order::Clear => {
                 // Where nothing waits for it, the robot says so.
-                if !self.machine.application_mut().say_clear() {
-                    self.handle(Stimulus::Event(Event::RoadClear));
-                }
+                let is_awaited = self.machine.application_mut().say_clear();
+                event((!is_awaited).then_some(Event::RoadClear))
             }
-            Order::Finish { well } => {
-                if let Some(event) = self.machine.finish(well) {
-                    self.handle(Stimulus::Event(event));
-                }
-            }
+            Order::Finish { well } => event(self.machine.finish(well)),
             Order::Perceived(vru) => {
                 let place = self.machine.application().body().place();
                 self.machine.application_mut().perceive(&vru);
-                self.handle(Stimulus::Perceived(&[seen_from(place, vru)]));
+                seen = [seen_from(place, vru)];
+                Stimulus::Perceived(&seen)
             }
-            Order::Moved(pose) => self.machine.application_mut().moved(pose),
-            Order::Reset => self.machine.application_mut().reset(),
-            Order::Stop => self.begin_to_stop(),
-            Order::Die => self.is_dead = true,
-        }
+            Order::Moved(pose) => {
+                self.machine.application_mut().moved(pose);
+                Stimulus::Time
+            }
+            Order::Reset => {
+                self.machine.application_mut().reset();
+                Stimulus::Time
+            }
+            Order::Stop => return self.begin_to_stop(),
+            Order::Die => {
+                self.is_dead = true;
+                return;
+            }
+        };
+        self.handle(stimulus);
     }
 
     /// Tells the robot of a boot counter that has been persisted meanwhile.
@@ -402,9 +405,8 @@ impl Loop {
     fn begin_to_stop(&mut self) {
         if !self.stopping {
             self.stopping = true;
-            if !matches!(self.machine.endpoint().robot().phase(), Phase::Idle) {
-                self.handle(Stimulus::Event(Event::LeaveRequested));
-            }
+            let has_part = !matches!(self.machine.endpoint().robot().phase(), Phase::Idle);
+            self.handle(event(has_part.then_some(Event::LeaveRequested)));
         }
     }
 
@@ -446,7 +448,7 @@ impl Loop {
     fn drop(&mut self, cause: Cause, detail: String, octets: Vec<u8>) {
         self.machine.endpoint_mut().count(cause);
         self.log(Entry::Dropped {
-            cause: cause.name(),
+            cause: cause.into(),
             detail,
             octets,
         });
@@ -459,7 +461,7 @@ impl Loop {
 
     fn put(&mut self, record: Record) {
         for lost in self.journal.put(record) {
-            tracing::error!(cause = lost.name(), "dropped");
+            tracing::error!(layer = %lost.layer(), cause = %lost.reason(), "dropped");
             self.machine.endpoint_mut().count(lost);
         }
     }
@@ -476,4 +478,9 @@ impl Loop {
             entry,
         }
     }
+}
+
+/// An event if there is one, or else that time has passed.
+fn event(event: Option<Event>) -> Stimulus<'static> {
+    event.map_or(Stimulus::Time, Stimulus::Event)
 }

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use crossguard_endpoint::wire::MessageKind;
+use crossguard_codec::Service;
+use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
 
 use crate::trace::{Entry, Record};
@@ -17,11 +19,11 @@ pub struct Tally {
     /// Its state; `None` before it has booted.
     pub state: Option<Robot>,
     /// Messages by direction and kind.
-    pub messages: BTreeMap<(Way, MessageKind), u64>,
+    pub messages: BTreeMap<(Way, Service), u64>,
     /// Steps of the transition function.
     pub steps: u64,
     /// What was dropped or ignored, by cause.
-    pub causes: BTreeMap<String, u64>,
+    pub causes: Counts,
     /// When each station was heard last, in µs on the clock of the log.
     pub heard_us: BTreeMap<StationId, u64>,
     /// The newest record, likewise.
@@ -68,7 +70,7 @@ impl Tally {
             Entry::Step { outputs, state, .. } => {
                 self.steps += 1;
                 if let Some(reason) = outputs.ignored() {
-                    self.count(&crossguard_endpoint::counters::Cause::Ignored(reason).name());
+                    self.causes.add(&Cause::from(reason).into(), 1);
                 }
                 self.state = Some((**state).clone());
                 self.sign(outputs);
@@ -80,7 +82,9 @@ impl Tally {
                     self.heard_us.insert(*from, record.at_us);
                 }
             }
-            Entry::Dropped { cause, .. } => self.count(cause),
+            Entry::Dropped { cause, .. } => {
+                self.causes.add(cause, 1);
+            }
             Entry::Stopped { counters } => {
                 self.causes.clone_from(counters);
                 self.has_stopped = true;
@@ -101,17 +105,8 @@ impl Tally {
         }
     }
 
-    fn message(&mut self, way: Way, kind: MessageKind) {
+    fn message(&mut self, way: Way, kind: Service) {
         *self.messages.entry((way, kind)).or_default() += 1;
-    }
-
-    fn count(&mut self, cause: &str) {
-        match self.causes.get_mut(cause) {
-            Some(count) => *count += 1,
-            None => {
-                self.causes.insert(cause.to_owned(), 1);
-            }
-        }
     }
 
     /// How many messages went which way.
@@ -197,10 +192,10 @@ impl Tally {
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());
         }
-        let nothing: u64 = self.causes.values().sum();
+        let without_effect = self.causes.total(|_| true);
         let _ = write!(
             line,
-            "; sent {}, heard {} of {} stations, {nothing} dropped or ignored",
+            "; sent {}, heard {} of {} stations, {without_effect} dropped or ignored",
             self.messages(Way::Sent),
             self.messages(Way::Heard),
             self.heard_us.len(),

@@ -8,16 +8,15 @@ mod reader;
 
 pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Unreadable};
 
-use std::collections::BTreeMap;
 use std::io::Write;
 
-use crossguard_codec::Identifiers;
+use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::{Input, Outputs, Robot, Settings, StationId};
 use serde::{Deserialize, Serialize};
 
 use crossguard_endpoint::Effect;
+use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::ras::generation::Trigger;
-use crossguard_endpoint::wire::MessageKind;
 
 /// One line of a log.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -66,7 +65,7 @@ pub enum Entry {
     /// A message went out.
     Sent {
         /// Which message.
-        message: MessageKind,
+        message: Service,
         /// Why.
         trigger: Trigger,
         /// The message.
@@ -76,7 +75,7 @@ pub enum Entry {
     /// A message came in and was understood.
     Heard {
         /// Which message.
-        message: MessageKind,
+        message: Service,
         /// Who sent it.
         from: StationId,
         /// When; `None` in the log of a robot that does not say.
@@ -88,8 +87,9 @@ pub enum Entry {
     },
     /// Something was dropped.
     Dropped {
-        /// The cause that it is counted under.
-        cause: String,
+        /// The layer and cause that it is counted under.
+        #[serde(flatten)]
+        cause: CauseName,
         /// What exactly.
         detail: String,
         /// The datagram, if there was one.
@@ -99,7 +99,7 @@ pub enum Entry {
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.
-        counters: BTreeMap<String, u64>,
+        counters: Counts,
     },
 }
 
@@ -165,7 +165,7 @@ pub fn recorded(effect: Effect) -> Option<Entry> {
             detail,
             octets,
         } => Entry::Dropped {
-            cause: cause.name(),
+            cause: cause.into(),
             detail,
             octets,
         },

@@ -32,7 +32,7 @@ use std::io::ErrorKind;
 use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
-use crossguard_endpoint::counters::Loss;
+use crossguard_endpoint::cause::Loss;
 
 /// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
 const DATAGRAM_MAX: usize = 2_048;

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use crossguard_endpoint::cause::Layer;
 use crossguard_protocol::{
     self as protocol, Availability, CorridorClosure, Duty, Leading, ManeuverId, Member, Notice,
     Output, Phase, Progress, Robot, Role, SessionId, State, StationId, TaskType, Unavailability,
@@ -191,8 +192,7 @@ impl Reporter {
     /// What was dropped or ignored, by cause, with what else says how the robot is.
     pub(crate) fn diagnostic(&mut self, name: String, is_fresh: bool) -> DiagnosticStatus {
         let causes = &self.tally.causes;
-        let is_drop = |(cause, _): &(&String, &u64)| !cause.starts_with("ignored: ");
-        let dropped = causes.iter().filter(is_drop).map(|(_, count)| count).sum();
+        let dropped = causes.total(|layer| layer != Layer::Protocol);
         let news = dropped - self.dropped_before.min(dropped);
         self.dropped_before = dropped;
         let (level, message) = match (is_fresh, news) {
@@ -205,7 +205,9 @@ impl Reporter {
         };
         let sent = ("messages sent".to_owned(), self.tally.messages(Way::Sent));
         let heard = ("messages heard".to_owned(), self.tally.messages(Way::Heard));
-        let causes = causes.iter().map(|(cause, count)| (cause.clone(), *count));
+        let causes = causes
+            .iter()
+            .map(|(cause, count)| (cause.to_string(), count));
         DiagnosticStatus {
             level,
             name,

@@ -9,7 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crossguard_codec::security::Unsigned;
-use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::station::{Mode, Security};
 use crossguard_robot::body::Body;
 use crossguard_robot::boot::{self, BootError};

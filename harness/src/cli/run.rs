@@ -21,9 +21,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_endpoint::counters::Cause;
+use crossguard_codec::Service;
+use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
-use crossguard_endpoint::wire::{MessageKind, overhear};
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_protocol::{Input, Output, Robot, State};
 use crossguard_robot::boot;
@@ -271,8 +272,7 @@ impl Console<'_> {
         match &record.entry {
             Entry::Step { state, .. } => self.robot = (**state).clone(),
             Entry::Stopped { counters } => {
-                let missing = counters.get(&Cause::LogFull.name());
-                self.missing = missing.copied().unwrap_or(0);
+                self.missing = counters.of(&Cause::LogFull.into());
             }
             _ => {}
         }
@@ -307,13 +307,13 @@ impl Console<'_> {
                     texts.push(format!("now {:?} ({})", state.state(), state.role()));
                 }
             }
-            Entry::Dropped { cause, detail, .. } if !cause.starts_with("simulated ") => {
+            Entry::Dropped { cause, detail, .. } if cause.layer != Layer::Simulated => {
                 texts.push(format!("dropped, {cause}: {detail}"));
             }
             Entry::Stopped { counters } => {
                 texts.push("stopped".to_owned());
-                let came_to_nothing = counters.iter().map(|(cause, n)| format!("{cause}: {n}"));
-                texts.extend(came_to_nothing);
+                let counted = counters.iter();
+                texts.extend(counted.map(|(cause, count)| format!("{count} of {cause}")));
             }
             _ => {}
         }
@@ -323,7 +323,7 @@ impl Console<'_> {
     /// What is new among the people that a RAM announces.
     fn announced(&mut self, record: &Record) -> Option<String> {
         let Entry::Sent {
-            message: MessageKind::Ram,
+            message: Service::Ram,
             octets,
             ..
         } = &record.entry

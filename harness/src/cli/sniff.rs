@@ -180,7 +180,7 @@ impl Watch {
                 sniffer::place(user)
             ))?;
         }
-        for (cause, count) in self.sniffer.counters().by_name() {
+        for (cause, count) in self.sniffer.counters().iter() {
             print(format_args!("not read, {cause}: {count}"))?;
         }
         Ok(())

@@ -6,7 +6,7 @@ use std::sync::mpsc::sync_channel;
 use std::time::Duration;
 
 use clap::ValueEnum;
-use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::cause::Cause;
 use crossguard_harness::metrics::{self, Shared};
 use crossguard_robot::runtime::Running;
 use crossguard_robot::trace::Record;
@@ -124,9 +124,9 @@ impl Watch {
     pub(super) fn look(&self, running: &Running) {
         let inbox_full = running.inbox_full();
         if inbox_full > 0 {
-            let cause = Cause::InboxFull.name();
+            let cause = Cause::InboxFull.into();
             self.tally
-                .with(|tally| tally.causes.insert(cause, inbox_full));
+                .with(|tally| tally.causes.set(&cause, inbox_full));
         }
     }
 

@@ -5,9 +5,9 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 
-use crossguard_codec::{RobotState, TaskParameters};
-use crossguard_endpoint::counters::Cause;
-use crossguard_endpoint::wire::{MessageKind, Wire, overhear};
+use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
+use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_judge::validate::{self, Validated};
 use crossguard_model_check::paper::{Happening, Link, Message, Step, Story};
@@ -70,7 +70,7 @@ impl Street {
 
     fn boot(&mut self, station: u32, name: &str) {
         let robot = Robot::new(StationId(station), 1);
-        let endpoint = Endpoint::new(robot, self.config.clone(), Wire::default(), 0);
+        let endpoint = Endpoint::new(robot, self.config.clone(), Identifiers::default(), 0);
         self.actors.insert(
             station,
             Actor {
@@ -91,7 +91,7 @@ impl Street {
                 station: StationId(station),
                 boot: 1,
                 settings,
-                identifiers: Wire::default().identifiers,
+                identifiers: Identifiers::default(),
                 unix_ms: 0,
             },
         );
@@ -234,7 +234,7 @@ impl Street {
         &mut self,
         station: u32,
         stimulus: Stimulus<'_>,
-        on_air: &mut VecDeque<(u32, MessageKind, Vec<u8>)>,
+        on_air: &mut VecDeque<(u32, Service, Vec<u8>)>,
     ) {
         let moment = Moment {
             now_ms: self.now_ms,
@@ -250,7 +250,7 @@ impl Street {
             }
             match effect {
                 Effect::Transmit { kind, packet, .. } => {
-                    if kind == MessageKind::Ram {
+                    if kind == Service::Ram {
                         self.actor(station).newest_ram.clone_from(&packet);
                     }
                     on_air.push_back((station, kind, packet));
@@ -263,11 +263,11 @@ impl Street {
     }
 
     /// Whether the radio carries a message; what it holds back is kept.
-    fn passes(&mut self, link: Link, kind: MessageKind, octets: &[u8]) -> bool {
-        if kind == MessageKind::Ram {
+    fn passes(&mut self, link: Link, kind: Service, octets: &[u8]) -> bool {
+        if kind == Service::Ram {
             return !self.silent.contains(&link);
         }
-        let heard = overhear(&Wire::default().identifiers, octets).unwrap();
+        let heard = overhear(&Identifiers::default(), octets).unwrap();
         let is_command = matches!(
             heard.inputs.iter().next(),
             Some(Input::Rmcm(Rmcm::Command(_)))

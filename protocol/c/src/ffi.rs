@@ -19,8 +19,8 @@ use crate::abi::{
     CrossguardView,
 };
 use crate::body::NOBODY;
-use crate::cause::Text;
 use crate::config::Refused;
+use crate::counters::Text;
 use crate::live::{Live, Turn, copy_text};
 use crate::output::OPEN;
 use crate::trace::Lines;

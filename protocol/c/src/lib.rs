@@ -52,9 +52,9 @@ extern crate std;
 
 mod abi;
 mod body;
-mod cause;
 mod codes;
 mod config;
+mod counters;
 mod ffi;
 mod live;
 mod output;

@@ -1,37 +1,29 @@
-//! A robot: the transition function, its packets and what is counted, without input and output.
-//!
-//! ```text
-//!  packet ──► stack ──► message ──► inputs ─┐                   ┌─► packets: RAM and RMCM, ready to send
-//!  event ───────────────────────────────────┼─► Robot::step ────┼─► outputs, in order
-//!  elapsed time ────────────────────────────┘                   └─► log lines
-//! ```
+//! A robot: the exchange of the endpoint crate with the caller's memory around it.
 
 use core::ffi::c_char;
 use core::fmt::Display;
 
-use crossguard_codec::geonet::{Address, EgoPosition, Envelope, PACKET_LEN_MAX, Stack};
-use crossguard_codec::si::generation_delta_time;
-use crossguard_codec::{
-    ExecutionStatus, Heard, Identifiers, RAM_LEN_MAX, RMCM_LEN_MAX, RobotState, Service,
-    TaskParameters, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
-};
+use crossguard_codec::geonet::{Indication, PACKET_LEN_MAX};
+use crossguard_codec::{Heard, RAM_LEN_MAX, RMCM_LEN_MAX, RobotState, Service, TaskParameters};
+use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::exchange::{Arrived, Exchange, Host, Moment, Outgoing};
 use crossguard_protocol::{
-    Config, Event, Input, MAX_FOLLOWERS, MAX_OUTPUTS, Millis, Output, Outputs, Phase, Rmcm, Robot,
-    StationId,
+    Event, Input, MAX_FOLLOWERS, MAX_OUTPUTS, Output, Outputs, Robot, StationId,
 };
 
 use crate::abi::{
-    CROSSGUARD_FOLLOWERS_MAX, CROSSGUARD_NONE_MS, CROSSGUARD_OUTPUTS_MAX, CROSSGUARD_PACKETS_LEN,
-    CrossguardHeard, CrossguardMessage, CrossguardOutput, CrossguardOutputKind, CrossguardTurn,
+    CROSSGUARD_CAUSE_LEN, CROSSGUARD_FOLLOWERS_MAX, CROSSGUARD_NONE_MS, CROSSGUARD_OUTPUTS_MAX,
+    CROSSGUARD_PACKETS_LEN, CrossguardHeard, CrossguardMessage, CrossguardOutput,
+    CrossguardOutputKind, CrossguardTurn,
 };
-use crate::cause::{Cause, Counters, Text};
 use crate::config::{Checked, Name};
+use crate::counters::{Counters, Text};
 use crate::trace::{Entry, Lines};
 
-/// Milliseconds between two low-frequency containers of a RAM.
-const LOW_FREQUENCY_MS: u64 = 500;
 /// Headers of a single-hop broadcast with BTP-B, in octets.
 const HEADERS_LEN: usize = 44;
+/// What the clock of a robot shows when it boots: a packet may have waited for longer than the robot runs.
+const BOOT_MS: u64 = CROSSGUARD_NONE_MS as u64;
 
 // A message of several commands is one step for each of them, and one of them at most is for this robot:
 // the others are ignored with one output.
@@ -52,34 +44,10 @@ pub(crate) struct Turn<'a> {
     pub(crate) state: RobotState,
 }
 
-impl Turn<'_> {
-    fn ego(&self) -> EgoPosition {
-        EgoPosition::of(&self.state, self.plain.timestamp_its)
-    }
-
-    fn push(&mut self, output: CrossguardOutput) {
-        let length = self.plain.outputs_length as usize;
-        // There is always room, see above.
-        if let Some(slot) = self.plain.outputs.get_mut(length) {
-            *slot = output;
-            self.plain.outputs_length += 1;
-        }
-    }
-}
-
 /// One robot.
 pub(crate) struct Live {
-    robot: Robot,
-    config: Config,
-    identifiers: Identifiers,
+    exchange: Exchange,
     name: Name,
-    stack: Stack,
-    /// Parameters of each follower's newest command, for its repetition.
-    orders: [Option<(StationId, TaskParameters)>; MAX_FOLLOWERS],
-    /// For how long the robot has been running, by what it was told.
-    told_ms: u64,
-    /// When the last low-frequency container went out.
-    low_frequency_ms: Option<u64>,
     counters: Counters,
 }
 
@@ -90,356 +58,198 @@ impl Live {
             identifiers,
             name,
         } = checked;
-        let address = Address::of_station(station, identifiers.robot_station_type);
+        let robot = Robot::new(StationId(station), boot);
         Self {
-            robot: Robot::new(StationId(station), boot),
-            config,
-            identifiers,
+            exchange: Exchange::new(robot, config, identifiers, BOOT_MS),
             name,
-            stack: Stack::new(identifiers, address, Envelope::Off),
-            orders: [None; MAX_FOLLOWERS],
-            told_ms: 0,
-            low_frequency_ms: None,
             counters: Counters::NONE,
         }
     }
 
-    pub(crate) const fn robot(&self) -> &Robot {
-        &self.robot
+    pub(crate) fn robot(&self) -> &Robot {
+        self.exchange.robot()
     }
 
     pub(crate) const fn counters(&self) -> &Counters {
         &self.counters
     }
 
+    /// The exchange, what it is embedded in for this call, and the time: `elapsed_ms` after the last call.
+    fn parts<'a, 'b>(
+        &'a mut self,
+        turn: &'a mut Turn<'b>,
+        elapsed_ms: u32,
+    ) -> (&'a mut Exchange, Call<'a, 'b>, Moment) {
+        let moment = Moment {
+            now_ms: self.exchange.elapsed_to_ms() + u64::from(elapsed_ms),
+            timestamp_its: turn.plain.timestamp_its,
+        };
+        let call = Call {
+            turn,
+            name: &self.name,
+            counters: &mut self.counters,
+        };
+        (&mut self.exchange, call, moment)
+    }
+
     /// Lets time pass.
     pub(crate) fn elapse(&mut self, elapsed_ms: u32, turn: &mut Turn<'_>) {
-        if elapsed_ms > 0 {
-            self.told_ms += u64::from(elapsed_ms);
-            self.step(turn, Input::Elapsed(Millis(elapsed_ms)), None);
-        }
+        let (exchange, mut call, moment) = self.parts(turn, elapsed_ms);
+        exchange.elapse(&mut call, moment);
     }
 
-    /// Tells an event; `parameters` are those of a command.
+    /// Takes in an event; `parameters` are those of a command.
     pub(crate) fn tell(&mut self, event: Event, parameters: TaskParameters, turn: &mut Turn<'_>) {
-        let input = Input::Local(event);
+        let (exchange, mut call, moment) = self.parts(turn, 0);
         match event {
-            Event::CommandManeuver { follower, .. } => {
-                let before = self.orders;
-                self.remember(follower, parameters);
-                if self.step(turn, input, None).ignored().is_some() {
-                    // The command that is outstanding keeps its own parameters.
-                    self.orders = before;
-                }
+            Event::CommandManeuver { follower, task } => {
+                exchange.command(&mut call, moment, follower, task, parameters);
             }
-            Event::IdentityChanged(station) => {
-                if self.step(turn, input, None).ignored().is_none() {
-                    let station_type = self.identifiers.robot_station_type;
-                    let address = Address::of_station(station.0, station_type);
-                    // Only geo-broadcasts are numbered, and none is sent.
-                    self.stack.change_address(address, 0);
-                }
-            }
-            _ => {
-                self.step(turn, input, None);
+            event => {
+                exchange.event(&mut call, moment, event);
             }
         }
     }
 
-    /// Keeps the parameters of a command in the place of older ones, or of those for who does not follow.
-    fn remember(&mut self, follower: StationId, parameters: TaskParameters) {
-        let follows = |station: StationId| match self.robot.phase() {
-            Phase::Leading(leading) => leading.member(station).is_some(),
-            _ => false,
-        };
-        let mut place = None;
-        for (i, order) in self.orders.iter().enumerate() {
-            match order {
-                Some((station, _)) if *station == follower => {
-                    place = Some(i);
-                    break;
-                }
-                Some((station, _)) if follows(*station) => {}
-                _ => place = place.or(Some(i)),
-            }
-        }
-        if let Some(place) = place {
-            self.orders[place] = Some((follower, parameters));
-        }
-    }
-
-    fn parameters(&self, follower: StationId) -> TaskParameters {
-        let orders = self.orders.iter().flatten();
-        let mut of_follower = orders.filter(|(station, _)| *station == follower);
-        of_follower
-            .next()
-            .map(|(_, parameters)| *parameters)
-            .unwrap_or_default()
-    }
-
-    /// Takes a packet in, if it has not waited for too long.
+    /// Takes in a packet, if it has not waited for too long.
     pub(crate) fn receive(&mut self, packet: &[u8], turn: &mut Turn<'_>) {
-        if self.has_waited_too_long(packet, turn) {
-            return;
-        }
-        let indication = match self.stack.receive(&turn.ego(), packet) {
-            Ok(indication) => indication,
-            Err(discarded) => return self.drop(turn, discarded.into(), &discarded, packet),
-        };
-        match indication.service {
-            Service::Ram | Service::Rmcm => {
-                self.understand(indication.message, Some(indication.service), turn);
-            }
-            other => self.drop(
-                turn,
-                Cause::NoUse(other),
-                &"the robot does not take it in",
-                packet,
-            ),
-        }
+        let (exchange, mut call, moment) = self.parts(turn, 0);
+        let arrived = call.arrived(packet, moment);
+        exchange.receive(&mut call, moment, arrived);
     }
 
-    /// Takes a message in, if it has not waited for too long.
-    pub(crate) fn hear(&mut self, octets: &[u8], turn: &mut Turn<'_>) {
-        if !self.has_waited_too_long(octets, turn) {
-            self.understand(octets, None, turn);
-        }
-    }
-
-    /// Drops what has waited for longer than the timers allow.
-    fn has_waited_too_long(&mut self, octets: &[u8], turn: &mut Turn<'_>) -> bool {
-        let delay_max_ms = self.config.settings().delay_max.0;
-        match waited_ms(turn) {
-            Some(waited_ms) if waited_ms > delay_max_ms => {
-                let detail = format_args!("for {waited_ms} ms; delay_max is {delay_max_ms} ms");
-                self.drop(turn, Cause::WaitedTooLong, &detail, octets);
-                true
-            }
-            _ => false,
-        }
-    }
-
-    /// Takes a message in, which came by `service` if that is known.
-    fn understand(&mut self, octets: &[u8], service: Option<Service>, turn: &mut Turn<'_>) {
-        let me = self.robot.station();
-        let heard = match Heard::of(&self.identifiers, me, &turn.state.position, octets) {
-            Ok(heard) => heard,
-            Err(unheard) => return self.drop(turn, (&unheard).into(), &unheard, octets),
-        };
-        if service.is_some_and(|service| service != heard.service) {
-            let cause = Cause::Discarded("message of another port");
-            return self.drop(turn, cause, &heard.service.name(), octets);
-        }
-        turn.plain.heard = CrossguardHeard::of(&heard);
-        self.write(
-            turn,
-            &Entry::Heard {
-                message: heard.service,
-                from: heard.from,
-                waited_ms: waited_ms(turn),
-                octets,
-            },
-        );
-        for input in heard.inputs.iter() {
-            self.step(turn, *input, heard.parameters);
-        }
+    /// Takes in a message, if it has not waited for too long.
+    pub(crate) fn hear(&mut self, message: &[u8], turn: &mut Turn<'_>) {
+        let (exchange, mut call, moment) = self.parts(turn, 0);
+        let arrived = call.arrived(message, moment);
+        exchange.receive_message(&mut call, moment, arrived);
     }
 
     /// Sends a RAM outside of a session, where the protocol does not say when.
     pub(crate) fn announce(&mut self, turn: &mut Turn<'_>) {
-        if self.robot.next_ram().is_none() {
-            self.send_ram(turn, "interval");
-        }
-    }
-
-    /// A step of the transition function, and what follows from it.
-    fn step(
-        &mut self,
-        turn: &mut Turn<'_>,
-        input: Input,
-        parameters: Option<TaskParameters>,
-    ) -> Outputs {
-        let outputs = self.robot.step(&self.config, input);
-        if let Some(why) = outputs.ignored() {
-            self.counters.count(Cause::ignored(why));
-        }
-        let lost = {
-            let entry = Entry::Step {
-                input: &input,
-                outputs: &outputs,
-                state: &self.robot,
-            };
-            turn.lines
-                .write(turn.plain.log_at_us, self.name.as_str(), &entry)
-        };
-        self.count_lost(lost);
-        let parameters = parameters.unwrap_or_default();
-        for output in outputs.iter() {
-            match output {
-                Output::SendRam => self.send_ram(turn, trigger(&input)),
-                Output::SendRmcm(rmcm) => self.send_rmcm(turn, rmcm),
-                output => {
-                    let plain = CrossguardOutput::from_protocol(output, &parameters);
-                    if let Some(plain) = plain {
-                        turn.push(plain);
-                    }
-                }
-            }
-        }
-        outputs
-    }
-
-    fn send_ram(&mut self, turn: &mut Turn<'_>, trigger: &'static str) {
-        let due = self
-            .low_frequency_ms
-            .is_none_or(|last| self.told_ms - last >= LOW_FREQUENCY_MS);
-        if due {
-            self.low_frequency_ms = Some(self.told_ms);
-        }
-        turn.state.correct(&self.robot, &self.config);
-        let ram = ram_from(
-            &self.identifiers,
-            &turn.state,
-            &self.robot.ram(),
-            self.robot.availability(),
-            generation_delta_time(turn.plain.timestamp_its),
-            due,
-        );
-        let ram = match ram {
-            Ok(ram) => ram,
-            Err(error) => return self.drop(turn, Cause::NotSent, &error, &[]),
-        };
-        let mut octets = [0; RAM_LEN_MAX];
-        match encode_into(&self.identifiers, &ram, &mut octets) {
-            Ok(length) => self.transmit(turn, Service::Ram, trigger, &octets[..length]),
-            Err(error) => self.drop(turn, Cause::NotSent, &error, &[]),
-        }
-    }
-
-    fn send_rmcm(&mut self, turn: &mut Turn<'_>, rmcm: &Rmcm) {
-        turn.state.correct(&self.robot, &self.config);
-        let (ids, position) = (&self.identifiers, &turn.state.position);
-        let time = generation_delta_time(turn.plain.timestamp_its);
-        let message = match rmcm {
-            Rmcm::Command(command) => {
-                let commands = [(*command, self.parameters(command.to))];
-                rmcm_from_commands(ids, position, None, &commands, time)
-            }
-            Rmcm::Answer(answer) => {
-                let status = ExecutionStatus {
-                    progression: turn.state.task_progression,
-                    time_to_completion: None,
-                };
-                rmcm_from_answer(ids, position, answer, status, time)
-            }
-        };
-        let message = match message {
-            Ok(message) => message,
-            Err(error) => return self.drop(turn, Cause::NotSent, &error, &[]),
-        };
-        let mut octets = [0; RMCM_LEN_MAX];
-        match encode_into(&self.identifiers, &message, &mut octets) {
-            Ok(length) => self.transmit(turn, Service::Rmcm, "protocol", &octets[..length]),
-            Err(error) => self.drop(turn, Cause::NotSent, &error, &[]),
-        }
-    }
-
-    /// Puts a message into a packet among those of the turn.
-    fn transmit(
-        &mut self,
-        turn: &mut Turn<'_>,
-        service: Service,
-        trigger: &'static str,
-        message: &[u8],
-    ) {
-        let request = service.request(&self.identifiers);
-        let ego = turn.ego();
-        let start = turn.plain.packets_length;
-        let room = turn.packets.get_mut(start..).unwrap_or_default();
-        match self.stack.send(&ego, &request, message, room) {
-            Ok(length) => {
-                turn.plain.packets_length = start + length;
-                turn.push(sent(service, start, length, message.len(), &request));
-                self.write(
-                    turn,
-                    &Entry::Sent {
-                        message: service,
-                        trigger,
-                        octets: message,
-                    },
-                );
-            }
-            Err(error) => self.drop(turn, Cause::NotSent, &error, &[]),
-        }
-    }
-
-    /// Counts a drop, and reports it.
-    fn drop(&mut self, turn: &mut Turn<'_>, cause: Cause, detail: &dyn Display, octets: &[u8]) {
-        self.counters.count(cause);
-        let name = Text::<{ crate::abi::CROSSGUARD_CAUSE_LEN }>::of(&cause);
-        copy_text(name.as_str(), &mut turn.plain.dropped);
-        self.write(
-            turn,
-            &Entry::Dropped {
-                cause,
-                detail,
-                octets,
-            },
-        );
-    }
-
-    fn write(&mut self, turn: &mut Turn<'_>, entry: &Entry<'_>) {
-        let lost = turn
-            .lines
-            .write(turn.plain.log_at_us, self.name.as_str(), entry);
-        self.count_lost(lost);
-    }
-
-    fn count_lost(&mut self, lost: bool) {
-        if lost {
-            self.counters.count(Cause::LogFull);
-        }
+        let (exchange, mut call, moment) = self.parts(turn, 0);
+        exchange.announce(&mut call, moment);
     }
 
     /// Begins the log of the robot.
     pub(crate) fn start_log(&mut self, unix_ms: u64, turn: &mut Turn<'_>) {
-        let entry = Entry::Started {
-            robot: &self.robot,
-            settings: self.config.settings(),
-            identifiers: &self.identifiers,
+        let (exchange, mut call, _) = self.parts(turn, 0);
+        call.write(&Entry::Started {
+            robot: exchange.robot(),
+            settings: exchange.config().settings(),
+            identifiers: exchange.identifiers(),
             unix_ms,
-        };
-        let lost = turn
-            .lines
-            .write(turn.plain.log_at_us, self.name.as_str(), &entry);
-        self.count_lost(lost);
+        });
     }
 
     /// Ends the log of the robot.
     pub(crate) fn stop_log(&mut self, turn: &mut Turn<'_>) {
-        let entry = Entry::Stopped {
-            counters: &self.counters,
+        let counters = &self.counters;
+        let (at_us, name) = (turn.plain.log_at_us, self.name.as_str());
+        if turn.lines.write(at_us, name, &Entry::Stopped { counters }) {
+            self.counters.count(Cause::LogFull);
+        }
+    }
+}
+
+/// One call: its effects go into the turn of the caller.
+struct Call<'a, 'b> {
+    turn: &'a mut Turn<'b>,
+    name: &'a Name,
+    counters: &'a mut Counters,
+}
+
+impl Call<'_, '_> {
+    /// Octets that waited for as long as the caller says, if it does.
+    fn arrived<'c>(&self, octets: &'c [u8], moment: Moment) -> Arrived<'c> {
+        let at_ms = match self.turn.plain.waited_ms {
+            CROSSGUARD_NONE_MS => None,
+            waited_ms => Some(moment.now_ms - u64::from(waited_ms)),
         };
-        let lost = turn
-            .lines
-            .write(turn.plain.log_at_us, self.name.as_str(), &entry);
-        self.count_lost(lost);
+        Arrived { octets, at_ms }
+    }
+
+    fn push(&mut self, output: CrossguardOutput) {
+        let plain = &mut *self.turn.plain;
+        let length = plain.outputs_length as usize;
+        // There is always room, see above.
+        if let Some(slot) = plain.outputs.get_mut(length) {
+            *slot = output;
+            plain.outputs_length += 1;
+        }
+    }
+
+    fn write(&mut self, entry: &Entry<'_>) {
+        let (lines, at_us) = (&mut self.turn.lines, self.turn.plain.log_at_us);
+        if lines.write(at_us, self.name.as_str(), entry) {
+            self.counters.count(Cause::LogFull);
+        }
     }
 }
 
-/// For how long what is given has waited, where the caller knows.
-const fn waited_ms(turn: &Turn<'_>) -> Option<u32> {
-    match turn.plain.waited_ms {
-        CROSSGUARD_NONE_MS => None,
-        waited_ms => Some(waited_ms),
+impl Host for Call<'_, '_> {
+    fn state(&self) -> &RobotState {
+        &self.turn.state
     }
-}
 
-/// Why a RAM of the protocol goes out.
-const fn trigger(input: &Input) -> &'static str {
-    match input {
-        Input::Elapsed(_) | Input::Expired(_) => "heartbeat",
-        _ => "role",
+    fn room(&mut self) -> &mut [u8] {
+        let start = self.turn.plain.packets_length;
+        self.turn.packets.get_mut(start..).unwrap_or_default()
+    }
+
+    fn transmit(&mut self, outgoing: Outgoing<'_>) {
+        let start = self.turn.plain.packets_length;
+        self.turn.plain.packets_length = start + outgoing.packet_len;
+        self.push(sent(start, &outgoing));
+        self.write(&Entry::Sent {
+            message: outgoing.service,
+            trigger: outgoing.trigger,
+            octets: outgoing.message,
+        });
+    }
+
+    fn stepped(&mut self, input: &Input, outputs: &Outputs, after: &Robot) {
+        self.write(&Entry::Step {
+            input,
+            outputs,
+            state: after,
+        });
+    }
+
+    fn act(&mut self, output: &Output, parameters: TaskParameters) {
+        if let Some(plain) = CrossguardOutput::from_protocol(output, &parameters) {
+            self.push(plain);
+        }
+    }
+
+    fn heard(&mut self, moment: Moment, _me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
+        self.turn.plain.heard = CrossguardHeard::of(heard);
+        self.write(&Entry::Heard {
+            message: heard.service,
+            from: heard.from,
+            waited_ms: arrived.at_ms.map(|at_ms| moment.now_ms - at_ms),
+            octets: arrived.octets,
+        });
+    }
+
+    fn other(&mut self, _moment: Moment, indication: &Indication<'_>, packet: &[u8]) {
+        let cause = Cause::NoUse(indication.service);
+        self.dropped(cause, &"the robot does not take it in", packet);
+    }
+
+    fn dropped(&mut self, cause: Cause, detail: &dyn Display, octets: &[u8]) {
+        self.counters.count(cause);
+        let name = Text::<CROSSGUARD_CAUSE_LEN>::of(&cause);
+        copy_text(name.as_str(), &mut self.turn.plain.dropped);
+        self.write(&Entry::Dropped {
+            cause,
+            detail,
+            octets,
+        });
+    }
+
+    fn ignored(&mut self, cause: Cause) {
+        self.counters.count(cause);
     }
 }
 
@@ -448,26 +258,21 @@ const fn trigger(input: &Input) -> &'static str {
     clippy::cast_possible_truncation,
     reason = "a packet has at most 1500 octets"
 )]
-fn sent(
-    service: Service,
-    start: usize,
-    length: usize,
-    message: usize,
-    request: &crossguard_codec::geonet::Request,
-) -> CrossguardOutput {
+fn sent(start: usize, outgoing: &Outgoing<'_>) -> CrossguardOutput {
     const _: () = assert!(CROSSGUARD_PACKETS_LEN + PACKET_LEN_MAX < u32::MAX as usize);
-    let message_kind = match service {
+    let message = outgoing.message.len();
+    let message_kind = match outgoing.service {
         Service::Rmcm => CrossguardMessage::Rmcm,
         _ => CrossguardMessage::Ram,
     };
     CrossguardOutput {
         message: message_kind as u8,
         packet_offset: start as u32,
-        packet_length: length as u32,
-        message_offset: (start + length - message) as u32,
+        packet_length: outgoing.packet_len as u32,
+        message_offset: (start + outgoing.packet_len - message) as u32,
         message_length: message as u32,
-        port: request.port,
-        traffic_class: request.traffic_class.id.into(),
+        port: outgoing.request.port,
+        traffic_class: outgoing.request.traffic_class.id.into(),
         ..CrossguardOutput::of(CrossguardOutputKind::Send)
     }
 }

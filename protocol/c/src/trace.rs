@@ -7,7 +7,10 @@ use core::fmt::Display;
 use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::{Input, Outputs, Robot, Settings, StationId};
 
-use crate::cause::{Cause, Counters};
+use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::ras::generation::Trigger;
+
+use crate::counters::Counters;
 
 /// What a robot did.
 #[cfg_attr(not(feature = "trace"), expect(dead_code, reason = "nobody reads it"))]
@@ -25,14 +28,14 @@ pub(crate) enum Entry<'a> {
     },
     Sent {
         message: Service,
-        trigger: &'static str,
+        trigger: Trigger,
         octets: &'a [u8],
     },
     Heard {
         message: Service,
         from: StationId,
         /// For how long it waited, in ms, where that is known.
-        waited_ms: Option<u32>,
+        waited_ms: Option<u64>,
         octets: &'a [u8],
     },
     Dropped {
@@ -88,6 +91,7 @@ impl<'a> Lines<'a> {
 mod json {
     use core::fmt::{self, Display, Formatter};
 
+    use crossguard_endpoint::cause::Layer;
     use ser_write_json::ser_write::SerError;
     use ser_write_json::{SerWrite, to_writer};
     use serde::ser::SerializeMap;
@@ -95,7 +99,7 @@ mod json {
 
     use super::{Entry, Lines};
     use crate::abi::CROSSGUARD_CAUSE_LEN;
-    use crate::cause::{Counters, Text};
+    use crate::counters::{Counters, Text};
 
     impl Lines<'_> {
         /// Adds a line. Whether it was lost for want of room.
@@ -164,7 +168,7 @@ mod json {
                 } => {
                     map.serialize_entry("entry", "sent")?;
                     map.serialize_entry("message", &message)?;
-                    map.serialize_entry("trigger", trigger)?;
+                    map.serialize_entry("trigger", &trigger)?;
                     map.serialize_entry("octets", &Displayed(&Hex(octets)))?;
                 }
                 Entry::Heard {
@@ -178,7 +182,7 @@ mod json {
                     map.serialize_entry("from", &from)?;
                     if let Some(waited_ms) = waited_ms {
                         let reception = Reception {
-                            arrived_us: self.at_us.saturating_sub(u64::from(waited_ms) * 1_000),
+                            arrived_us: self.at_us.saturating_sub(waited_ms * 1_000),
                             told_us: self.at_us,
                         };
                         map.serialize_entry("reception", &reception)?;
@@ -191,7 +195,8 @@ mod json {
                     octets,
                 } => {
                     map.serialize_entry("entry", "dropped")?;
-                    map.serialize_entry("cause", &Displayed(&cause))?;
+                    map.serialize_entry("layer", &cause.layer())?;
+                    map.serialize_entry("cause", &Displayed(&cause.reason()))?;
                     map.serialize_entry("detail", &Displayed(detail))?;
                     map.serialize_entry("octets", &Displayed(&Hex(octets)))?;
                 }
@@ -221,15 +226,32 @@ mod json {
         }
     }
 
-    /// How often each cause occurred.
+    /// How often each cause occurred, by layer and reason.
     struct ByName<'a>(&'a Counters);
 
     impl Serialize for ByName<'_> {
         fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
             let mut map = serializer.serialize_map(None)?;
-            for (cause, count) in self.0.iter() {
-                let name = Text::<CROSSGUARD_CAUSE_LEN>::of(&cause);
-                map.serialize_entry(name.as_str(), &count)?;
+            for layer in Layer::ALL {
+                if self.0.iter().any(|(cause, _)| cause.layer() == layer) {
+                    map.serialize_entry(layer.name(), &OfLayer(layer, self.0))?;
+                }
+            }
+            map.end()
+        }
+    }
+
+    /// Those of one layer.
+    struct OfLayer<'a>(Layer, &'a Counters);
+
+    impl Serialize for OfLayer<'_> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            let mut map = serializer.serialize_map(None)?;
+            for (cause, count) in self.1.iter() {
+                if cause.layer() == self.0 {
+                    let reason = Text::<CROSSGUARD_CAUSE_LEN>::of(&cause.reason());
+                    map.serialize_entry(reason.as_str(), &count)?;
+                }
             }
             map.end()
         }

@@ -1,5 +1,9 @@
 //! Where a station is and how it moves, on a plane in metres; what counts as a change of that.
 
+#[cfg(not(feature = "std"))]
+#[allow(unused_imports, reason = "another crate may link the standard library")]
+use num_traits::Float as _;
+
 use crossguard_codec::{Measurement, Position, RobotState};
 use crossguard_protocol::Decimetres;
 
@@ -35,7 +39,7 @@ impl Motion {
 /// The smaller angle between two directions, in degrees, 0..180.
 #[must_use]
 pub fn turn_deg(from_deg: f64, to_deg: f64) -> f64 {
-    let turn = (from_deg - to_deg).rem_euclid(360.0);
+    let turn = (from_deg - to_deg).abs() % 360.0;
     turn.min(360.0 - turn)
 }
 

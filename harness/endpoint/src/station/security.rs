@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crossguard_codec::geonet::{Demand, Envelope, Secured};
+use crossguard_codec::geonet::{Demand, EgoPosition, Envelope, Secured};
 use crossguard_codec::security::{
     HashedId8, Station, Ticket, Time64, Tolerances, TrustStore, Unsigned,
 };
@@ -110,7 +110,48 @@ pub fn station_id(pseudonym: HashedId8) -> StationId {
 }
 
 /// The number of the first geo-broadcast under a pseudonym.
-pub(super) const fn sequence_number(pseudonym: HashedId8) -> u16 {
+const fn sequence_number(pseudonym: HashedId8) -> u16 {
     let [.., a, b] = pseudonym.0;
     u16::from_be_bytes([a, b])
+}
+
+/// When one robot changes its pseudonym.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pseudonyms {
+    period_ms: Option<u64>,
+    /// When the pseudonym was taken.
+    since_ms: u64,
+}
+
+impl Pseudonyms {
+    /// The first pseudonym is taken at `now_ms`, and changed after `period_ms`.
+    pub(crate) const fn new(period_ms: Option<u64>, now_ms: u64) -> Self {
+        Self {
+            period_ms,
+            since_ms: now_ms,
+        }
+    }
+
+    /// Takes another ticket if that is due at `now_ms`, or if the ticket is over within `lock_ms`, as long as
+    /// a session may take. The station id and the first sequence number that go with it: the caller changes
+    /// them at once, and calls this only while the identity is not locked.
+    pub(crate) fn renew(
+        &mut self,
+        envelope: &mut Envelope,
+        ego: &EgoPosition,
+        now_ms: u64,
+        lock_ms: u64,
+    ) -> Option<(StationId, u16)> {
+        let Envelope::Secured(secured) = envelope else {
+            return None;
+        };
+        let age_ms = now_ms.saturating_sub(self.since_ms);
+        let is_due = self.period_ms.is_some_and(|period_ms| age_ms >= period_ms);
+        if is_due {
+            self.since_ms = now_ms;
+        }
+        let pseudonym = secured.renew_pseudonym(ego, is_due, lock_ms)?;
+        self.since_ms = now_ms;
+        Some((station_id(pseudonym), sequence_number(pseudonym)))
+    }
 }

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::{Identifiers, RobotState, Target};
-use crossguard_endpoint::wire::{Heard, Wire};
+use crossguard_codec::{Heard, Identifiers, Position, Target};
 use crossguard_protocol::{Input, ManeuverId, Rmcm, StationId, TaskSet, TaskType};
 
 use super::Placed;
@@ -105,10 +104,7 @@ impl Areas {
         follower: StationId,
         octets: &[u8],
     ) -> Option<(f64, f64)> {
-        let wire = Wire {
-            identifiers: *identifiers,
-        };
-        let heard = wire.hear(follower, &RobotState::default(), octets).ok()?;
+        let heard = Heard::of(identifiers, follower, &Position::default(), octets).ok()?;
         match heard.parameters?.target? {
             Target::Position {
                 latitude,

@@ -141,7 +141,9 @@ pub(super) struct Counters {
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(super) struct Counter {
-    /// The named cause.
+    /// Where it was dropped or ignored.
+    pub(super) layer: String,
+    /// Why.
     pub(super) cause: String,
     pub(super) count: u64,
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use crossguard_endpoint::counters::CauseName;
 use crossguard_model_check::sequence::{ChartStep, Place};
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{LogError, Merged, Record};
@@ -46,9 +47,9 @@ pub(super) struct RobotRun {
     /// When its corridor was open, and why it was closed.
     pub(super) corridor: Vec<Span<String>>,
     pub(super) way: Vec<(f64, f64)>,
-    pub(super) counters: BTreeMap<String, u64>,
+    pub(super) counters: BTreeMap<CauseName, u64>,
     /// Those of the boots before.
-    counters_before: BTreeMap<String, u64>,
+    counters_before: BTreeMap<CauseName, u64>,
     pub(super) has_stopped: bool,
     last_us: u64,
     /// Whether it has booted, and nothing is known of it since.

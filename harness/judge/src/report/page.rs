@@ -171,13 +171,15 @@ fn counters(run: &Run) -> Markup {
         div.scroll tabindex="0" role="group" aria-label="Counters" {
             table {
                 thead { tr {
+                    th scope="col" { "layer" }
                     th scope="col" { "cause" }
                     @for robot in &run.robots { th.n scope="col" { (robot.name) } }
                 } }
                 tbody {
                     @for cause in causes {
                         tr {
-                            th scope="row" { (cause) }
+                            td { (cause.layer) }
+                            th scope="row" { (cause.reason) }
                             @for robot in &run.robots { td.n { (robot.counters.get(cause).copied().unwrap_or(0)) } }
                         }
                     }

@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::rc::Rc;
 use std::time::Duration;
 
+use crossguard_codec::Service;
 use crossguard_codec::si::timestamp_its;
-use crossguard_endpoint::wire::MessageKind;
 use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
 use crossguard_model_check::monitor::{Broken, Monitor};
 use crossguard_model_check::node::{Protocol, Rules};
@@ -470,9 +470,9 @@ impl<'a> World<'a> {
             }
             Effect::Transmit { kind, packet, .. } => {
                 let packet = Rc::from(packet.as_slice());
-                self.transmit(place, &packet, *kind == MessageKind::Ram);
+                self.transmit(place, &packet, *kind == Service::Ram);
             }
-            Effect::Heard { kind, .. } => self.has_heard_ram |= *kind == MessageKind::Ram,
+            Effect::Heard { kind, .. } => self.has_heard_ram |= *kind == Service::Ram,
             Effect::Act(Act::RenewEpoch) => self.seats[place].is_to_renew = true,
             _ => {}
         }

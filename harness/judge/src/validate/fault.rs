@@ -1,9 +1,10 @@
 //! What may be wrong with a record.
 
+use crossguard_endpoint::counters::CauseName;
 use crossguard_model_check::monitor::Broken;
 use crossguard_protocol::{BrokenInequality, StationId};
 
-use crossguard_endpoint::wire::Unheard;
+use crossguard_codec::Unheard;
 
 /// What does not fit in a record. Each reads on after the robot's name.
 #[derive(Debug, thiserror::Error)]
@@ -131,7 +132,7 @@ pub enum Fault {
     #[error("counted '{cause}' {counted} times, and its log has it {logged} times")]
     Counter {
         /// The cause.
-        cause: String,
+        cause: CauseName,
         /// How often it was counted.
         counted: u64,
         /// How often it is in the log.

@@ -1,11 +1,12 @@
 //! One robot's records, one after the other.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 
-use crossguard_codec::Identifiers;
 use crossguard_codec::its::ItsMessage;
-use crossguard_endpoint::counters::Cause;
-use crossguard_endpoint::wire::{MessageKind, Unheard, overhear};
+use crossguard_codec::{Identifiers, Service, Unheard};
+use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::counters::{CauseName, Counts};
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_protocol::{
     Config, Decimetres, Input, Output, Outputs, Rmcm, Robot, Settings, StationId,
 };
@@ -31,7 +32,7 @@ pub(super) struct Follow {
     time: Time,
     owed: VecDeque<Owed>,
     heard: VecDeque<Input>,
-    counted: BTreeMap<String, u64>,
+    counted: Counts,
     is_cut_off: bool,
 }
 
@@ -53,7 +54,7 @@ impl Follow {
             time,
             owed: VecDeque::new(),
             heard: VecDeque::new(),
-            counted: BTreeMap::new(),
+            counted: Counts::default(),
             is_cut_off: false,
         })
     }
@@ -125,7 +126,9 @@ impl Follow {
             match *output {
                 Output::SendRam => self.owed.push_back(Owed::Ram),
                 Output::SendRmcm(rmcm) => self.owed.push_back(Owed::Rmcm(rmcm)),
-                Output::Ignored(reason) => self.count(Cause::Ignored(reason).name()),
+                Output::Ignored(reason) => {
+                    self.counted.add(&Cause::from(reason).into(), 1);
+                }
                 _ => {}
             }
         }
@@ -161,8 +164,8 @@ impl Follow {
     }
 
     /// A RAM says what the state is, an RMCM what a step has put out. A cluster VAM says nothing of either.
-    pub(super) fn sent(&mut self, kind: MessageKind, octets: &[u8]) -> Result<(), Fault> {
-        if kind == MessageKind::Vam {
+    pub(super) fn sent(&mut self, kind: Service, octets: &[u8]) -> Result<(), Fault> {
+        if kind == Service::Vam {
             let vam = ItsMessage::decode(&self.identifiers, octets);
             return match vam
                 .map_err(Unheard::from)
@@ -203,7 +206,7 @@ impl Follow {
 
     pub(super) fn heard(
         &mut self,
-        kind: MessageKind,
+        kind: Service,
         from: StationId,
         reception: Option<Reception>,
         octets: &[u8],
@@ -222,31 +225,26 @@ impl Follow {
         Ok(())
     }
 
-    pub(super) fn dropped(&mut self, cause: String) {
-        if cause == Cause::NotSent.name() {
+    pub(super) fn dropped(&mut self, cause: &CauseName) {
+        if *cause == Cause::NotSent.into() {
             // A message that could not be made was not sent; one that the link did not take was.
             self.owed.pop_front();
         }
-        self.count(cause);
-    }
-
-    fn count(&mut self, cause: String) {
-        *self.counted.entry(cause).or_default() += 1;
+        self.counted.add(cause, 1);
     }
 
     /// The robot has stopped. How many records are missing by its own account.
-    pub(super) fn stopped(&self, counters: &BTreeMap<String, u64>) -> Result<u64, Fault> {
+    pub(super) fn stopped(&self, counters: &Counts) -> Result<u64, Fault> {
         self.settle_hearing()?;
         self.settle_sending()?;
-        let missing = counters.get(&Cause::LogFull.name()).copied().unwrap_or(0);
+        let missing = counters.of(&Cause::LogFull.into());
         // What these count has no record of its own.
-        let silent = [Cause::LogFull, Cause::OutputFull, Cause::InboxFull].map(Cause::name);
-        let causes = counters.keys().chain(self.counted.keys());
+        let silent = [Cause::LogFull, Cause::OutputFull, Cause::InboxFull].map(CauseName::from);
+        let causes = counters.iter().chain(self.counted.iter());
+        let causes = causes.map(|(cause, _)| cause);
         for cause in causes.filter(|cause| !silent.contains(cause)) {
-            let of = |counts: &BTreeMap<String, u64>| counts.get(cause).copied().unwrap_or(0);
-            let (counted, logged) = (of(counters), of(&self.counted));
+            let (counted, logged) = (counters.of(&cause), self.counted.of(&cause));
             if counted != logged && missing == 0 {
-                let cause = cause.clone();
                 return Err(Fault::Counter {
                     cause,
                     counted,

@@ -96,8 +96,8 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
         }
         Entry::Sent { trigger, .. } => {
             let kinds = [
-                crossguard_endpoint::wire::MessageKind::Ram,
-                crossguard_endpoint::wire::MessageKind::Rmcm,
+                crossguard_codec::Service::Ram,
+                crossguard_codec::Service::Rmcm,
             ];
             let sent = |message| {
                 with(Entry::Sent {
@@ -128,7 +128,7 @@ fn a_log_with_one_altered_record_is_refused_at_that_record_or_the_next_of_its_ro
     let records = records(5);
     // A message that nobody here has sent.
     let stranger = crossguard_protocol::Robot::new(StationId(77), 1).ram();
-    let octets = crossguard_endpoint::wire::Wire::default()
+    let octets = crossguard_codec::Identifiers::default()
         .ram(
             &crossguard_codec::RobotState::default(),
             &stranger,

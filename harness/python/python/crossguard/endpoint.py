@@ -143,9 +143,9 @@ class Endpoint:
         return self._native.next_wakeup_ms
 
     @property
-    def counters(self) -> dict[str, int]:
-        """How often each cause occurred, by the names that `crossguard run` has for it."""
-        return self._native.counters()
+    def counters(self) -> dict[str, dict[str, int]]:
+        """How often each cause occurred, by layer and cause, as in logs: `{"packet": {"duplicate": 3}}`."""
+        return json.loads(self._native.counters())
 
     def _effects(self, effects: str) -> list[Effect]:
         self._write_log()

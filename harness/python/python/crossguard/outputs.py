@@ -182,8 +182,10 @@ class Heard(Variant):
 class Dropped(Variant):
     """A packet was dropped, or a message could not be sent."""
 
+    layer: str
+    """Where it was dropped, `packet` for example."""
     cause: str
-    """The cause that it is counted under, see `Endpoint.counters`."""
+    """Why; the two are what it is counted under in `Endpoint.counters`."""
     detail: str
     """What exactly."""
 

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::time::Duration;
 
-use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::cause::Cause;
 
 use super::{DATAGRAMS, Delivery};
 use crate::transport::Receiver;
@@ -32,7 +32,8 @@ impl Waiting {
     fn drop_one(&self) {
         self.dropped.fetch_add(1, Ordering::Relaxed);
         let before = self.dropped_in_all.fetch_add(1, Ordering::Relaxed);
-        tracing::warn!(cause = Cause::InboxFull.name(), before, "dropped");
+        let cause = Cause::InboxFull;
+        tracing::warn!(layer = %cause.layer(), cause = %cause.reason(), before, "dropped");
     }
 }
 

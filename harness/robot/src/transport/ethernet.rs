@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::geonet::ethernet;
-use crossguard_endpoint::station::link_layer_of;
+use crossguard_endpoint::station::listen::link_layer_of;
 use nix::errno::Errno;
 use nix::ifaddrs::getifaddrs;
 use nix::sys::socket::{

@@ -4,7 +4,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crossguard_endpoint::counters::Loss;
+use crossguard_endpoint::cause::Loss;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;

@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::sync::mpsc::{channel, sync_channel};
 use std::time::Duration;
 
-use crossguard_endpoint::counters::Cause;
+use crossguard_endpoint::cause::Cause;
 use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_robot::trace::{self, Record};
 use indicatif::ProgressBar;

@@ -1,9 +1,8 @@
 //! What happens to robots: they notice people, fail, hang, lose power and boot again.
 
-use crossguard_codec::TaskParameters;
+use crossguard_codec::{Identifiers, TaskParameters};
 use crossguard_protocol::{Availability, Event, Robot, StationId};
 
-use crossguard_endpoint::wire::Wire;
 use crossguard_endpoint::{Endpoint, Stimulus};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::Simulated;
@@ -143,7 +142,12 @@ impl World<'_> {
         let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
         let rules = self.rules;
         let protocol = Ruled { robot, rules };
-        let mut endpoint = Endpoint::new(protocol, draw.config.clone(), Wire::default(), now_ms);
+        let mut endpoint = Endpoint::new(
+            protocol,
+            draw.config.clone(),
+            Identifiers::default(),
+            now_ms,
+        );
         if self.swarm.is_secured {
             endpoint = endpoint.with_security(security::of(place, self.now_us / 1_000));
         }
@@ -164,7 +168,7 @@ impl World<'_> {
             station: draw.station,
             boot: self.seats[place].boot,
             settings: Box::new(draw.config.settings().clone()),
-            identifiers: Wire::default().identifiers,
+            identifiers: Identifiers::default(),
             unix_ms: u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_us / 1_000,
         };
         self.record(place, entry);

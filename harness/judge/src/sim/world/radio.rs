@@ -4,6 +4,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use crossguard_endpoint::Stimulus;
+use crossguard_endpoint::cause::Cause;
 use crossguard_robot::trace::Entry;
 use crossguard_robot::transport::Fate;
 use rand::Rng;
@@ -105,7 +106,7 @@ impl World<'_> {
                     self.road.lose(from, to);
                     if self.seats[to].machine.is_some() && self.watch.is_some() {
                         let entry = Entry::Dropped {
-                            cause: how.name().to_owned(),
+                            cause: Cause::Simulated(how).into(),
                             detail: "by the simulator".to_owned(),
                             octets: packet.to_vec(),
                         };

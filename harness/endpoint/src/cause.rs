@@ -1,0 +1,277 @@
+//! Why something was dropped or ignored: the layer that it happened in, and the reason.
+
+use core::fmt::{self, Display, Formatter};
+
+use crossguard_codec::geonet::Discarded;
+use crossguard_codec::{DecodeError, Service, Unheard, ViewError};
+use crossguard_protocol::{Disengagement, Ignored, StationId};
+use serde::{Deserialize, Serialize};
+
+/// Where on its way something was dropped or ignored, from the link inwards.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Layer {
+    /// The faults that are simulated on purpose.
+    Simulated,
+    /// The link: the operating system, or the network below it.
+    Link,
+    /// The queue between the link and the robot.
+    Inbox,
+    /// `GeoNetworking` and BTP.
+    Packet,
+    /// The security envelope, and the permissions of its certificate.
+    Security,
+    /// The service that a message is of.
+    Service,
+    /// The encoding of a message.
+    Syntax,
+    /// The content of a message.
+    Semantics,
+    /// The state machine.
+    Protocol,
+    /// The robot's own sensors.
+    Perception,
+    /// The file of the boot counter.
+    Storage,
+    /// The log.
+    Log,
+    /// Readers of records that need not have all of them.
+    Output,
+}
+
+impl Layer {
+    /// All layers, in order.
+    pub const ALL: [Self; 13] = [
+        Self::Simulated,
+        Self::Link,
+        Self::Inbox,
+        Self::Packet,
+        Self::Security,
+        Self::Service,
+        Self::Syntax,
+        Self::Semantics,
+        Self::Protocol,
+        Self::Perception,
+        Self::Storage,
+        Self::Log,
+        Self::Output,
+    ];
+
+    /// Its name in logs, metrics and reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Simulated => "simulated",
+            Self::Link => "link",
+            Self::Inbox => "inbox",
+            Self::Packet => "packet",
+            Self::Security => "security",
+            Self::Service => "service",
+            Self::Syntax => "syntax",
+            Self::Semantics => "semantics",
+            Self::Protocol => "protocol",
+            Self::Perception => "perception",
+            Self::Storage => "storage",
+            Self::Log => "log",
+            Self::Output => "output",
+        }
+    }
+}
+
+impl Display for Layer {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Why something was dropped or ignored. It displays as its layer and its reason.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Cause {
+    /// The fault injector dropped a datagram.
+    Simulated(Loss),
+    /// A packet was not sent: the message cannot be encoded, or the operating system did not take the packet.
+    NotSent,
+    /// The operating system delivers no datagrams any more.
+    LinkFailed,
+    /// Datagrams arrived faster than they were taken off the link.
+    LinkFull,
+    /// A datagram waited for longer than `delay_max` between its arrival and its input to the robot.
+    WaitedTooLong,
+    /// A datagram arrived while the inbox was full.
+    InboxFull,
+    /// A packet is not one for this station.
+    Discarded(&'static str),
+    /// A packet cannot be relied on.
+    Rejected(&'static str),
+    /// A message that this station has no use for.
+    NoUse(Service),
+    /// A datagram is not a message.
+    Undecodable(&'static str),
+    /// A message contradicts itself.
+    Contradictory(&'static str),
+    /// The transition function ignored an input.
+    Ignored(Ignored),
+    /// The robot perceived people and does not know its own position.
+    Unplaced,
+    /// The next boot counter could not be persisted; the robot keeps the one that it has.
+    EpochNotRenewed,
+    /// The log's reader was too slow, or the log has no room: the record is not in the log.
+    LogFull,
+    /// A reader of records that need not have all of them was too slow.
+    OutputFull,
+}
+
+impl Cause {
+    /// Where it was dropped or ignored.
+    #[must_use]
+    pub const fn layer(self) -> Layer {
+        match self {
+            Self::Simulated(_) => Layer::Simulated,
+            Self::NotSent | Self::LinkFailed | Self::LinkFull => Layer::Link,
+            Self::WaitedTooLong | Self::InboxFull => Layer::Inbox,
+            Self::Discarded(_) => Layer::Packet,
+            Self::Rejected(_) => Layer::Security,
+            Self::NoUse(_) => Layer::Service,
+            Self::Undecodable(_) => Layer::Syntax,
+            Self::Contradictory(_) => Layer::Semantics,
+            Self::Ignored(_) => Layer::Protocol,
+            Self::Unplaced => Layer::Perception,
+            Self::EpochNotRenewed => Layer::Storage,
+            Self::LogFull => Layer::Log,
+            Self::OutputFull => Layer::Output,
+        }
+    }
+
+    /// Why, without the layer.
+    #[must_use]
+    pub const fn reason(self) -> Reason {
+        Reason(self)
+    }
+}
+
+/// The reason of a [`Cause`], which it displays as: a name, without the station that it was about.
+#[derive(Clone, Copy, Debug)]
+pub struct Reason(Cause);
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self.0 {
+            Cause::Simulated(loss) => loss.name(),
+            Cause::NotSent => "not sent",
+            Cause::LinkFailed => "failed",
+            Cause::LinkFull | Cause::InboxFull | Cause::LogFull | Cause::OutputFull => "full",
+            Cause::WaitedTooLong => "waited too long",
+            Cause::Discarded(why)
+            | Cause::Rejected(why)
+            | Cause::Undecodable(why)
+            | Cause::Contradictory(why) => why,
+            Cause::NoUse(service) => return write!(f, "no use for {}", service.name()),
+            Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",
+            Cause::Ignored(why) => return why.fmt(f),
+            Cause::Unplaced => "own position unknown",
+            Cause::EpochNotRenewed => "boot counter not renewed",
+        })
+    }
+}
+
+impl Display for Cause {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.layer(), self.reason())
+    }
+}
+
+/// How the fault injector dropped a datagram.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Loss {
+    /// By itself.
+    Random,
+    /// In a burst.
+    Burst,
+    /// In an outage.
+    Outage,
+    /// Too many datagrams were under way already.
+    Overflow,
+}
+
+impl Loss {
+    /// Its name among the reasons.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Random => "loss",
+            Self::Burst => "burst loss",
+            Self::Outage => "outage",
+            Self::Overflow => "overflow",
+        }
+    }
+}
+
+impl From<Ignored> for Cause {
+    /// One cause for all stations and states: those are in the log.
+    fn from(why: Ignored) -> Self {
+        Self::Ignored(match why {
+            Ignored::NotEngaged(..) => {
+                Ignored::NotEngaged(StationId(0), Disengagement::NotExecuting)
+            }
+            why => why,
+        })
+    }
+}
+
+impl From<Discarded> for Cause {
+    fn from(discarded: Discarded) -> Self {
+        match discarded {
+            Discarded::Envelope(_) | Discarded::WrongPermission { .. } => {
+                Self::Rejected(discarded.cause())
+            }
+            _ => Self::Discarded(discarded.cause()),
+        }
+    }
+}
+
+impl From<&DecodeError> for Cause {
+    fn from(error: &DecodeError) -> Self {
+        Self::Undecodable(error.cause())
+    }
+}
+
+impl From<&ViewError> for Cause {
+    fn from(error: &ViewError) -> Self {
+        Self::Contradictory(error.cause())
+    }
+}
+
+impl From<&Unheard> for Cause {
+    fn from(unheard: &Unheard) -> Self {
+        match unheard {
+            Unheard::Undecodable(error) => error.into(),
+            Unheard::Contradictory(error) => error.into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_are_listed_in_their_order_with_their_serialized_names() {
+        assert!(Layer::ALL.is_sorted());
+        for layer in Layer::ALL {
+            assert_eq!(serde_json::to_value(layer).unwrap(), layer.name());
+        }
+    }
+
+    #[test]
+    fn a_cause_is_named_without_the_station_that_it_was_about() {
+        let [one, other] = [7, 8]
+            .map(StationId)
+            .map(|station| Cause::from(Ignored::NotEngaged(station, Disengagement::Completed)));
+        assert_eq!(one, other);
+        assert_eq!(one.to_string(), "protocol: not engaged");
+        assert_eq!(
+            Cause::NoUse(Service::Denm).to_string(),
+            "service: no use for DENM"
+        );
+    }
+}

@@ -1,0 +1,185 @@
+//! One call of an endpoint: what the exchange wants of it, and the effects that it gathers.
+
+use std::fmt::Display;
+
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::geonet::{EgoPosition, Indication, PACKET_LEN_MAX, Signer};
+use crossguard_codec::{Heard, Identifiers, RobotState, TaskParameters};
+use crossguard_protocol::{Event, Input, Output, Outputs, Robot, StationId};
+
+use super::act::{Act, act};
+use super::{Around, Effect};
+use crate::cause::Cause;
+use crate::exchange::{Arrived, Host, Moment, Outgoing};
+use crate::ras::clustering::PerceivedVru;
+use crate::ras::containers;
+use crate::ras::vam::VamError;
+
+/// What one call of [`Endpoint::handle`](super::Endpoint::handle) works with.
+pub(super) struct Turn<'a> {
+    around: &'a mut Around,
+    state: &'a RobotState,
+    /// The packet that is being made.
+    packet: Vec<u8>,
+    effects: Vec<Effect>,
+}
+
+impl<'a> Turn<'a> {
+    pub(super) const fn new(around: &'a mut Around, state: &'a RobotState) -> Self {
+        Self {
+            around,
+            state,
+            packet: Vec::new(),
+            effects: Vec::new(),
+        }
+    }
+
+    pub(super) fn into_effects(self) -> Vec<Effect> {
+        self.effects
+    }
+
+    /// Forgets stations and people that were not heard or perceived for too long.
+    pub(super) fn elapse(&mut self, now_ms: u64) {
+        self.around.neighbours.elapse(now_ms);
+        self.around.surroundings.elapse(now_ms);
+    }
+
+    /// Says that an event was ignored, if it was.
+    pub(super) fn answer(&mut self, event: Event, outputs: &Outputs) {
+        if let Some(reason) = outputs.ignored() {
+            self.effects.push(Effect::Act(Act::Ignored(event, reason)));
+        }
+    }
+
+    pub(super) fn perceive(&mut self, now_ms: u64, people: &[PerceivedVru]) {
+        let position = &self.state.position;
+        let perceived = self.around.surroundings.perceive(now_ms, position, people);
+        if let Err(unplaced) = perceived {
+            self.dropped(Cause::Unplaced, &unplaced, &[]);
+        }
+    }
+
+    /// The longest interval between two RAM, in ms.
+    pub(super) fn ram_interval_max_ms(&self) -> u64 {
+        self.around.surroundings.ram_interval_max_ms()
+    }
+
+    /// The cluster VAM that are due.
+    pub(super) fn cluster_vams(
+        &mut self,
+        identifiers: &Identifiers,
+        moment: Moment,
+        station: u32,
+    ) -> Vec<Result<Vec<u8>, VamError>> {
+        let (now_ms, now_its) = (moment.now_ms, moment.timestamp_its);
+        let (surroundings, position) = (&mut self.around.surroundings, &self.state.position);
+        let vams = surroundings.cluster_vams(identifiers, now_ms, now_its, station, position);
+        vams.into_iter().map(|(_, vam)| vam).collect()
+    }
+
+    /// A message could not be made.
+    pub(super) fn not_sent(&mut self, error: &dyn Display) {
+        self.dropped(Cause::NotSent, error, &[]);
+    }
+}
+
+impl Host for Turn<'_> {
+    fn state(&self) -> &RobotState {
+        self.state
+    }
+
+    fn room(&mut self) -> &mut [u8] {
+        self.packet.clear();
+        self.packet.resize(PACKET_LEN_MAX, 0);
+        &mut self.packet
+    }
+
+    fn transmit(&mut self, outgoing: Outgoing<'_>) {
+        self.effects.push(Effect::Transmit {
+            kind: outgoing.service,
+            trigger: outgoing.trigger,
+            octets: outgoing.message.to_vec(),
+            packet: self.packet[..outgoing.packet_len].to_vec(),
+        });
+    }
+
+    fn stepped(&mut self, input: &Input, outputs: &Outputs, after: &Robot) {
+        self.effects.push(Effect::Stepped {
+            input: *input,
+            outputs: Box::new(*outputs),
+            state: Box::new(after.clone()),
+        });
+    }
+
+    fn act(&mut self, output: &Output, parameters: TaskParameters) {
+        self.effects
+            .extend(act(*output, parameters).map(Effect::Act));
+    }
+
+    fn heard(&mut self, moment: Moment, me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
+        let now_ms = moment.now_ms;
+        self.effects.push(Effect::Heard {
+            kind: heard.service,
+            from: heard.from,
+            arrived_ms: arrived.at_ms.unwrap_or(now_ms).min(now_ms),
+            told_ms: now_ms,
+            octets: arrived.octets.to_vec(),
+        });
+        for input in heard.inputs.iter() {
+            if let Input::Ram { ram, .. } = input {
+                self.around.answers.hear(now_ms, ram);
+            }
+        }
+        let Some(state) = &heard.state else { return };
+        let ego = EgoPosition::of(self.state, moment.timestamp_its);
+        self.around.neighbours.observe_robot(heard, &ego, now_ms);
+        let surroundings = &mut self.around.surroundings;
+        if let Some(plane) = surroundings.plane() {
+            let cluster = heard.cluster.as_ref();
+            let cluster = cluster.and_then(|it| containers::on_plane(it, &state.position, plane));
+            let own = me.station().0;
+            surroundings.hear(now_ms, own, heard.from.0, cluster.as_ref());
+        }
+    }
+
+    fn admits(&mut self, moment: Moment, from: StationId, signer: Signer) -> bool {
+        self.around.neighbours.admit(from, signer, moment.now_ms)
+    }
+
+    fn other(&mut self, moment: Moment, indication: &Indication<'_>, packet: &[u8]) {
+        let (service, octets) = (indication.service, indication.message);
+        let ego = EgoPosition::of(self.state, moment.timestamp_its);
+        let neighbours = &mut self.around.neighbours;
+        match neighbours.observe(service, octets, &ego, moment.now_ms) {
+            // An event is nobody for the map, and changes nothing that the robot does.
+            Ok(message) => {
+                if let Some(event) = message.event() {
+                    self.dropped(Cause::NoUse(service), &event, packet);
+                }
+            }
+            Err(unobserved) => self.dropped((&unobserved).into(), &unobserved, packet),
+        }
+    }
+
+    fn complete(&mut self, ram: &mut RAM) {
+        let surroundings = &mut self.around.surroundings;
+        if let Some(cluster) = surroundings.next_cluster()
+            && let Some(plane) = surroundings.plane()
+        {
+            containers::write(ram, plane, Some(&cluster));
+        }
+    }
+
+    fn dropped(&mut self, cause: Cause, detail: &dyn Display, octets: &[u8]) {
+        self.around.counters.count(cause);
+        self.effects.push(Effect::Dropped {
+            cause,
+            detail: detail.to_string(),
+            octets: octets.to_vec(),
+        });
+    }
+
+    fn ignored(&mut self, cause: Cause) {
+        self.around.counters.count(cause);
+    }
+}

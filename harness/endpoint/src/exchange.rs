@@ -1,0 +1,377 @@
+//! The transition function joined to the packets of RAM and RMCM, without heap, clock, input and output.
+//!
+//! [`Endpoint`](crate::Endpoint) and the C library are this exchange in a [`Host`] of their own:
+//!
+//! ```text
+//!  packet ──► stack ──► message ──► inputs ─┐                   ┌─► transmit a packet
+//!  event ───────────────────────────────────┼─► Robot::step ────┼─► act
+//!  time ────────────────────────────────────┘                   └─► stepped (for the log)
+//! ```
+
+mod entitled;
+mod host;
+mod orders;
+
+use crossguard_codec::geonet::{Address, EgoPosition, Indication, Stack};
+use crossguard_codec::si::generation_delta_time;
+use crossguard_codec::{
+    ExecutionStatus, Heard, Identifiers, Pdu, RAM_LEN_MAX, RMCM_LEN_MAX, RobotState, Service,
+    TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
+};
+use crossguard_protocol::{
+    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine, StationId,
+    TaskType, Timer,
+};
+
+pub use self::entitled::NotEntitled;
+use self::entitled::check_entitled;
+pub use self::host::{Arrived, Host, Moment, Outgoing};
+use self::orders::Orders;
+use crate::cause::Cause;
+use crate::ras::generation::{Generation, Limits, Status, Trigger};
+
+/// One robot's transition function with its packets.
+#[derive(Clone, Debug)]
+pub struct Exchange<P = Robot> {
+    protocol: P,
+    config: Config,
+    identifiers: Identifiers,
+    stack: Stack,
+    /// Until when the robot knows that time passed.
+    elapsed_to_ms: u64,
+    generation: Generation,
+    orders: Orders,
+}
+
+impl<P: StateMachine> Exchange<P> {
+    /// The exchange of a robot that has just booted, at `now_ms`, without security.
+    pub fn new(protocol: P, config: Config, identifiers: Identifiers, now_ms: u64) -> Self {
+        let station = protocol.robot().station();
+        Self {
+            protocol,
+            config,
+            identifiers,
+            stack: Stack::of_robot(identifiers, station),
+            elapsed_to_ms: now_ms,
+            generation: Generation::default(),
+            orders: Orders::default(),
+        }
+    }
+
+    /// The protocol state.
+    pub fn robot(&self) -> &Robot {
+        self.protocol.robot()
+    }
+
+    /// The configuration.
+    pub const fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// What no standard has assigned.
+    pub const fn identifiers(&self) -> &Identifiers {
+        &self.identifiers
+    }
+
+    /// Until when the robot knows that time passed, on the clock of [`Moment::now_ms`].
+    pub const fn elapsed_to_ms(&self) -> u64 {
+        self.elapsed_to_ms
+    }
+
+    /// What makes packets of messages, and opens them.
+    pub const fn stack_mut(&mut self) -> &mut Stack {
+        &mut self.stack
+    }
+
+    /// Lets the time pass until `moment`.
+    pub fn elapse<H: Host>(&mut self, host: &mut H, moment: Moment) {
+        let elapsed = moment.now_ms.saturating_sub(self.elapsed_to_ms);
+        if elapsed > 0 {
+            self.elapsed_to_ms = moment.now_ms;
+            let elapsed = u32::try_from(elapsed).unwrap_or(u32::MAX);
+            self.step(host, moment, Input::Elapsed(Millis(elapsed)), None);
+        }
+    }
+
+    /// One timer runs out, whatever the time.
+    pub fn expire<H: Host>(&mut self, host: &mut H, moment: Moment, timer: Timer) {
+        self.step(host, moment, Input::Expired(timer), None);
+    }
+
+    /// Something happened in the robot. A maneuver is commanded without parameters.
+    pub fn event<H: Host>(&mut self, host: &mut H, moment: Moment, event: Event) -> Outputs {
+        match event {
+            Event::CommandManeuver { follower, task } => {
+                self.command(host, moment, follower, task, TaskParameters::default())
+            }
+            // Only geo-broadcasts are numbered, and none is sent without security.
+            Event::IdentityChanged(station) => self.change_identity(host, moment, station, 0),
+            event => self.step(host, moment, Input::Local(event), None),
+        }
+    }
+
+    /// The application commands a maneuver.
+    pub fn command<H: Host>(
+        &mut self,
+        host: &mut H,
+        moment: Moment,
+        follower: StationId,
+        task: TaskType,
+        parameters: TaskParameters,
+    ) -> Outputs {
+        let before = self.orders;
+        let phase = self.protocol.robot().phase();
+        let follows = |it| matches!(phase, Phase::Leading(leading) if leading.member(it).is_some());
+        self.orders.put(follower, parameters, follows);
+        let event = Event::CommandManeuver { follower, task };
+        let outputs = self.step(host, moment, Input::Local(event), None);
+        if outputs.ignored().is_some() {
+            // The command that is outstanding keeps its own parameters.
+            self.orders = before;
+        }
+        outputs
+    }
+
+    /// The robot goes by another station id and address. Geo-broadcasts are numbered from
+    /// `sequence_number` on.
+    pub fn change_identity<H: Host>(
+        &mut self,
+        host: &mut H,
+        moment: Moment,
+        station: StationId,
+        sequence_number: u16,
+    ) -> Outputs {
+        let changed = Input::Local(Event::IdentityChanged(station));
+        let outputs = self.step(host, moment, changed, None);
+        if outputs.ignored().is_none() {
+            let address = Address::of_station(station.0, self.identifiers.robot_station_type);
+            self.stack.change_address(address, sequence_number);
+        }
+        outputs
+    }
+
+    /// A packet arrived.
+    pub fn receive<H: Host>(&mut self, host: &mut H, moment: Moment, packet: Arrived<'_>) {
+        if self.has_waited_too_long(host, moment, packet) {
+            return;
+        }
+        let ego = EgoPosition::of(host.state(), moment.timestamp_its);
+        match self.stack.receive(&ego, packet.octets) {
+            Ok(indication) => match indication.service {
+                Service::Ram | Service::Rmcm => {
+                    self.understand(host, moment, packet, Some(&indication));
+                }
+                _ => host.other(moment, &indication, packet.octets),
+            },
+            Err(discarded) => host.dropped(discarded.into(), &discarded, packet.octets),
+        }
+    }
+
+    /// A message arrived, which another stack has taken out of its packet.
+    pub fn receive_message<H: Host>(&mut self, host: &mut H, moment: Moment, message: Arrived<'_>) {
+        if !self.has_waited_too_long(host, moment, message) {
+            self.understand(host, moment, message, None);
+        }
+    }
+
+    /// Drops octets that waited for longer than the timers allow.
+    fn has_waited_too_long<H: Host>(
+        &self,
+        host: &mut H,
+        moment: Moment,
+        arrived: Arrived<'_>,
+    ) -> bool {
+        let delay_max_ms = self.config.settings().delay_max.0;
+        let waited_ms = arrived.at_ms.map(|at| moment.now_ms.saturating_sub(at));
+        match waited_ms {
+            Some(waited_ms) if waited_ms > u64::from(delay_max_ms) => {
+                let detail = format_args!("for {waited_ms} ms; delay_max is {delay_max_ms} ms");
+                host.dropped(Cause::WaitedTooLong, &detail, arrived.octets);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Takes in a message, which stands in a packet if there is an indication.
+    fn understand<H: Host>(
+        &mut self,
+        host: &mut H,
+        moment: Moment,
+        arrived: Arrived<'_>,
+        indication: Option<&Indication<'_>>,
+    ) {
+        let message = indication.map_or(arrived.octets, |indication| indication.message);
+        let me = self.protocol.robot();
+        let position = &host.state().position;
+        let heard = match Heard::of(&self.identifiers, me.station(), position, message) {
+            Ok(heard) => heard,
+            Err(unheard) => return host.dropped((&unheard).into(), &unheard, arrived.octets),
+        };
+        if let Some(indication) = indication {
+            if indication.service != heard.service {
+                let (found, port) = (heard.service.name(), indication.service.name());
+                let detail = format_args!("{found} at the port of {port}");
+                let cause = Cause::Discarded("message of another port");
+                return host.dropped(cause, &detail, arrived.octets);
+            }
+            if let Err(why) = check_entitled(host, moment, indication, &heard) {
+                return host.dropped(why.into(), &why, arrived.octets);
+            }
+        }
+        let arrived = Arrived {
+            octets: message,
+            ..arrived
+        };
+        host.heard(moment, me, &heard, arrived);
+        for input in heard.inputs.iter() {
+            self.step(host, moment, *input, heard.parameters);
+        }
+    }
+
+    /// Sends a RAM outside of a session, where the protocol does not say when, if the generation rules do.
+    pub fn generate<H: Host>(&mut self, host: &mut H, moment: Moment, limits: Limits) {
+        if self.robot().next_ram().is_none() {
+            let state = self.state(host);
+            let status = self.status(&state);
+            let trigger = self
+                .generation
+                .trigger(moment.now_ms, limits, &state, &status);
+            if let Some(trigger) = trigger {
+                self.send_ram(host, moment, trigger);
+            }
+        }
+    }
+
+    /// Sends a RAM outside of a session now.
+    pub fn announce<H: Host>(&mut self, host: &mut H, moment: Moment) {
+        if self.robot().next_ram().is_none() {
+            self.send_ram(host, moment, Trigger::Interval);
+        }
+    }
+
+    /// A step of the transition function, and what follows from it. `parameters` are those of the command
+    /// that the input may be.
+    fn step<H: Host>(
+        &mut self,
+        host: &mut H,
+        moment: Moment,
+        input: Input,
+        parameters: Option<TaskParameters>,
+    ) -> Outputs {
+        let outputs = self.protocol.step(&self.config, input);
+        host.stepped(&input, &outputs, self.protocol.robot());
+        for output in outputs.iter() {
+            match output {
+                Output::SendRam => {
+                    let status = self.status(&self.state(host));
+                    let event = self.generation.event(&status);
+                    self.send_ram(host, moment, event.unwrap_or(Trigger::Heartbeat));
+                }
+                Output::SendRmcm(rmcm) => self.send_rmcm(host, moment, rmcm),
+                output => {
+                    if let Output::Ignored(why) = output {
+                        host.ignored((*why).into());
+                    }
+                    host.act(output, parameters.unwrap_or_default());
+                }
+            }
+        }
+        outputs
+    }
+
+    fn send_ram<H: Host>(&mut self, host: &mut H, moment: Moment, trigger: Trigger) {
+        let now_ms = moment.now_ms;
+        let state = self.state(host);
+        let status = self.status(&state);
+        let low_frequency = self.generation.low_frequency_due(now_ms);
+        let time = generation_delta_time(moment.timestamp_its);
+        let (ids, availability) = (&self.identifiers, status.availability);
+        let ram = ram_from(ids, &state, &status.view, availability, time, low_frequency);
+        let ram = ram.map(|mut ram| {
+            host.complete(&mut ram);
+            ram
+        });
+        self.generation
+            .sent(now_ms, trigger, &state, status, low_frequency);
+        self.send::<_, _, RAM_LEN_MAX>(host, moment, (Service::Ram, trigger), ram);
+    }
+
+    fn send_rmcm<H: Host>(&mut self, host: &mut H, moment: Moment, rmcm: &Rmcm) {
+        let state = self.state(host);
+        let (ids, position) = (&self.identifiers, &state.position);
+        let time = generation_delta_time(moment.timestamp_its);
+        let message = match rmcm {
+            Rmcm::Command(command) => {
+                let commands = [(*command, self.orders.of(command.to))];
+                rmcm_from_commands(ids, position, None, &commands, time)
+            }
+            Rmcm::Answer(answer) => {
+                let status = ExecutionStatus {
+                    progression: state.task_progression,
+                    time_to_completion: None,
+                };
+                rmcm_from_answer(ids, position, answer, status, time)
+            }
+        };
+        let kind = (Service::Rmcm, Trigger::Protocol);
+        self.send::<_, _, RMCM_LEN_MAX>(host, moment, kind, message);
+    }
+
+    /// Encodes a message in `LEN` octets and sends it.
+    fn send<H: Host, M: Pdu, const LEN: usize>(
+        &mut self,
+        host: &mut H,
+        moment: Moment,
+        kind: (Service, Trigger),
+        message: Result<M, ViewError>,
+    ) {
+        let message = match message {
+            Ok(message) => message,
+            Err(error) => return host.dropped(Cause::NotSent, &error, &[]),
+        };
+        let mut octets = [0; LEN];
+        match encode_into(&self.identifiers, &message, &mut octets) {
+            Ok(length) => self.transmit(host, moment, kind, &octets[..length]),
+            Err(error) => host.dropped(Cause::NotSent, &error, &[]),
+        }
+    }
+
+    /// Sends a message of a service in a packet.
+    pub fn transmit<H: Host>(
+        &mut self,
+        host: &mut H,
+        moment: Moment,
+        (service, trigger): (Service, Trigger),
+        message: &[u8],
+    ) {
+        let request = &service.request(&self.identifiers);
+        let ego = EgoPosition::of(host.state(), moment.timestamp_its);
+        match self.stack.send(&ego, request, message, host.room()) {
+            Ok(packet_len) => host.transmit(Outgoing {
+                service,
+                trigger,
+                message,
+                request,
+                packet_len,
+            }),
+            Err(error) => host.dropped(Cause::NotSent, &error, &[]),
+        }
+    }
+
+    /// The application's state, with what the protocol knows better.
+    fn state<H: Host>(&self, host: &H) -> RobotState {
+        let mut state = host.state().clone();
+        state.correct(self.robot(), &self.config);
+        state
+    }
+
+    /// What a RAM says now that events are about.
+    fn status(&self, state: &RobotState) -> Status {
+        Status {
+            view: self.robot().ram(),
+            availability: self.robot().availability(),
+            progression: state.task_progression,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! What an exchange is embedded in.
+
+use core::fmt::Display;
+
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::geonet::{Indication, Request, Signer};
+use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
+use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
+
+use crate::cause::Cause;
+use crate::ras::generation::Trigger;
+
+/// What time it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Moment {
+    /// Milliseconds since any fixed moment, on a clock that never goes back.
+    pub now_ms: u64,
+    /// `TimestampIts`: milliseconds since 2004, leap seconds counted.
+    pub timestamp_its: u64,
+}
+
+/// Octets that came in.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrived<'a> {
+    /// A packet, or a message without one.
+    pub octets: &'a [u8],
+    /// When they arrived, on the clock of [`Moment::now_ms`]; `None` if that is not known.
+    pub at_ms: Option<u64>,
+}
+
+/// A message in its packet, which lies at the front of [`Host::room`].
+#[derive(Clone, Copy, Debug)]
+pub struct Outgoing<'a> {
+    /// Which message.
+    pub service: Service,
+    /// Why it is sent.
+    pub trigger: Trigger,
+    /// The message.
+    pub message: &'a [u8],
+    /// Its port, traffic class and the like.
+    pub request: &'a Request,
+    /// Octets of the packet; the message is at its end, if there is no security envelope.
+    pub packet_len: usize,
+}
+
+/// What an exchange is embedded in: its effects go here, in order.
+pub trait Host {
+    /// How the application says that the robot is. What the protocol knows better is corrected before it is
+    /// sent.
+    fn state(&self) -> &RobotState;
+
+    /// Where the next packet goes: [`PACKET_LEN_MAX`](crossguard_codec::geonet::PACKET_LEN_MAX) octets.
+    fn room(&mut self) -> &mut [u8];
+
+    /// Send the packet that is in [`Host::room`] now.
+    fn transmit(&mut self, outgoing: Outgoing<'_>);
+
+    /// The transition function took a step, and `after` is the state after it.
+    fn stepped(&mut self, input: &Input, outputs: &Outputs, after: &Robot);
+
+    /// The application is to do this, or to know it. `parameters` are those of the command that was the
+    /// input of the step. Never [`Output::SendRam`] and [`Output::SendRmcm`].
+    fn act(&mut self, output: &Output, parameters: TaskParameters);
+
+    /// The robot `me` understood a message.
+    fn heard(&mut self, moment: Moment, me: &Robot, heard: &Heard, arrived: Arrived<'_>);
+
+    /// Whether the sender of a message may go by its station id: no other certificate does.
+    fn admits(&mut self, _moment: Moment, _from: StationId, _signer: Signer) -> bool {
+        true
+    }
+
+    /// A message of another station than a robot arrived in `packet`.
+    fn other(&mut self, moment: Moment, indication: &Indication<'_>, packet: &[u8]);
+
+    /// The host may add what it knows of the people around.
+    fn complete(&mut self, _ram: &mut RAM) {}
+
+    /// Something was dropped: a datagram with these octets, or a message that cannot be sent.
+    fn dropped(&mut self, cause: Cause, detail: &dyn Display, octets: &[u8]);
+
+    /// An input was ignored.
+    fn ignored(&mut self, cause: Cause);
+}

@@ -1,0 +1,94 @@
+//! What any receiver can say of packets and messages, without verifying them: for sniffers, captures and charts.
+
+use crossguard_codec::geonet::{BasicHeader, Discarded, GeonetError, Headers, NextHeader};
+use crossguard_codec::its::ItsMessage;
+use crossguard_codec::security::SignedMessage;
+use crossguard_codec::{DecodeError, Heard, Identifiers, Position, Service, Unheard};
+use crossguard_protocol::StationId;
+
+use crate::cause::Cause;
+
+/// The service that a message is of.
+#[must_use]
+pub const fn service_of(message: &ItsMessage) -> Option<Service> {
+    Some(match message {
+        ItsMessage::Ram(_) => Service::Ram,
+        ItsMessage::Rmcm(_) => Service::Rmcm,
+        ItsMessage::Cam(_) => Service::Cam,
+        ItsMessage::Denm(_) => Service::Denm,
+        ItsMessage::Vam(_) | ItsMessage::Vam211(_) => Service::Vam,
+        ItsMessage::Cpm(_) => Service::Cpm,
+        _ => return None,
+    })
+}
+
+/// Why a message tells of nobody.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Unobserved {
+    /// It is not a message.
+    #[error(transparent)]
+    Undecodable(#[from] DecodeError),
+    /// It is that of another service.
+    #[error("a message of {found:?} at the port of {service:?}")]
+    OtherService {
+        /// The service at the port.
+        service: Service,
+        /// The service that it is of.
+        found: Option<Service>,
+    },
+}
+
+impl From<&Unobserved> for Cause {
+    fn from(unobserved: &Unobserved) -> Self {
+        match unobserved {
+            Unobserved::Undecodable(error) => error.into(),
+            Unobserved::OtherService { .. } => Self::Discarded("message of another port"),
+        }
+    }
+}
+
+/// The headers of a packet and the message in it, for any receiver; also of one with a security
+/// envelope, whose content is not verified then. For those who listen in.
+///
+/// # Errors
+/// Why it has none.
+pub fn peek(packet: &[u8]) -> Result<(Headers, &[u8]), Discarded> {
+    let (basic, rest) = BasicHeader::decode(packet)?;
+    let plain = match basic.next {
+        NextHeader::Common => rest,
+        NextHeader::Secured => {
+            SignedMessage::decode(rest)
+                .map_err(|_| Discarded::Headers(GeonetError::Secured))?
+                .payload
+        }
+    };
+    Ok(Headers::decode_behind(basic, plain)?)
+}
+
+/// The message in a packet, as [`peek`] has it; or the octets, where they are no packet.
+#[must_use]
+pub fn message_of(octets: &[u8]) -> &[u8] {
+    peek(octets).map_or(octets, |(_, message)| message)
+}
+
+/// The link-layer address of a packet's source; `02:00:00:00:00:00` where it has none.
+#[must_use]
+pub fn link_layer_of(packet: &[u8]) -> [u8; 6] {
+    peek(packet).map_or([0x02, 0, 0, 0, 0, 0], |(headers, _)| {
+        headers.source.address.link_layer
+    })
+}
+
+/// What `octets`, a message or a packet with one, say to a listener: for charts and tools.
+///
+/// # Errors
+/// Why they say nothing.
+pub fn overhear(identifiers: &Identifiers, octets: &[u8]) -> Result<Heard, Unheard> {
+    let nobody = StationId(u32::MAX);
+    Heard::of(
+        identifiers,
+        nobody,
+        &Position::default(),
+        message_of(octets),
+    )
+}

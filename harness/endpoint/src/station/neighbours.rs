@@ -1,0 +1,79 @@
+//! Who is around a robot, and who goes by which station id.
+
+use crossguard_codec::Identifiers;
+use crossguard_codec::geonet::{EgoPosition, Signer};
+use crossguard_codec::its::{ItsMessage, RoadUser};
+use crossguard_codec::si::rebuild_timestamp;
+use crossguard_codec::{Heard, Service};
+use crossguard_protocol::StationId;
+
+use super::listen::{Unobserved, service_of};
+use super::map::LocalDynamicMap;
+use super::namesakes::Namesakes;
+
+/// The stations around one robot.
+#[derive(Clone, Debug)]
+pub(crate) struct Neighbours {
+    identifiers: Identifiers,
+    namesakes: Namesakes,
+    map: LocalDynamicMap,
+}
+
+impl Neighbours {
+    /// Nobody is known yet.
+    pub(crate) fn new(identifiers: Identifiers) -> Self {
+        Self {
+            identifiers,
+            namesakes: Namesakes::default(),
+            map: LocalDynamicMap::default(),
+        }
+    }
+
+    /// Whether no other certificate than that of `signer` goes by this station id at `now_ms`.
+    pub(crate) fn admit(&mut self, from: StationId, signer: Signer, now_ms: u64) -> bool {
+        self.namesakes.admit(from, signer, now_ms)
+    }
+
+    /// Who is around.
+    pub(crate) const fn map(&self) -> &LocalDynamicMap {
+        &self.map
+    }
+
+    /// Forgets who was not heard of for too long.
+    pub(crate) fn elapse(&mut self, now_ms: u64) {
+        self.map.forget(now_ms);
+    }
+
+    /// Puts the sender of a RAM on the map, and the people that it announces.
+    pub(crate) fn observe_robot(&mut self, heard: &Heard, ego: &EgoPosition, now_ms: u64) {
+        let Some(state) = &heard.state else { return };
+        let measured = rebuild_timestamp(ego.timestamp_its, heard.generation_delta_time);
+        let station_type = self.identifiers.robot_station_type;
+        let around = heard.cluster.as_ref();
+        for user in RoadUser::of_robot(heard.from.0, station_type, state, around, measured) {
+            self.map.observe(user, now_ms);
+        }
+    }
+
+    /// Puts the road users of another station's message on the map, and returns the message.
+    ///
+    /// # Errors
+    /// Why the octets are not the message of this service.
+    pub(crate) fn observe(
+        &mut self,
+        service: Service,
+        octets: &[u8],
+        ego: &EgoPosition,
+        now_ms: u64,
+    ) -> Result<ItsMessage, Unobserved> {
+        let message = ItsMessage::decode(&self.identifiers, octets)?.message;
+        let found = service_of(&message);
+        if found != Some(service) {
+            return Err(Unobserved::OtherService { service, found });
+        }
+        for user in message.road_users(ego.timestamp_its) {
+            self.map.observe(user, now_ms);
+        }
+        Ok(message)
+    }
+}
