@@ -108,7 +108,7 @@ fn start(leader: Halves, follower: Halves) -> Pair {
             station: StationId(station),
             boot: Boot::first_of_its_kind(),
             config: Config::default(),
-            wire: Identifiers::default(),
+            identifiers: Identifiers::default(),
             security: Security::default(),
             awareness: Awareness::default(),
             application: Application::new(Box::new(body), None),

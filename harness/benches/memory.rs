@@ -38,8 +38,8 @@ fn cam() -> Vec<u8> {
 fn packet_of(vehicle: u32, cam: &mut [u8]) -> Vec<u8> {
     let station = 10_000 + vehicle;
     cam[2..6].copy_from_slice(&station.to_be_bytes());
-    Station::new(&Identifiers::default(), StationId(station))
-        .send(&EgoPosition::default(), Service::Cam, cam)
+    Stack::of_robot(Identifiers::default(), StationId(station))
+        .packet(&EgoPosition::default(), Service::Cam, cam)
         .expect("it fits")
 }
 
@@ -133,7 +133,7 @@ fn main() {
             street.now_ms / MINUTE_MS,
             kib(held),
             kib(most),
-            street.robots[0].endpoint().station().map().iter().count()
+            street.robots[0].endpoint().map().iter().count()
         );
     }
     let street = black_box(street).expect("it ran");

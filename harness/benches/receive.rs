@@ -34,8 +34,8 @@ fn ram() -> Vec<u8> {
 
 fn packet(service: Service, vectors: &'static str, name: &str) -> Vec<u8> {
     let octets = hex::decode(golden::vector(vectors, name)).expect("hexadecimal digits");
-    Station::new(&Identifiers::default(), StationId(9))
-        .send(&EgoPosition::default(), service, &octets)
+    Stack::of_robot(Identifiers::default(), StationId(9))
+        .packet(&EgoPosition::default(), service, &octets)
         .expect("it fits")
 }
 

@@ -62,16 +62,15 @@ fn a_message_that_waited_longer_than_delay_max_is_dropped_under_its_own_cause() 
         };
         assert_eq!(effects.iter().any(heard), is_taken, "{waited_ms}");
         let dropped = effects.iter().filter_map(|effect| match effect {
-            Effect::Dropped { cause, detail, .. } => Some((cause.name(), detail.clone())),
+            Effect::Dropped { cause, detail, .. } => Some((*cause, detail.clone())),
             _ => None,
         });
         let dropped: Vec<_> = dropped.collect();
         let counted = endpoint.counters().of(Cause::WaitedTooLong);
         assert_eq!(counted, u64::from(!is_taken), "{waited_ms}");
         if !is_taken {
-            let cause = "waited too long".to_owned();
             let detail = "for 51 ms; delay_max is 50 ms".to_owned();
-            assert_eq!(dropped, [(cause, detail)]);
+            assert_eq!(dropped, [(Cause::WaitedTooLong, detail)]);
         }
     }
 }
@@ -114,7 +113,7 @@ fn hanging(hang_ms: u32, faults: &str) -> (Vec<Record>, Option<String>) {
 }
 
 fn waited_too_long(records: &[Record]) -> usize {
-    let is_old = |record: &&Record| matches!(&record.entry, Entry::Dropped { cause, .. } if cause == "waited too long");
+    let is_old = |record: &&Record| matches!(&record.entry, Entry::Dropped { cause, .. } if *cause == Cause::WaitedTooLong.into());
     records.iter().filter(is_old).count()
 }
 

@@ -12,6 +12,10 @@ use std::time::Duration;
 
 use support::*;
 
+/// Drops of packets by their time, in a log.
+const FUTURE: &str = r#""layer":"security","cause":"from the future""#;
+const OLD: &str = r#""layer":"security","cause":"too old""#;
+
 const PATIENCE: Duration = Duration::from_mins(1);
 
 const HOUR: i64 = 3_600;
@@ -174,8 +178,8 @@ fn step_with_security(ahead_s: i64, library: &Path) {
     quit(robots);
     let [ari, go2] = configs.each_ref().map(|config| log_of(config));
     let (by_go2, by_ari) = match ahead_s {
-        0.. => ("security: from the future", "security: too old"),
-        _ => ("security: too old", "security: from the future"),
+        0.. => (FUTURE, OLD),
+        _ => (OLD, FUTURE),
     };
     assert!(go2.contains(by_go2), "{by_go2}");
     assert!(ari.contains(by_ari), "{by_ari}");

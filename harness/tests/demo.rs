@@ -74,7 +74,7 @@ fn with_three_of_ten_datagrams_lost_the_crossing_ends_well() {
         let output = demo(&["--loss", "0.3", "--seed", seed, "--json"]);
         let result = json(&output);
         assert_all_well(&result);
-        let lost = result["counters"]["ARI"]["simulated loss"]
+        let lost = result["counters"]["ARI"]["simulated"]["loss"]
             .as_u64()
             .unwrap();
         assert!(lost > 0, "{result}");
@@ -92,7 +92,7 @@ fn bursts_repetition_and_delay_are_survived_and_counted() {
         "duplication=0.3,reordering=0.1,burst=0.2x3,delay=1..20"
     );
     let counters = &result["counters"]["Go2"];
-    assert!(counters["simulated burst loss"].as_u64() > Some(0));
+    assert!(counters["simulated"]["burst loss"].as_u64() > Some(0));
     assert_refused(&run(&["demo", "--faults", "rain=1"]), "no fault 'rain'");
 }
 

@@ -24,10 +24,10 @@ fn message(vectors: &'static str, name: &str, station: u32) -> Vec<u8> {
 /// The packet number `n` of the flood.
 fn packet(n: u32) -> Vec<u8> {
     let station = 1_000 + n % 500;
-    let mut sender = Station::new(&Identifiers::default(), StationId(station));
+    let mut sender = Stack::of_robot(Identifiers::default(), StationId(station));
     let mut send = |service, message: &[u8]| {
         sender
-            .send(&EgoPosition::default(), service, message)
+            .packet(&EgoPosition::default(), service, message)
             .unwrap()
     };
     match n % 5 {
@@ -63,7 +63,7 @@ fn the_crossing_goes_on_in_a_flood_of_other_stations() {
     assert_eq!(result["crossings"], 1);
     assert_eq!(result["trace_valid"], true);
     for robot in ["ARI", "Go2"] {
-        let garbage = &result["counters"][robot]["undecodable: unknown messageId"];
+        let garbage = &result["counters"][robot]["syntax"]["unknown messageId"];
         // A fifth of what was sent while the robot ran, unless the machine was too slow for it.
         assert!(garbage.as_u64().unwrap_or_default() > 0, "{result}");
     }

@@ -7,7 +7,9 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
-use crossguard_codec::{Identifiers, MessageIdentifiers, RobotState, Service, golden};
+use crossguard_codec::{
+    Identifiers, MessageIdentifiers, RobotState, Service, encode, golden, ram_from,
+};
 use crossguard_protocol::{Availability, Robot, StationId};
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -15,24 +17,17 @@ use support::*;
 
 /// A packet with these octets, from a station that has no part in anything.
 fn packet(service: Service, message: &[u8]) -> Vec<u8> {
-    Station::new(&Identifiers::default(), StationId(77))
-        .send(&EgoPosition::default(), service, message)
+    Stack::of_robot(Identifiers::default(), StationId(77))
+        .packet(&EgoPosition::default(), service, message)
         .unwrap()
 }
 
 /// A RAM of a robot that has no part in anything.
 fn ram(identifiers: Identifiers) -> Vec<u8> {
-    let robot = Robot::new(StationId(77), 1);
-    Wire { identifiers }
-        .ram(
-            &RobotState::default(),
-            &robot.ram(),
-            Availability::Available,
-            0,
-            false,
-            None,
-        )
-        .unwrap()
+    let view = Robot::new(StationId(77), 1).ram();
+    let (state, available) = (RobotState::default(), Availability::Available);
+    let ram = ram_from(&identifiers, &state, &view, available, 0, false).unwrap();
+    encode(&identifiers, &ram).unwrap()
 }
 
 fn hostile_datagrams() -> Vec<Vec<u8>> {
@@ -91,23 +86,23 @@ fn the_crossing_goes_on_among_garbage_and_each_kind_is_counted_by_its_cause() {
     assert_eq!(result["trace_valid"], true);
     for robot in ["ARI", "Go2"] {
         let counters = &result["counters"][robot];
-        for cause in [
-            "packet: truncated",
-            "packet: too long",
-            "packet: not supported",
-            "packet: payload length",
-            "security: secured, and security is off",
-            "packet: message of another port",
-            "no use for: DENM",
-            "undecodable: too short",
-            "undecodable: truncated",
-            "undecodable: trailing octets",
-            "undecodable: unknown protocolVersion",
-            "undecodable: unknown messageId",
+        for (layer, cause) in [
+            ("packet", "truncated"),
+            ("packet", "too long"),
+            ("packet", "not supported"),
+            ("packet", "payload length"),
+            ("security", "secured, and security is off"),
+            ("packet", "message of another port"),
+            ("service", "no use for DENM"),
+            ("syntax", "too short"),
+            ("syntax", "truncated"),
+            ("syntax", "trailing octets"),
+            ("syntax", "unknown protocolVersion"),
+            ("syntax", "unknown messageId"),
         ] {
             assert!(
-                counters[cause].as_u64().unwrap_or_default() > 0,
-                "{cause}: {counters}"
+                counters[layer][cause].as_u64().unwrap_or_default() > 0,
+                "{layer}: {cause}: {counters}"
             );
         }
     }

@@ -68,7 +68,7 @@ fn a_robot_and_a_sniffer_have_the_same_map_also_when_a_ram_is_late() {
         robot.handle(at(now_ms), &placed(48.7), datagram);
         sniffer.see(packet, now_ms, BEGAN_ITS + now_ms);
     }
-    let map = robot.station().map();
+    let map = robot.map();
     let seen: Vec<_> = sniffer.map().iter().collect();
     assert_eq!(map.iter().collect::<Vec<_>>(), seen);
     assert_eq!(map.of_kind(Kind::Vru).count(), 1, "the person at its side");

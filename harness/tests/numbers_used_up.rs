@@ -39,7 +39,7 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
         station: StationId(1),
         boot,
         config: Config::default(),
-        wire: Identifiers::default(),
+        identifiers: Identifiers::default(),
         security: Security::default(),
         awareness: Awareness::default(),
         application: Application::new(Box::new(body), None),
@@ -58,7 +58,7 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
         robot.order(leaves);
         for record in records.try_iter() {
             match &record.entry {
-                Entry::Dropped { cause, .. } if *cause == Cause::EpochNotRenewed.name() => {
+                Entry::Dropped { cause, .. } if *cause == Cause::EpochNotRenewed.into() => {
                     complained += 1;
                     if complained == 1 {
                         fs::remove_dir(&path).unwrap();

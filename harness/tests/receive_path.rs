@@ -12,7 +12,7 @@ use rand_chacha::ChaCha8Rng;
 const PACKETS: u64 = 20_000;
 
 fn packets() -> Vec<Vec<u8>> {
-    let mut sender = Station::new(&Identifiers::default(), StationId(77));
+    let mut sender = Stack::of_robot(Identifiers::default(), StationId(77));
     let mut packets = Vec::new();
     for file in [golden::ITS, golden::VAM, golden::PACKETS] {
         for (_, digits) in golden::vectors(file) {
@@ -22,7 +22,7 @@ fn packets() -> Vec<Vec<u8>> {
                 continue;
             }
             for service in Service::ALL {
-                let packet = sender.send(&EgoPosition::default(), service, &octets);
+                let packet = sender.packet(&EgoPosition::default(), service, &octets);
                 packets.extend(packet);
             }
         }
@@ -108,12 +108,12 @@ fn any_packet_is_taken_or_dropped_under_a_cause() {
         } else {
             taken += 1;
         }
-        assert!(endpoint.station().map().iter().count() <= 5 * 128);
+        assert!(endpoint.map().iter().count() <= 5 * 128);
     }
     assert!(
         taken > PACKETS / 20 && dropped > PACKETS / 2,
         "{taken} {dropped}"
     );
-    let counted: u64 = endpoint.counters().by_name().values().sum();
+    let counted: u64 = endpoint.counters().named().total(|_| true);
     assert!(counted >= dropped);
 }

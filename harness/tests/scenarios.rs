@@ -102,7 +102,7 @@ fn a_team_of_four_takes_commands_of_one_leader_also_when_messages_get_lost() {
     let expected = [("initialPos", 3), ("move", 1), ("block", 2)];
     let expected = expected.map(|(task, count): (&str, u64)| (task.into(), count.into()));
     assert_eq!(maneuvers.collect::<Vec<_>>(), expected);
-    let losses = &result["counters"]["Go2"]["simulated loss"];
+    let losses = &result["counters"]["Go2"]["simulated"]["loss"];
     assert!(losses.as_u64() > Some(0), "{result:#}");
 }
 

@@ -13,7 +13,7 @@ use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::security::{
     Duration, Permission, PrivateKey, Ssp, Ticket, Time64, Unit, Validity, issue,
 };
-use crossguard_codec::{Identifiers, Part, RobotState, Service};
+use crossguard_codec::{Identifiers, Part, RobotState, Service, encode, ram_from};
 
 use crossguard_endpoint::station::{Credentials, Mode, Security};
 use crossguard_protocol::{Availability, Event, Input, Robot, StationId};
@@ -36,13 +36,15 @@ fn ego(time: Time64) -> EgoPosition {
 }
 
 /// A station with one ticket.
-fn station(pki: &Pki, id: StationId, mode: Mode, ticket: Holder, now: Time64) -> Station {
+fn station(pki: &Pki, id: StationId, mode: Mode, ticket: Holder, now: Time64) -> Stack {
     let credentials = Credentials {
         trust: pki.trust().unwrap(),
         tickets: vec![Ticket::new(ticket.certificate, ticket.key).unwrap()],
     };
     let security = Security::new(mode, credentials, None, now).unwrap();
-    Station::new(&identifiers(), id).with_security(security, 0)
+    let mut stack = Stack::of_robot(identifiers(), id);
+    *stack.envelope_mut() = security.envelope;
+    stack
 }
 
 fn ticket(pki: &Pki, permissions: Vec<Permission>) -> Holder {
@@ -57,7 +59,7 @@ fn both_parts() -> Vec<Permission> {
     pki::robot_permissions(&identifiers(), &[Part::Lead, Part::Help])
 }
 
-fn guest(pki: &Pki) -> Station {
+fn guest(pki: &Pki) -> Stack {
     station(
         pki,
         GUEST,
@@ -77,22 +79,15 @@ fn ram(id: StationId, asks: bool) -> Vec<u8> {
             Input::Local(detected),
         );
     }
-    let available = Availability::Available;
-    Identifiers::default()
-        .ram(
-            &RobotState::default(),
-            &robot.ram(),
-            available,
-            0,
-            false,
-            None,
-        )
-        .unwrap()
+    let (ids, state) = (Identifiers::default(), RobotState::default());
+    let view = robot.ram();
+    let ram = ram_from(&ids, &state, &view, Availability::Available, 0, false).unwrap();
+    encode(&ids, &ram).unwrap()
 }
 
-fn say(station: &mut Station, message: &[u8]) -> Vec<u8> {
+fn say(station: &mut Stack, message: &[u8]) -> Vec<u8> {
     station
-        .send(&ego(pki::now()), Service::Ram, message)
+        .packet(&ego(pki::now()), Service::Ram, message)
         .unwrap()
 }
 
@@ -123,7 +118,9 @@ fn expired(pki: &Pki) -> Vec<u8> {
     let ticket = Holder { certificate, key };
     let mut station = station(pki, GUEST, Mode::Enforce, ticket, before);
     let message = ram(GUEST, false);
-    station.send(&ego(before), Service::Ram, &message).unwrap()
+    station
+        .packet(&ego(before), Service::Ram, &message)
+        .unwrap()
 }
 
 /// The robots' PKI, in a folder as `--pki` wants it.
@@ -141,13 +138,13 @@ fn written(folder: &Path) -> Pki {
 /// Stations that send what must not be believed, and a packet to be sent again and again.
 struct Attackers {
     pki: Pki,
-    honest: Station,
-    foreign: Station,
+    honest: Stack,
+    foreign: Stack,
     /// May help, but asks others for help.
-    helper: Station,
+    helper: Stack,
     /// May not send RAM or RMCM at all.
-    other_service: Station,
-    poses_as_ari: Station,
+    other_service: Stack,
+    poses_as_ari: Stack,
     repeated: Option<(Time64, Vec<u8>)>,
     old: Vec<u8>,
 }
@@ -172,7 +169,7 @@ impl Attackers {
             poses_as_ari: of(ticket(&pki, both_parts()), StationId(79)),
             repeated: None,
             old: early
-                .send(&ego(before), Service::Ram, &ram(GUEST, false))
+                .packet(&ego(before), Service::Ram, &ram(GUEST, false))
                 .unwrap(),
             pki,
         }
@@ -189,7 +186,10 @@ impl Attackers {
         unknown[signer] ^= 1;
         // Signed for CAM, and sent as RAM: the ITS-AID in the header is not one of the ticket.
         let now = ego(pki::now());
-        let mut wrong_permission = self.other_service.send(&now, Service::Cam, &idle).unwrap();
+        let mut wrong_permission = self
+            .other_service
+            .packet(&now, Service::Cam, &idle)
+            .unwrap();
         let header = [0x40, 1, 36];
         let at = wrong_permission
             .windows(3)
@@ -210,8 +210,8 @@ impl Attackers {
             wrong_permission,
             repeated.clone(),
             repeated,
-            Station::new(&identifiers(), GUEST)
-                .send(&now, Service::Ram, &idle)
+            Stack::of_robot(identifiers(), GUEST)
+                .packet(&now, Service::Ram, &idle)
                 .unwrap(),
             unknown,
             self.old.clone(),
@@ -275,7 +275,7 @@ fn the_crossing_goes_on_and_each_false_packet_is_rejected_under_its_own_cause() 
             "too old",
             "beyond service permissions",
         ] {
-            let count = counters[format!("security: {cause}")].as_u64();
+            let count = counters["security"][cause].as_u64();
             assert!(
                 count.unwrap_or_default() > 0,
                 "{robot}, {cause}: {counters}"
@@ -284,7 +284,7 @@ fn the_crossing_goes_on_and_each_false_packet_is_rejected_under_its_own_cause() 
     }
     // Only Go2 hears ARI, whose name was taken in vain.
     let counters = &result["counters"]["Go2"];
-    let namesakes = counters["security: station id of another certificate"].as_u64();
+    let namesakes = counters["security"]["station id of another certificate"].as_u64();
     assert!(namesakes.unwrap_or_default() > 0, "{counters}");
 }
 
@@ -292,8 +292,8 @@ fn the_crossing_goes_on_and_each_false_packet_is_rejected_under_its_own_cause() 
 fn each_mode_takes_what_it_says() {
     let pki = Pki::for_a_day(&identifiers(), pki::now()).unwrap();
     let message = ram(GUEST, false);
-    let mut off = Station::new(&identifiers(), StationId(5));
-    let plain = say(&mut Station::new(&identifiers(), GUEST), &message);
+    let mut off = Stack::of_robot(identifiers(), StationId(5));
+    let plain = say(&mut Stack::of_robot(identifiers(), GUEST), &message);
     let signed = say(&mut guest(&pki), &message);
     let mut forged = signed.clone();
     forged[60] ^= 1;
@@ -308,7 +308,7 @@ fn each_mode_takes_what_it_says() {
         )
     };
     let (mut sign, mut enforce) = (of(Mode::Sign), of(Mode::Enforce));
-    let taken = |station: &mut Station| {
+    let taken = |station: &mut Stack| {
         [&plain, &forged, &signed].map(|packet| match station.receive(&now, packet) {
             Ok(indication) => {
                 assert_eq!(indication.message, &message[..]);

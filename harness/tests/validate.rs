@@ -239,16 +239,16 @@ const ALTERATIONS: [Alteration; 22] = [
     Alteration {
         name: "another cause of a loss",
         line: |line| is(line, "dropped"),
-        alter: |lines, at| lines[at]["cause"] = "simulated rain".into(),
+        alter: |lines, at| lines[at]["cause"] = "rain".into(),
         refused: Where::AtTheEnd,
         reason: "times, and its log has it",
     },
     Alteration {
         name: "another count",
         line: |line| is(line, "stopped"),
-        alter: |lines, at| lines[at]["counters"]["ignored: nothing new"] = 999.into(),
+        alter: |lines, at| lines[at]["counters"]["protocol"]["nothing new"] = 999.into(),
         refused: Where::There,
-        reason: "counted 'ignored: nothing new' 999 times, and its log has it",
+        reason: "counted 'protocol: nothing new' 999 times, and its log has it",
     },
     Alteration {
         name: "a step less",

@@ -31,8 +31,8 @@ fn what_a_robot_drops_is_told_with_its_cause_and_a_status_line_counts_it() {
     assert!(output.status.success(), "{said}");
     for expected in [
         "INFO robot{name=\"ARI\"}: started station=1 boot=1",
-        "WARN robot{name=\"ARI\"}: dropped cause=\"packet: ",
-        "DEBUG robot{name=\"ARI\"}: ignored cause=\"ignored: not in session\" input=leave requested",
+        "WARN robot{name=\"ARI\"}: dropped layer=packet cause=",
+        "DEBUG robot{name=\"ARI\"}: ignored cause=not in session input=leave requested",
         "ARI Idle, available; sent ",
     ] {
         assert!(said.contains(expected), "'{expected}' is not in:\n{said}");

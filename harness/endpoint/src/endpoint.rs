@@ -1,15 +1,7 @@
 //! One robot's endpoint: the [`Exchange`] with a map, clusters of people and security.
 //!
 //! It does no input or output and reads no clock. Its driver says what time it is, hands it datagrams and
-//! events, and carries out the effects in order. The way of one RAM that is received:
-//!
-//! 1. [`Endpoint::handle`] lets the time pass until now.
-//! 2. `Exchange::receive` drops a packet that waited for too long, and opens it: `Stack::receive`.
-//! 3. `Exchange::understand` decodes the message, `Heard::of`, and checks what its sender is entitled to,
-//!    `check_entitled`.
-//! 4. `Turn::heard` logs it, and puts robot and people on the map.
-//! 5. `Exchange::step` is the step of the transition function, `Robot::step`, and what follows from it.
-//! 6. `Exchange::generate` sends a RAM, if one is due outside of a session.
+//! events, and carries out the effects in order. The README lists the functions on the way of a RAM.
 
 mod act;
 mod answers;

@@ -375,7 +375,7 @@ impl Street {
     /// How often a robot ignored something for this reason.
     pub(crate) fn ignored(&self, station: u32, why: Ignored) -> u64 {
         let endpoint = self.actors[&station].endpoint.as_ref();
-        endpoint.map_or(0, |e| e.counters().of(Cause::Ignored(why)))
+        endpoint.map_or(0, |e| e.counters().of(Cause::from(why)))
     }
 
     /// How many robots lead.

@@ -1,5 +1,6 @@
 //! Logs of simulated robots are valid; with one record altered they are not.
 
+use crossguard_codec::{Identifiers, RobotState, encode, ram_from};
 use crossguard_protocol::{Input, Millis, Output};
 use crossguard_robot::trace;
 
@@ -128,16 +129,10 @@ fn a_log_with_one_altered_record_is_refused_at_that_record_or_the_next_of_its_ro
     let records = records(5);
     // A message that nobody here has sent.
     let stranger = crossguard_protocol::Robot::new(StationId(77), 1).ram();
-    let octets = crossguard_codec::Identifiers::default()
-        .ram(
-            &crossguard_codec::RobotState::default(),
-            &stranger,
-            crossguard_protocol::Availability::Available,
-            0,
-            false,
-            None,
-        )
-        .unwrap();
+    let (identifiers, state) = (Identifiers::default(), RobotState::default());
+    let available = crossguard_protocol::Availability::Available;
+    let ram = ram_from(&identifiers, &state, &stranger, available, 0, false).unwrap();
+    let octets = encode(&identifiers, &ram).unwrap();
     let mut tried = 0;
     for i in (0..records.len()).step_by(records.len() / 150) {
         for other in altered(&records[i], &octets) {

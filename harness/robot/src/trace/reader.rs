@@ -243,7 +243,7 @@ mod tests {
     }
 
     fn stopped(robot: &str, at_us: u64) -> Record {
-        let counters = std::collections::BTreeMap::new();
+        let counters = crossguard_endpoint::counters::Counts::default();
         Record {
             at_us,
             robot: robot.to_owned(),

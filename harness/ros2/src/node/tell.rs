@@ -165,7 +165,7 @@ impl Turn {
         let inbox = self
             .active
             .as_ref()
-            .map(|active| ("inbox full".to_owned(), active.inbox_full()));
+            .map(|active| ("inbox: full".to_owned(), active.inbox_full()));
         let counted: Vec<_> = self
             .causes
             .iter()
