@@ -24,7 +24,7 @@ that leaves something open, the model takes the most literal reading; the docume
 `paper` lists these readings. A hazard below is a statement about this reading.
 
 This page is generated from what the checker finds; a test fails when the two differ. To write it
-anew: `CROSSGUARD_BLESS=1 cargo test -p crossguard-model-check --test paper_literal`.
+anew: `cargo xtask bless paper-literal`.
 ";
 
 const ON_ROAD: &str = "
