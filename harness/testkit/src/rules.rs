@@ -1,5 +1,4 @@
 //! Weakened rules that more than one test puts in the protocol's place.
-#![allow(dead_code, unreachable_pub, reason = "shared by tests")]
 
 use crossguard_model_check::node::Rules;
 use crossguard_protocol::*;
