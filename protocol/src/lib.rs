@@ -59,6 +59,7 @@
 #[cfg(any(test, doctest))]
 extern crate std;
 
+mod claim;
 mod config;
 mod corridor;
 mod display;
