@@ -15,7 +15,18 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 8] = [
+const GENERATED: [Generated; 9] = [
+    Generated {
+        path: "protocol/src/task.rs: the named tasks, in other languages",
+        by: &[
+            "cargo",
+            "test",
+            "-p",
+            "crossguard-testkit",
+            "--test",
+            "named_tasks",
+        ],
+    },
     Generated {
         path: "codec/src/asn1/generated.rs",
         by: &[
