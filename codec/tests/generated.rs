@@ -1,4 +1,5 @@
 //! The rasn types in `src/asn1/generated.rs` are those of the `.asn` modules and never drift.
+//! `CROSSGUARD_BLESS=1` writes the file.
 //!
 //! This test needs the crate to compile: after a change of a module, generate the types first and
 //! adapt the crate to them then.
@@ -12,9 +13,6 @@ use rasn_compiler::prelude::*;
 const MODULES: [&str; 9] = [
     "CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211", "DENM",
 ];
-
-/// Set to write the generated file instead of comparing it.
-const UPDATE: &str = "CROSSGUARD_UPDATE_GENERATED";
 
 const HEADER: &str = "//! Generated from `asn1/*.asn` by `tests/generated.rs`; do not edit.";
 
@@ -111,14 +109,13 @@ fn identifier(item: &str) -> Option<&str> {
 fn the_generated_types_are_those_of_the_modules() {
     let path = manifest_dir().join("src/asn1/generated.rs");
     let generated = correct(&compile());
-    if env::var_os(UPDATE).is_some() {
+    if env::var_os("CROSSGUARD_BLESS").is_some() {
         fs::write(&path, &generated).expect("the generated file can be written");
         return;
     }
     let present = fs::read_to_string(&path).expect("the generated file can be read");
     assert!(
         generated == present,
-        "src/asn1/generated.rs is out of date; \
-         run: {UPDATE}=1 cargo test -p crossguard-codec --test generated"
+        "src/asn1/generated.rs is out of date; run: cargo xtask bless generated.rs"
     );
 }

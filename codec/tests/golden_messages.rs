@@ -1,6 +1,7 @@
 //! The golden vectors of RAM and RMCM: the wire format does not change by accident.
 //!
-//! asn1c, asn1tools and pycrate have compiled the modules and made the same octets of them.
+//! asn1c, asn1tools and pycrate have compiled the modules and made the same octets of them. After a
+//! deliberate change, `cargo xtask bless messages.json` writes the file.
 
 mod support;
 
@@ -10,9 +11,6 @@ use std::{env, fs};
 use crossguard_codec::{Identifiers, Message};
 use serde::{Deserialize, Serialize};
 use support::{from_hex, samples, to_hex};
-
-/// Set to write the file instead of comparing it, after a deliberate change.
-const UPDATE: &str = "CROSSGUARD_UPDATE_GOLDEN";
 
 #[derive(Serialize, Deserialize)]
 struct Golden {
@@ -34,7 +32,7 @@ fn golden() -> Vec<Golden> {
 fn the_samples_are_the_golden_messages() {
     let identifiers = Identifiers::default();
     let samples = samples::golden(&identifiers);
-    if env::var_os(UPDATE).is_some() {
+    if env::var_os("CROSSGUARD_BLESS").is_some() {
         let golden = samples.into_iter().map(|(name, message)| Golden {
             name: name.into(),
             octets: to_hex(&message.encode(&identifiers).unwrap()),

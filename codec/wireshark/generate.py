@@ -1,9 +1,10 @@
 """The types in crossguard.lua from the ASN.1 modules.
 
-Prints the file as it should be; with --check compares, and ends with 1 where it differs. Needs
-asn1tools. Run it from anywhere: python generate.py > new.lua
+Compares the file with the modules and ends with 1 where it differs; with CROSSGUARD_BLESS=1 in the
+environment, writes the file instead. Needs asn1tools, which codec/judges/run installs.
 """
 
+import os
 import pathlib
 import re
 import sys
@@ -158,8 +159,7 @@ def generate():
 
 
 if __name__ == "__main__":
-    if "--check" in sys.argv:
-        same = generate() == (HERE / "crossguard.lua").read_text()
-        print("crossguard.lua follows from the modules" if same else "crossguard.lua is out of date: run generate.py")
-        sys.exit(0 if same else 1)
-    sys.stdout.write(generate())
+    if "CROSSGUARD_BLESS" in os.environ:
+        (HERE / "crossguard.lua").write_text(generate())
+    elif generate() != (HERE / "crossguard.lua").read_text():
+        sys.exit("crossguard.lua is out of date: cargo xtask bless crossguard.lua")

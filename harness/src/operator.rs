@@ -1,11 +1,12 @@
 //! What a person types to a running robot.
 
+use std::borrow::Cow;
 use std::time::Duration;
 
 use crossguard_codec::TaskParameters;
 use crossguard_protocol::{
-    Availability, Event, HelpRequest, MAX_FOLLOWERS, State, StationId, TaskSet, TaskType,
-    Unavailability, Urgency,
+    Availability, Event, HelpRequest, MAX_FOLLOWERS, State, StationId, TaskNames, TaskSet,
+    TaskType, Unavailability, Urgency,
 };
 
 use crossguard_endpoint::ras::clustering::PerceivedVru;
@@ -104,7 +105,7 @@ pub enum Misunderstood {
         /// The word.
         word: String,
         /// What was wanted in its place.
-        wanted: &'static str,
+        wanted: Cow<'static, str>,
     },
     /// It is no person.
     #[error("{0}")]
@@ -250,10 +251,10 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
     })))
 }
 
-fn wrong(word: &str, wanted: &'static str) -> Misunderstood {
+fn wrong(word: &str, wanted: impl Into<Cow<'static, str>>) -> Misunderstood {
     Misunderstood::Word {
         word: word.to_owned(),
-        wanted,
+        wanted: wanted.into(),
     }
 }
 
@@ -272,7 +273,7 @@ fn task(name: &str) -> Result<TaskType, Misunderstood> {
     let task = TaskSet(u16::MAX)
         .iter()
         .find(|task| task.to_string() == name);
-    task.ok_or_else(|| wrong(name, "a task: initialPos, move, block, or task3 to task15"))
+    task.ok_or_else(|| wrong(name, format!("a task: {TaskNames}")))
 }
 
 fn urgency(name: &str) -> Option<Urgency> {
@@ -367,7 +368,7 @@ mod tests {
             ("detect 5", "'5' is not a number of followers from 1 to 4"),
             (
                 "detect soon",
-                "'soon' is not a task: initialPos, move, block, or task3 to task15",
+                format!("'soon' is not a task: {TaskNames}").as_str(),
             ),
             ("order 2", "'order' wants a station and a task"),
             ("order two move", "'two' is not a station id"),

@@ -1,8 +1,6 @@
 //! What has waited in the robot for longer than `delay_max` is thrown away, under its own cause (rule 4 of the
 //! integrator's guide); what is under way for longer is not.
 
-mod support;
-
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -13,7 +11,7 @@ use crossguard_judge::sim::{Deed, Happening, Swarm, run as simulate};
 use crossguard_protocol::{Config, Robot, StationId};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::Faults;
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 const DELAY_MAX_MS: u64 = 50;

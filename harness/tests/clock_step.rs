@@ -1,8 +1,6 @@
 //! A wall clock that is put forward or back by an hour while the robots cross. Timers do not notice; what
 //! is signed is not believed while clocks differ, and is again when they agree.
 
-mod support;
-
 use std::fs::{self, File};
 use std::io::Write;
 use std::os::unix::fs::FileExt;
@@ -10,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use support::*;
+use crossguard_testkit::command::*;
 
 /// Drops of packets by their time, in a log.
 const FUTURE: &str = r#""layer":"security","cause":"from the future""#;

@@ -1,15 +1,13 @@
 //! `crossguard check`, `fsm` and `codec`, as their user runs them.
 
-mod support;
-
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::golden;
+use crossguard_testkit::command::*;
 use serde_json::Value;
-use support::*;
 
 #[test]
 fn check_reports_every_property_of_a_scenario_as_json() {

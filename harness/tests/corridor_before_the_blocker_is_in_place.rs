@@ -1,11 +1,9 @@
 //! A blocker that is told to stop the traffic 25 m away has accepted that at once, and is there later. The
 //! corridor opens only then, as two processes log it.
 
-mod support;
-
 use std::time::Duration;
 
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

@@ -1,11 +1,9 @@
 //! `crossguard demo`, as its user runs it.
 
-mod support;
-
 use std::process::Stdio;
 
+use crossguard_testkit::command::*;
 use serde_json::Value;
-use support::*;
 
 fn demo(more: &[&str]) -> std::process::Output {
     let port = two_free_ports().to_string();

@@ -1,11 +1,9 @@
 //! A blocker that has lost its leader holds the road until somebody says that it is clear. Until then it
 //! helps nobody else, however long its session has been over.
 
-mod support;
-
 use std::time::Duration;
 
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

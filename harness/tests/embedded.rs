@@ -1,18 +1,14 @@
 //! Robots in C and C++ (`protocol/c/examples`) and robots of `crossguard run`, as processes of their own,
 //! lead and follow each other through a crossing.
 
-#[path = "../../protocol/c/tests/support/mod.rs"]
-mod c;
-mod support;
-
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 use std::time::Duration;
 
-use c::{Language, compile};
 use crossguard_judge::validate::{self, Log, Validated};
-use support::*;
+use crossguard_testkit::c::{Language, compile};
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

@@ -3,14 +3,12 @@
 
 #[path = "../examples/follower.rs"]
 mod follower;
-mod support;
-
 use std::fs::File;
 use std::io::BufReader;
 use std::time::Duration;
 
 use crossguard_judge::validate::{self, Log};
-use support::*;
+use crossguard_testkit::command::*;
 
 #[test]
 fn a_stack_with_an_endpoint_follows_and_its_log_is_valid() {

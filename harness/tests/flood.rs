@@ -1,7 +1,5 @@
 //! A thousand packets a second of other stations, and garbage, while the robots cross.
 
-mod support;
-
 use std::net::UdpSocket;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -9,7 +7,7 @@ use std::time::{Duration, Instant};
 use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Identifiers, Service, golden};
 use crossguard_protocol::StationId;
-use support::*;
+use crossguard_testkit::command::*;
 
 /// Packets a second to each robot.
 const RATE: u32 = 1_000;

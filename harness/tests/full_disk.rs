@@ -1,15 +1,13 @@
 //! Disks that are full: without a boot counter on the disk a robot does not start; without a log it goes
 //! on, and says so.
 
-mod support;
-
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
-use support::*;
+use crossguard_testkit::command::*;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_crossguard");
 

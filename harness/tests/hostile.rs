@@ -1,7 +1,5 @@
 //! What does not belong on the channel: garbage, other messages, other versions, a flood.
 
-mod support;
-
 use std::net::UdpSocket;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -11,9 +9,9 @@ use crossguard_codec::{
     Identifiers, MessageIdentifiers, RobotState, Service, encode, golden, ram_from,
 };
 use crossguard_protocol::{Availability, Robot, StationId};
+use crossguard_testkit::command::*;
 use rand::{RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use support::*;
 
 /// A packet with these octets, from a station that has no part in anything.
 fn packet(service: Service, message: &[u8]) -> Vec<u8> {

@@ -2,13 +2,11 @@
 //! it, and cross over the new one without being started again. All in network namespaces of the test's
 //! own; where the kernel does not permit them, the test is skipped, and says so by name.
 
-mod support;
-
 use std::fs;
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use support::*;
+use crossguard_testkit::command::*;
 
 /// Two namespaces and the link between them, on which two robots cross, lose it, and get another.
 const STREET: &str = r#"

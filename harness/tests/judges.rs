@@ -1,8 +1,6 @@
 //! What other programs make of what the kit writes for them. `harness/judges/run` installs them and runs
 //! this.
 
-mod support;
-
 use std::fs::File;
 use std::io::{BufRead, BufReader, BufWriter, Read, Write};
 use std::net::TcpStream;
@@ -12,7 +10,8 @@ use std::time::Duration;
 
 use crossguard_judge::sim::{Fuzz, run};
 use crossguard_robot::trace::{self, Record};
-use support::{robot_file, stderr, type_to, wait_for};
+use crossguard_testkit::command;
+use crossguard_testkit::command::{robot_file, stderr, type_to, wait_for};
 
 /// Runs a judge with something on its standard input, and shows what it says.
 fn judge(script: &str, arguments: &[&Path], input: &str) {
@@ -65,19 +64,19 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
         let (log, file) = (path("log.jsonl"), path("log.mcap"));
         log_of(seed, &log);
         let text = |path: &Path| path.to_str().unwrap().to_owned();
-        let output = support::run(&["export", &text(&log), "--mcap", &text(&file)]);
+        let output = command::run(&["export", &text(&log), "--mcap", &text(&file)]);
         assert!(output.status.success(), "{}", stderr(&output));
         judge("mcap_judge.py", &[&log, &file], "");
     }
     let log = path("demo.jsonl");
-    let port = support::two_free_ports().to_string();
+    let port = command::two_free_ports().to_string();
     let arguments = [
         "demo", "--speed", "10", "--loss", "0.1", "--quiet", "--port", &port, "--log",
     ];
-    let demo = support::crossguard(&arguments).arg(&log).output().unwrap();
+    let demo = command::crossguard(&arguments).arg(&log).output().unwrap();
     assert!(demo.status.success(), "{}", stderr(&demo));
     let file = path("demo.mcap");
-    let export = support::crossguard(&["export", "--mcap"])
+    let export = command::crossguard(&["export", "--mcap"])
         .arg(&file)
         .arg(&log)
         .output()
@@ -90,9 +89,9 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
 #[test]
 #[ignore = "needs what harness/judges/run installs"]
 fn a_subscriber_to_zenoh_hears_packets_that_can_be_decoded() {
-    let port = support::free_tcp_ports(1);
+    let port = command::free_tcp_ports(1);
     let demo = ["demo", "--zenoh", "router", "--quiet", "--trials", "3"];
-    let mut demo = support::crossguard(&demo)
+    let mut demo = command::crossguard(&demo)
         .args(["--port", &port.to_string()])
         .stdout(Stdio::null())
         .spawn()
@@ -107,11 +106,11 @@ fn a_subscriber_to_zenoh_hears_packets_that_can_be_decoded() {
 #[ignore = "needs what harness/judges/run installs"]
 fn prometheus_reads_the_metrics_of_a_robot_that_leads() {
     let folder = tempfile::tempdir().unwrap();
-    let port = support::two_free_ports();
+    let port = command::two_free_ports();
     let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
     let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
-    let mut dog = support::start(&go2);
-    let mut command = support::crossguard(&["run", "--config", &ari, "--metrics", "0"]);
+    let mut dog = command::start(&go2);
+    let mut command = command::crossguard(&["run", "--config", &ari, "--metrics", "0"]);
     let mut robot = command
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

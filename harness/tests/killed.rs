@@ -1,15 +1,13 @@
 //! `kill -9` of either robot at moments all over a crossing: the other ends idle by its own timers, and
 //! the killed one takes part again after it has booted. Also while it starts.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crossguard_robot::boot;
+use crossguard_testkit::command::*;
 use serde_json::Value;
-use support::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

@@ -1,11 +1,9 @@
 //! A leader whose process stops for 8 s renews nothing: what it showed ends by itself within `t_lease`,
 //! before its follower falls back.
 
-mod support;
-
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 const T_LEASE_MS: f64 = 1_900.0;

@@ -4,12 +4,10 @@
 //! Nothing of it touches the machine's own network. Where the kernel does not permit it, the test is
 //! skipped, and says so by name.
 
-mod support;
-
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use support::*;
+use crossguard_testkit::command::*;
 
 /// Makes the second namespace and the link between the two, runs both robots, and ends with the
 /// status of the first. It runs as the first process of a user and network namespace.

@@ -1,7 +1,5 @@
 //! `--pcap` and `crossguard sniff`, and what Wireshark makes of the files.
 
-mod support;
-
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -9,8 +7,8 @@ use std::process::Command;
 
 use crossguard_codec::{Identifiers, golden};
 use crossguard_judge::sniffer::Sniffer;
+use crossguard_testkit::command::*;
 use serde_json::Value;
-use support::*;
 
 /// A demonstration's packets.
 fn capture(folder: &Path) -> PathBuf {

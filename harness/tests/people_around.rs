@@ -1,7 +1,5 @@
 //! People without a radio: a robot sees them, its RAM announces them, and a device understands it.
 
-mod support;
-
 use std::collections::BTreeMap;
 use std::process::Command;
 
@@ -15,8 +13,9 @@ use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
     Availability, Config, Event, Robot, Settings, StationId, Unavailability,
 };
+use crossguard_testkit::command;
+use crossguard_testkit::command::{run, run_with, stderr, stdout, two_free_ports};
 use serde_json::Value;
-use support::{run, run_with, stderr, stdout, two_free_ports};
 
 fn person(id: u32, east_m: f64, north_m: f64) -> PerceivedVru {
     PerceivedVru {
@@ -147,7 +146,7 @@ fn every_ram_says_why_it_was_sent() {
 /// A robot that listens to nobody, at the origin of its site.
 fn lonely_robot(folder: &std::path::Path) -> String {
     let port = two_free_ports();
-    support::robot_file(folder, "ARI", 1, port, port + 1)
+    command::robot_file(folder, "ARI", 1, port, port + 1)
 }
 
 /// What `crossguard sniff` reads in a file of packets, line by line.
@@ -254,7 +253,7 @@ fn a_line_that_is_no_person_is_refused_with_its_place() {
     let refusal = |text: &str, cause: &str| {
         std::fs::write(&people, text).unwrap();
         let arguments = ["run", "--config", &robot, "--perceived", &people];
-        support::assert_refused(&run(&arguments), cause);
+        command::assert_refused(&run(&arguments), cause);
     };
     let good = "{\"id\": 1, \"position_m\": [3, 1]}\n\n";
     refusal(&format!("{good}nobody\n"), "people.jsonl:3: ");
@@ -264,9 +263,9 @@ fn a_line_that_is_no_person_is_refused_with_its_place() {
     );
     std::fs::remove_file(&people).unwrap();
     let output = run(&["run", "--config", &robot, "--perceived", &people]);
-    support::assert_refused(&output, "people.jsonl: No such file");
+    command::assert_refused(&output, "people.jsonl: No such file");
     let output = run_with(&["run", "--config", &robot], b"{\"id\": 1}\n");
-    support::assert_refused(&output, "missing field `position_m`");
+    command::assert_refused(&output, "missing field `position_m`");
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! The page about a run: what is in it, and that a browser shows it without a network.
 
-mod support;
-
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -10,7 +8,7 @@ use std::process::{Command, Output};
 
 use crossguard_judge::sim::{Swarm, run};
 use crossguard_robot::trace::{self, Record};
-use support::{assert_refused, crossguard, stderr, stdout};
+use crossguard_testkit::command::{assert_refused, crossguard, stderr, stdout};
 
 /// The log of simulated robots.
 fn log_of(seed: u64, folder: &Path) -> PathBuf {

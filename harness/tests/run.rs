@@ -1,10 +1,8 @@
 //! `crossguard run`: robots as processes of their own.
 
-mod support;
-
 use std::time::Duration;
 
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

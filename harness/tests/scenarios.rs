@@ -1,12 +1,10 @@
 //! Teams of robots with sockets of their own, as `crossguard demo --scenario` runs them: each ends as
 //! it should and leaves a log that is valid.
 
-mod support;
-
 use std::process::Output;
 
+use crossguard_testkit::command::*;
 use serde_json::Value;
-use support::*;
 
 /// Runs a scenario with more arguments. What came of it, and its log, which `crossguard validate` has
 /// found valid.

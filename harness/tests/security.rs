@@ -1,7 +1,5 @@
 //! Packets that must not be believed, among a crossing that must go on; the modes; the PKI.
 
-mod support;
-
 use std::net::UdpSocket;
 use std::path::Path;
 use std::process::Stdio;
@@ -20,7 +18,7 @@ use crossguard_protocol::{Availability, Event, Input, Robot, StationId};
 use crossguard_robot::pki::{self, Holder, Pki, Term};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::Site;
-use support::*;
+use crossguard_testkit::command::*;
 
 const GUEST: StationId = StationId(77);
 

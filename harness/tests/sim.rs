@@ -1,8 +1,6 @@
 //! Simulated robots: runs that repeat exactly, and times that stay within those that the timed model
 //! computes.
 
-mod support;
-
 use crossguard_judge::sim::{
     Deed, Failure, Finding, Fuzz, Happening, Measure, Swarm, Worst, run, write_failure,
 };
@@ -14,7 +12,8 @@ use crossguard_robot::capture;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::trace::{self, Record};
 use crossguard_robot::transport::{Delay, Faults};
-use support::*;
+use crossguard_testkit::command;
+use crossguard_testkit::command::*;
 
 fn log_of(seed: u64) -> Vec<u8> {
     let mut log = Vec::new();
@@ -119,7 +118,7 @@ fn the_longest_times_of_drawn_streets_are_a_real_try() {
     let command = [
         "fuzz", "--seeds", "300", "--robots", "4", "--json", "--faults", faults,
     ];
-    let output = support::run(&command);
+    let output = command::run(&command);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let worst = &json(&output)["worst"];
     for measure in [
@@ -155,7 +154,7 @@ fn the_command_tells_what_it_ran_and_finds_nothing_wrong() {
 }
 
 fn run_command(arguments: &[&str], out: &str) -> std::process::Output {
-    support::run(&[arguments, &[out]].concat())
+    command::run(&[arguments, &[out]].concat())
 }
 
 #[test]
@@ -196,13 +195,13 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
     let page = std::fs::read_to_string(&files.html).unwrap();
     assert!(page.contains("A property was broken") && page.contains(again));
     let words: Vec<_> = again.split(' ').skip(1).collect();
-    let output = support::run(&words);
+    let output = command::run(&words);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
 #[test]
 fn a_person_reads_what_was_measured_and_mistakes_are_named() {
-    let text = stdout(&support::run(&[
+    let text = stdout(&command::run(&[
         "fuzz",
         "--seeds",
         "5",
@@ -216,6 +215,6 @@ fn a_person_reads_what_was_measured_and_mistakes_are_named() {
         (["fuzz", "--faults", "rain=1"], "no fault 'rain'"),
         (["fuzz", "--seeds", "0"], "0 is not in"),
     ] {
-        assert_refused(&support::run(&arguments), cause);
+        assert_refused(&command::run(&arguments), cause);
     }
 }

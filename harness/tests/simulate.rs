@@ -1,7 +1,6 @@
 //! `crossguard simulate`, as its user runs it.
 
-mod support;
-
+use crossguard_testkit::command;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -9,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 
 fn simulate(arguments: &[&str]) -> Output {
-    support::run(&[&["simulate"], arguments].concat())
+    command::run(&[&["simulate"], arguments].concat())
 }
 
 fn json(arguments: &[&str]) -> Value {

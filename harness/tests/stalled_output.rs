@@ -1,12 +1,10 @@
 //! A reader of standard output that does not read: the robot goes on, and hears a signal.
 
-mod support;
-
 use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

@@ -1,13 +1,11 @@
 //! SIGTERM in the middle of a maneuver: the robot that gets it leaves its session by name, and says so before
 //! it ends.
 
-mod support;
-
 use std::path::Path;
 use std::time::Duration;
 
+use crossguard_testkit::command::*;
 use serde_json::Value;
-use support::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

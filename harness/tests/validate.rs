@@ -1,12 +1,10 @@
 //! `crossguard validate`: logs of real robots, and what somebody has altered in them.
 
-mod support;
-
 use std::path::Path;
 use std::time::Duration;
 
+use crossguard_testkit::command::*;
 use serde_json::{Value, json};
-use support::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

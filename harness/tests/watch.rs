@@ -1,12 +1,10 @@
 //! What a running robot shows: a status line, and what it drops with its cause.
 
-mod support;
-
 use std::net::{TcpListener, UdpSocket};
 use std::process::Stdio;
 use std::time::Duration;
 
-use support::*;
+use crossguard_testkit::command::*;
 
 #[test]
 fn what_a_robot_drops_is_told_with_its_cause_and_a_status_line_counts_it() {

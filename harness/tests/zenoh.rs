@@ -1,8 +1,6 @@
 //! Robots that meet over zenoh: as peers, through a router, on this machine. These tests take the feature
 //! `zenoh`.
 
-mod support;
-
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
@@ -10,7 +8,7 @@ use crossguard_robot::transport::{
     Arrival, Halves, Link, LinkError, Reopening, Source, Transport, WithFaults, Zenoh, ZenohError,
     ZenohMode, ZenohRouter,
 };
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

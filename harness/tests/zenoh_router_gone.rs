@@ -1,14 +1,12 @@
 //! A zenoh router that dies in the middle of a crossing, and comes back: robots come to rest without it, and
 //! cross through the new one without being started again.
 
-mod support;
-
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
-use support::*;
+use crossguard_testkit::command::*;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 

@@ -11,7 +11,8 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use crossguard_protocol::{
-    Availability, BrokenInequality, Config, Event, HelpRequest, MAX_FOLLOWERS, StationId, Urgency,
+    Availability, BrokenInequality, Config, Event, HelpRequest, MAX_FOLLOWERS, StationId,
+    TaskNames, Urgency,
 };
 use serde::{Deserialize, Serialize};
 
@@ -215,7 +216,7 @@ pub enum Impossibility {
     #[error("a request for {0} followers: between 1 and {MAX_FOLLOWERS} are possible")]
     Followers(u8),
     /// An unknown task.
-    #[error("no task '{0}': initialPos, move, block, or task3 to task15")]
+    #[error("no task '{0}': {names}", names = TaskNames)]
     Task(String),
     /// Too many messages delayed.
     #[error("{0} messages delayed at a time: at most {MAX_DELAYED} are possible")]

@@ -1,8 +1,6 @@
 //! The channels and hanging robots: what arrives when, what a monotone channel finds, and that its
 //! counterexamples are runs.
 
-mod rules;
-
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::{Action, Delivery, Model, State};
 use crossguard_model_check::node::Rules;
@@ -10,7 +8,7 @@ use crossguard_model_check::properties::PropertyId::{self, *};
 use crossguard_model_check::replay::Replay;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::{Event, Phase, Robot};
-use rules::*;
+use crossguard_testkit::rules::*;
 
 /// The ids of what breaks in a scenario when `rules` takes the place of the protocol, as far as that is to
 /// be found out. Each counterexample is followed again.

@@ -25,7 +25,7 @@ fn assert_is(path: &Path, text: &str) {
     let name = path.file_name().unwrap().display();
     assert!(
         found == text,
-        "{name} is not what the checker finds; CROSSGUARD_BLESS=1 writes it anew"
+        "{name} is not what the checker finds; run: cargo xtask bless model-check"
     );
 }
 

@@ -1,8 +1,6 @@
 //! Symmetric robots: the verdicts are those of the scenario without symmetry, the counterexamples are
 //! real runs, and a claim of symmetry that is none is refused with its line.
 
-mod rules;
-
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::{Protocol, Rules};
@@ -10,7 +8,7 @@ use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::{ScenarioReport, Verdict};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::Output;
-use rules::{Drops, FollowersWaitForEver, LosesTwoForOne};
+use crossguard_testkit::rules::{Drops, FollowersWaitForEver, LosesTwoForOne};
 
 const TRIO: &str = include_str!("../scenarios/trio.toml");
 

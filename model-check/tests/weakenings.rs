@@ -1,8 +1,6 @@
 //! What each rule is good for: a transition function without it breaks the property that the rule is
 //! there to keep.
 
-mod rules;
-
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::Rules;
@@ -11,7 +9,7 @@ use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::Verdict;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
-use rules::*;
+use crossguard_testkit::rules::*;
 
 /// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
 fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {

@@ -2,6 +2,7 @@
 
 use core::cmp::Reverse;
 
+use crate::claim::Claim;
 use crate::id::{Heartbeat, OfferNumber, SessionId, StationId};
 use crate::list::List;
 use crate::output::{EndReason, Ignored, Notice, Output, ReleaseReason, Sink};
@@ -10,47 +11,8 @@ use crate::roles::age_of;
 use crate::state::{
     Corridor, Leading, Lease, Member, Offer, Offering, Phase, Requesting, Rival, Robot,
 };
-use crate::task::{HelpRequest, Place, Urgency};
+use crate::task::HelpRequest;
 use crate::time::{Countdown, Millis};
-
-/// What a request or a leader claims: a place, with this urgency.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Claim {
-    pub(crate) urgency: Urgency,
-    pub(crate) place: Place,
-}
-
-/// The place of a claim in the total order of claims: the smaller key goes before.
-type Precedence = (Reverse<Urgency>, StationId);
-
-impl Claim {
-    pub(crate) const fn of(request: HelpRequest) -> Self {
-        Self {
-            urgency: request.urgency,
-            place: request.place,
-        }
-    }
-
-    const fn precedence(self, station: StationId) -> Precedence {
-        (Reverse(self.urgency), station)
-    }
-
-    /// Whether this claim of `station` goes before the one of `other_station` at the same place.
-    pub(crate) fn goes_before(
-        self,
-        station: StationId,
-        other: Self,
-        other_station: StationId,
-    ) -> Effect {
-        if !self.place.may_be(other.place) {
-            return Err(Ignored::OtherPlace);
-        }
-        if self.precedence(station) > other.precedence(other_station) {
-            return Err(Ignored::LowerPrecedence);
-        }
-        Ok(())
-    }
-}
 
 impl Rival {
     /// Notes a rival that is heard; whether it was heard before, with an older heartbeat. The first time

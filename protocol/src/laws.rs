@@ -26,6 +26,7 @@ pub mod requests;
 pub mod road;
 pub mod settings;
 pub mod steps;
+pub mod taken;
 pub mod timers;
 pub mod times;
 pub mod watch;

@@ -59,6 +59,7 @@
 #[cfg(any(test, doctest))]
 extern crate std;
 
+mod claim;
 mod config;
 mod corridor;
 mod display;
@@ -108,7 +109,7 @@ pub use state::{
     Order, Outstanding, Phase, Refusal, Requesting, Rival, Robot, Role, StandingFarewell, State,
 };
 pub use task::{
-    Availability, FallbackPolicy, HelpRequest, NoSuchTask, Place, TaskSet, TaskType,
+    Availability, FallbackPolicy, HelpRequest, NoSuchTask, Place, TaskNames, TaskSet, TaskType,
     Unavailability, Urgency,
 };
 pub use time::{Countdown, Millis};

@@ -9,8 +9,8 @@
 //!   Local ─────────┘   └─ termination ─── 5 Ends, farewells ─┘   RAM timer
 //! ```
 
+use crate::claim::Claim;
 use crate::config::Config;
-use crate::help::Claim;
 use crate::id::{OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::input::{Decimetres, Event, Input};
 use crate::message::{Confirmation, Coordination, Farewell, Ram, Report, Rmcm};

@@ -7,8 +7,8 @@
 //! ([`Inequality::LeaseWithinSafety`](crate::Inequality::LeaseWithinSafety)). So while the lease
 //! stands, the follower cannot have fallen back for lack of contact, however messages are delayed.
 
+use crate::claim::Claim;
 use crate::config::Config;
-use crate::help::Claim;
 use crate::id::{Heartbeat, OfferNumber, SessionId, StationId};
 use crate::message::{Farewell, Followers, Progress, Report};
 use crate::output::{EndReason, GoneReason, Ignored, Notice, Output, ReleaseReason, Sink};

@@ -4,21 +4,37 @@ use core::fmt;
 
 /// The kind of a maneuver, `taskType` of the paper (0..15 on the wire).
 ///
-/// Three kinds have names here; a robot may give meaning to the others in its configuration.
+/// Some kinds have names, [`TaskType::NAMED`]; a robot may give meaning to the others in its
+/// configuration.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "u8", into = "u8"))]
 pub struct TaskType(u8);
 
+macro_rules! named_tasks {
+    ($(#[doc = $meaning:literal] $constant:ident = $value:literal, $name:literal;)*) => {
+        impl TaskType {
+            $(#[doc = $meaning] pub const $constant: Self = Self($value);)*
+
+            /// Every task type that has a name: the type, its name, its meaning.
+            pub const NAMED: &[(Self, &str, &str)] = &[$((Self($value), $name, $meaning)),*];
+        }
+    };
+}
+
+// The one list of named tasks. `cargo xtask bless tasks` writes them into ASN.1, C, C++, Python and ROS 2.
+named_tasks! {
+    /// Go to the place where the maneuver starts.
+    INITIAL_POS = 0, "initialPos";
+    /// Escort: move along with the pedestrian.
+    MOVE = 1, "move";
+    /// Hold back one direction of traffic.
+    BLOCK = 2, "block";
+}
+
 impl TaskType {
     /// Number of task types that the wire can carry.
     pub const COUNT: usize = 16;
-    /// Go to the place where the maneuver starts.
-    pub const INITIAL_POS: Self = Self(0);
-    /// Escort: move along with the pedestrian.
-    pub const MOVE: Self = Self(1);
-    /// Hold back one direction of traffic.
-    pub const BLOCK: Self = Self(2);
 
     /// The task type with this value, `None` above 15.
     #[must_use]
@@ -39,12 +55,29 @@ impl TaskType {
     /// The paper's name, where it has one.
     #[must_use]
     pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::INITIAL_POS => Some("initialPos"),
-            Self::MOVE => Some("move"),
-            Self::BLOCK => Some("block"),
-            _ => None,
+        let mut i = 0;
+        while i < Self::NAMED.len() {
+            let (task, name, _) = Self::NAMED[i];
+            if task.0 == self.0 {
+                return Some(name);
+            }
+            i += 1;
         }
+        None
+    }
+}
+
+/// The names of all task types, for messages about one that does not exist.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TaskNames;
+
+impl fmt::Display for TaskNames {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (_, name, _) in TaskType::NAMED {
+            write!(f, "{name}, ")?;
+        }
+        let (first, last) = (TaskType::NAMED.len(), TaskType::COUNT - 1);
+        write!(f, "or task{first} to task{last}")
     }
 }
 
@@ -256,7 +289,21 @@ pub enum FallbackPolicy {
 
 #[cfg(test)]
 mod tests {
+    use std::string::ToString;
+
     use super::*;
+
+    #[test]
+    fn each_task_type_has_one_name() {
+        assert_eq!(TaskType::MOVE.name(), Some("move"));
+        let unnamed = TaskType::new(3).unwrap();
+        assert_eq!(unnamed.name(), None);
+        assert_eq!(unnamed.to_string(), "task3");
+        assert_eq!(
+            TaskNames.to_string(),
+            "initialPos, move, block, or task3 to task15"
+        );
+    }
 
     #[test]
     fn a_set_holds_what_it_was_made_of() {

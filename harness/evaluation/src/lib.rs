@@ -10,12 +10,13 @@
 //! - [`grid`] is the street grid, [`stationing`] where robots are on it, [`sumo`] makes mobility on it, [`trace`]
 //!   keeps it, [`shipped`] are the traces that come along.
 //! - [`coverage`] is the observation coverage ratio, and the greedy placement of robots.
-//! - [`simulation`] is a run on the air, with [`messages`] of real size, on the channel of [`radio`].
+//! - [`simulation`] is a run on the air of stations with one [`behaviour`], with [`messages`] of real size, on the channel of [`radio`].
 //! - [`matrix`] are all cells of the evaluation, over seeds and cores; [`statistics`] their mean and
 //!   deviation, [`plot`] their pictures, [`paper`] what the paper states.
 //!
 //! `harness/doc/evaluation.md` says which assumptions reproduce the paper, and which do not.
 
+pub mod behaviour;
 mod cam;
 pub mod coverage;
 pub mod grid;

@@ -5,10 +5,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::Serialize;
 
+use super::behaviour::Behaviour;
 use super::coverage::coverage;
 use super::messages::Sizes;
 use super::robot::RobotError;
-use super::simulation::{Behaviour, Measured, simulate};
+use super::simulation::{Measured, simulate};
 use super::stationing::Stationing;
 use super::statistics::Estimate;
 use super::trace::Traces;

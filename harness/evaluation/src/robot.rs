@@ -17,7 +17,7 @@ use crossguard_endpoint::ras::vam::VamError;
 use crossguard_endpoint::ras::vru::{AnnouncedCluster, Announcement, Understands};
 use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
 
-use super::simulation::{Behaviour, Payload};
+use super::behaviour::Behaviour;
 use super::trace::{Run, Track};
 
 /// Where the grid's origin is, in degrees.
@@ -54,7 +54,7 @@ impl Announced {
 /// A message of a robot.
 pub(super) struct Message {
     pub(super) octets: usize,
-    pub(super) payload: Payload,
+    pub(super) announced: Announced,
 }
 
 /// Why a robot's message cannot be sent.
@@ -252,7 +252,7 @@ impl<'a> Robot<'a> {
         };
         Ok(Message {
             octets: octets.len(),
-            payload: Payload::Robot(Some(Box::new(announced))),
+            announced,
         })
     }
 
@@ -273,10 +273,7 @@ impl<'a> Robot<'a> {
             }),
             velocity_mps: Some(cluster.velocity_mps),
         };
-        Message {
-            octets,
-            payload: Payload::Robot(Some(Box::new(announced))),
-        }
+        Message { octets, announced }
     }
 }
 

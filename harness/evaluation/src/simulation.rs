@@ -12,13 +12,14 @@ use std::collections::{BinaryHeap, VecDeque};
 
 use crossguard_endpoint::ras::generation::{Cadence, LOW_FREQUENCY_INTERVAL_MS, Limits};
 use crossguard_endpoint::ras::motion::{Change, Motion};
-use crossguard_endpoint::ras::vru::{Understands, VamRule, VruStation};
+use crossguard_endpoint::ras::vru::VruStation;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
+use super::behaviour::Behaviour;
 use super::messages::{CERTIFICATE_INTERVAL_MS, Signed, Sizes, air_time_us, frame_octets};
-use super::radio::{Channel, Radio, Transmission, WINDOW_US};
+use super::radio::{Channel, Transmission, WINDOW_US};
 use super::robot::{Announced, Robot, RobotError};
 use super::trace::{Run, Track};
 
@@ -31,56 +32,6 @@ const ASSEMBLY_MAX_US: u64 = 10_000;
 pub const SETTLING_US: u64 = 5_000_000;
 /// Frames that a station keeps waiting at most; a further one takes the place of the oldest.
 const QUEUE_MAX: usize = 2;
-
-/// How the stations behave. The paper states none of these.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Behaviour {
-    /// When a device sends its VAM.
-    pub vam: VamRule,
-    /// What devices understand of a cluster.
-    pub understands: Understands,
-    /// Share of people with a device, 0..1.
-    pub v2x_share: f64,
-    /// Interval of RAM in ms; `None` is by the generation rules, once a second for a robot that stands
-    /// still.
-    pub ram_interval_ms: Option<u64>,
-    /// Interval of the cluster VAM in ms that robots send for devices that do not understand RAM.
-    pub cluster_vam_interval_ms: u64,
-    /// Interval of CAM in ms; `None` is by the generation rules.
-    pub cam_interval_ms: Option<u64>,
-    /// Points in the path history of a CAM's low-frequency container.
-    pub cam_path_points: usize,
-    /// How long vehicles are there, in seconds from the beginning; `None` is all the time.
-    pub vehicles_leave_s: Option<f64>,
-    /// Whether packets are signed.
-    pub signed: bool,
-    /// Whether the reactive congestion control of TS 102 687 holds stations back.
-    pub dcc: bool,
-    /// How people around a robot are clustered; its radius is that of the cell.
-    pub clustering: crossguard_endpoint::ras::clustering::Settings,
-    /// The radio channel.
-    pub radio: Radio,
-}
-
-impl Default for Behaviour {
-    fn default() -> Self {
-        Self {
-            vam: VamRule::Periodic(100),
-            understands: Understands::Ram,
-            v2x_share: 1.0,
-            ram_interval_ms: None,
-            cluster_vam_interval_ms: crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS,
-            cam_interval_ms: None,
-            cam_path_points: 5,
-            vehicles_leave_s: None,
-            signed: true,
-            dcc: false,
-            clustering: crossguard_endpoint::ras::clustering::Settings::default(),
-            radio: Radio::default(),
-        }
-    }
-}
 
 /// What was measured in a run.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -119,7 +70,7 @@ pub(super) enum Payload {
     Cam,
     Vam,
     /// RAM or a robot's cluster VAM.
-    Robot(Option<Box<Announced>>),
+    Robot(Box<Announced>),
 }
 
 /// A frame that waits to be sent.
@@ -389,7 +340,8 @@ impl<'a> Simulation<'a> {
             }
             Role::Robot(robot) => {
                 for message in robot.check(now_us, self.run, congestion_ms)? {
-                    self.build(now_us, number, message.octets, message.payload);
+                    let payload = Payload::Robot(Box::new(message.announced));
+                    self.build(now_us, number, message.octets, payload);
                 }
             }
         }
@@ -477,7 +429,6 @@ impl<'a> Simulation<'a> {
             payload: Payload::Robot(announced),
             ..
         }) = frame
-            && let Some(announced) = announced
         {
             self.announce(now_us, &transmission, &announced);
         }

@@ -83,13 +83,13 @@ pub enum Disagreement {
 /// Follows a run through `model`, and drives an endpoint for each robot along it as far as that goes.
 #[must_use]
 pub fn drive(model: &Model, replay: &Replay) -> Driven {
-    let mut street = Street::new(model);
+    let mut driven = DrivenRobots::new(model);
     let (mut steps, mut disagreement) = (0, None);
     let followed = replay.follow_with(model, &mut |action, after| {
         if disagreement.is_some() {
             return;
         }
-        let taken = street.take(action).and_then(|()| street.compare(after));
+        let taken = driven.take(action).and_then(|()| driven.compare(after));
         match taken {
             Ok(()) => steps += 1,
             Err(why) => disagreement = Some(why),
@@ -98,7 +98,7 @@ pub fn drive(model: &Model, replay: &Replay) -> Driven {
     Driven {
         followed,
         steps,
-        datagrams: street.datagrams,
+        datagrams: driven.datagrams,
         disagreement,
     }
 }
@@ -125,7 +125,7 @@ struct Flight {
 }
 
 /// The robots, and what is on its way between them.
-struct Street<'a> {
+struct DrivenRobots<'a> {
     model: &'a Model,
     robots: Vec<Driver>,
     on_air: VecDeque<Flight>,
@@ -137,7 +137,7 @@ struct Street<'a> {
     restarts_left: u8,
 }
 
-impl<'a> Street<'a> {
+impl<'a> DrivenRobots<'a> {
     fn new(model: &'a Model) -> Self {
         let channel = model.scenario().channel;
         let robots = model.scenario().robots.iter().map(|setup| Driver {
@@ -147,7 +147,7 @@ impl<'a> Street<'a> {
             hangs: false,
             boot: 0,
         });
-        let mut street = Self {
+        let mut driven = Self {
             model,
             robots: robots.collect(),
             on_air: VecDeque::new(),
@@ -156,10 +156,10 @@ impl<'a> Street<'a> {
             keeps: channel.monotone || channel.delayed > 0,
             restarts_left: model.scenario().bounds.restarts,
         };
-        for robot in &mut street.robots {
+        for robot in &mut driven.robots {
             robot.boot(model);
         }
-        street
+        driven
     }
 
     /// What the model's action is to endpoints.

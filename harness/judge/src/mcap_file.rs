@@ -337,13 +337,13 @@ fn text(value: Option<&impl ToString>) -> String {
     value.map_or_else(String::new, ToString::to_string)
 }
 
-fn message(timestamp: Time, robot: String, message: Message) -> schemas::Message {
+fn message(timestamp: Time, robot: String, message: Message) -> schemas::RobotMessage {
     let direction = match message.direction {
         Direction::Sent => "sent",
         Direction::Heard => "heard",
         Direction::Lost => "lost",
     };
-    schemas::Message {
+    schemas::RobotMessage {
         timestamp,
         robot,
         direction: direction.to_owned(),

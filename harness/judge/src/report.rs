@@ -41,12 +41,12 @@ impl Report<'_> {
     }
 
     /// Whether the logs hold all that happened and nothing in them is wrong.
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Validity {
         match self.verdict {
-            _ if self.finding.is_some() => Outcome::Invalid,
-            Ok(validated) if validated.missing > 0 => Outcome::Incomplete,
-            Ok(_) => Outcome::Valid,
-            Err(_) => Outcome::Invalid,
+            _ if self.finding.is_some() => Validity::Invalid,
+            Ok(validated) if validated.missing > 0 => Validity::Incomplete,
+            Ok(_) => Validity::Valid,
+            Err(_) => Validity::Invalid,
         }
     }
 
@@ -63,7 +63,7 @@ impl Report<'_> {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Outcome {
+enum Validity {
     Valid,
     Incomplete,
     Invalid,

@@ -17,7 +17,7 @@ use crossguard_robot::trace::{Entry, Record};
 #[derive(Debug, Default)]
 pub struct Timing {
     /// By maneuver: what is known so far.
-    maneuvers: BTreeMap<Key, Times>,
+    maneuvers: BTreeMap<Key, ManeuverTimes>,
 }
 
 /// A maneuver in an order that has no meaning but is one. A leader counts its requests for each follower
@@ -32,7 +32,7 @@ fn key(follower: StationId, id: ManeuverId) -> Key {
 
 /// When what happened in one maneuver, in microseconds.
 #[derive(Clone, Copy, Debug, Default)]
-struct Times {
+struct ManeuverTimes {
     task: Option<TaskType>,
     commanded: Option<u64>,
     acknowledged: Option<u64>,
@@ -159,7 +159,7 @@ impl Timing {
         }
     }
 
-    fn times(&mut self, follower: StationId, id: ManeuverId) -> &mut Times {
+    fn times(&mut self, follower: StationId, id: ManeuverId) -> &mut ManeuverTimes {
         self.maneuvers.entry(key(follower, id)).or_default()
     }
 
@@ -183,7 +183,7 @@ impl Timing {
     }
 }
 
-impl Times {
+impl ManeuverTimes {
     fn complete(self) -> Option<(TaskType, f64, f64)> {
         #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
         let seconds = |from: u64, to: u64| to.saturating_sub(from) as f64 / 1e6;

@@ -50,10 +50,10 @@ use crossguard_model_check::timed::TimedProperty;
 use crossguard_protocol::{Event, Input, StationId};
 use serde::Serialize;
 
-use clock::{BrokenAt, Deed, SharedClock};
+use clock::{BrokenAt, ClockEntry, SharedClock};
 pub use crossguard_robot::trace::Log;
 use crossguard_robot::trace::{Entry, Record, Records, Unreadable};
-use road::Road;
+use road::Crossings;
 use robot::Follow;
 
 /// What valid logs hold.
@@ -131,16 +131,16 @@ pub fn one(lines: impl BufRead) -> Result<Validated, Invalid> {
 /// # Errors
 /// The first record that does not fit.
 pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
-    let mut street = Street::default();
+    let mut robots = LoggedRobots::default();
     let mut cursors = Vec::new();
     for log in logs {
         cursors.push(Cursor::new(log)?);
     }
-    while let Some(next) = street.choose(&cursors) {
+    while let Some(next) = robots.choose(&cursors) {
         let cursor = &mut cursors[next];
         if let Some(record) = cursor.head.take() {
             let line = cursor.records.line();
-            street
+            robots
                 .take(record, &mut cursor.clock, line)
                 .map_err(|refusal| cursor.refused(refusal))?;
             cursor.advance()?;
@@ -149,10 +149,10 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
         if cursor.head.is_none() {
             let judged = cursor.clock.finish();
             judged.map_err(|broken| cursor.refused(Refusal::Clock(broken)))?;
-            street.end(cursor);
+            robots.end(cursor);
         }
     }
-    Ok(street.finish(cursors.iter().map(|cursor| &cursor.clock)))
+    Ok(robots.finish(cursors.iter().map(|cursor| &cursor.clock)))
 }
 
 /// A log, and how far it has been read.
@@ -230,9 +230,9 @@ impl<'a> Cursor<'a> {
 }
 
 /// All robots of the logs, and what has been on the air between them.
-struct Street {
+struct LoggedRobots {
     monitor: Monitor,
-    road: Road,
+    crossings: Crossings,
     robots: BTreeMap<String, Follow>,
     /// The messages that were sent, each with its kind and octets.
     sent: HashSet<Vec<u8>>,
@@ -243,12 +243,12 @@ struct Street {
     validated: Validated,
 }
 
-impl Default for Street {
+impl Default for LoggedRobots {
     fn default() -> Self {
         Self {
             // Logs are merged by cause and effect, not by true time; that is for each log's own clock.
             monitor: Monitor::new(false),
-            road: Road::default(),
+            crossings: Crossings::default(),
             robots: BTreeMap::new(),
             sent: HashSet::new(),
             stations: HashMap::new(),
@@ -258,7 +258,7 @@ impl Default for Street {
     }
 }
 
-impl Street {
+impl LoggedRobots {
     /// The log whose next record is taken: the earliest of those that need not wait for another, and
     /// if all do, the earliest of all. `None` when all are at their ends.
     fn choose(&self, cursors: &[Cursor]) -> Option<usize> {
@@ -316,11 +316,16 @@ impl Street {
     }
 
     /// What the robot did, for who judges the robots of a clock.
-    fn take_entry(&mut self, robot: &str, at_us: u64, entry: Entry) -> Result<Option<Deed>, Fault> {
+    fn take_entry(
+        &mut self,
+        robot: &str,
+        at_us: u64,
+        entry: Entry,
+    ) -> Result<Option<ClockEntry>, Fault> {
         if let Entry::Started { .. } = entry {
             self.start(robot, at_us, entry)?;
             let started = &self.robots[robot];
-            return Ok(Some(Deed::Boot {
+            return Ok(Some(ClockEntry::Boot {
                 robot: Box::new(started.robot().clone()),
                 effect_us: u64::from(started.config().settings().t_safety.0) * 1_000,
             }));
@@ -335,7 +340,8 @@ impl Street {
                 state,
             } => {
                 self.validated.steps += 1;
-                self.road.told(follow.robot(), input, &mut self.monitor);
+                self.crossings
+                    .told(follow.robot(), input, &mut self.monitor);
                 let late_us = follow.step(input, &outputs, &state)?;
                 if let Some(late_us) = late_us {
                     self.validated.late.count(late_us);
@@ -345,11 +351,11 @@ impl Street {
                 }
                 let broken = self.monitor.step(follow.place(), input, &outputs, &state);
                 let broken =
-                    broken.or_else(|| self.road.shown(&outputs, &state, &mut self.monitor));
+                    broken.or_else(|| self.crossings.shown(&outputs, &state, &mut self.monitor));
                 let overdue_us = follow.overdue_us();
                 match broken {
                     Some(broken) => Err(Fault::Broken(broken)),
-                    None => Ok(Some(Deed::Step {
+                    None => Ok(Some(ClockEntry::Step {
                         after: state,
                         is_late: late_us.is_some(),
                         overdue_us,
@@ -382,7 +388,7 @@ impl Street {
                 self.validated.missing += follow.stopped(&counters)?;
                 self.running.remove(robot);
                 self.monitor.crash(follow.place());
-                Ok(Some(Deed::Stop))
+                Ok(Some(ClockEntry::Stop))
             }
         }
     }

@@ -38,7 +38,7 @@ pub struct Observation {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Text {
+struct ObservationLine {
     at_s: Option<f64>,
     id: u32,
     position_m: [f64; 2],
@@ -87,7 +87,7 @@ pub enum PerceptionError {
 /// # Errors
 /// Why it is no observation.
 pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
-    let text: Text = serde_json::from_str(line)?;
+    let text: ObservationLine = serde_json::from_str(line)?;
     within("at_s", text.at_s.unwrap_or(0.0), 0.0, 1e6, "seconds")?;
     let vru = PerceivedVru {
         id: text.id,

@@ -55,7 +55,7 @@ pub struct RobotFile {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Text {
+struct RobotTable {
     name: String,
     station: u32,
     build: Build,
@@ -184,7 +184,7 @@ impl RobotFile {
             path: owned(),
             cause,
         })?;
-        let file: Text = toml::from_str(&text).map_err(|cause| RobotFileError::Syntax {
+        let file: RobotTable = toml::from_str(&text).map_err(|cause| RobotFileError::Syntax {
             path: owned(),
             cause: Box::new(cause),
         })?;
@@ -247,7 +247,7 @@ impl RobotFile {
     }
 }
 
-impl Text {
+impl RobotTable {
     fn check(self, folder: &Path) -> Result<RobotFile, Impossibility> {
         if !(1.0..=100.0).contains(&self.speed) {
             return Err(Impossibility::Speed(self.speed));

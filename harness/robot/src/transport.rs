@@ -12,6 +12,7 @@
 //! failed.
 
 mod attention;
+mod error;
 mod ethernet;
 mod faults;
 mod layer;
@@ -21,12 +22,13 @@ mod reopening;
 mod udp;
 mod zenoh;
 
+pub use error::{LinkError, ZenohError};
 pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Outage};
 pub use layer::WithFaults;
-pub use link::{Link, LinkError};
+pub use link::Link;
 pub use memory::{Air, Port};
 pub use reopening::Reopening;
-pub use zenoh::{Zenoh, ZenohError, ZenohMode, ZenohRouter};
+pub use zenoh::{Zenoh, ZenohMode, ZenohRouter};
 
 use std::io::ErrorKind;
 use std::net::SocketAddr;

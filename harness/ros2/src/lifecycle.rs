@@ -16,7 +16,7 @@ use crate::standard;
 /// A state of the lifecycle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
-pub enum State {
+pub enum LifecycleState {
     /// It has no configuration.
     Unconfigured = 1,
     /// It has one, and the robot is not there.
@@ -37,7 +37,7 @@ pub enum State {
     Deactivating = 14,
 }
 
-impl State {
+impl LifecycleState {
     /// All that a node can be in.
     pub const ALL: [Self; 9] = [
         Self::Unconfigured,
@@ -96,12 +96,18 @@ pub enum Verb {
 struct Way {
     verb: Verb,
     id: u8,
-    from: State,
-    over: State,
-    to: State,
+    from: LifecycleState,
+    over: LifecycleState,
+    to: LifecycleState,
 }
 
-const fn way(verb: Verb, id: u8, from: State, over: State, to: State) -> Way {
+const fn way(
+    verb: Verb,
+    id: u8,
+    from: LifecycleState,
+    over: LifecycleState,
+    to: LifecycleState,
+) -> Way {
     Way {
         verb,
         id,
@@ -115,51 +121,51 @@ const WAYS: [Way; 7] = [
     way(
         Verb::Configure,
         1,
-        State::Unconfigured,
-        State::Configuring,
-        State::Inactive,
+        LifecycleState::Unconfigured,
+        LifecycleState::Configuring,
+        LifecycleState::Inactive,
     ),
     way(
         Verb::CleanUp,
         2,
-        State::Inactive,
-        State::CleaningUp,
-        State::Unconfigured,
+        LifecycleState::Inactive,
+        LifecycleState::CleaningUp,
+        LifecycleState::Unconfigured,
     ),
     way(
         Verb::Activate,
         3,
-        State::Inactive,
-        State::Activating,
-        State::Active,
+        LifecycleState::Inactive,
+        LifecycleState::Activating,
+        LifecycleState::Active,
     ),
     way(
         Verb::Deactivate,
         4,
-        State::Active,
-        State::Deactivating,
-        State::Inactive,
+        LifecycleState::Active,
+        LifecycleState::Deactivating,
+        LifecycleState::Inactive,
     ),
     way(
         Verb::ShutDown,
         5,
-        State::Unconfigured,
-        State::ShuttingDown,
-        State::Finalized,
+        LifecycleState::Unconfigured,
+        LifecycleState::ShuttingDown,
+        LifecycleState::Finalized,
     ),
     way(
         Verb::ShutDown,
         6,
-        State::Inactive,
-        State::ShuttingDown,
-        State::Finalized,
+        LifecycleState::Inactive,
+        LifecycleState::ShuttingDown,
+        LifecycleState::Finalized,
     ),
     way(
         Verb::ShutDown,
         7,
-        State::Active,
-        State::ShuttingDown,
-        State::Finalized,
+        LifecycleState::Active,
+        LifecycleState::ShuttingDown,
+        LifecycleState::Finalized,
     ),
 ];
 
@@ -207,13 +213,13 @@ pub struct NotNow {
     /// What was asked for.
     pub asked: String,
     /// In which state.
-    pub state: State,
+    pub state: LifecycleState,
 }
 
 /// Where a node is in its lifecycle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Lifecycle {
-    state: State,
+    state: LifecycleState,
     /// The way that it is on: its index.
     under_way: Option<usize>,
 }
@@ -221,7 +227,7 @@ pub struct Lifecycle {
 impl Default for Lifecycle {
     fn default() -> Self {
         Self {
-            state: State::Unconfigured,
+            state: LifecycleState::Unconfigured,
             under_way: None,
         }
     }
@@ -230,7 +236,7 @@ impl Default for Lifecycle {
 impl Lifecycle {
     /// Where it is.
     #[must_use]
-    pub const fn state(&self) -> State {
+    pub const fn state(&self) -> LifecycleState {
         self.state
     }
 
@@ -296,7 +302,11 @@ impl Lifecycle {
     }
 }
 
-fn event(transition: standard::Transition, from: State, to: State) -> standard::TransitionEvent {
+fn event(
+    transition: standard::Transition,
+    from: LifecycleState,
+    to: LifecycleState,
+) -> standard::TransitionEvent {
     standard::TransitionEvent {
         timestamp: 0,
         transition,
@@ -320,11 +330,31 @@ mod tests {
     fn a_node_goes_up_and_down_and_ends() {
         let mut node = Lifecycle::default();
         for (verb, over, to) in [
-            (Verb::Configure, State::Configuring, State::Inactive),
-            (Verb::Activate, State::Activating, State::Active),
-            (Verb::Deactivate, State::Deactivating, State::Inactive),
-            (Verb::CleanUp, State::CleaningUp, State::Unconfigured),
-            (Verb::ShutDown, State::ShuttingDown, State::Finalized),
+            (
+                Verb::Configure,
+                LifecycleState::Configuring,
+                LifecycleState::Inactive,
+            ),
+            (
+                Verb::Activate,
+                LifecycleState::Activating,
+                LifecycleState::Active,
+            ),
+            (
+                Verb::Deactivate,
+                LifecycleState::Deactivating,
+                LifecycleState::Inactive,
+            ),
+            (
+                Verb::CleanUp,
+                LifecycleState::CleaningUp,
+                LifecycleState::Unconfigured,
+            ),
+            (
+                Verb::ShutDown,
+                LifecycleState::ShuttingDown,
+                LifecycleState::Finalized,
+            ),
         ] {
             node.begin(verb).unwrap();
             assert_eq!(node.state(), over);
@@ -362,6 +392,6 @@ mod tests {
         let ended = node.end(false).unwrap();
         assert_eq!((ended.transition.id, ended.goal_state.id), (11, 1));
         assert_eq!(ended.transition.label, "transition_failure");
-        assert_eq!(node.state(), State::Unconfigured);
+        assert_eq!(node.state(), LifecycleState::Unconfigured);
     }
 }

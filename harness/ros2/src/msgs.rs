@@ -137,7 +137,12 @@ macro_rules! messages {
 messages! {
     Session => "Session" {}
     Task => "Task" {
-        NONE = 255, INITIAL_POS = 0, MOVE = 1, BLOCK = 2,
+        NONE = 255,
+        // <named tasks>
+        INITIAL_POS = 0,
+        MOVE = 1,
+        BLOCK = 2,
+        // </named tasks>
     }
     Follower => "Follower" {
         PROGRESS_NONE = 0, PROGRESS_EXECUTING = 1, PROGRESS_COMPLETED = 2, PROGRESS_FAILED = 3,

@@ -29,7 +29,7 @@ use crate::acts::{Acts, Taken};
 use crate::command;
 use crate::entity::NodeName;
 use crate::graph::{Call, Graph, Meeting, Node, RosError};
-use crate::lifecycle::{Lifecycle, NotNow, State, Verb};
+use crate::lifecycle::{Lifecycle, LifecycleState, NotNow, Verb};
 use crate::message::Service;
 use crate::msgs::{Command, Corridor, Event, Person, Status};
 use crate::report::{Reporter, of};
@@ -226,15 +226,15 @@ impl Turn {
 
     /// Has the node end. Whether it has.
     fn shut_down(&mut self) -> bool {
-        if self.lifecycle.state() == State::Finalized {
+        if self.lifecycle.state() == LifecycleState::Finalized {
             return true;
         }
         // A transition that is under way comes first.
-        if self.active.is_none() || self.lifecycle.state() == State::Active {
+        if self.active.is_none() || self.lifecycle.state() == LifecycleState::Active {
             // From a state in which it is possible.
             let _ = self.carry_out(Verb::ShutDown);
         }
-        self.lifecycle.state() == State::Finalized
+        self.lifecycle.state() == LifecycleState::Finalized
     }
 
     fn take(&mut self, delivery: Delivery) {
@@ -248,7 +248,7 @@ impl Turn {
                 answer(call, &GetStateResponse { current_state });
             }
             Delivery::GetStates(call) => {
-                let available_states = State::ALL.map(State::message).to_vec();
+                let available_states = LifecycleState::ALL.map(LifecycleState::message).to_vec();
                 answer(call, &GetAvailableStatesResponse { available_states });
             }
             Delivery::GetTransitions(call) => answer(
@@ -288,7 +288,7 @@ impl Turn {
     fn commanded(&self) -> Result<(&Active, &RobotFile), command::Refused> {
         let state = self.lifecycle.state();
         match (&self.active, &self.file) {
-            (Some(active), Some(file)) if state == State::Active => Ok((active, file)),
+            (Some(active), Some(file)) if state == LifecycleState::Active => Ok((active, file)),
             _ => Err(command::Refused::NotActive(state.label())),
         }
     }
@@ -447,7 +447,7 @@ impl Turn {
         if let Some(file) = &self.file {
             self.reporter = Some(Self::reporter(file));
         }
-        if self.lifecycle.state() == State::Active {
+        if self.lifecycle.state() == LifecycleState::Active {
             self.count("ros: the robot ended by itself", "");
             if let Ok(event) = self.lifecycle.begin(Verb::Deactivate) {
                 self.tell_transition(event);
@@ -460,8 +460,11 @@ impl Turn {
     }
 }
 
-const fn is_under_way(state: State) -> bool {
-    matches!(state, State::Deactivating | State::ShuttingDown)
+const fn is_under_way(state: LifecycleState) -> bool {
+    matches!(
+        state,
+        LifecycleState::Deactivating | LifecycleState::ShuttingDown
+    )
 }
 
 fn answer<S: Service>(call: Call<S>, response: &S::Response) {

@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use sha2::{Digest, Sha256};
 
 use crate::idl::{Array, Base, Definition, Field, IdlError, PRIMITIVES, parts_of_service};
-use crate::standard;
+use crate::standard::definitions::{MESSAGES, SERVICES};
 
 /// Our own messages, by their names, as the package `crossguard_msgs` has them.
 pub const OWN: [(&str, &str); 8] = [
@@ -68,10 +68,10 @@ impl Types {
     /// The first that means nothing.
     pub fn shipped() -> Result<Self, IdlError> {
         let mut types = Self::default();
-        for (name, text) in OWN.iter().chain(&standard::MESSAGES) {
+        for (name, text) in OWN.iter().chain(&MESSAGES) {
             types.add_message(name, text)?;
         }
-        for (name, text) in &standard::SERVICES {
+        for (name, text) in &SERVICES {
             types.add_service(name, text)?;
         }
         Ok(types)

@@ -1,5 +1,7 @@
 //! `crossguard check`.
 
+mod replay;
+
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::num::NonZeroUsize;
@@ -22,7 +24,7 @@ use crossguard_model_check::{export, universe};
 use indicatif::{HumanCount, HumanFloatCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
-use super::{Failure, print, print_json, replay, shows_progress};
+use super::{Failure, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
 #[expect(
@@ -62,7 +64,7 @@ pub(super) struct Arguments {
     endpoints: bool,
     /// Write the state graph of the scenario instead of checking it.
     #[arg(long, value_name = "FORMAT", requires = "output")]
-    export: Option<Format>,
+    export: Option<GraphFormat>,
     /// The file that the state graph is written to.
     #[arg(long, value_name = "FILE", requires = "export")]
     output: Option<PathBuf>,
@@ -72,7 +74,7 @@ pub(super) struct Arguments {
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
-enum Format {
+enum GraphFormat {
     /// A digraph of Graphviz.
     Dot,
     /// Aldébaran, which CADP and mCRL2 read.
@@ -80,7 +82,7 @@ enum Format {
 }
 
 #[derive(Serialize)]
-struct Report {
+struct CheckReport {
     scenarios: Vec<ScenarioReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     fsm_coverage: Option<Coverage>,
@@ -118,7 +120,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let (Some(format), Some(file)) = (arguments.export, &arguments.output) {
         return export_one(arguments, scenarios, format, file);
     }
-    let mut report = Report {
+    let mut report = CheckReport {
         scenarios: Vec::new(),
         fsm_coverage: None,
     };
@@ -209,15 +211,15 @@ fn coverage(scenarios: &[ScenarioReport]) -> Coverage {
 fn export_one(
     arguments: &Arguments,
     subjects: Vec<Subject>,
-    format: Format,
+    format: GraphFormat,
     file: &Path,
 ) -> Result<(), Failure> {
     let Ok([Subject::Scenario(scenario)]) = <[Subject; 1]>::try_from(subjects) else {
         return Err(Failure::input("--export wants one scenario"));
     };
     let format = match format {
-        Format::Dot => export::Format::Dot,
-        Format::Aut => export::Format::Aut,
+        GraphFormat::Dot => export::Format::Dot,
+        GraphFormat::Aut => export::Format::Aut,
     };
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
     let model = Model::new(untimed(*scenario)?);
@@ -398,7 +400,7 @@ fn words(name: &str) -> String {
     words
 }
 
-fn summarize(report: &Report) -> Result<(), Failure> {
+fn summarize(report: &CheckReport) -> Result<(), Failure> {
     let (literal, scenarios): (Vec<_>, Vec<_>) =
         report.scenarios.iter().partition(|r| paper::made(r));
     for literal in literal {

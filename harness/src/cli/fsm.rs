@@ -7,12 +7,12 @@ use super::{Failure, print, print_json};
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The form of the diagram.
-    #[arg(long, value_enum, default_value_t = Format::Mermaid)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = DiagramFormat::Mermaid)]
+    format: DiagramFormat,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Format {
+enum DiagramFormat {
     /// A stateDiagram-v2 of Mermaid.
     Mermaid,
     /// A digraph of Graphviz.
@@ -31,9 +31,11 @@ struct Transition {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let transitions = universe::explore(&universe::config()).transitions;
     match arguments.format {
-        Format::Mermaid => print(fsm::diagram(&transitions, fsm::Format::Mermaid).trim_end()),
-        Format::Dot => print(fsm::diagram(&transitions, fsm::Format::Dot).trim_end()),
-        Format::Json => {
+        DiagramFormat::Mermaid => {
+            print(fsm::diagram(&transitions, fsm::Format::Mermaid).trim_end())
+        }
+        DiagramFormat::Dot => print(fsm::diagram(&transitions, fsm::Format::Dot).trim_end()),
+        DiagramFormat::Json => {
             let transitions = transitions.0.iter().map(|((from, to), labels)| Transition {
                 from: fsm::name(*from),
                 to: fsm::name(*to),

@@ -49,7 +49,7 @@ completed, and all robots must come to rest. The same seed gives the same run.";
 
 /// The results as JSON.
 #[derive(Serialize)]
-struct Report<'a> {
+struct FuzzReport<'a> {
     #[serde(flatten)]
     totals: &'a Totals,
     robots_max: u8,
@@ -82,7 +82,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if arguments.json {
         let failures = totals.failures.iter();
-        print_json(&Report {
+        print_json(&FuzzReport {
             totals: &totals,
             robots_max: arguments.robots,
             first_seed: arguments.seed,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crossguard_robot::trace::{Log, Merged};
 
-use super::report::Page;
+use super::report::ReportPage;
 use super::{Failure, export, print};
 
 /// What else is written of a log.
@@ -41,7 +41,7 @@ impl RecordArguments {
             written.push(export::write_mcap(logs, path)?);
         }
         if let Some(path) = &self.report {
-            let page = Page {
+            let page = ReportPage {
                 title,
                 logs: &["the log of this run".to_owned()],
                 time_scale,

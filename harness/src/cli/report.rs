@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .iter()
         .map(|path| path.display().to_string())
         .collect();
-    let page = Page {
+    let page = ReportPage {
         title: &arguments.title,
         logs: &names,
         time_scale: arguments.speed,
@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// A page to be written.
-pub(super) struct Page<'a> {
+pub(super) struct ReportPage<'a> {
     /// What stands at the top.
     pub(super) title: &'a str,
     /// The names of the logs.
@@ -63,7 +63,7 @@ pub(super) struct Page<'a> {
     pub(super) time_scale: f64,
 }
 
-impl Page<'_> {
+impl ReportPage<'_> {
     /// Validates logs and writes their page; they are read twice. What validation says.
     pub(super) fn write(
         &self,

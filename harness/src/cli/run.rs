@@ -17,7 +17,7 @@ use std::io::{BufRead, IsTerminal};
 use std::net::SocketAddrV4;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
@@ -36,6 +36,7 @@ use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, Wi
 use output::{Lines, Outputs};
 
 use super::Failure;
+use super::interrupts::interrupts;
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);
@@ -372,19 +373,4 @@ impl Console<'_> {
         }
         Ok(false)
     }
-}
-
-/// Set when the process is told to stop.
-pub(super) fn interrupts() -> Arc<AtomicBool> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&interrupted);
-    // A second Ctrl-C should still end a process that does not stop by itself.
-    let handler = move || {
-        if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    };
-    // It can only fail when there is a handler already, and there is none.
-    let _ = ctrlc::set_handler(handler);
-    interrupted
 }

@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// What a matrix says.
 #[derive(Serialize)]
-struct Report<'a, C> {
+struct SimulateReport<'a, C> {
     preset: &'a str,
     parameters: &'a Parameters,
     cells: &'a [C],
@@ -150,7 +150,7 @@ fn finish<C: Serialize + output::Row>(
     cells: &[C],
 ) -> Result<(), Failure> {
     if output.json {
-        return print_json(&Report {
+        return print_json(&SimulateReport {
             preset: matrix.preset.name(),
             parameters,
             cells,

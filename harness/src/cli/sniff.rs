@@ -11,7 +11,7 @@ use crossguard_robot::capture;
 use crossguard_robot::transport::{Arrival, Link, Transport};
 
 use super::codec::Version;
-use super::run::interrupts;
+use super::interrupts::interrupts;
 use super::{Failure, print};
 
 /// How long the loop waits before it looks whether it is to stop.
@@ -65,7 +65,7 @@ const AFTER_HELP: &str = "Examples:\n  crossguard sniff demo.pcap\n  \
     around last. Signatures are not verified.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut watch = Watch {
+    let mut printer = Printer {
         sniffer: Sniffer::new(arguments.dictionary.identifiers()),
         is_json: arguments.json,
         left: arguments.count.unwrap_or(u64::MAX),
@@ -75,12 +75,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             let bad = |error| Failure::Input(format!("{}: {error}", path.display()));
             for captured in capture::read(path).map_err(bad)? {
                 let captured = captured.map_err(bad)?;
-                if !watch.see(&captured.packet, captured.at)? {
+                if !printer.see(&captured.packet, captured.at)? {
                     break;
                 }
             }
         }
-        (None, Some(link)) => listen(arguments, &link, &mut watch)?,
+        (None, Some(link)) => listen(arguments, &link, &mut printer)?,
         (None, None) => {
             return Err(Failure::Input(
                 "nothing to listen to: name a pcap file, --address, --multicast, --ethernet or --zenoh \
@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             ));
         }
     }
-    watch.sum_up()
+    printer.sum_up()
 }
 
 fn link(arguments: &Arguments) -> Option<Link> {
@@ -107,7 +107,7 @@ fn link(arguments: &Arguments) -> Option<Link> {
     arguments.zenoh.link()
 }
 
-fn listen(arguments: &Arguments, link: &Link, watch: &mut Watch) -> Result<(), Failure> {
+fn listen(arguments: &Arguments, link: &Link, printer: &mut Printer) -> Result<(), Failure> {
     let mut halves = link.open().map_err(Failure::input)?;
     let capture = arguments.pcap.as_deref().map(super::create_capture);
     let capture = capture.transpose()?;
@@ -128,7 +128,7 @@ fn listen(arguments: &Arguments, link: &Link, watch: &mut Watch) -> Result<(), F
         let arrival = arrival.map_err(|error| Failure::Input(format!("{link}: {error}")))?;
         if let Some(Arrival::Datagram { octets, .. }) = arrival {
             let now = SystemTime::now().duration_since(UNIX_EPOCH);
-            if !watch.see(&octets, now.unwrap_or_default())? {
+            if !printer.see(&octets, now.unwrap_or_default())? {
                 break;
             }
         }
@@ -137,14 +137,14 @@ fn listen(arguments: &Arguments, link: &Link, watch: &mut Watch) -> Result<(), F
 }
 
 /// What is seen, as it is printed.
-struct Watch {
+struct Printer {
     sniffer: Sniffer,
     is_json: bool,
     /// How many packets are yet to be seen.
     left: u64,
 }
 
-impl Watch {
+impl Printer {
     /// Prints a packet. Whether to go on.
     fn see(&mut self, packet: &[u8], at: Duration) -> Result<bool, Failure> {
         if self.left == 0 {

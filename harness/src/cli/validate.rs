@@ -28,7 +28,7 @@ clock. How long messages were under way is in no log.";
 
 /// The results as JSON.
 #[derive(Serialize)]
-struct Report {
+struct ValidateReport {
     valid: bool,
     #[serde(flatten)]
     validated: Option<Validated>,
@@ -68,9 +68,9 @@ pub(super) fn verdict(result: &Result<Validated, Invalid>) -> Result<(), Failure
     }
 }
 
-fn report(result: &Result<Validated, Invalid>) -> Report {
+fn report(result: &Result<Validated, Invalid>) -> ValidateReport {
     let invalid = result.as_ref().err();
-    Report {
+    ValidateReport {
         valid: result.is_ok(),
         validated: result.as_ref().ok().cloned(),
         log: invalid.map(|invalid| invalid.log.clone()),

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crossguard_robot::transport::{Link, Zenoh, ZenohMode, ZenohRouter};
 
-use super::run::interrupts;
+use super::interrupts::interrupts;
 use super::{Failure, choices, print};
 
 /// How often a router looks whether it is to stop.

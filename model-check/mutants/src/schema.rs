@@ -4,14 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::Failure;
-use crate::points::{Source, Sources};
+use crate::points::{IN_CONSTANTS, Source, Sources};
 
 /// What the mutants are switched by; appended to the protocol's `lib.rs`.
 const SWITCH: &str = include_str!("switch.txt");
-
-/// Functions that constants of the workspace are made by: they stay `const`, and so have no mutants, which
-/// read a variable. All other functions of the copy are not `const`.
-pub(crate) const IN_CONSTANTS: [&str; 4] = ["new", "of", "color", "look"];
 
 /// What calls functions of the protocol.
 const CONST_FREE: [&str; 6] = [

@@ -16,7 +16,7 @@ describes four states, two messages and what robots do with them. `crossguard ch
 checks a small model of exactly that wording (`model-check/src/paper`), and the check must fail. Each
 counterexample below was found by stateright, is the shortest of its kind, and is the reason for a
 rule that the protocol of this kit adds. The same stories, with the same losses, delays and crashes,
-are told to real endpoints by `harness/tests/paper_literal.rs`, which survive them; the stories are
+are told to real endpoints by `harness/testkit/tests/paper_literal.rs`, which survive them; the stories are
 the files in `model-check/stories`.
 
 The paper itself was not at hand when this was written, only the summary in the kit's design. Where
@@ -24,7 +24,7 @@ that leaves something open, the model takes the most literal reading; the docume
 `paper` lists these readings. A hazard below is a statement about this reading.
 
 This page is generated from what the checker finds; a test fails when the two differ. To write it
-anew: `CROSSGUARD_BLESS=1 cargo test -p crossguard-model-check --test paper_literal`.
+anew: `cargo xtask bless paper-literal`.
 ";
 
 const ON_ROAD: &str = "

@@ -1,7 +1,7 @@
 //! Stage 2: a robot that asks for help, with at most two offers.
 
 use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Countdown, Happening, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage, TimerKind};
 use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::laws::watch::Sort;
 
@@ -114,28 +114,28 @@ steps! { FROM, all;
     }
 
     /// The end of the time for selection.
-    selects(Kind::Fires(Countdown::Selection)) |step| {
+    selects(Kind::Fires(TimerKind::Selection)) |step| {
         "establishes the roles": becomes(step, Role::Leader),
         "goes on": becomes(step, Role::Requester),
     }
 
     /// `T_help`.
-    gives_up(Kind::Fires(Countdown::Help)) |step| {
+    gives_up(Kind::Fires(TimerKind::Help)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
     /// `T_lock`.
-    must_unlock(Kind::Fires(Countdown::IdentityLock)) |step| {
+    must_unlock(Kind::Fires(TimerKind::IdentityLock)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
     /// The next RAM.
-    repeats_itself(Kind::Fires(Countdown::Ram)) |step| {
+    repeats_itself(Kind::Fires(TimerKind::Ram)) |step| {
         "sends": step.said.has(Sort::SendRam),
     }
 
     /// The end of a farewell.
-    ends_a_farewell(Kind::Fires(Countdown::Farewell)) |step| {
+    ends_a_farewell(Kind::Fires(TimerKind::Farewell)) |step| {
         "ends it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
@@ -163,7 +163,7 @@ steps! { FROM, all;
     }
 
     /// The end of an offer.
-    forgets_an_offer(Kind::Fires(Countdown::Offer)) |step| {
+    forgets_an_offer(Kind::Fires(TimerKind::Offer)) |step| {
         "it lapses": step.said.has(Sort::OfferLapsed),
         "ignored": step.is_ignored(),
     }

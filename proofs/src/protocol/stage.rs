@@ -1,7 +1,7 @@
 //! What the harnesses of all stages have in common: one step from any valid state.
 
 use crossguard_protocol::laws::arbitrary::{self, Kind, Stage};
-use crossguard_protocol::laws::steps::Taken;
+use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::{Config, Robot, Role};
 
 use crate::{Symbolic, kani};

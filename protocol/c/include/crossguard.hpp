@@ -48,9 +48,11 @@ inline bool operator==(const Session &a, const Session &b) noexcept {
 
 /// A task type, 0..15.
 enum class Task : std::uint8_t {
+  // <named tasks>
   initial_pos = CROSSGUARD_TASK_INITIAL_POS,
   move = CROSSGUARD_TASK_MOVE,
   block = CROSSGUARD_TASK_BLOCK,
+  // </named tasks>
 };
 
 /// A set of task types: bit n stands for task type n.

@@ -62,12 +62,14 @@ pub enum CrossguardRole {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum CrossguardTask {
+    // <named tasks>
     /// Go to the place where the maneuver starts.
     InitialPos = 0,
     /// Escort: move along with the pedestrian.
     Move = 1,
     /// Hold back one direction of traffic.
     Block = 2,
+    // </named tasks>
 }
 
 /// How urgent a request for help is.

@@ -1,4 +1,5 @@
-//! The committed header is the one that cbindgen makes of the sources. `UPDATE_HEADER=1` writes it.
+//! The committed header is the one that cbindgen makes of the sources. `CROSSGUARD_BLESS=1` writes
+//! it.
 
 use std::path::Path;
 
@@ -17,13 +18,13 @@ fn the_header_is_current() {
         .write(&mut generated);
     let generated = String::from_utf8(generated).unwrap() + &layout();
     let path = crate_folder.join("include/crossguard.h");
-    if std::env::var_os("UPDATE_HEADER").is_some() {
+    if std::env::var_os("CROSSGUARD_BLESS").is_some() {
         std::fs::write(&path, &generated).unwrap();
     }
     let committed = std::fs::read_to_string(&path).unwrap();
     assert!(
         committed == generated,
-        "include/crossguard.h is not what cbindgen makes of src; run this test with UPDATE_HEADER=1"
+        "include/crossguard.h is not what cbindgen makes of src; run: cargo xtask bless crossguard.h"
     );
 }
 

@@ -1,10 +1,8 @@
 //! Misuse of the interface returns codes, under the sanitizers of gcc: `misuse.c`.
 
-mod support;
-
 use std::process::Command;
 
-use support::{Language, compile};
+use crossguard_testkit::c::{Language, compile};
 
 #[test]
 fn misuse_returns_a_code_and_does_nothing() {

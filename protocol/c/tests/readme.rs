@@ -1,11 +1,9 @@
 //! The C++ in the README and the C on the front page of the documentation compile, with stand-ins for what a robot
 //! brings along.
 
-mod support;
-
 use std::path::Path;
 
-use support::{Language, compile_to_object};
+use crossguard_testkit::c::{Language, compile_to_object};
 
 /// The first block of code in this language.
 fn block(page: &str, language: &str) -> String {

@@ -19,7 +19,7 @@ use crate::task::{
 };
 use crate::time::Millis;
 
-pub use input::{Countdown, Happening, Kind, event, input, timer};
+pub use input::{Happening, Kind, TimerKind, event, input, timer};
 pub use message::{answer, command, ram};
 pub use state::{Peers, Stage, robot, valid_robot};
 

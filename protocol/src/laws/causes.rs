@@ -6,7 +6,7 @@ use crate::message::{Coordination, Rmcm};
 use crate::output::Ignored;
 use crate::state::Role;
 
-use super::steps::{Taken, leading};
+use super::taken::{Taken, leading};
 
 /// All laws of this module.
 pub fn all(step: &Taken) {

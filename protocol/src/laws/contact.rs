@@ -9,7 +9,7 @@ use crate::state::{Contact, Following, Offering, Phase, Robot};
 
 use super::arithmetic::{beat_is_newer, request_is_newer};
 use super::road::ending_told;
-use super::steps::{Taken, following, is_listed};
+use super::taken::{Taken, following, is_listed};
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {

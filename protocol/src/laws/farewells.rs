@@ -5,7 +5,7 @@ use crate::input::{Event, Input, Timer};
 use crate::message::{Coordination, Farewell};
 use crate::state::{Identity, Role};
 
-use super::steps::{Taken, leading, own_number, requesting};
+use super::taken::{Taken, leading, own_number, requesting};
 
 /// All laws of this module.
 pub fn all(step: &Taken) {

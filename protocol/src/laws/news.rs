@@ -7,7 +7,7 @@ use crate::output::EndReason;
 use crate::state::{Contact, Member, Robot, Role};
 
 use super::road::ending_told;
-use super::steps::{Taken, following, leading, own_number, requesting};
+use super::taken::{Taken, following, leading, own_number, requesting};
 use super::watch::Sort;
 
 /// All laws of this module.

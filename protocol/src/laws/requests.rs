@@ -5,7 +5,7 @@ use crate::input::{Event, Input};
 use crate::state::{Identity, Phase, Robot, Role};
 use crate::task::Availability;
 
-use super::steps::{Taken, requesting};
+use super::taken::{Taken, requesting};
 use super::watch::Sort;
 
 /// All laws of this module.

@@ -13,7 +13,7 @@ use crate::task::{Availability, Place, Unavailability, Urgency};
 use crate::time::{Countdown, Millis};
 
 use super::arithmetic::beat_is_newer;
-use super::steps::{Taken, executing, leading, requesting};
+use super::taken::{Taken, executing, leading, requesting};
 use super::watch::{Sort, is_open};
 
 /// All laws of this module.

@@ -9,49 +9,13 @@ use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, StationId, UniqueN
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Failure, Farewell, Progress, Ram, Rmcm, Verdict};
 use crate::output::{GoneReason, Maneuver};
-use crate::state::{
-    Following, Identity, Leading, Lease, Member, Phase, Requesting, Robot, Role, State,
-};
+use crate::state::{Identity, Lease, Member, Phase, Robot, Role, State};
 use crate::time::Millis;
 
 use super::arithmetic::{age_ms, beat_is_newer, request_is_newer};
-use super::watch::{Sort, Watch, is_open};
+use super::taken::{Taken, executing, following, is_listed, leading, own_number};
+use super::watch::{Sort, is_open};
 use super::{causes, commands, contact, farewells, news, offers, requests, road, times};
-
-/// One step: the state before, the input, and what came of it.
-#[derive(Clone, Debug)]
-pub struct Taken {
-    /// The state before.
-    pub before: Robot,
-    /// The input.
-    pub input: Input,
-    /// What is to be done.
-    pub said: Watch,
-    /// The state after.
-    pub after: Robot,
-}
-
-impl Taken {
-    /// Takes the step.
-    #[must_use]
-    pub fn new(config: &Config, before: Robot, input: Input) -> Self {
-        let mut after = before.clone();
-        let mut said = Watch::new(&before, &input);
-        after.step_into(config, input, &mut said);
-        Self {
-            before,
-            input,
-            said,
-            after,
-        }
-    }
-
-    /// Whether the input was ignored.
-    #[must_use]
-    pub fn is_ignored(&self) -> bool {
-        self.said.has(Sort::Ignored)
-    }
-}
 
 /// All laws of one step.
 pub fn all(config: &Config, step: &Taken) {
@@ -109,32 +73,6 @@ pub fn ignores_without_effect(step: &Taken) {
     } else if !matches!(step.input, Input::Elapsed(_) | Input::Expired(_)) {
         assert!(!step.said.is_empty() || step.after != step.before);
     }
-}
-
-pub(super) fn following(robot: &Robot) -> Option<&Following> {
-    match robot.phase() {
-        Phase::Following(following) => Some(following),
-        _ => None,
-    }
-}
-
-pub(super) fn leading(robot: &Robot) -> Option<&Leading> {
-    match robot.phase() {
-        Phase::Leading(leading) => Some(leading),
-        _ => None,
-    }
-}
-
-pub(super) fn requesting(robot: &Robot) -> Option<&Requesting> {
-    match robot.phase() {
-        Phase::Requesting(requesting) => Some(requesting),
-        _ => None,
-    }
-}
-
-/// The maneuver that the robot believes to be running.
-pub(super) fn executing(robot: &Robot) -> Option<Maneuver> {
-    following(robot).and_then(Following::executing)
 }
 
 /// I14: what the outputs have told the body is what the state believes; a robot without a part in a
@@ -371,18 +309,6 @@ pub fn keeps_its_numbers(step: &Taken) {
     }
 }
 
-/// The session that a robot has a part in, and its own number for that part.
-pub(super) fn own_number(robot: &Robot) -> Option<(SessionId, UniqueNumber)> {
-    let number = match robot.phase() {
-        Phase::Idle => return None,
-        Phase::Requesting(requesting) => requesting.number.0,
-        Phase::Offering(offering) => offering.number.0,
-        Phase::Leading(leading) => leading.number.0,
-        Phase::Following(following) => following.offer.0,
-    };
-    robot.session().map(|session| (session, number))
-}
-
 /// The number of an offer of this boot that nobody has confirmed, where the input says that its request is
 /// over.
 fn taken_back(step: &Taken) -> Option<UniqueNumber> {
@@ -430,26 +356,6 @@ fn left_by(step: &Taken, station: StationId) -> Option<(SessionId, OfferNumber)>
             _ => None,
         },
         _ => None,
-    }
-}
-
-/// Whether the input is a RAM of the leader of `session` that lists this robot by `offer`.
-pub(super) fn is_listed(step: &Taken, session: SessionId, offer: OfferNumber) -> bool {
-    let Input::Ram { ram, .. } = step.input else {
-        return false;
-    };
-    match ram.coordination {
-        Coordination::Leader {
-            number, followers, ..
-        } => {
-            let me = step.before.station();
-            ram.station == session.leader
-                && number == session.number
-                && followers
-                    .iter()
-                    .any(|listed| listed.station == me && listed.offer == offer)
-        }
-        _ => false,
     }
 }
 

@@ -18,7 +18,7 @@ use crate::state::{Contact, Phase, Robot};
 use crate::time::Millis;
 use crate::{MAX_FOLLOWERS, MAX_OUTPUTS, MAX_TIMERS};
 
-use super::steps::Taken;
+use super::taken::Taken;
 use super::watch::{Sort, Watch};
 
 /// 1: all countdowns run, and what is left of them is less.

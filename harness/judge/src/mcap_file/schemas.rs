@@ -33,7 +33,7 @@ macro_rules! kinds {
 kinds!(
     State "crossguard.State",
     Step "crossguard.Step",
-    Message "crossguard.Message",
+    RobotMessage "crossguard.Message",
     Counters "crossguard.Counters",
     Corridor "crossguard.Corridor",
     Log "foxglove.Log",
@@ -110,7 +110,7 @@ pub(super) struct Step {
 
 /// A message that a robot sent, heard, or should have heard.
 #[derive(Debug, Serialize, JsonSchema)]
-pub(super) struct Message {
+pub(super) struct RobotMessage {
     pub(super) timestamp: Time,
     pub(super) robot: String,
     /// `sent`, `heard` or `lost`.

@@ -7,7 +7,7 @@ use crossguard_model_check::properties::PropertyId;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::collect::Run;
-use super::{Outcome, Report, street, timeline};
+use super::{Report, Validity, street, timeline};
 use crate::timing::{Statistic, Summary};
 
 const STYLE: &str = include_str!("style.css");
@@ -88,10 +88,10 @@ fn when(run: &Run) -> String {
 
 fn verdict(report: &Report) -> Markup {
     let (class, word) = match report.outcome() {
-        Outcome::Valid => ("valid", "✓ Valid"),
-        Outcome::Incomplete => ("incomplete", "! Valid, and not all of it is there"),
-        Outcome::Invalid if report.finding.is_some() => ("invalid", "✗ A property was broken"),
-        Outcome::Invalid => ("invalid", "✗ Not valid"),
+        Validity::Valid => ("valid", "✓ Valid"),
+        Validity::Incomplete => ("incomplete", "! Valid, and not all of it is there"),
+        Validity::Invalid if report.finding.is_some() => ("invalid", "✗ A property was broken"),
+        Validity::Invalid => ("invalid", "✗ Not valid"),
     };
     html! {
         div.verdict.(class) role="status" {

@@ -20,7 +20,7 @@ const EXTENT_MIN_M: f64 = 6.0;
 const WAY_M: f64 = 1.5;
 
 /// From degrees to pixels.
-struct View {
+struct Projection {
     site: Site,
     west: f64,
     north: f64,
@@ -28,7 +28,7 @@ struct View {
     height: f64,
 }
 
-impl View {
+impl Projection {
     fn of(run: &Run) -> Option<Self> {
         let ways = run.robots.iter().flat_map(|robot| robot.way.iter());
         let goals = run.areas.iter().map(|area| &area.to);
@@ -74,7 +74,7 @@ impl View {
 
 /// The map; `None` where no robot says where it is.
 pub(super) fn street(run: &Run) -> Option<Markup> {
-    let view = View::of(run)?;
+    let view = Projection::of(run)?;
     let bar_m = step(WIDTH / view.pixels_per_m, 6.0);
     let bar = bar_m * view.pixels_per_m;
     Some(html! {
@@ -143,7 +143,7 @@ fn length(way: &[(f64, f64)]) -> f64 {
     metres.sum()
 }
 
-fn grid(view: &View, step_m: f64) -> Markup {
+fn grid(view: &Projection, step_m: f64) -> Markup {
     let step = step_m * view.pixels_per_m;
     let lines = |until: f64| {
         let first = MARGIN % step;
@@ -157,7 +157,7 @@ fn grid(view: &View, step_m: f64) -> Markup {
     html! { path.grid d=(across.chain(along).collect::<String>()) {} }
 }
 
-fn place(view: &View, area: &Area) -> Markup {
+fn place(view: &Projection, area: &Area) -> Markup {
     let to = view.pixel(area.to);
     match area.from.map(|from| view.pixel(from)) {
         Some(from) if area.task == TaskType::MOVE => html! {
@@ -172,7 +172,7 @@ fn place(view: &View, area: &Area) -> Markup {
     }
 }
 
-fn way(view: &View, look: Look, way: &[(f64, f64)]) -> Markup {
+fn way(view: &Projection, look: Look, way: &[(f64, f64)]) -> Markup {
     let points: Vec<_> = way.iter().map(|at| view.pixel(*at)).collect();
     let (Some(first), Some(last)) = (points.first(), points.last()) else {
         return html! {};
@@ -189,7 +189,7 @@ fn way(view: &View, look: Look, way: &[(f64, f64)]) -> Markup {
 }
 
 /// The names beside where the robots ended, none over another.
-fn names(run: &Run, view: &View) -> Markup {
+fn names(run: &Run, view: &Projection) -> Markup {
     let mut taken: Vec<(f64, f64)> = Vec::new();
     let ends = run.robots.iter().filter_map(|robot| {
         let (x, y) = view.pixel(*robot.way.last()?);

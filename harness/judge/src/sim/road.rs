@@ -80,7 +80,7 @@ struct Go {
 }
 
 #[derive(Clone, Debug)]
-struct Seat {
+struct RoadUser {
     post: Post,
     go: Option<Go>,
     guards: Option<SessionId>,
@@ -91,7 +91,7 @@ struct Seat {
 
 /// A stop-watch.
 #[derive(Clone, Copy, Debug)]
-struct Watch {
+struct Stopwatch {
     measure: Measure,
     /// The leader that it is about.
     leader: usize,
@@ -110,13 +110,13 @@ struct Meeting {
 }
 
 /// What was wrong, and at which robot.
-pub(super) type Late = (Measure, usize);
+pub(super) type Overdue = (Measure, usize);
 
 /// The road of a run.
 #[derive(Debug)]
 pub(super) struct Road {
-    seats: Vec<Seat>,
-    watches: Vec<Watch>,
+    seats: Vec<RoadUser>,
+    watches: Vec<Stopwatch>,
     meetings: Vec<Meeting>,
     /// How long a message takes at most.
     delay: Millis,
@@ -127,7 +127,7 @@ pub(super) struct Road {
 
 impl Road {
     pub(super) fn new(posts: impl Iterator<Item = Post>, delay: Millis, is_in_time: bool) -> Self {
-        let seat = |post| Seat {
+        let seat = |post| RoadUser {
             post,
             go: None,
             guards: None,
@@ -149,14 +149,14 @@ impl Road {
     }
 
     /// Time has come to `now_us`: signs end by themselves, and nothing may take longer than its bound.
-    pub(super) fn pass(&mut self, now_us: u64) -> Result<(), Late> {
+    pub(super) fn pass(&mut self, now_us: u64) -> Result<(), Overdue> {
         for place in 0..self.seats.len() {
             let ended = self.seats[place].go.filter(|go| go.ends_us <= now_us);
             if let Some(go) = ended {
                 self.stop(go.ends_us, place)?;
             }
         }
-        let late = |watch: &&Watch| now_us - watch.since_us > u64::from(watch.bound_ms) * 1_000;
+        let late = |watch: &&Stopwatch| now_us - watch.since_us > u64::from(watch.bound_ms) * 1_000;
         match self.watches.iter().find(late) {
             Some(watch) => Err((watch.measure, watch.leader)),
             None => Ok(()),
@@ -164,7 +164,7 @@ impl Road {
     }
 
     /// Something has happened to a robot.
-    pub(super) fn see(&mut self, now_us: u64, place: usize, sight: Sight) -> Result<(), Late> {
+    pub(super) fn see(&mut self, now_us: u64, place: usize, sight: Sight) -> Result<(), Overdue> {
         let shown = sight.go_ends_us.filter(|ends_us| *ends_us > now_us);
         match (shown, sight.leads) {
             (None, _) => {
@@ -186,7 +186,7 @@ impl Road {
         place: usize,
         ends_us: u64,
         leads: Option<SessionId>,
-    ) -> Result<(), Late> {
+    ) -> Result<(), Overdue> {
         if let Some(go) = &mut self.seats[place].go
             && leads.is_none_or(|session| session == go.session)
         {
@@ -216,7 +216,7 @@ impl Road {
     }
 
     /// A sign shows *stop* from then on.
-    fn stop(&mut self, at_us: u64, place: usize) -> Result<(), Late> {
+    fn stop(&mut self, at_us: u64, place: usize) -> Result<(), Overdue> {
         self.seats[place].go = None;
         self.meetings.retain(|it| !it.pair.contains(&place));
         self.end(at_us, |watch| match watch.measure {
@@ -251,7 +251,7 @@ impl Road {
         }
         if let Some(session) = was {
             self.seats[place].gone = Some((session, now_us));
-            let shows = |seat: &Seat| seat.go.is_some_and(|go| go.session == session);
+            let shows = |seat: &RoadUser| seat.go.is_some_and(|go| go.session == session);
             let leaders = self.seats.iter().enumerate();
             let leaders = leaders.filter(|(_, seat)| shows(seat));
             let leaders: Vec<_> = leaders
@@ -275,7 +275,7 @@ impl Road {
     }
 
     fn start(&mut self, measure: Measure, leader: usize, other: usize, since_us: u64, by: Millis) {
-        self.watches.push(Watch {
+        self.watches.push(Stopwatch {
             measure,
             leader,
             other,
@@ -285,7 +285,7 @@ impl Road {
     }
 
     /// Ends stop-watches. What took too long, if anything did.
-    fn end(&mut self, at_us: u64, is_over: impl Fn(&Watch) -> bool) -> Result<(), Late> {
+    fn end(&mut self, at_us: u64, is_over: impl Fn(&Stopwatch) -> bool) -> Result<(), Overdue> {
         let mut late = Ok(());
         let worst = &mut self.worst;
         self.watches.retain(|watch| {
@@ -308,7 +308,7 @@ impl Road {
         now_us: u64,
         leader: usize,
         guard: Option<usize>,
-    ) -> Result<(), Late> {
+    ) -> Result<(), Overdue> {
         self.end(now_us, |watch| {
             let is_meant = guard.is_none_or(|guard| watch.other == guard);
             watch.measure == Measure::Untold && watch.leader == leader && is_meant
@@ -324,7 +324,7 @@ impl Road {
     }
 
     /// The application of a robot has a reason why its session is over.
-    pub(super) fn tell_end(&mut self, now_us: u64, place: usize) -> Result<(), Late> {
+    pub(super) fn tell_end(&mut self, now_us: u64, place: usize) -> Result<(), Overdue> {
         self.end(now_us, |watch| {
             matches!(watch.measure, Measure::Served | Measure::Untold) && watch.leader == place
         })
@@ -332,7 +332,7 @@ impl Road {
 
     /// A follower falls back because it has lost contact with the leader of this session: the sign shows *go*
     /// no more.
-    pub(super) fn lose_contact(&mut self, now_us: u64, session: SessionId) -> Result<(), Late> {
+    pub(super) fn lose_contact(&mut self, now_us: u64, session: SessionId) -> Result<(), Overdue> {
         let signs = self.seats.iter().enumerate();
         let mut shown =
             signs.filter_map(|(place, seat)| seat.go.map(|go| (place, go.session, go.ends_us)));
@@ -407,8 +407,8 @@ impl Road {
         &mut self,
         now_us: u64,
         leader: usize,
-    ) -> Result<Option<(SessionId, usize, Vec<usize>)>, Late> {
-        let Seat { post, go, .. } = &self.seats[leader];
+    ) -> Result<Option<(SessionId, usize, Vec<usize>)>, Overdue> {
+        let RoadUser { post, go, .. } = &self.seats[leader];
         let Some(Go { session, .. }) = *go else {
             return Ok(None);
         };

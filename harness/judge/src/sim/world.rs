@@ -27,7 +27,7 @@ use serde::Serialize;
 use self::people::{Corner, OnRoad, Progress};
 use self::radio::Arrival;
 use super::clock::Drifting;
-use super::road::{Late, Post, Road, Sight};
+use super::road::{Overdue, Post, Road, Sight};
 use super::ruled::Ruled;
 use super::swarm::{HEALED_DELAY_MS, Hazard, RobotDraw, Swarm};
 use super::times::{Judged, Measure, Times, Worst};
@@ -433,7 +433,7 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    fn too_late(&self, (measure, place): Late) -> Finding {
+    fn too_late(&self, (measure, place): Overdue) -> Finding {
         Finding {
             property: measure.property().to_owned(),
             statement: measure.statement().to_owned(),

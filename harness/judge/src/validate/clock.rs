@@ -19,7 +19,7 @@ use crossguard_robot::trace::{HELD_US, SAME_CLOCK_US};
 use super::fault::Fault;
 
 /// What a robot did.
-pub(super) enum Deed {
+pub(super) enum ClockEntry {
     Boot {
         robot: Box<Robot>,
         /// For how long a step that comes late may have an effect, in µs.
@@ -38,7 +38,7 @@ pub(super) enum Deed {
 struct Item {
     robot: String,
     line: usize,
-    deed: Deed,
+    deed: ClockEntry,
 }
 
 /// Where I10 is broken.
@@ -59,7 +59,7 @@ impl BrokenAt {
 pub(super) struct SharedClock {
     /// When the clock showed 0, in µs since 1970.
     began_us: Option<i128>,
-    seats: HashMap<String, Seat>,
+    seats: HashMap<String, ClockUser>,
     held: BTreeMap<(u64, u64), Item>,
     taken: u64,
     newest_us: u64,
@@ -73,7 +73,7 @@ pub(super) struct SharedClock {
     excuse: Option<String>,
 }
 
-struct Seat {
+struct ClockUser {
     /// `None` while it is down.
     state: Option<Box<Robot>>,
     effect_us: u64,
@@ -104,7 +104,7 @@ impl SharedClock {
         at_us: u64,
         robot: &str,
         line: usize,
-        deed: Deed,
+        deed: ClockEntry,
     ) -> Result<(), BrokenAt> {
         let robot = robot.to_owned();
         self.newest_us = self.newest_us.max(at_us);
@@ -145,11 +145,11 @@ impl SharedClock {
     fn judge(&mut self, at_us: u64, item: Item) -> Result<(), BrokenAt> {
         let Item { robot, line, deed } = item;
         match deed {
-            Deed::Boot {
+            ClockEntry::Boot {
                 robot: booted,
                 effect_us,
             } => {
-                let seat = Seat {
+                let seat = ClockUser {
                     state: Some(booted),
                     effect_us,
                     overdue_us: None,
@@ -158,13 +158,13 @@ impl SharedClock {
                 self.robots = self.robots.max(self.seats.len());
                 Ok(())
             }
-            Deed::Stop => {
+            ClockEntry::Stop => {
                 if let Some(seat) = self.seats.get_mut(&robot) {
                     (seat.state, seat.overdue_us) = (None, None);
                 }
                 Ok(())
             }
-            Deed::Step {
+            ClockEntry::Step {
                 after,
                 is_late,
                 overdue_us,
@@ -194,7 +194,7 @@ impl SharedClock {
 
     /// Which robot breaks the rule that I10 rests on, if one does.
     fn excuse(&self, at_us: u64) -> Option<String> {
-        let is_overdue = |seat: &Seat| seat.overdue_us.is_some_and(|due_us| due_us < at_us);
+        let is_overdue = |seat: &ClockUser| seat.overdue_us.is_some_and(|due_us| due_us < at_us);
         let mut overdue = self.seats.iter().filter(|(_, seat)| is_overdue(seat));
         let effect_us = self.seats.values().map(|seat| seat.effect_us).max();
         let late = self

@@ -10,9 +10,9 @@ use crossguard_protocol::{Duty, Event, Input, Output, Outputs, Phase, Robot, Ses
 
 /// Where people may be.
 #[derive(Default)]
-pub(super) struct Road(BTreeSet<SessionId>);
+pub(super) struct Crossings(BTreeSet<SessionId>);
 
-impl Road {
+impl Crossings {
     /// A robot in the state `before` is about to be told `input`.
     pub(super) fn told(&mut self, before: &Robot, input: Input, monitor: &mut Monitor) {
         let Input::Local(event) = input else { return };
@@ -80,7 +80,7 @@ mod tests {
     fn somebody_steps_on_the_road_once_for_each_crossing_that_begins() {
         let (outputs, leader) = first_go();
         let nobody_guards = Some(Broken::Untimed(PropertyId::W1));
-        let (mut road, mut monitor) = (Road::default(), Monitor::new(false));
+        let (mut road, mut monitor) = (Crossings::default(), Monitor::new(false));
         assert_eq!(road.shown(&outputs, &leader, &mut monitor), nobody_guards);
         // The sign shows go anew while they are still on the road.
         assert_eq!(road.shown(&outputs, &leader, &mut monitor), None);
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn a_sign_that_does_not_begin_to_show_go_sends_nobody() {
         let (_, leader) = first_go();
-        let (mut road, mut monitor) = (Road::default(), Monitor::new(false));
+        let (mut road, mut monitor) = (Crossings::default(), Monitor::new(false));
         assert_eq!(road.shown(&Outputs::default(), &leader, &mut monitor), None);
     }
 

@@ -13,7 +13,7 @@ use crossguard_protocol::{
 use crossguard_robot::trace::Reception;
 
 use super::fault::Fault;
-use super::time::Time;
+use super::time::ToldTime;
 
 /// A message that a step put out and that is to be sent.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -29,7 +29,7 @@ pub(super) struct Follow {
     robot: Robot,
     config: Config,
     identifiers: Identifiers,
-    time: Time,
+    time: ToldTime,
     owed: VecDeque<Owed>,
     heard: VecDeque<Input>,
     counted: Counts,
@@ -45,7 +45,7 @@ impl Follow {
         settings: Settings,
         identifiers: Identifiers,
     ) -> Result<Self, Fault> {
-        let time = Time::new(&settings, at_us);
+        let time = ToldTime::new(&settings, at_us);
         Ok(Self {
             place,
             robot: Robot::new(station, boot),

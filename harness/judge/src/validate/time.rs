@@ -40,7 +40,7 @@ impl Late {
 }
 
 #[derive(Debug)]
-pub(super) struct Time {
+pub(super) struct ToldTime {
     drift_ppm: u64,
     delay_max_us: u64,
     started_us: u64,
@@ -55,7 +55,7 @@ pub(super) struct Time {
     received: Option<(u64, u64)>,
 }
 
-impl Time {
+impl ToldTime {
     pub(super) fn new(settings: &Settings, at_us: u64) -> Self {
         Self {
             drift_ppm: settings.drift_ppm.into(),

@@ -70,9 +70,10 @@ class FallbackPolicy(enum.Enum):
 
 
 class TaskType(enum.IntEnum):
-    """The kind of a maneuver, `taskType` of the paper. Three have names; a robot may give meaning to
-    the others."""
+    """The kind of a maneuver, `taskType` of the paper. Those with a description have names; a robot may
+    give meaning to the others."""
 
+    # <named tasks>
     INITIAL_POS = 0
     """Go to the place where the maneuver starts."""
     MOVE = 1
@@ -92,12 +93,14 @@ class TaskType(enum.IntEnum):
     TASK13 = 13
     TASK14 = 14
     TASK15 = 15
+    # </named tasks>
 
 
 class TaskSet(enum.IntFlag):
     """A set of task types: bit *n* stands for task type *n*. `TaskSet.MOVE | TaskSet.BLOCK`."""
 
     NONE = 0
+    # <task bits>
     INITIAL_POS = 1 << 0
     MOVE = 1 << 1
     BLOCK = 1 << 2
@@ -114,6 +117,7 @@ class TaskSet(enum.IntFlag):
     TASK13 = 1 << 13
     TASK14 = 1 << 14
     TASK15 = 1 << 15
+    # </task bits>
 
 
 @dataclass(frozen=True, slots=True)

@@ -137,20 +137,20 @@ impl<'a> Records<'a> {
 /// Robots that share a log write it from threads of their own, so that a record may be a moment late in it:
 /// for that each is held back for a second of the logs' time.
 pub struct Merged<'a> {
-    sources: Vec<Source<'a>>,
+    sources: Vec<OpenLog<'a>>,
     /// What is held back, by time, and by the order in which it was read.
     held: BTreeMap<(u64, u64), Record>,
     read: u64,
     newest_us: u64,
 }
 
-struct Source<'a> {
+struct OpenLog<'a> {
     records: Records<'a>,
     /// The next record, with its time.
     head: Option<(u64, Record)>,
 }
 
-impl Source<'_> {
+impl OpenLog<'_> {
     fn advance(&mut self) -> Result<(), LogError> {
         let taken = self.records.take().map_err(|cause| LogError {
             log: self.records.name().to_owned(),
@@ -171,7 +171,7 @@ impl<'a> Merged<'a> {
         let mut sources = Vec::new();
         for log in logs {
             let records = Records::new(log);
-            let mut source = Source {
+            let mut source = OpenLog {
                 records,
                 head: None,
             };

@@ -8,7 +8,7 @@ use nix::sys::socket::MsgFlags;
 use socket2::{Domain, InterfaceIndexOrAddress, Protocol, SockRef, Socket, Type};
 
 use super::attention::Attention;
-use super::link::interface_of;
+use super::error::interface_of;
 use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
 /// The sending half of a link.

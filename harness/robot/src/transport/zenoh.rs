@@ -27,8 +27,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::link::interface_of;
-use super::{Halves, LinkError};
+use super::Halves;
+use super::error::{LinkError, ZenohError, interface_of};
 
 /// The key below which robots publish, if no other is named.
 const KEY: &str = "crossguard/v2x";
@@ -74,71 +74,6 @@ pub struct Zenoh {
 
 fn key() -> String {
     KEY.to_owned()
-}
-
-/// Why a zenoh network cannot be entered.
-#[derive(Debug, thiserror::Error)]
-pub enum ZenohError {
-    /// The program cannot speak zenoh.
-    #[error(
-        "this program was built without zenoh; build it with: cargo build --release --features zenoh"
-    )]
-    NotBuilt,
-    /// The file of settings cannot be used.
-    #[error("zenoh: {}: {cause}", path.display())]
-    Config {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        cause: String,
-    },
-    /// A setting is none that zenoh takes.
-    #[error("zenoh: {setting} cannot be {value}: {cause}")]
-    Setting {
-        /// Its name.
-        setting: &'static str,
-        /// What it was to be.
-        value: String,
-        /// Why not.
-        cause: String,
-    },
-    /// The key is none.
-    #[error("zenoh: '{key}' is no key like crossguard/v2x")]
-    Key {
-        /// What was given.
-        key: String,
-    },
-    /// An endpoint is none.
-    #[error("zenoh: '{endpoint}' is no endpoint like tcp/192.0.2.1:7447; protocols are {known}")]
-    Endpoint {
-        /// What was given.
-        endpoint: String,
-        /// The protocols that there are.
-        known: String,
-    },
-    /// A client has no router.
-    #[error("zenoh: a client wants a router to connect to, like tcp/127.0.0.1:7447")]
-    NoRouter,
-    /// No router answers.
-    #[error(
-        "zenoh: no router can be reached at {endpoints}; is zenohd, or 'crossguard router', running \
-         there? RUST_LOG=zenoh=warn tells more"
-    )]
-    Unreachable {
-        /// Where it was looked for.
-        endpoints: String,
-    },
-    /// It cannot listen.
-    #[error("zenoh: cannot listen on {endpoints}: {cause}")]
-    Unavailable {
-        /// Where it was to listen.
-        endpoints: String,
-        /// Why not.
-        cause: String,
-    },
-    /// The session does not take part in the key.
-    #[error("zenoh: {0}")]
-    Session(String),
 }
 
 impl Zenoh {

@@ -5,10 +5,10 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use crossguard_endpoint::ras::vru::{Understands, VamRule};
+use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::grid::{Grid, Preset, Site};
 use crossguard_evaluation::matrix::Axes;
 use crossguard_evaluation::shipped;
-use crossguard_evaluation::simulation::Behaviour;
 use crossguard_evaluation::stationing::Stationing;
 use crossguard_evaluation::sumo::{Plan, Sumo};
 use crossguard_evaluation::trace::Traces;

@@ -1,7 +1,7 @@
 //! All laws of a step of a leader but that its state stays valid.
 
 use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Countdown, Happening, Kind};
+use crossguard_protocol::laws::arbitrary::{Happening, Kind, TimerKind};
 use crossguard_protocol::laws::steps::all_but_validity;
 use crossguard_protocol::laws::watch::Sort;
 
@@ -116,27 +116,27 @@ steps! { FROM, all_but_validity;
     }
 
     /// The end of a lease.
-    loses_a_lease(Kind::Fires(Countdown::Lease)) |step| {
+    loses_a_lease(Kind::Fires(TimerKind::Lease)) |step| {
         "a lease ran out": step.said.has(Sort::LeaseExpired),
         "closes the corridor": step.said.has(Sort::CorridorClosed),
         "ignored": step.is_ignored(),
     }
 
     /// A follower without a lease for too long.
-    gives_up_a_follower(Kind::Fires(Countdown::Lost)) |step| {
+    gives_up_a_follower(Kind::Fires(TimerKind::Lost)) |step| {
         "drops a follower": step.said.has(Sort::FollowerGone),
         "ends its session": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
 
     /// `T_exec`.
-    limits_an_execution(Kind::Fires(Countdown::Execution)) |step| {
+    limits_an_execution(Kind::Fires(TimerKind::Execution)) |step| {
         "the execution limit ran out": step.said.has(Sort::ManeuverFailed),
         "ignored": step.is_ignored(),
     }
 
     /// `T_ack`.
-    misses_an_acknowledgement(Kind::Fires(Countdown::Acknowledgement)) |step| {
+    misses_an_acknowledgement(Kind::Fires(TimerKind::Acknowledgement)) |step| {
         "repeats a command": step.said.has(Sort::Command),
         "drops a follower": step.said.has(Sort::FollowerGone),
         "ends its session": becomes(step, Role::None),
@@ -144,18 +144,18 @@ steps! { FROM, all_but_validity;
     }
 
     /// `T_lock`.
-    must_unlock(Kind::Fires(Countdown::IdentityLock)) |step| {
+    must_unlock(Kind::Fires(TimerKind::IdentityLock)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
     /// The next RAM.
     #[random_only("Kani succeeded in 187 s; it is left out so that the whole set stays within its time.")]
-    repeats_itself(Kind::Fires(Countdown::Ram)) |step| {
+    repeats_itself(Kind::Fires(TimerKind::Ram)) |step| {
         "sends": step.said.has(Sort::SendRam),
     }
 
     /// The end of a farewell.
-    ends_a_farewell(Kind::Fires(Countdown::Farewell)) |step| {
+    ends_a_farewell(Kind::Fires(TimerKind::Farewell)) |step| {
         "ends it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }

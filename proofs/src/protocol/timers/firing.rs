@@ -1,8 +1,9 @@
 //! 2: one timer fires.
 
 use crossguard_protocol::laws::Source;
-use crossguard_protocol::laws::arbitrary::{Countdown, Stage};
-use crossguard_protocol::laws::steps::{self, Taken};
+use crossguard_protocol::laws::arbitrary::{Stage, TimerKind};
+use crossguard_protocol::laws::steps;
+use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::laws::timers::{self as laws, firing_keeps_the_state_consistent};
 use crossguard_protocol::{Config, Millis};
 
@@ -10,7 +11,7 @@ use super::any_within_a_step;
 use crate::harness::harnesses;
 use crate::{Symbolic, kani};
 
-fn any_firing(stage: Stage, countdown: Countdown, laws_of_it: fn(&Config, &Taken)) {
+fn any_firing(stage: Stage, countdown: TimerKind, laws_of_it: fn(&Config, &Taken)) {
     let config = Config::default();
     let timer = countdown.timer(&mut Symbolic);
     let robot = laws::with_due(any_within_a_step(&config, stage), timer);
@@ -41,7 +42,7 @@ macro_rules! firing {
             #[unwind(6)]
             #[solver(cadical)]
             fn $name() {
-                any_firing(Stage::$stage, Countdown::$countdown, $laws);
+                any_firing(Stage::$stage, TimerKind::$countdown, $laws);
             }
         )+ }
     };

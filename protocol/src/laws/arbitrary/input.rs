@@ -30,7 +30,7 @@ pub enum Kind {
     /// The expiry of any timer.
     Expired,
     /// The expiry of such a timer.
-    Fires(Countdown),
+    Fires(TimerKind),
     /// An event of the application.
     Local(Happening),
 }
@@ -71,7 +71,7 @@ pub enum Happening {
 /// The kinds of timers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[allow(missing_docs, reason = "each is the timer of that name")]
-pub enum Countdown {
+pub enum TimerKind {
     Safety,
     Leave,
     Lease,
@@ -87,7 +87,7 @@ pub enum Countdown {
     Ram,
 }
 
-impl Countdown {
+impl TimerKind {
     /// All of them.
     pub const ALL: [Self; 13] = [
         Self::Safety,
@@ -191,5 +191,5 @@ pub fn event(source: &mut impl Source, happening: Happening) -> Event {
 
 /// Any timer.
 pub fn timer(source: &mut impl Source) -> Timer {
-    Countdown::ALL[choice(source, 13) as usize].timer(source)
+    TimerKind::ALL[choice(source, 13) as usize].timer(source)
 }

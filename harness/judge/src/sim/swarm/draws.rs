@@ -24,7 +24,7 @@ pub(super) const PATIENCE_MS: u32 = 40_000;
 const CROSSINGS: [protocol::Place; 2] = [protocol::Place(7), protocol::Place(8)];
 
 /// What all robots of a run have in common.
-struct Street {
+struct CommonDraw {
     settings: Settings,
     /// Whether each robot has timers of its own.
     is_unequal: bool,
@@ -51,9 +51,9 @@ impl Draws {
         let is_long = !is_secured && self.0.random_bool(0.02);
         let seconds = if is_long { 60..=240 } else { 8..=60 };
         let heals_us = self.0.random_range(seconds) * SECOND_US;
-        let street = self.street();
+        let common = self.common();
         let members: Vec<_> = (0..robots)
-            .map(|place| self.robot(place, robots, &street))
+            .map(|place| self.robot(place, robots, &common))
             .collect();
         let mut script = self.script(&members, heals_us);
         let mut ways = match faults {
@@ -72,7 +72,7 @@ impl Draws {
             }
         }
         script.sort_by_key(|happening| happening.at_us);
-        let delay_max_us = u64::from(street.settings.delay_max.0) * 1_000;
+        let delay_max_us = u64::from(common.settings.delay_max.0) * 1_000;
         let late_max_us = if self.0.random_bool(0.1) {
             self.0.random_range(delay_max_us..=20 * delay_max_us)
         } else {
@@ -91,15 +91,15 @@ impl Draws {
             is_secured,
             waits_at: None,
         };
-        let mut corners = 0..street.corners;
+        let mut corners = 0..common.corners;
         swarm.waits_at = corners.find(|corner| !swarm.who_can_lead(*corner).is_empty());
         swarm
     }
 
-    fn street(&mut self) -> Street {
+    fn common(&mut self) -> CommonDraw {
         let corners = if self.0.random_bool(0.3) { 2 } else { 1 };
         let shares = [0.0, 0.5, 1.0];
-        Street {
+        CommonDraw {
             settings: self.settings(),
             is_unequal: self.0.random_bool(0.25),
             corners,
@@ -195,7 +195,7 @@ impl Draws {
     }
 
     /// One robot; its counters may be close to wrapping round.
-    fn robot(&mut self, place: usize, robots: usize, street: &Street) -> RobotDraw {
+    fn robot(&mut self, place: usize, robots: usize, common: &CommonDraw) -> RobotDraw {
         let all = [TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK];
         let can = |draws: &mut Self| {
             let can: Vec<_> = all
@@ -208,20 +208,20 @@ impl Draws {
             capabilities: can(self),
             first_request: RequestId(self.0.random()),
             first_heartbeat: Heartbeat(self.0.random()),
-            ..if street.is_unequal {
-                self.own_timers(&street.settings)
+            ..if common.is_unequal {
+                self.own_timers(&common.settings)
             } else {
-                street.settings.clone()
+                common.settings.clone()
             }
         };
-        let corner = place % street.corners;
+        let corner = place % common.corners;
         let drift_ppm = i64::from(settings.drift_ppm);
         let station = StationId(u32::try_from(place).unwrap_or(0) + 1);
         RobotDraw {
             name: format!("R{station}"),
             station,
             boot: self.0.random_range(1..60_000),
-            plan: self.plan(robots, corner, street),
+            plan: self.plan(robots, corner, common),
             config: Config::new(settings).expect("drawn within the inequalities"),
             corner,
             build: if self.0.random() {
@@ -230,7 +230,7 @@ impl Draws {
                 Build::Quadruped
             },
             place: self.place(),
-            time_scale: street.time_scale,
+            time_scale: common.time_scale,
             drift_ppm: self.0.random_range(-drift_ppm..=drift_ppm),
         }
     }
@@ -240,15 +240,15 @@ impl Draws {
         Place::new(metres(), metres())
     }
 
-    fn plan(&mut self, robots: usize, corner: usize, street: &Street) -> Plan {
+    fn plan(&mut self, robots: usize, corner: usize, common: &CommonDraw) -> Plan {
         let mut site = Site::default();
-        if self.0.random_bool(street.knows_place) {
+        if self.0.random_bool(common.knows_place) {
             site.crossing = CROSSINGS[corner];
         }
         // Nobody takes longer than `t_cross`, on any clock.
-        let t_cross_s = f64::from(street.settings.t_cross.0) / 1_000.0;
-        let slowest_s = 0.95 * t_cross_s * street.time_scale;
-        let crossing_s = if street.has_slow_people {
+        let t_cross_s = f64::from(common.settings.t_cross.0) / 1_000.0;
+        let slowest_s = 0.95 * t_cross_s * common.time_scale;
+        let crossing_s = if common.has_slow_people {
             self.0.random_range(6.0..slowest_s)
         } else {
             6.0

@@ -8,7 +8,7 @@ use rand::Rng;
 use rand::seq::IndexedRandom;
 
 use super::{Finding, Next, World};
-use crate::sim::road::Late;
+use crate::sim::road::Overdue;
 use crate::sim::swarm::{SECOND_US, Swarm};
 use crate::sim::times::Measure;
 
@@ -204,7 +204,7 @@ impl World<'_> {
         place: usize,
         input: Input,
         outputs: &Outputs,
-    ) -> Result<(), Late> {
+    ) -> Result<(), Overdue> {
         let now_us = self.now_us;
         if let (Input::Local(Event::PedestrianDetected(_)), None) = (input, outputs.ignored()) {
             self.road.notice(now_us, place);

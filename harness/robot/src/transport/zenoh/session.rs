@@ -19,7 +19,7 @@ use ::zenoh::{Config, Wait};
 use nix::net::if_::if_nametoindex;
 use serde_json::{Value, json};
 
-use super::super::link::interface_of;
+use super::super::error::interface_of;
 use super::super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 use super::{Zenoh, ZenohError, ZenohMode};
 

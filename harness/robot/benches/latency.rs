@@ -1,7 +1,7 @@
 //! From a command to its acknowledgement between two running robots on the loopback interface: median and the
 //! tail, of several thousand commands, over UDP and, with the feature `zenoh`, over zenoh.
 //!
-//! `cargo bench -p crossguard-harness --features zenoh --bench latency [-- COMMANDS]`
+//! `cargo bench -p crossguard-robot --features zenoh --bench latency [-- COMMANDS]`
 
 use std::net::{TcpListener, UdpSocket};
 use std::sync::Arc;

@@ -3,8 +3,6 @@
 //!
 //! The stories are `model-check/stories/*.json`; a test there keeps them what the checker finds.
 
-mod story;
-
 use std::path::Path;
 
 use crossguard_endpoint::Act;
@@ -12,13 +10,13 @@ use crossguard_model_check::paper::{Hazard, Story};
 use crossguard_protocol::{
     Corridor, EndReason, Ignored, Notice, Progress, ReleaseReason, Role, State, StationId,
 };
-use story::Street;
+use crossguard_testkit::story::Street;
 
 const ARI: u32 = 1;
 const GO2: u32 = 2;
 
 fn story(id: &str) -> Story {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model-check/stories");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../model-check/stories");
     let text = std::fs::read_to_string(folder.join(format!("{id}.json"))).unwrap();
     serde_json::from_str(&text).unwrap()
 }

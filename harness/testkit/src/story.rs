@@ -38,7 +38,7 @@ struct Actor {
 }
 
 /// The robots on a street, and the radio between them.
-pub(crate) struct Street {
+pub struct Street {
     config: Config,
     now_ms: u64,
     actors: BTreeMap<u32, Actor>,
@@ -51,7 +51,7 @@ pub(crate) struct Street {
 
 impl Street {
     /// The robots of the story, some time after they booted.
-    pub(crate) fn new(story: &Story) -> Self {
+    pub fn new(story: &Story) -> Self {
         let mut street = Self {
             config: Config::default(),
             now_ms: 0,
@@ -98,7 +98,7 @@ impl Street {
     }
 
     /// One step of the story, and the time that it takes.
-    pub(crate) fn take(&mut self, step: &Step) {
+    pub fn take(&mut self, step: &Step) {
         if let Happening::SafetyTimeout(_) = step.what {
             // The radio is still as it was when the timer was armed.
             self.pass(u64::from(self.config.settings().t_safety.0));
@@ -159,7 +159,7 @@ impl Street {
     }
 
     /// The radio is clear from now on, what was held arrives, and time passes.
-    pub(crate) fn clear_up(&mut self, ms: u64) {
+    pub fn clear_up(&mut self, ms: u64) {
         self.silent.clear();
         self.held.clear();
         for (message, kept) in std::mem::take(&mut self.kept) {
@@ -295,7 +295,7 @@ impl Street {
     }
 
     /// Replays everything that was recorded through the transition function.
-    pub(crate) fn validate(&self) -> Validated {
+    pub fn validate(&self) -> Validated {
         let mut log = Vec::new();
         for record in &self.records {
             trace::write(&mut log, record).unwrap();
@@ -343,13 +343,13 @@ impl Street {
     }
 
     /// A robot that has not broken down.
-    pub(crate) fn robot(&self, station: u32) -> &Robot {
+    pub fn robot(&self, station: u32) -> &Robot {
         let endpoint = self.actors[&station].endpoint.as_ref();
         endpoint.expect("it has broken down").robot()
     }
 
     /// What a robot knows as a leader.
-    pub(crate) fn leading(&self, station: u32) -> Option<&Leading> {
+    pub fn leading(&self, station: u32) -> Option<&Leading> {
         match self.actors[&station].endpoint.as_ref()?.robot().phase() {
             Phase::Leading(leading) => Some(leading),
             _ => None,
@@ -357,35 +357,35 @@ impl Street {
     }
 
     /// The requestID of what a robot's body does.
-    pub(crate) fn runs(&self, station: u32) -> Option<u8> {
+    pub fn runs(&self, station: u32) -> Option<u8> {
         let maneuver = self.actors[&station].running?;
         Some(maneuver.id.request.0)
     }
 
     /// What a robot's body was told to start.
-    pub(crate) fn started(&self, station: u32) -> &[ManeuverId] {
+    pub fn started(&self, station: u32) -> &[ManeuverId] {
         &self.actors[&station].started
     }
 
     /// Whether a robot was told to do this, or told of it.
-    pub(crate) fn did(&self, station: u32, is: impl Fn(&Act) -> bool) -> bool {
+    pub fn did(&self, station: u32, is: impl Fn(&Act) -> bool) -> bool {
         self.actors[&station].acts.iter().any(is)
     }
 
     /// How often a robot ignored something for this reason.
-    pub(crate) fn ignored(&self, station: u32, why: Ignored) -> u64 {
+    pub fn ignored(&self, station: u32, why: Ignored) -> u64 {
         let endpoint = self.actors[&station].endpoint.as_ref();
         endpoint.map_or(0, |e| e.counters().of(Cause::from(why)))
     }
 
     /// How many robots lead.
-    pub(crate) fn leaders(&self) -> usize {
+    pub fn leaders(&self) -> usize {
         let lead = |station: &&u32| self.leading(**station).is_some();
         self.actors.keys().filter(lead).count()
     }
 
     /// A body that stops of its own accord, for a test of the tests.
-    pub(crate) fn stop_silently(&mut self, station: u32) {
+    pub fn stop_silently(&mut self, station: u32) {
         self.actor(station).running = None;
         self.pass(STEP_MS);
     }

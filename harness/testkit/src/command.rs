@@ -1,5 +1,4 @@
-//! What the tests of the command share.
-#![allow(dead_code, unreachable_pub, reason = "each test uses what it needs")]
+//! Robots as processes of the `crossguard` command, which cargo builds for the tests of its own crate.
 
 use std::fs::File;
 use std::io::Write;
@@ -11,9 +10,11 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
+use crate::built;
+
 /// The `crossguard` command with these arguments.
 pub fn crossguard(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_crossguard"));
+    let mut command = Command::new(built::programs().join("crossguard"));
     command.args(arguments);
     command
 }

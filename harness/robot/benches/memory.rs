@@ -1,7 +1,7 @@
 //! What an endpoint holds on to over an hour of virtual time in a busy street: a crossing every minute,
 //! and three hundred vehicles that come and go.
 //!
-//! `cargo bench -p crossguard-harness --bench memory`
+//! `cargo bench -p crossguard-robot --bench memory`
 
 use std::hint::black_box;
 

@@ -1,11 +1,12 @@
 //! Compiles C and C++ against the static library that cargo has built for the tests.
-#![allow(dead_code, unreachable_pub, reason = "each test uses what it needs")]
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What programs of this crate are compiled with: no warning, and every sanitizer that gcc has for C.
+use crate::built;
+
+/// What programs of `protocol/c` are compiled with: no warning, and every sanitizer that gcc has for C.
 const FLAGS: [&str; 9] = [
     "-Wall",
     "-Wextra",
@@ -34,10 +35,10 @@ impl Language {
     }
 }
 
-/// The program that `source`, a path in this crate, compiles to. Where there is no compiler, says that
+/// The program that `source`, a path in `protocol/c`, compiles to. Where there is no compiler, says that
 /// `test` is skipped.
 pub fn compile(test: &str, language: Language, source: &str) -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let folder = built::programs().join("c").join(test);
     std::fs::create_dir_all(&folder).unwrap();
     let program = folder.join(format!("{language:?}"));
     let mut command = compiler(test, language)?;
@@ -82,30 +83,19 @@ fn succeed(compiler: &mut Command) {
     assert!(output.status.success(), "{compiler:?}:\n{said}");
 }
 
-/// The folder of this crate, also for tests of other crates.
+/// The folder of the library for C.
 fn crate_folder() -> PathBuf {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    if here.ends_with("harness") {
-        here.join("../protocol/c")
-    } else {
-        here.to_owned()
-    }
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../protocol/c")
 }
 
 /// The newest static library of those beside this test; cargo has built it before the test.
 fn library() -> PathBuf {
-    let test = std::env::current_exe().unwrap();
-    let libraries = test
-        .parent()
-        .unwrap()
-        .read_dir()
-        .unwrap()
-        .filter_map(|entry| {
-            let path = entry.unwrap().path();
-            let name = path.file_name()?.to_str()?;
-            let is_it = name.starts_with("libcrossguard") && path.extension()? == "a";
-            let is_it = is_it && matches!(name.as_bytes()["libcrossguard".len()], b'-' | b'.');
-            is_it.then(|| (path.metadata().unwrap().modified().unwrap(), path))
-        });
+    let libraries = built::libraries().read_dir().unwrap().filter_map(|entry| {
+        let path = entry.unwrap().path();
+        let name = path.file_name()?.to_str()?;
+        let is_it = name.starts_with("libcrossguard") && path.extension()? == "a";
+        let is_it = is_it && matches!(name.as_bytes()["libcrossguard".len()], b'-' | b'.');
+        is_it.then(|| (path.metadata().unwrap().modified().unwrap(), path))
+    });
     libraries.max().expect("a library").1
 }

@@ -8,8 +8,8 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::scenario::Scenario;
 
-use super::check::untimed;
-use super::{Failure, print};
+use super::super::{Failure, print};
+use super::untimed;
 
 /// Follows the run in `file`; through real endpoints too, where they are asked for.
 pub(super) fn run(scenarios: &[String], file: &Path, endpoints: bool) -> Result<(), Failure> {

@@ -1,8 +1,11 @@
 //! Weakened rules that more than one test puts in the protocol's place.
-#![allow(dead_code, unreachable_pub, reason = "shared by tests")]
 
 use crossguard_model_check::node::Rules;
-use crossguard_protocol::*;
+use crossguard_protocol::{
+    Config, Confirmation, Coordination, Corridor, CorridorClosure, Event, FallbackPolicy, Ignored,
+    Input, Maneuver, ManeuverId, Millis, Notice, Output, Outputs, Phase, Rmcm, Robot, Settings,
+    Timer,
+};
 
 /// Outputs of one kind never reach the robot.
 pub struct Drops(pub fn(&Output) -> bool);

@@ -2,7 +2,7 @@
 //! to 250 teams of four that do not hear other teams. Real packets, 10 % loss, every property judged; one
 //! thread. Times are processor times, so that they hold on a busy machine as well.
 //!
-//! `cargo bench -p crossguard-harness --bench simulator`
+//! `cargo bench -p crossguard-judge --bench simulator`
 
 use std::time::Duration;
 

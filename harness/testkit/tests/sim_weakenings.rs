@@ -1,13 +1,10 @@
 //! What the simulator is good for: each rule of the protocol that it can do without is missed by it
 //! within a bounded number of seeds.
 
-#[path = "../../model-check/tests/rules/mod.rs"]
-mod rules;
-
 use crossguard_judge::sim::{Failure, Fuzz, Totals};
 use crossguard_model_check::node::Rules;
 use crossguard_protocol::*;
-use rules::*;
+use crossguard_testkit::rules::*;
 
 /// How many seeds a weakening may take.
 const SEEDS: u64 = 400;

@@ -4,11 +4,12 @@
 use crossguard_endpoint::ras::clustering::Settings;
 use crossguard_endpoint::ras::motion::Point;
 use crossguard_endpoint::ras::vru::{Understands, VamRule};
+use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::coverage::coverage;
 use crossguard_evaluation::matrix::{predicted_reduction, vam_share};
 use crossguard_evaluation::messages::Sizes;
 use crossguard_evaluation::radio::Radio;
-use crossguard_evaluation::simulation::{Behaviour, Measured, simulate};
+use crossguard_evaluation::simulation::{Measured, simulate};
 use crossguard_evaluation::trace::{Run, Track};
 use proptest::prelude::*;
 

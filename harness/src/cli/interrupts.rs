@@ -1,0 +1,19 @@
+//! Signals that end the process.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set when the process is told to stop.
+pub(super) fn interrupts() -> Arc<AtomicBool> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&interrupted);
+    // A second Ctrl-C should still end a process that does not stop by itself.
+    let handler = move || {
+        if set.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    // It can only fail when there is a handler already, and there is none.
+    let _ = ctrlc::set_handler(handler);
+    interrupted
+}

@@ -1,0 +1,46 @@
+//! Stage 2, Help establishment: which of two requesters or leaders at one place goes before.
+
+use core::cmp::Reverse;
+
+use crate::id::StationId;
+use crate::output::Ignored;
+use crate::task::{HelpRequest, Place, Urgency};
+
+/// What a request or a leader claims: a place, with this urgency.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Claim {
+    pub(crate) urgency: Urgency,
+    pub(crate) place: Place,
+}
+
+/// The place of a claim in the total order of claims: the smaller key goes before.
+type Precedence = (Reverse<Urgency>, StationId);
+
+impl Claim {
+    pub(crate) const fn of(request: HelpRequest) -> Self {
+        Self {
+            urgency: request.urgency,
+            place: request.place,
+        }
+    }
+
+    const fn precedence(self, station: StationId) -> Precedence {
+        (Reverse(self.urgency), station)
+    }
+
+    /// Whether this claim of `station` goes before the one of `other_station` at the same place.
+    pub(crate) fn goes_before(
+        self,
+        station: StationId,
+        other: Self,
+        other_station: StationId,
+    ) -> Result<(), Ignored> {
+        if !self.place.may_be(other.place) {
+            return Err(Ignored::OtherPlace);
+        }
+        if self.precedence(station) > other.precedence(other_station) {
+            return Err(Ignored::LowerPrecedence);
+        }
+        Ok(())
+    }
+}
