@@ -16,12 +16,12 @@ use crate::cost::Meter;
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Runs;
 use crate::graph::Graph;
-use crate::model::{Action, Delivery, Model, State};
+use crate::model::{Action, Delivery, Model, ModelState};
 use crate::network::Transmission;
-use crate::properties::{Kind, PropertyId, Subject, View};
-use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
+use crate::properties::{Kind, LivenessSubject, PropertyId, View};
+use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::{RobotSetup, Scenario, Size};
-use crate::sequence::{ChartStep, Fate, Place};
+use crate::sequence::{ChartPlace, ChartStep, Fate};
 
 /// How far and with what a check may go.
 #[derive(Clone, Debug)]
@@ -68,8 +68,8 @@ impl Default for Options {
 
 impl Options {
     /// The limits on states and time; time runs from now.
-    pub(crate) fn limits(&self) -> Limits {
-        Limits {
+    pub(crate) fn limits(&self) -> ExplorationLimits {
+        ExplorationLimits {
             states_max: self.states_max,
             time_max: self.time_max,
             start: Instant::now(),
@@ -80,14 +80,14 @@ impl Options {
 
 /// When an exploration has to stop.
 #[derive(Clone, Debug)]
-pub(crate) struct Limits {
+pub(crate) struct ExplorationLimits {
     states_max: Option<usize>,
     time_max: Option<Duration>,
     start: Instant,
     stop: Stop,
 }
 
-impl Limits {
+impl ExplorationLimits {
     /// Whether there are as many states as there may be.
     pub(crate) fn states_reached(&self, states: usize) -> bool {
         self.states_max.is_some_and(|max| states >= max)
@@ -103,7 +103,7 @@ impl Limits {
 
 /// How far a check is.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Progress {
+pub struct CheckProgress {
     /// Distinct states that stateright has found.
     pub checked: usize,
     /// Distinct states that the kit's own exploration has found.
@@ -118,21 +118,25 @@ pub struct Progress {
 
 /// Checks the model of a scenario. `watch` is told now and then how far it is.
 #[must_use]
-pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+pub fn check(
+    model: &Model,
+    options: &Options,
+    watch: &mut dyn FnMut(CheckProgress),
+) -> ScenarioReport {
     let (meter, limits) = (Meter::start(), options.limits());
     let scenario = model.scenario();
-    let progress = Progress {
+    let progress = CheckProgress {
         expected: scenario.expected.map(|size| size.unique_states),
-        ..Progress::default()
+        ..CheckProgress::default()
     };
     let checked = Checked::of(model, options, &limits, &mut |checked| {
-        watch(Progress {
+        watch(CheckProgress {
             checked,
             ..progress
         });
     });
     let graph = Graph::build(model, &limits, &mut |reached| {
-        watch(Progress {
+        watch(CheckProgress {
             checked: checked.unique_states,
             explored: reached.states,
             frontier: reached.frontier,
@@ -206,7 +210,12 @@ struct Checked {
 
 impl Checked {
     /// Explores the model with stateright. `watch` is told now and then how many states it has found.
-    fn of(model: &Model, options: &Options, limits: &Limits, watch: &mut dyn FnMut(usize)) -> Self {
+    fn of(
+        model: &Model,
+        options: &Options,
+        limits: &ExplorationLimits,
+        watch: &mut dyn FnMut(usize),
+    ) -> Self {
         let checker = configure(model, options).spawn_bfs();
         while !checker.is_done() {
             std::thread::sleep(Duration::from_millis(20));
@@ -219,7 +228,7 @@ impl Checked {
         checker: &impl Checker<Model>,
         model: &Model,
         options: &Options,
-        limits: &Limits,
+        limits: &ExplorationLimits,
     ) -> Self {
         let mut discoveries = checker.discoveries();
         // stateright says it is done in all of these cases as well.
@@ -280,7 +289,7 @@ impl Findings<'_> {
         PropertyReport {
             id: id.to_string(),
             kind: kind.to_owned(),
-            verdict: Verdict::of_property(counterexample.is_some(), self.cut_off),
+            verdict: CheckVerdict::of_property(counterexample.is_some(), self.cut_off),
             statement: id.statement().to_owned(),
             counterexample: counterexample.unwrap_or_default(),
             repeats_after,
@@ -303,7 +312,7 @@ impl Findings<'_> {
             return None;
         }
         let runs = self.runs();
-        let look = |state, rule: fn(&View, Subject) -> bool, subject| {
+        let look = |state, rule: fn(&View, LivenessSubject) -> bool, subject| {
             let look = |view: &View| rule(view, subject);
             self.model.look(self.graph.state(state), look)
         };
@@ -336,7 +345,7 @@ impl Findings<'_> {
         id.premise().map(|premise| PropertyReport {
             id: format!("{id}-premise"),
             kind: "premise".to_owned(),
-            verdict: Verdict::of_premise(self.model.premise_met(id), self.cut_off),
+            verdict: CheckVerdict::of_premise(self.model.premise_met(id), self.cut_off),
             statement: premise.to_owned(),
             counterexample: Vec::new(),
             repeats_after: None,
@@ -344,7 +353,7 @@ impl Findings<'_> {
     }
 }
 
-pub(crate) fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<ChartStep> {
+pub(crate) fn chart(model: &Model, path: Vec<(ModelState, Option<Action>)>) -> Vec<ChartStep> {
     path.into_iter()
         .filter_map(|(state, action)| {
             let action = action?;
@@ -363,16 +372,16 @@ pub(crate) fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<Ch
 }
 
 /// An action in words, with its place in a chart.
-pub(crate) fn placed(model: &Model, action: Action) -> (Place, String) {
+pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
     let between = |Transmission { from, to, message }, fate| {
-        let place = Place::Between {
+        let place = ChartPlace::Between {
             from: from.into(),
             to: to.into(),
             fate,
         };
         (place, model.message(message).input().to_string())
     };
-    let at = |robot: u8, what: String| (Place::At(robot.into()), what);
+    let at = |robot: u8, what: String| (ChartPlace::At(robot.into()), what);
     match action {
         Action::Deliver { transmission, how } => {
             let fate = match how {
@@ -499,7 +508,7 @@ fn receivers(scenario: &Scenario) -> String {
 
 // stateright wants a plain function for each property; these are them.
 
-pub(crate) fn holds<const N: usize>(model: &Model, state: &State) -> bool {
+pub(crate) fn holds<const N: usize>(model: &Model, state: &ModelState) -> bool {
     let id = PropertyId::ALL[N];
     !Model::breaks(state, id) && model.state_rule_holds(state, id)
 }
@@ -515,7 +524,7 @@ macro_rules! for_each_property {
 }
 pub(crate) use for_each_property;
 
-const HOLDS: [fn(&Model, &State) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);
+const HOLDS: [fn(&Model, &ModelState) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);
 
 /// Their names, which stateright wants to be static.
 const NAMES: [&str; PropertyId::ALL.len()] = [
@@ -541,21 +550,21 @@ pub(crate) fn checked_properties<M: stateright::Model>(
 }
 
 impl stateright::Model for Model {
-    type State = State;
+    type State = ModelState;
     type Action = Action;
 
-    fn init_states(&self) -> Vec<State> {
+    fn init_states(&self) -> Vec<ModelState> {
         vec![self.initial()]
     }
 
-    fn actions(&self, state: &State, actions: &mut Vec<Action>) {
+    fn actions(&self, state: &ModelState, actions: &mut Vec<Action>) {
         // stateright has no other way to be stopped.
         if !self.has_to_stop() {
             self.actions_in(state, actions);
         }
     }
 
-    fn next_state(&self, state: &State, action: Action) -> Option<State> {
+    fn next_state(&self, state: &ModelState, action: Action) -> Option<ModelState> {
         self.successor_up_to_symmetry(state, action)
             .map(|(next, _)| next)
     }

@@ -8,7 +8,7 @@ use std::net::{SocketAddr, TcpListener};
 use stateright::{Model as _, Path, Property};
 
 use crate::check::{chart, checked_properties, for_each_property, holds, label, names};
-use crate::model::{Action, Model, State};
+use crate::model::{Action, Model, ModelState};
 use crate::properties::PropertyId;
 use crate::scenario::Scenario;
 use crate::sequence::Chart;
@@ -44,7 +44,7 @@ struct Readable(Model);
 /// A state in words.
 #[derive(Clone)]
 struct Shown {
-    state: State,
+    state: ModelState,
     words: String,
 }
 
@@ -73,7 +73,7 @@ fn shown<const N: usize>(model: &Readable, shown: &Shown) -> bool {
 const SHOWN: [fn(&Readable, &Shown) -> bool; PropertyId::ALL.len()] = for_each_property!(shown);
 
 impl Readable {
-    fn show(&self, state: State) -> Shown {
+    fn show(&self, state: ModelState) -> Shown {
         let robots = self.0.nodes(&state).zip(names(self.0.scenario()));
         let lines = robots.enumerate().map(|(i, (node, name))| {
             let hangs = if state.hangs(i) { "; it hangs" } else { "" };

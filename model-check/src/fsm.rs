@@ -12,7 +12,7 @@ use crate::transitions::{Mode, Transitions};
 
 /// The form of a diagram.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Format {
+pub enum DiagramFormat {
     /// A `stateDiagram-v2` of Mermaid.
     Mermaid,
     /// A digraph of Graphviz.
@@ -21,7 +21,7 @@ pub enum Format {
 
 /// The diagram of what robots have been seen to do.
 #[must_use]
-pub fn diagram(transitions: &Transitions, format: Format) -> String {
+pub fn diagram(transitions: &Transitions, format: DiagramFormat) -> String {
     let modes: BTreeSet<Mode> = transitions
         .0
         .keys()
@@ -33,8 +33,8 @@ pub fn diagram(transitions: &Transitions, format: Format) -> String {
         .map(|(way, labels)| (*way, condense(labels)))
         .collect();
     match format {
-        Format::Mermaid => mermaid(&modes, &edges),
-        Format::Dot => dot(&modes, &edges),
+        DiagramFormat::Mermaid => mermaid(&modes, &edges),
+        DiagramFormat::Dot => dot(&modes, &edges),
     }
 }
 

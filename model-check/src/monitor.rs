@@ -12,7 +12,7 @@ use crossguard_protocol::{Config, Input, Maneuver, Outputs, Robot, SessionId, St
 
 use crate::history::History;
 use crate::node::Node;
-use crate::properties::{PropertyId, StepView, View, World};
+use crate::properties::{PropertyId, StepView, Surroundings, View};
 use crate::road::{Pedestrian, w1_guards_in_place};
 use crate::steps::judge;
 use crate::timed::{TimedProperty, has_lease_on_lost};
@@ -70,7 +70,7 @@ struct Seat {
     is_hung: bool,
 }
 
-impl World for Seats {
+impl Surroundings for Seats {
     fn config(&self, place: usize) -> &Config {
         &self.0[place].config
     }

@@ -35,9 +35,9 @@ use toml::Spanned;
 
 use crate::canonical::Renamings;
 use crate::intern::Interner;
-use crate::network::{Slot, Transmission};
+use crate::network::{PackedTransmission, Transmission};
 use crate::properties::PropertyId;
-use crate::scenario::{Bounds, Channel};
+use crate::scenario::{Bounds, ChannelSetup};
 use crate::symmetry::Wrong;
 
 /// What does not fit a monotone channel.
@@ -79,7 +79,7 @@ pub enum Misfit {
 
 /// Whether a scenario's channel and what is said of it fit together.
 pub(crate) fn check(
-    channel: Channel,
+    channel: ChannelSetup,
     bounds: Bounds,
     cooperative: bool,
     properties: &[Spanned<String>],
@@ -115,13 +115,13 @@ pub(crate) fn check(
 }
 
 /// A set of messages, each with its way, in order.
-type Set = Box<[Slot]>;
+type Set = Box<[PackedTransmission]>;
 
 /// All sets of messages that have occurred.
 pub(crate) struct Sets {
     known: Interner<Set>,
     /// What a set and one more message make.
-    with: DashMap<(u32, Slot), u32, FxBuildHasher>,
+    with: DashMap<(u32, PackedTransmission), u32, FxBuildHasher>,
     renamed: DashMap<(u32, u32), u32, FxBuildHasher>,
     renamings: Arc<Renamings>,
 }
@@ -160,7 +160,7 @@ impl Sets {
 
     /// A set and one more message.
     pub(crate) fn with(&self, set: u32, message: Transmission, names: &impl MessageNames) -> u32 {
-        let message = Slot::of(message);
+        let message = PackedTransmission::of(message);
         let slots = self.known.value(set);
         let Err(at) = slots.binary_search(&message) else {
             return set;
@@ -179,7 +179,7 @@ impl Sets {
     pub(crate) fn without(&self, set: u32, receiver: usize, names: &impl MessageNames) -> u32 {
         let stays = |sent: &Transmission| usize::from(sent.to) != receiver;
         let left = self.transmissions(set).filter(stays);
-        self.number(left.map(Slot::of).collect(), names)
+        self.number(left.map(PackedTransmission::of).collect(), names)
     }
 
     /// A set after the renaming of this number, which `message` carries out on one message.
@@ -211,9 +211,9 @@ impl Sets {
         names: &impl MessageNames,
         replace: impl Fn(Transmission) -> Transmission,
     ) -> u32 {
-        let mut slots: Vec<Slot> = self
+        let mut slots: Vec<PackedTransmission> = self
             .transmissions(set)
-            .map(|sent| Slot::of(replace(sent)))
+            .map(|sent| PackedTransmission::of(replace(sent)))
             .collect();
         slots.sort_unstable();
         slots.dedup();

@@ -77,9 +77,9 @@ pub struct Transmission {
 
 /// A transmission in four bytes, or none. States are compared and hashed by the million.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(crate) struct Slot(u32);
+pub(crate) struct PackedTransmission(u32);
 
-impl Slot {
+impl PackedTransmission {
     const EMPTY: Self = Self(0);
 
     const fn is_empty(self) -> bool {
@@ -113,17 +113,17 @@ impl Slot {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Network {
     /// Just sent, in the order of sending, then empty.
-    on_air: [Slot; MAX_ON_AIR],
+    on_air: [PackedTransmission; MAX_ON_AIR],
     /// Delayed, as a sorted set.
-    delayed: [Slot; MAX_DELAYED],
+    delayed: [PackedTransmission; MAX_DELAYED],
     /// Number of the set of all messages ever sent, where the channel is monotone.
     pub(crate) sent: u32,
 }
 
 impl Network {
     pub(crate) const EMPTY: Self = Self {
-        on_air: [Slot::EMPTY; MAX_ON_AIR],
-        delayed: [Slot::EMPTY; MAX_DELAYED],
+        on_air: [PackedTransmission::EMPTY; MAX_ON_AIR],
+        delayed: [PackedTransmission::EMPTY; MAX_DELAYED],
         sent: Sets::EMPTY,
     };
 
@@ -133,7 +133,7 @@ impl Network {
     /// When more messages are on air than one step and what it sets off can send.
     pub(crate) fn send(&mut self, transmission: Transmission) {
         let free = self.on_air.iter_mut().find(|slot| slot.is_empty());
-        *free.expect("room for what one step sends") = Slot::of(transmission);
+        *free.expect("room for what one step sends") = PackedTransmission::of(transmission);
     }
 
     /// The message whose fate is decided next, where receivers hear a broadcast in their order.
@@ -164,22 +164,23 @@ impl Network {
 
     /// Takes a message off air.
     pub(crate) fn take_off_air(&mut self, transmission: Transmission) {
-        let sent = Slot::of(transmission);
+        let sent = PackedTransmission::of(transmission);
         if let Some(at) = self.on_air.iter().position(|slot| *slot == sent) {
-            self.on_air[at] = Slot::EMPTY;
+            self.on_air[at] = PackedTransmission::EMPTY;
             self.on_air[at..].rotate_left(1);
         }
     }
 
     /// Whether one more message can be delayed, where at most `limit` may be.
     pub(crate) fn can_delay(&self, transmission: Transmission, limit: usize) -> bool {
-        self.delayed().count() < limit && !self.delayed.contains(&Slot::of(transmission))
+        self.delayed().count() < limit
+            && !self.delayed.contains(&PackedTransmission::of(transmission))
     }
 
     /// Delays a message, if there is room.
     pub(crate) fn delay(&mut self, transmission: Transmission) {
         if let Some(free) = self.delayed.iter_mut().find(|slot| slot.is_empty()) {
-            *free = Slot::of(transmission);
+            *free = PackedTransmission::of(transmission);
         }
         self.sort();
     }
@@ -187,8 +188,8 @@ impl Network {
     /// Takes a delayed message out of the channel.
     pub(crate) fn forget(&mut self, transmission: Transmission) {
         for slot in &mut self.delayed {
-            if *slot == Slot::of(transmission) {
-                *slot = Slot::EMPTY;
+            if *slot == PackedTransmission::of(transmission) {
+                *slot = PackedTransmission::EMPTY;
             }
         }
         self.sort();
@@ -211,7 +212,7 @@ impl Network {
         let mut network = *self;
         for slot in network.on_air.iter_mut().chain(&mut network.delayed) {
             if let Some(transmission) = slot.transmission() {
-                *slot = Slot::of(replace(transmission));
+                *slot = PackedTransmission::of(replace(transmission));
             }
         }
         network.sort();

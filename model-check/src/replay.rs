@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::check::{chart, placed};
-use crate::model::{Action, Model, State};
+use crate::model::{Action, Model, ModelState};
 use crate::properties::{Kind, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
 use crate::sequence::ChartStep;
@@ -86,7 +86,11 @@ impl Replay {
 
     /// The same; `witness` is told each action that was possible, and the state that it led to. Where a
     /// robot put out something else in the last one, it is told that one too.
-    pub fn follow_with(&self, model: &Model, witness: &mut dyn FnMut(Action, &State)) -> Followed {
+    pub fn follow_with(
+        &self,
+        model: &Model,
+        witness: &mut dyn FnMut(Action, &ModelState),
+    ) -> Followed {
         let mut state = model.initial();
         for (i, step) in self.steps.iter().enumerate() {
             let Some((action, next, outputs)) = take(model, &state, step) else {
@@ -106,7 +110,11 @@ impl Replay {
 }
 
 /// What comes of a step, with what is put out in it; `None` where it is not possible.
-fn take(model: &Model, state: &State, step: &ChartStep) -> Option<(Action, State, Vec<String>)> {
+fn take(
+    model: &Model,
+    state: &ModelState,
+    step: &ChartStep,
+) -> Option<(Action, ModelState, Vec<String>)> {
     let mut actions = Vec::new();
     model.actions_in(state, &mut actions);
     let is_meant = |action: &Action| placed(model, *action) == (step.place, step.action.clone());

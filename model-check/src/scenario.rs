@@ -49,7 +49,7 @@ pub struct Scenario {
     /// Whether a leader's application opens and closes the corridor, as often as it likes.
     pub corridor: bool,
     /// What the radio channel does.
-    pub channel: Channel,
+    pub channel: ChannelSetup,
     /// Whether everything around the robots does its part, which L3 assumes: an RMCM arrives, of the
     /// RAM that are sent again and again some arrive, no timer that guards against silence runs out,
     /// and applications command, finish, and end the task once it is completed. Where there is a corridor
@@ -143,7 +143,7 @@ impl Bounds {
 /// What the radio channel does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Channel {
+pub struct ChannelSetup {
     /// How many messages may be delayed at a time; each may arrive late, in any order, more than
     /// once, or never. A timed scenario bounds for how long instead.
     #[serde(default)]

@@ -1,6 +1,6 @@
 //! What can be checked by name: scenarios, untimed and timed, and the paper's text.
 
-use crate::check::{Options, Progress, check};
+use crate::check::{CheckProgress, Options, check};
 use crate::model::Model;
 use crate::paper;
 use crate::report::ScenarioReport;
@@ -34,10 +34,10 @@ impl Subject {
     }
 
     /// Checks it. `watch` is told now and then how far it is; of the paper's text, which is small, never.
-    pub fn check(self, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+    pub fn check(self, options: &Options, watch: &mut dyn FnMut(CheckProgress)) -> ScenarioReport {
         match self {
             Self::PaperLiteral => paper::check(),
-            Self::Scenario(scenario) => match timed::Model::new((*scenario).clone()) {
+            Self::Scenario(scenario) => match timed::TimedModel::new((*scenario).clone()) {
                 Some(model) => timed::check(&model, options, watch),
                 None => check(&Model::new(*scenario), options, watch),
             },

@@ -97,7 +97,7 @@ pub(crate) enum Wrong {
 }
 
 /// The part of a scenario that decides whether its robots are symmetric.
-pub(crate) struct Claim<'a> {
+pub(crate) struct SymmetryClaim<'a> {
     pub(crate) robots: &'a [RobotSetup],
     pub(crate) followers: u8,
     pub(crate) bounds: Bounds,
@@ -105,7 +105,7 @@ pub(crate) struct Claim<'a> {
     pub(crate) properties: &'a [Spanned<String>],
 }
 
-impl Claim<'_> {
+impl SymmetryClaim<'_> {
     /// The station ids, if the robots are symmetric.
     pub(crate) fn check(
         &self,

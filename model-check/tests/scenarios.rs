@@ -2,9 +2,9 @@
 //! the state spaces have the sizes that their files name.
 
 use crossguard_model_check::check::{Options, check};
-use crossguard_model_check::export::{Format, export};
+use crossguard_model_check::export::{GraphFormat, export};
 use crossguard_model_check::model::Model;
-use crossguard_model_check::report::{CutOff, Verdict};
+use crossguard_model_check::report::{CheckVerdict, CutOff};
 use crossguard_model_check::scenario::Scenario;
 
 fn assert_verified(name: &str) {
@@ -12,7 +12,10 @@ fn assert_verified(name: &str) {
     let report = check(&model, &Options::default(), &mut |_| ());
     assert!(report.exhaustive, "{name}: {:?}", report.cut_off);
     for property in &report.properties {
-        let fine = matches!(property.verdict, Verdict::Holds | Verdict::Reachable);
+        let fine = matches!(
+            property.verdict,
+            CheckVerdict::Holds | CheckVerdict::Reachable
+        );
         assert!(fine, "{name}: {property:#?}");
     }
     let found = (report.unique_states, report.depth);
@@ -79,7 +82,7 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
         !report
             .properties
             .iter()
-            .any(|p| p.verdict == Verdict::Holds)
+            .any(|p| p.verdict == CheckVerdict::Holds)
     );
     assert_eq!(report.size_as_expected, None);
     assert_eq!(
@@ -99,7 +102,7 @@ fn a_check_that_somebody_stops_is_incomplete_and_says_so() {
     });
     assert!(told > 0 && !report.exhaustive);
     assert_eq!(report.cut_off, Some(CutOff::Stopped));
-    assert_eq!(report.verdict("I1"), Some(Verdict::Incomplete));
+    assert_eq!(report.verdict("I1"), Some(CheckVerdict::Incomplete));
 }
 
 #[test]
@@ -112,7 +115,7 @@ fn a_limit_that_is_as_large_as_the_state_space_cuts_nothing_off() {
             ..Options::default()
         };
         let mut file = std::io::Cursor::new(Vec::new());
-        export(&model, &options, Format::Aut, &mut file).unwrap()
+        export(&model, &options, GraphFormat::Aut, &mut file).unwrap()
     };
     assert_eq!(explored(states), None);
     assert_eq!(explored(states - 1), Some(CutOff::StateLimit));
@@ -125,6 +128,9 @@ fn a_premise_that_is_met_nowhere_is_a_failure() {
         .replace("delayed = 1", "delayed = 0");
     let model = Model::new(Scenario::parse("no commands", &text).unwrap());
     let report = check(&model, &Options::default(), &mut |_| ());
-    assert_eq!(report.verdict("I4-premise"), Some(Verdict::Unreachable));
+    assert_eq!(
+        report.verdict("I4-premise"),
+        Some(CheckVerdict::Unreachable)
+    );
     assert!(report.failed());
 }

@@ -7,7 +7,7 @@ use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::replay::Replay;
-use crossguard_model_check::report::{ScenarioReport, Verdict};
+use crossguard_model_check::report::{CheckVerdict, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::Output;
 use rules::{Drops, FollowersWaitForEver, LosesTwoForOne};
@@ -30,7 +30,7 @@ fn report(text: &str, rules: impl Rules + 'static) -> (Model, ScenarioReport) {
     (model, report)
 }
 
-fn verdicts(report: &ScenarioReport) -> Vec<(&str, Verdict)> {
+fn verdicts(report: &ScenarioReport) -> Vec<(&str, CheckVerdict)> {
     let properties = report.properties.iter();
     properties.map(|p| (p.id.as_str(), p.verdict)).collect()
 }

@@ -4,17 +4,17 @@
 mod timing;
 
 use crossguard_model_check::node::Rules;
-use crossguard_model_check::report::{ScenarioReport, Verdict};
+use crossguard_model_check::report::{CheckVerdict, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::sequence::{ChartStep, Place};
-use crossguard_model_check::timed::Model;
+use crossguard_model_check::sequence::{ChartPlace, ChartStep};
+use crossguard_model_check::timed::TimedModel;
 use crossguard_protocol::*;
 use timing::*;
 
 const HANG: &str = include_str!("../scenarios/timed-hang.toml");
 
 fn violated(scenario: Scenario, rules: impl Rules + 'static) -> (Vec<String>, ScenarioReport) {
-    let report = run(Model::with_rules(scenario, rules));
+    let report = run(TimedModel::with_rules(scenario, rules));
     let violated = report.violated().map(str::to_owned).collect();
     (violated, report)
 }
@@ -86,7 +86,7 @@ fn a_lease_that_is_longer_than_the_followers_safety_timer_allows_breaks_the_theo
     let chart = &lease_theorem.counterexample;
     let puts_out = |robot: usize, text: &str| {
         let of_robot = |step: &&ChartStep| match step.place {
-            Place::At(at) | Place::Between { to: at, .. } => at == robot,
+            ChartPlace::At(at) | ChartPlace::Between { to: at, .. } => at == robot,
         };
         let mut outputs = chart.iter().filter(of_robot).flat_map(|step| &step.outputs);
         outputs.any(|output| output.contains(text))
@@ -114,7 +114,10 @@ fn an_offer_whose_safety_timer_is_shorter_than_the_lease_allows_is_not_taken() {
     });
     let (violated, report) = violated(sound_pair(), follower);
     assert_eq!(violated, Vec::<String>::new());
-    assert_eq!(report.verdict("I10-premise"), Some(Verdict::Unreachable));
+    assert_eq!(
+        report.verdict("I10-premise"),
+        Some(CheckVerdict::Unreachable)
+    );
 }
 
 #[test]
@@ -170,7 +173,7 @@ fn a_sign_that_shows_go_after_a_fallback_is_noticed() {
 fn a_corridor_that_is_not_closed_ends_by_itself_in_time() {
     let (violated, report) = violated(pair(&[]), NeverClosesTheCorridor(None));
     assert_eq!(violated, Vec::<String>::new());
-    assert_eq!(report.verdict("I11-premise"), Some(Verdict::Reachable));
+    assert_eq!(report.verdict("I11-premise"), Some(CheckVerdict::Reachable));
 }
 
 /// A robot that hears a RAM sends one.

@@ -8,7 +8,7 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::properties::PropertyId::{self, *};
 use crossguard_model_check::replay::Replay;
-use crossguard_model_check::report::Verdict;
+use crossguard_model_check::report::CheckVerdict;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
 use rules::*;
@@ -27,7 +27,7 @@ fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[Prop
             .iter()
             .find(|p| p.id == id.to_string())
             .unwrap();
-        assert_eq!(property.verdict, Verdict::Violated, "{property:#?}");
+        assert_eq!(property.verdict, CheckVerdict::Violated, "{property:#?}");
         assert!(
             !property.counterexample.is_empty(),
             "{id} without a counterexample"
@@ -54,7 +54,7 @@ fn assert_breaks_alone(scenario: &str, rules: impl Rules + 'static, properties: 
             assert!(!replay.is_broken(&replay.follow(&protocol)), "{replay:#?}");
         }
         let is_run_without_end = property.kind == "L" && property.id != "L7";
-        if property.verdict == Verdict::Violated && is_run_without_end {
+        if property.verdict == CheckVerdict::Violated && is_run_without_end {
             assert!(property.repeats_after.unwrap() <= property.counterexample.len());
         }
     }

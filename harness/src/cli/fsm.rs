@@ -31,8 +31,10 @@ struct Transition {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let transitions = universe::explore(&universe::config()).transitions;
     match arguments.format {
-        Format::Mermaid => print(fsm::diagram(&transitions, fsm::Format::Mermaid).trim_end()),
-        Format::Dot => print(fsm::diagram(&transitions, fsm::Format::Dot).trim_end()),
+        Format::Mermaid => {
+            print(fsm::diagram(&transitions, fsm::DiagramFormat::Mermaid).trim_end())
+        }
+        Format::Dot => print(fsm::diagram(&transitions, fsm::DiagramFormat::Dot).trim_end()),
         Format::Json => {
             let transitions = transitions.0.iter().map(|((from, to), labels)| Transition {
                 from: fsm::name(*from),

@@ -5,9 +5,11 @@ use stateright::Property;
 
 use crossguard_protocol::State as Stage;
 
-use super::model::{Question, World};
+use super::model::{PaperWorld, Question};
 use super::road;
-use super::robot::{Command, HelpStatus, Input, Place, Progression, Rmcm, Robot};
+use super::robot::{
+    HelpStatus, PaperCommand, PaperInput, PaperRmcm, PaperRobot, Progression, RobotIndex,
+};
 
 /// A property of the paper's wording.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -75,7 +77,7 @@ impl Hazard {
     }
 
     /// Whether it is there.
-    pub(super) fn is_in(self, world: &World) -> bool {
+    pub(super) fn is_in(self, world: &PaperWorld) -> bool {
         match self {
             Self::P5 => world.is_stuck() && asking(world) > 1,
             Self::P7 => world
@@ -116,26 +118,29 @@ const HOLDS_BIT: u16 = 1 << Hazard::ALL.len();
 /// keeps the last.
 pub(super) fn properties(question: &Question) -> Vec<Property<Question>> {
     let mut properties = vec![match question.hazard {
-        Some(hazard) => Property::always(hazard.text().id, |question: &Question, world: &World| {
-            question.hazard.is_none_or(|hazard| !hazard.is_in(world))
-        }),
-        None => Property::always(HOLDS, |_, world: &World| {
+        Some(hazard) => Property::always(
+            hazard.text().id,
+            |question: &Question, world: &PaperWorld| {
+                question.hazard.is_none_or(|hazard| !hazard.is_in(world))
+            },
+        ),
+        None => Property::always(HOLDS, |_, world: &PaperWorld| {
             world.memory.brought_about & HOLDS_BIT == 0
         }),
     }];
     if question.road.is_some_and(|road| road.property.is_some()) {
-        let holds = |question: &Question, world: &World| !road::is_found(question, world);
+        let holds = |question: &Question, world: &PaperWorld| !road::is_found(question, world);
         properties = vec![Property::always(ON_ROAD, holds)];
     }
     if question.hazard.is_none() && question.road.is_none() && question.cast.commands > 1 {
-        let is_met = |_: &Question, world: &World| is_crossed(world);
+        let is_met = |_: &Question, world: &PaperWorld| is_crossed(world);
         properties.push(Property::sometimes(PREMISE, is_met));
     }
     properties
 }
 
 /// Two maneuvers were finished, nothing went wrong, and everybody is idle again.
-fn is_crossed(world: &World) -> bool {
+fn is_crossed(world: &PaperWorld) -> bool {
     world.memory.finished == 0b11
         && world.memory.fallen_back == 0
         && world.robots.iter().all(|robot| {
@@ -145,18 +150,22 @@ fn is_crossed(world: &World) -> bool {
         })
 }
 
-fn asking(world: &World) -> usize {
-    let asks = |(_, robot): &(Place, &Robot)| robot.status == HelpStatus::NeedHelp;
+fn asking(world: &PaperWorld) -> usize {
+    let asks = |(_, robot): &(RobotIndex, &PaperRobot)| robot.status == HelpStatus::NeedHelp;
     world.robots().filter(asks).count()
 }
 
-fn leaders_of(world: &World, follower: Place) -> usize {
-    let leads = |(_, robot): &(Place, &Robot)| robot.follower() == Some(follower);
+fn leaders_of(world: &PaperWorld, follower: RobotIndex) -> usize {
+    let leads = |(_, robot): &(RobotIndex, &PaperRobot)| robot.follower() == Some(follower);
     world.robots().filter(leads).count()
 }
 
 /// A leader in this state that has a command pending, and nothing will ever happen.
-fn waits_forever(world: &World, stage: Stage, follower_is: fn(Option<&Robot>) -> bool) -> bool {
+fn waits_forever(
+    world: &PaperWorld,
+    stage: Stage,
+    follower_is: fn(Option<&PaperRobot>) -> bool,
+) -> bool {
     world.is_stuck()
         && world.robots().any(|(_, robot)| {
             let follower = robot.follower();
@@ -167,28 +176,35 @@ fn waits_forever(world: &World, stage: Stage, follower_is: fn(Option<&Robot>) ->
 }
 
 /// What the step of the robot at `place` from `before` to `after` brings about, as bits.
-pub(super) fn brought_about(before: &World, place: Place, input: Input, after: &Robot) -> u16 {
+pub(super) fn brought_about(
+    before: &PaperWorld,
+    place: RobotIndex,
+    input: PaperInput,
+    after: &PaperRobot,
+) -> u16 {
     let Some(robot) = before.robot(place) else {
         return 0;
     };
     let found = match input {
-        Input::Ram(from, ram) if ram.status == HelpStatus::None => {
+        PaperInput::Ram(from, ram) if ram.status == HelpStatus::None => {
             is_released_by_mistake(before, place, from, after)
         }
-        Input::Ram(_, ram) if ram.progression == Progression::Completed => {
+        PaperInput::Ram(_, ram) if ram.progression == Progression::Completed => {
             is_completed_too_early(before, robot, after)
         }
-        Input::Rmcm(from, Rmcm::Command(command)) if after.executing() == Some(command) => {
+        PaperInput::Rmcm(from, PaperRmcm::Command(command))
+            if after.executing() == Some(command) =>
+        {
             if !is_given(before, from, robot, command) {
                 return HOLDS_BIT;
             }
             let is_again = before.memory.started & 1 << command.serial != 0;
             is_again.then_some(Hazard::P6)
         }
-        Input::Rmcm(_, Rmcm::Acknowledgement(answered)) if robot.state != after.state => {
+        PaperInput::Rmcm(_, PaperRmcm::Acknowledgement(answered)) if robot.state != after.state => {
             is_acknowledged_in_vain(before, robot, answered)
         }
-        Input::SafetyTimeout => {
+        PaperInput::SafetyTimeout => {
             let leader = robot.leader().and_then(|leader| before.robot(leader));
             let is_led = leader.is_some_and(|leader| leader.follower() == Some(place));
             (robot.executing().is_some() && robot.heard_leader && is_led).then_some(Hazard::P4)
@@ -199,12 +215,21 @@ pub(super) fn brought_about(before: &World, place: Place, input: Input, after: &
 }
 
 /// Whether a command was given, and by the leader that the follower follows.
-fn is_given(before: &World, from: Place, follower: &Robot, command: Command) -> bool {
+fn is_given(
+    before: &PaperWorld,
+    from: RobotIndex,
+    follower: &PaperRobot,
+    command: PaperCommand,
+) -> bool {
     command.serial < before.memory.given && follower.leader() == Some(from)
 }
 
 /// The leader takes an answer that is for another command, or from a follower that has fallen back.
-fn is_acknowledged_in_vain(before: &World, leader: &Robot, answered: Command) -> Option<Hazard> {
+fn is_acknowledged_in_vain(
+    before: &PaperWorld,
+    leader: &PaperRobot,
+    answered: PaperCommand,
+) -> Option<Hazard> {
     if leader.command != Some(answered) {
         return Some(Hazard::P11);
     }
@@ -214,12 +239,15 @@ fn is_acknowledged_in_vain(before: &World, leader: &Robot, answered: Command) ->
 
 /// A RAM with `none` stopped a maneuver that the leader, who did not mean it, counts on.
 fn is_released_by_mistake(
-    before: &World,
-    place: Place,
-    from: Place,
-    after: &Robot,
+    before: &PaperWorld,
+    place: RobotIndex,
+    from: RobotIndex,
+    after: &PaperRobot,
 ) -> Option<Hazard> {
-    let was_executing = before.robot(place).and_then(Robot::executing).is_some();
+    let was_executing = before
+        .robot(place)
+        .and_then(PaperRobot::executing)
+        .is_some();
     let counts_on_it = before.robot(from).is_some_and(|leader| {
         leader.follower() == Some(place) && leader.state == Stage::ManeuverExecuting
     });
@@ -227,7 +255,11 @@ fn is_released_by_mistake(
 }
 
 /// The leader counts a command as completed that the follower has not finished.
-fn is_completed_too_early(before: &World, leader: &Robot, after: &Robot) -> Option<Hazard> {
+fn is_completed_too_early(
+    before: &PaperWorld,
+    leader: &PaperRobot,
+    after: &PaperRobot,
+) -> Option<Hazard> {
     let command = leader.command.filter(|_| after.command.is_none())?;
     (before.memory.finished & 1 << command.serial == 0).then_some(Hazard::P2)
 }

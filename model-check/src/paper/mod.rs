@@ -44,12 +44,12 @@ use stateright::{Checker, Model as _};
 
 pub use hazards::{Hazard, Text};
 pub use page::page;
-pub use story::{Happening, Link, Message, Party, Step, Story, stories};
+pub use story::{Happening, Link, Party, Story, StoryMessage, StoryStep, stories};
 
 use crate::cost::Meter;
-use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
+use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::transitions::Transitions;
-use model::{Action, Cast, Question, World};
+use model::{Cast, PaperAction, PaperWorld, Question};
 use road::{Inquiry, Task};
 
 /// The name of the report.
@@ -102,9 +102,9 @@ struct Counterexample {
 }
 
 struct Transition {
-    before: World,
-    action: Action,
-    after: World,
+    before: PaperWorld,
+    action: PaperAction,
+    after: PaperWorld,
 }
 
 /// What stateright found in one cast, of everything that can happen.
@@ -137,7 +137,7 @@ pub fn check() -> ScenarioReport {
         let kind = if hazard.is_without_end() { "L" } else { "S" };
         must_fail_report(hazard.text(), kind, &found)
     }));
-    properties.extend(road::Property::ALL.map(|property| {
+    properties.extend(road::RoadProperty::ALL.map(|property| {
         let kind = if property.is_without_end() { "L" } else { "S" };
         must_fail_report(property.text(), kind, &on_road)
     }));
@@ -173,9 +173,9 @@ pub fn made(report: &ScenarioReport) -> bool {
 #[must_use]
 pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
     let fine = [hazards::HOLDS, hazards::PREMISE].map(|id| report.verdict(id))
-        == [Some(Verdict::Holds), Some(Verdict::Reachable)];
+        == [Some(CheckVerdict::Holds), Some(CheckVerdict::Reachable)];
     let hazards = Hazard::ALL.map(|hazard| hazard.text().id);
-    let on_road = road::Property::ALL.map(|property| property.text().id);
+    let on_road = road::RoadProperty::ALL.map(|property| property.text().id);
     let must_fail = hazards.into_iter().chain(on_road);
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
@@ -194,13 +194,13 @@ fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport
         report(
             hazards::HOLDS,
             "S",
-            Verdict::of_property(is_p0_broken, None),
+            CheckVerdict::of_property(is_p0_broken, None),
             "a follower starts only what its leader commanded it",
         ),
         report(
             hazards::PREMISE,
             "premise",
-            Verdict::of_premise(is_crossing_found, None),
+            CheckVerdict::of_premise(is_crossing_found, None),
             "a crossing of two maneuvers goes well, and all robots are idle again",
         ),
     ]
@@ -211,7 +211,7 @@ fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> Propert
     PropertyReport {
         id: text.id.to_owned(),
         kind: kind.to_owned(),
-        verdict: Verdict::of_property(counterexample.is_some(), None),
+        verdict: CheckVerdict::of_property(counterexample.is_some(), None),
         statement: text.statement.to_owned(),
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
         repeats_after: counterexample.and_then(Counterexample::repeats_after),
@@ -293,7 +293,7 @@ fn find(hazard: Hazard) -> Option<Counterexample> {
 
 /// The shortest run that breaks each property of the road, in order; W1 by either kind of guard.
 fn broken_on_road() -> Vec<Counterexample> {
-    use road::Property::{W1, W2, W3, W4, W7};
+    use road::RoadProperty::{W1, W2, W3, W4, W7};
     let inquiries = [
         (W1, Task::Block),
         (W1, Task::Move),
@@ -306,9 +306,9 @@ fn broken_on_road() -> Vec<Counterexample> {
     found.into_iter().flatten().collect()
 }
 
-fn find_on_road(property: road::Property, task: Task) -> Option<Counterexample> {
+fn find_on_road(property: road::RoadProperty, task: Task) -> Option<Counterexample> {
     let cast = match property {
-        road::Property::W3 => RIVALS,
+        road::RoadProperty::W3 => RIVALS,
         _ => CROSSING,
     };
     let question = Question {
@@ -332,7 +332,7 @@ fn shortest(question: Question, name: &'static str) -> Option<Vec<Transition>> {
     // One thread: of equally short counterexamples it always finds the same.
     let checker = question.checker().threads(1).spawn_bfs().join();
     let path = checker.discovery(name)?.into_vec();
-    let transition = |pair: &[(World, Option<Action>)]| {
+    let transition = |pair: &[(PaperWorld, Option<PaperAction>)]| {
         Some(Transition {
             before: pair[0].0.clone(),
             action: pair[0].1?,

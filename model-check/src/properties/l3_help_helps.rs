@@ -4,20 +4,20 @@
 
 use crossguard_protocol::{Member, Phase};
 
-use super::{LivenessRule, Subject, Subjects, View, leading_of};
+use super::{LivenessRule, LivenessSubject, LivenessSubjects, View, leading_of};
 
 pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Robots,
+    subjects: LivenessSubjects::Robots,
     from: asks,
     to: has_completed,
 };
 
-fn asks(view: &View, Subject { robot, .. }: Subject) -> bool {
+fn asks(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     let robot = view.node(robot).robot.as_ref();
     robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
 }
 
-fn has_completed(view: &View, Subject { robot, .. }: Subject) -> bool {
+fn has_completed(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     leading_of(view.node(robot))
         .is_some_and(|leading| leading.members.iter().any(Member::has_completed))
 }

@@ -2,16 +2,16 @@
 //!
 //! A follower has no way out of its session but to `Idle`, so what is to be shown is that it leaves.
 
-use super::{LivenessRule, Subject, Subjects, View, following_of};
+use super::{LivenessRule, LivenessSubject, LivenessSubjects, View, following_of};
 
 pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Robots,
+    subjects: LivenessSubjects::Robots,
     from: is_orphaned,
     to: |view, subject| !is_orphaned(view, subject),
 };
 
 /// Whether the robot follows in a session that nobody leads any more.
-fn is_orphaned(view: &View, Subject { robot, .. }: Subject) -> bool {
+fn is_orphaned(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     following_of(view.node(robot)).is_some_and(|following| {
         view.leaders()
             .all(|(session, _)| session != following.session)

@@ -5,15 +5,15 @@
 
 use crossguard_protocol::Phase;
 
-use super::{LivenessRule, Subject, Subjects, View};
+use super::{LivenessRule, LivenessSubject, LivenessSubjects, View};
 
 pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Pairs,
+    subjects: LivenessSubjects::Pairs,
     from: both_claim,
     to: |view, subject| !both_claim(view, subject),
 };
 
-fn both_claim(view: &View, Subject { robot, other }: Subject) -> bool {
+fn both_claim(view: &View, LivenessSubject { robot, other }: LivenessSubject) -> bool {
     let claims = |place: usize| {
         let robot = view.node(place).robot.as_ref();
         robot.is_some_and(|r| matches!(r.phase(), Phase::Requesting(_) | Phase::Leading(_)))

@@ -105,7 +105,7 @@ pub(crate) struct StepRule {
 
 /// The robots that a liveness property speaks about, one at a time.
 #[derive(Clone, Copy)]
-pub(crate) enum Subjects {
+pub(crate) enum LivenessSubjects {
     /// Each robot.
     Robots,
     /// Each two robots, either way round.
@@ -114,20 +114,20 @@ pub(crate) enum Subjects {
 
 /// One of them, by their places in the scenario; `other` means nothing where only one is meant.
 #[derive(Clone, Copy)]
-pub(crate) struct Subject {
+pub(crate) struct LivenessSubject {
     pub(crate) robot: usize,
     pub(crate) other: usize,
 }
 
-impl Subjects {
-    pub(crate) fn among(self, robots: usize) -> Vec<Subject> {
+impl LivenessSubjects {
+    pub(crate) fn among(self, robots: usize) -> Vec<LivenessSubject> {
         let pairs = (0..robots).flat_map(|robot| (0..robots).map(move |other| (robot, other)));
         pairs
             .filter(|(robot, other)| match self {
                 Self::Robots => robot == other,
                 Self::Pairs => robot != other,
             })
-            .map(|(robot, other)| Subject { robot, other })
+            .map(|(robot, other)| LivenessSubject { robot, other })
             .collect()
     }
 }
@@ -135,9 +135,9 @@ impl Subjects {
 /// Something that leads to something on every fair run.
 #[derive(Clone, Copy)]
 pub(crate) struct LivenessRule {
-    pub(crate) subjects: Subjects,
-    pub(crate) from: fn(&View, Subject) -> bool,
-    pub(crate) to: fn(&View, Subject) -> bool,
+    pub(crate) subjects: LivenessSubjects,
+    pub(crate) from: fn(&View, LivenessSubject) -> bool,
+    pub(crate) to: fn(&View, LivenessSubject) -> bool,
 }
 
 impl PropertyId {
@@ -370,11 +370,11 @@ pub(crate) struct View<'a> {
     /// The robots, in the order of their places.
     pub(crate) nodes: &'a [&'a Node],
     pub(crate) history: &'a History,
-    pub(crate) world: &'a dyn World,
+    pub(crate) world: &'a dyn Surroundings,
 }
 
 /// What the robots of a state are part of.
-pub(crate) trait World {
+pub(crate) trait Surroundings {
     /// The configuration of the robot at this place.
     fn config(&self, place: usize) -> &Config;
 

@@ -4,12 +4,12 @@
 
 use crossguard_protocol::Phase;
 
-use crate::properties::{LivenessRule, Subject, Subjects};
+use crate::properties::{LivenessRule, LivenessSubject, LivenessSubjects};
 use crate::road::Pedestrian;
 
 pub(crate) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Robots,
-    from: |view, Subject { robot, .. }| {
+    subjects: LivenessSubjects::Robots,
+    from: |view, LivenessSubject { robot, .. }| {
         let robot = view.node(robot).robot.as_ref();
         robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
     },

@@ -170,7 +170,7 @@ impl Heard {
     /// After a step in which a robot that said `before` received `input`, and says `after` now.
     #[must_use]
     pub fn after(self, before: &Ram, input: Input, after: &Ram) -> Self {
-        let (Some(own), Some(now)) = (Claim::of(before), Claim::of(after)) else {
+        let (Some(own), Some(now)) = (LeaderClaim::of(before), LeaderClaim::of(after)) else {
             return Self::Nothing;
         };
         if own.session != now.session {
@@ -182,7 +182,7 @@ impl Heard {
         if ram.station == before.station {
             return self;
         }
-        match (self, Claim::of(&ram)) {
+        match (self, LeaderClaim::of(&ram)) {
             (Self::Once(session, beat), Some(other))
                 if other.goes_before(&own) && other.session == session =>
             {
@@ -211,7 +211,7 @@ impl Heard {
 }
 
 /// What a leader's RAM claims.
-struct Claim {
+struct LeaderClaim {
     session: SessionId,
     beat: Heartbeat,
     urgency: crossguard_protocol::Urgency,
@@ -219,7 +219,7 @@ struct Claim {
     yields: bool,
 }
 
-impl Claim {
+impl LeaderClaim {
     fn of(ram: &Ram) -> Option<Self> {
         match ram.coordination {
             Coordination::Leader {

@@ -7,13 +7,13 @@ use crossguard_protocol::{
 use serde::Deserialize;
 
 use super::{
-    Bounds, Channel, Impossibility, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP, RobotSetup,
-    Scenario, ScenarioError, Size,
+    Bounds, ChannelSetup, Impossibility, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP,
+    RobotSetup, Scenario, ScenarioError, Size,
 };
 use crate::monotone;
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
-use crate::symmetry::{Claim, Wrong};
+use crate::symmetry::{SymmetryClaim, Wrong};
 use crate::timed::{Section, TimedImpossibility, TimedProperty};
 
 /// The file's form of a scenario.
@@ -31,7 +31,7 @@ struct File {
     corridor: bool,
     #[serde(default)]
     cooperative: bool,
-    channel: Channel,
+    channel: ChannelSetup,
     #[serde(default)]
     protocol: Settings,
     timed: Option<Section>,
@@ -167,7 +167,7 @@ impl File {
         }
         let config = Config::new(settings)
             .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
-        let claim = Claim {
+        let claim = SymmetryClaim {
             robots: &self.robots,
             followers: request.followers,
             bounds: self.bounds,

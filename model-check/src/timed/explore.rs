@@ -4,11 +4,11 @@ use std::collections::{HashMap, VecDeque};
 
 use rustc_hash::FxBuildHasher;
 
-use super::model::Model;
+use super::model::TimedModel;
 use super::rules::{Premises, TimedProperty};
-use super::state::{Action, State};
+use super::state::{TimedAction, TimedState};
 use super::watch::Longest;
-use crate::check::{Limits, Progress};
+use crate::check::{CheckProgress, ExplorationLimits};
 use crate::report::CutOff;
 
 /// What an exploration found.
@@ -28,9 +28,13 @@ pub(super) struct Explored {
 
 impl Explored {
     /// Explores `model`. `watch` is told now and then how far it is.
-    pub(super) fn of(model: &Model, limits: &Limits, watch: &mut dyn FnMut(Progress)) -> Self {
+    pub(super) fn of(
+        model: &TimedModel,
+        limits: &ExplorationLimits,
+        watch: &mut dyn FnMut(CheckProgress),
+    ) -> Self {
         let mut explored = Self::new();
-        let mut numbers: HashMap<State, u32, FxBuildHasher> = HashMap::default();
+        let mut numbers: HashMap<TimedState, u32, FxBuildHasher> = HashMap::default();
         let mut waiting = VecDeque::new();
         explored.add(model, model.initial(), (0, 0), &mut numbers, &mut waiting);
         let (mut at, mut level_ends) = (0, 1);
@@ -65,7 +69,7 @@ impl Explored {
                 };
                 stuck = false;
                 explored.transitions += 1;
-                if !matches!(action, Action::Tick(_)) {
+                if !matches!(action, TimedAction::Tick(_)) {
                     explored.instant.push((from, to));
                 }
             }
@@ -94,11 +98,11 @@ impl Explored {
 
     fn add(
         &mut self,
-        model: &Model,
-        state: State,
+        model: &TimedModel,
+        state: TimedState,
         parent: (u32, u16),
-        numbers: &mut HashMap<State, u32, FxBuildHasher>,
-        waiting: &mut VecDeque<State>,
+        numbers: &mut HashMap<TimedState, u32, FxBuildHasher>,
+        waiting: &mut VecDeque<TimedState>,
     ) -> u32 {
         let fresh = number(numbers.len());
         self.parents.push(parent);
@@ -113,9 +117,9 @@ impl Explored {
         fresh
     }
 
-    fn tell(&self, model: &Model, frontier: usize, watch: &mut dyn FnMut(Progress)) {
+    fn tell(&self, model: &TimedModel, frontier: usize, watch: &mut dyn FnMut(CheckProgress)) {
         let states = self.states();
-        watch(Progress {
+        watch(CheckProgress {
             checked: states,
             explored: states,
             frontier,

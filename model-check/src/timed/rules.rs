@@ -3,9 +3,9 @@
 use crossguard_protocol::{Contact, Lease, Phase, Robot, SessionId, StationId};
 use serde::Serialize;
 
-use super::model::Model;
-use super::state::State;
-use super::watch::{Measure, Watch};
+use super::model::TimedModel;
+use super::state::TimedState;
+use super::watch::{Measure, StopWatch};
 use crate::node::Node;
 use crate::road::Body;
 
@@ -212,7 +212,7 @@ pub fn leases(robot: &Robot) -> impl Iterator<Item = (SessionId, StationId)> {
 }
 
 /// Which properties the step from `before` to `after` breaks. `after` has the names of `before`.
-pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
+pub(super) fn broken(model: &TimedModel, before: &TimedState, after: &TimedState) -> Broken {
     let mut broken = Broken::NOTHING;
     let mut check = |property, holds: bool| {
         if !holds {
@@ -232,9 +232,9 @@ pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
     let shows_go = |place| after.shows_go(model.timed().teams.team_of(place));
     let is_unaware = |place, ticks| after.told.counts_on(place) && over(ticks, Measure::Unaware);
     match after.watch() {
-        Watch::Off | Watch::Apart | Watch::Near => {}
-        Watch::Request(ticks) => check(TimedProperty::L1, !over(ticks, Measure::Roles)),
-        Watch::LeaderDown(ticks) => {
+        StopWatch::Off | StopWatch::Apart | StopWatch::Near => {}
+        StopWatch::Request(ticks) => check(TimedProperty::L1, !over(ticks, Measure::Roles)),
+        StopWatch::LeaderDown(ticks) => {
             let running = model
                 .nodes(after)
                 .any(|node| node.actuation.running.is_some());
@@ -248,12 +248,12 @@ pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
                 !(following && over(ticks, Measure::Left)),
             );
         }
-        Watch::FollowerFailed(place, ticks) => {
+        StopWatch::FollowerFailed(place, ticks) => {
             let late = shows_go(place) && over(ticks, Measure::CorridorClosed);
             check(TimedProperty::I11, !late);
             check(TimedProperty::W6, !is_unaware(place, ticks));
         }
-        Watch::Hung(place, ticks) => {
+        StopWatch::Hung(place, ticks) => {
             let measure = Measure::of_hang(model.timed().teams.leads(place));
             check(
                 TimedProperty::W5,
@@ -261,7 +261,7 @@ pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
             );
             check(TimedProperty::W6, !is_unaware(place, ticks));
         }
-        Watch::BothGo(ticks) => check(TimedProperty::W3, !over(ticks, Measure::BothGo)),
+        StopWatch::BothGo(ticks) => check(TimedProperty::W3, !over(ticks, Measure::BothGo)),
     }
     check(TimedProperty::W1, !after.is_unguarded());
     check(TimedProperty::W6, knows_of_fallbacks(model, after));
@@ -271,7 +271,7 @@ pub(super) fn broken(model: &Model, before: &State, after: &State) -> Broken {
 }
 
 /// W6, of fallbacks: the application of a leader that does not hang counts on nobody whose body falls back.
-fn knows_of_fallbacks(model: &Model, state: &State) -> bool {
+fn knows_of_fallbacks(model: &TimedModel, state: &TimedState) -> bool {
     let leader_hangs = state
         .hung()
         .is_some_and(|place| model.timed().teams.leads(place));
@@ -283,7 +283,7 @@ fn knows_of_fallbacks(model: &Model, state: &State) -> bool {
 /// I10, of the leaders of one state and the followers of another. Nothing but lack of contact and
 /// crashes takes a follower out of a session in this model. A leader that hangs does nothing for a
 /// lease that it still knows; what its sign does meanwhile is W1 and W5.
-fn lease_theorem(model: &Model, leaders: &State, followers: &State) -> bool {
+fn lease_theorem(model: &TimedModel, leaders: &TimedState, followers: &TimedState) -> bool {
     if leaders
         .hung()
         .is_some_and(|place| model.timed().teams.leads(place))
@@ -323,7 +323,7 @@ fn can_progress(node: &Node) -> bool {
 }
 
 /// Whether nothing more is to be learned from a run.
-pub(super) fn is_over(model: &Model, state: &State) -> bool {
+pub(super) fn is_over(model: &TimedModel, state: &TimedState) -> bool {
     if TimedProperty::IN_TIME
         .iter()
         .any(|&late| state.broken.has(late))
@@ -333,16 +333,16 @@ pub(super) fn is_over(model: &Model, state: &State) -> bool {
     let timed = model.timed();
     let leader = model.node(state, timed.teams.leaders()[0]);
     match state.watch() {
-        Watch::LeaderDown(_) => !model.nodes(state).any(is_following),
+        StopWatch::LeaderDown(_) => !model.nodes(state).any(is_following),
         // Nothing from before the failure is under way any more that could open the corridor again.
-        Watch::FollowerFailed(place, ticks) => {
+        StopWatch::FollowerFailed(place, ticks) => {
             let is_told = !state.told.counts_on(place) || !timed.claims(TimedProperty::W6);
             is_told && !state.shows_go(timed.teams.team_of(place)) && ticks > timed.delay_ticks
         }
-        Watch::Hung(..) | Watch::Apart | Watch::Near | Watch::BothGo(_) => false,
+        StopWatch::Hung(..) | StopWatch::Apart | StopWatch::Near | StopWatch::BothGo(_) => false,
         // One of two leaders has yielded.
-        Watch::Off if timed.teams.are_two() => true,
-        Watch::Off | Watch::Request(_) => leader.is_idle() && state.waiting.is_none(),
+        StopWatch::Off if timed.teams.are_two() => true,
+        StopWatch::Off | StopWatch::Request(_) => leader.is_idle() && state.waiting.is_none(),
     }
 }
 
@@ -368,24 +368,24 @@ pub(super) struct Premises {
 
 impl Premises {
     /// Adds what `state` meets.
-    pub(super) fn note(&mut self, model: &Model, state: &State) {
+    pub(super) fn note(&mut self, model: &TimedModel, state: &TimedState) {
         let teams = &model.timed().teams;
         let leader = model.node(state, teams.leaders()[0]);
         self.lease_stands |= leader.robot.iter().flat_map(leases).next().is_some();
         self.fell_back |= leader.robot.is_some() && model.nodes(state).any(has_lost_contact);
         match state.watch() {
-            Watch::FollowerFailed(place, 0) => {
+            StopWatch::FollowerFailed(place, 0) => {
                 self.corridor_failure |= state.shows_go(teams.team_of(place));
                 self.guard_gone |= state.told.counts_on(place);
             }
-            Watch::Hung(place, 0) if state.shows_go(teams.team_of(place)) => {
+            StopWatch::Hung(place, 0) if state.shows_go(teams.team_of(place)) => {
                 let leads = teams.leads(place);
                 self.leader_hung |= leads;
                 self.follower_hung |= !leads;
                 self.guard_gone |= state.told.counts_on(place);
             }
-            Watch::BothGo(0) => self.both_go = true,
-            Watch::LeaderDown(0) => {
+            StopWatch::BothGo(0) => self.both_go = true,
+            StopWatch::LeaderDown(0) => {
                 self.crash |= model
                     .nodes(state)
                     .any(|node| node.actuation.running.is_some());
@@ -395,8 +395,13 @@ impl Premises {
     }
 
     /// Adds what a step meets.
-    pub(super) fn note_step(&mut self, model: &Model, before: &State, after: &State) {
-        if let (Watch::Request(_), Watch::Off) = (before.watch(), after.watch()) {
+    pub(super) fn note_step(
+        &mut self,
+        model: &TimedModel,
+        before: &TimedState,
+        after: &TimedState,
+    ) {
+        if let (StopWatch::Request(_), StopWatch::Off) = (before.watch(), after.watch()) {
             let leader = model.timed().teams.leaders()[0];
             let gave_up = model.node(after, leader).is_idle();
             self.gave_up |= gave_up;

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::clock::Clock;
 use super::rules::TimedProperty;
-use crate::scenario::{Bounds, Channel, MAX_ROBOTS, RobotSetup};
+use crate::scenario::{Bounds, ChannelSetup, MAX_ROBOTS, RobotSetup};
 
 /// The file's form of the section.
 #[derive(Clone, Copy, Deserialize)]
@@ -195,7 +195,7 @@ impl Section {
         settings: &Settings,
         robots: &[RobotSetup],
         bounds: Bounds,
-        channel: Channel,
+        channel: ChannelSetup,
     ) -> Result<Timed, (&'static str, TimedImpossibility)> {
         use TimedImpossibility as I;
         let (tick, delay, drift_ppm) = (self.tick_ms, self.delay_ms, settings.drift_ppm);

@@ -2,22 +2,22 @@
 
 use crossguard_protocol::{Event, Millis};
 
-use super::channel::{Channel, Flight};
+use super::channel::{Flight, TimedChannel};
 use super::quiet::Quiet;
 use super::rules::Broken;
 use super::section::MAX_TEAMS;
 use super::sign::Sign;
 use super::told::Told;
-use super::watch::Watch;
+use super::watch::StopWatch;
 use crate::scenario::{Bounds, MAX_ROBOTS};
 
 /// A global state between two ticks.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub struct State {
+pub struct TimedState {
     pub(super) nodes: [u32; MAX_ROBOTS],
-    pub(super) channel: Channel,
+    pub(super) channel: TimedChannel,
     pub(super) left: Bounds,
-    pub(super) watch: Watch,
+    pub(super) watch: StopWatch,
     /// What each robot's clock has shown since the robot was last told.
     pub(super) untold: [Millis; MAX_ROBOTS],
     /// Which clocks are fast, one bit each, where each keeps its rate for a whole run.
@@ -38,8 +38,8 @@ pub struct State {
     pub(super) broken: Broken,
 }
 
-impl State {
-    pub(super) const fn watch(&self) -> Watch {
+impl TimedState {
+    pub(super) const fn watch(&self) -> StopWatch {
         self.watch
     }
 
@@ -61,7 +61,7 @@ impl State {
     /// The place of the robot that hangs.
     pub(super) const fn hung(&self) -> Option<u8> {
         match self.watch {
-            Watch::Hung(place, _) => Some(place),
+            StopWatch::Hung(place, _) => Some(place),
             _ => None,
         }
     }
@@ -69,7 +69,7 @@ impl State {
 
 /// One thing that can happen.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Action {
+pub enum TimedAction {
     /// A tick passes. One bit per robot: whether its clock is fast.
     Tick(u8),
     /// A robot's endpoint looks at its clock, which has a timer due.
@@ -90,7 +90,7 @@ pub enum Action {
 
 /// What a robot takes in.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Cause {
+pub(super) enum TimedCause {
     /// The time that its clock has shown since it was last told.
     Elapsed(Millis),
     /// A message, by its number.

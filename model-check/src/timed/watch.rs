@@ -9,7 +9,7 @@ use super::section::Timed;
 
 /// The stop-watch of a run, in ticks. A run measures one thing at a time.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Watch {
+pub enum StopWatch {
     /// Nothing is measured.
     Off,
     /// Since the pedestrian was detected; until the requester has roles or has given up.
@@ -28,7 +28,7 @@ pub enum Watch {
     BothGo(u8),
 }
 
-impl Watch {
+impl StopWatch {
     /// One tick later.
     pub(super) fn tick(&mut self) {
         match self {
