@@ -2,7 +2,8 @@
 
 use std::io::{self, Seek, SeekFrom, Write};
 
-use crate::check::{Options, label};
+use crate::check::label;
+use crate::exploration::Options;
 use crate::fairness::Runs;
 use crate::graph::Graph;
 use crate::model::Model;

@@ -5,7 +5,7 @@ use std::hash::BuildHasher;
 use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
-use crate::check::ExplorationLimits;
+use crate::exploration::ExplorationLimits;
 use crate::model::{Action, Delivery, Model, ModelState};
 use crate::node::Node;
 use crate::report::CutOff;

@@ -46,6 +46,7 @@
 mod canonical;
 pub mod check;
 pub mod cost;
+mod exploration;
 pub mod explore;
 pub mod export;
 pub mod fair;
@@ -72,13 +73,14 @@ pub mod subject;
 pub mod symmetry;
 pub mod timed;
 pub mod transitions;
+mod transmission;
 pub mod universe;
 
 /// How many distinct states a scenario has, by the kit's own exploration alone. It says nothing about
 /// what must hold of them; [`check::check`] does.
 #[must_use]
 pub fn count_states(model: &model::Model) -> usize {
-    let limits = check::Options::default().limits();
+    let limits = exploration::Options::default().limits();
     graph::Graph::build(model, &limits, &mut |_| false).states()
 }
 

@@ -1,6 +1,7 @@
 //! What can be checked by name: scenarios, untimed and timed, and the paper's text.
 
-use crate::check::{CheckProgress, Options, check};
+use crate::check::check;
+use crate::exploration::{CheckProgress, Options};
 use crate::model::Model;
 use crate::paper;
 use crate::report::ScenarioReport;

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use crossguard_protocol::{Event, Input, Outputs, Timer};
 
 use crate::canonical::{Ranks, Renamings};
-use crate::check::Stop;
+use crate::exploration::Stop;
 use crate::history::History;
 use crate::intern::Interner;
 use crate::monotone::Sets;

@@ -6,14 +6,14 @@ use crossguard_protocol::{
 };
 use serde::Deserialize;
 
+use super::location::Location;
+use super::symmetric::SymmetryClaim;
 use super::{
     Bounds, ChannelSetup, Impossibility, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP,
-    RobotSetup, Scenario, ScenarioError, Size,
+    RobotSetup, Scenario, ScenarioError, Size, monotone,
 };
-use crate::monotone;
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
-use crate::symmetry::{SymmetryClaim, Wrong};
 use crate::timed::{Section, TimedImpossibility, TimedProperty};
 
 /// The file's form of a scenario.
@@ -70,44 +70,12 @@ impl Scenario {
     }
 }
 
-/// Where in a file something is wrong.
-enum Place {
-    Offset(usize),
-    Key(&'static str),
-}
-
-impl Place {
-    const fn of(wrong: &Wrong) -> Self {
-        match *wrong {
-            Wrong::At(offset) => Self::Offset(offset),
-            Wrong::Key(key) => Self::Key(key),
-        }
-    }
-
-    /// The line, counted from 1.
-    fn line_in(&self, text: &str) -> usize {
-        let offset = match self {
-            Self::Offset(offset) => *offset,
-            Self::Key(key) => text
-                .lines()
-                .scan(0, |start, line| {
-                    let this = *start;
-                    *start += line.len() + 1;
-                    Some((this, line))
-                })
-                .find(|(_, line)| line.trim_start().trim_start_matches('[').starts_with(key))
-                .map_or(0, |(start, _)| start),
-        };
-        text[..offset.min(text.len())].matches('\n').count() + 1
-    }
-}
-
 struct Located {
-    at: Place,
+    at: Location,
     cause: Impossibility,
 }
 
-fn at(at: Place, cause: impl Into<Impossibility>) -> Located {
+fn at(at: Location, cause: impl Into<Impossibility>) -> Located {
     Located {
         at,
         cause: cause.into(),
@@ -119,25 +87,28 @@ impl File {
         use Impossibility as I;
         let robots = self.robots.len();
         if !(2..=MAX_ROBOTS).contains(&robots) {
-            return Err(at(Place::Key("robots"), I::Robots(robots)));
+            return Err(at(Location::Key("robots"), I::Robots(robots)));
         }
         for (i, robot) in self.robots.iter().enumerate() {
             let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
             for other in self.robots[..i].iter().map(|other| other.station) {
                 if other == one {
-                    return Err(at(Place::Key("robots"), I::SameStation(one)));
+                    return Err(at(Location::Key("robots"), I::SameStation(one)));
                 }
                 if pseudonym(other) == pseudonym(one) {
-                    return Err(at(Place::Key("robots"), I::SamePseudonyms(other, one)));
+                    return Err(at(Location::Key("robots"), I::SamePseudonyms(other, one)));
                 }
             }
         }
         let never_asks = |robot: &&RobotSetup| robot.urgency.is_some() && !robot.detects;
         if let Some(robot) = self.robots.iter().find(never_asks) {
-            return Err(at(Place::Key("urgency"), I::UnusedUrgency(robot.station)));
+            return Err(at(
+                Location::Key("urgency"),
+                I::UnusedUrgency(robot.station),
+            ));
         }
         if !self.robots.iter().any(|robot| robot.detects) {
-            return Err(at(Place::Key("robots"), I::NobodyDetects));
+            return Err(at(Location::Key("robots"), I::NobodyDetects));
         }
         let of_runs = |name: &toml::Spanned<String>| {
             let id = name.get_ref().parse::<PropertyId>();
@@ -145,11 +116,11 @@ impl File {
         };
         let is_of_runs = self.properties.iter().any(of_runs);
         if self.cooperative && is_of_runs && robots > MAX_COOPERATIVE_ROBOTS {
-            return Err(at(Place::Key("cooperative"), I::Cooperative(robots)));
+            return Err(at(Location::Key("cooperative"), I::Cooperative(robots)));
         }
         let delayed = self.channel.delayed;
         if usize::from(delayed) > MAX_DELAYED {
-            return Err(at(Place::Key("delayed"), I::Delayed(delayed)));
+            return Err(at(Location::Key("delayed"), I::Delayed(delayed)));
         }
         monotone::check(
             self.channel,
@@ -157,7 +128,7 @@ impl File {
             self.cooperative,
             &self.properties,
         )
-        .map_err(|(wrong, cause)| at(Place::of(&wrong), cause))?;
+        .map_err(|(wrong, cause)| at(wrong, cause))?;
         let request = self.request.check()?;
         let mut settings = self.protocol;
         if self.timed.is_none() {
@@ -166,7 +137,7 @@ impl File {
             settings.t_cross = Millis(1);
         }
         let config = Config::new(settings)
-            .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
+            .map_err(|broken| at(Location::Key(key_of(broken.0)), I::Settings(broken)))?;
         let claim = SymmetryClaim {
             robots: &self.robots,
             followers: request.followers,
@@ -176,14 +147,14 @@ impl File {
         };
         let symmetric = claim
             .check(&self.symmetric)
-            .map_err(|(wrong, cause)| at(Place::of(&wrong), cause))?;
+            .map_err(|(wrong, cause)| at(wrong, cause))?;
         let mut timed = None;
         if let Some(section) = self.timed {
             let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
-            let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
+            let mut checked = checked.map_err(|(key, cause)| at(Location::Key(key), cause))?;
             if self.cooperative {
                 let cause = TimedImpossibility::Untimed("cooperative");
-                return Err(at(Place::Key("cooperative"), cause));
+                return Err(at(Location::Key("cooperative"), cause));
             }
             checked.properties = all_named(&self.properties, |name| {
                 let unknown = || TimedImpossibility::Property(name.to_owned());
@@ -223,7 +194,7 @@ fn all_named<P>(
     parse: impl Fn(&str) -> Result<P, Impossibility>,
 ) -> Result<Vec<P>, Located> {
     let property = |name: &toml::Spanned<String>| {
-        parse(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
+        parse(name.get_ref()).map_err(|cause| at(Location::Offset(name.span().start), cause))
     };
     names.iter().map(property).collect()
 }
@@ -245,14 +216,14 @@ const fn key_of(inequality: Inequality) -> &'static str {
 
 impl Request {
     fn check(self) -> Result<HelpRequest, Located> {
-        let place = Place::Offset(self.followers.span().start);
+        let place = Location::Offset(self.followers.span().start);
         let followers = self.followers.into_inner();
         if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
             return Err(at(place, Impossibility::Followers(followers)));
         }
         let mut tasks = Vec::new();
         for name in self.tasks {
-            let place = Place::Offset(name.span().start);
+            let place = Location::Offset(name.span().start);
             let name = name.into_inner();
             match task_of(&name) {
                 Some(task) => tasks.push(task),

@@ -8,7 +8,7 @@ use super::model::TimedModel;
 use super::rules::{Premises, TimedProperty};
 use super::state::{TimedAction, TimedState};
 use super::watch::Longest;
-use crate::check::{CheckProgress, ExplorationLimits};
+use crate::exploration::{CheckProgress, ExplorationLimits};
 use crate::report::CutOff;
 
 /// What an exploration found.
