@@ -17,7 +17,9 @@ use crate::fairness::Runs;
 use crate::graph::Graph;
 use crate::model::{Action, Delivery, Model, ModelState};
 use crate::network::Transmission;
-use crate::properties::{Kind, LivenessSubject, PropertyId, View};
+use crate::properties::{
+    Claim, LivenessRule, LivenessSubject, PropertyId, Rule, View, for_each_property,
+};
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::{RobotSetup, Scenario, Size};
 use crate::sequence::{ChartPlace, ChartStep, Fate};
@@ -96,11 +98,7 @@ fn configure(model: &Model, options: &Options) -> stateright::CheckerBuilder<Mod
         builder = builder.timeout(time);
     }
     if !options.until_broken.is_empty() {
-        let names = options
-            .until_broken
-            .iter()
-            .map(|id| NAMES[*id as usize])
-            .collect();
+        let names = options.until_broken.iter().map(|id| id.name()).collect();
         builder = builder.finish_when(HasDiscoveries::AllOf(names));
     }
     builder
@@ -150,7 +148,7 @@ impl Checked {
             .properties
             .iter()
             .map(|id| {
-                let path = discoveries.remove(NAMES[*id as usize])?;
+                let path = discoveries.remove(id.name())?;
                 Some(chart(model, model.real_run(path.into_vec())))
             })
             .collect();
@@ -172,31 +170,27 @@ struct Findings<'a> {
 impl Findings<'_> {
     fn all(&self) -> Vec<PropertyReport> {
         let properties = self.model.scenario().properties.iter().enumerate();
-        properties
-            .flat_map(|(i, &id)| [Some(self.rule(i, id)), self.premise(id)])
+        let claimed = properties.filter_map(|(i, &id)| Some((i, id, id.untimed()?)));
+        claimed
+            .flat_map(|(i, id, claim)| [Some(self.rule(i, id, claim)), self.premise(id, claim)])
             .flatten()
             .collect()
     }
 
-    fn rule(&self, i: usize, id: PropertyId) -> PropertyReport {
-        let (counterexample, repeats_after) = match id {
-            PropertyId::L7 => (self.stuck(), None),
-            _ if id.kind() == Kind::L => match self.lasso(id) {
+    fn rule(&self, i: usize, id: PropertyId, claim: &Claim) -> PropertyReport {
+        let (counterexample, repeats_after) = match claim.rule {
+            Rule::Reset => (self.stuck(), None),
+            Rule::Live(rule) => match self.lasso(id, rule) {
                 Some((chart, repeats_after)) => (Some(chart), Some(repeats_after)),
                 None => (None, None),
             },
             _ => (self.checked.counterexamples[i].clone(), None),
         };
-        let kind = match id.kind() {
-            Kind::S => "S",
-            Kind::T => "T",
-            Kind::L => "L",
-        };
         PropertyReport {
             id: id.to_string(),
-            kind: kind.to_owned(),
+            kind: claim.kind.name().to_owned(),
             verdict: CheckVerdict::of_property(counterexample.is_some(), self.cut_off),
-            statement: id.statement().to_owned(),
+            statement: claim.statement.to_owned(),
             counterexample: counterexample.unwrap_or_default(),
             repeats_after,
         }
@@ -212,8 +206,7 @@ impl Findings<'_> {
 
     /// A fair run that breaks a liveness property, and how many steps of it come before its cycle.
     /// Notes the property's premise where it is met.
-    fn lasso(&self, id: PropertyId) -> Option<(Vec<ChartStep>, usize)> {
-        let rule = id.liveness_rule()?;
+    fn lasso(&self, id: PropertyId, rule: LivenessRule) -> Option<(Vec<ChartStep>, usize)> {
         if self.cut_off.is_some() {
             return None;
         }
@@ -247,8 +240,8 @@ impl Findings<'_> {
     }
 
     /// The premise of a property; `None` where the property speaks about every state.
-    fn premise(&self, id: PropertyId) -> Option<PropertyReport> {
-        id.premise().map(|premise| PropertyReport {
+    fn premise(&self, id: PropertyId, claim: &Claim) -> Option<PropertyReport> {
+        claim.premise.map(|premise| PropertyReport {
             id: format!("{id}-premise"),
             kind: "premise".to_owned(),
             verdict: CheckVerdict::of_premise(self.model.premise_met(id), self.cut_off),
@@ -384,7 +377,7 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
             robots.join(", ")
         ));
     }
-    if scenario.properties.iter().any(|id| id.kind() == Kind::L) {
+    if scenario.properties.iter().any(|id| id.is_of_runs()) {
         assumptions.push(
             "L: weakly fair: an armed timer expires at some time, unless it is stopped or restarted \
              again and again; a message on air is delivered, lost or delayed at some time"
@@ -412,44 +405,24 @@ fn receivers(scenario: &Scenario) -> String {
     format!("of the receivers of one message that is not delayed, {order}")
 }
 
-// stateright wants a plain function for each property; these are them.
-
+/// Whether a state keeps the property of this number. stateright wants a plain function for each.
 pub(crate) fn holds<const N: usize>(model: &Model, state: &ModelState) -> bool {
     let id = PropertyId::ALL[N];
     !Model::breaks(state, id) && model.state_rule_holds(state, id)
 }
 
-/// One such function for each property, in the order of [`PropertyId::ALL`].
-macro_rules! for_each_property {
-    ($f:ident) => {
-        for_each_property!($f: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28)
-    };
-    ($f:ident: $($n:literal)*) => {
-        [$($f::<$n>),*]
-    };
-}
-pub(crate) use for_each_property;
-
 const HOLDS: [fn(&Model, &ModelState) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);
-
-/// Their names, which stateright wants to be static.
-const NAMES: [&str; PropertyId::ALL.len()] = [
-    "I1", "I2", "I3", "I4", "I5", "I6", "I7", "I8", "I9", "I11", "I12", "I13", "I14", "I15", "I16",
-    "I17", "I18", "L1", "L2", "L3", "L4", "L5", "L6", "L7", "W1", "W2", "W3", "W4", "W7",
-];
 
 /// The properties of a scenario that stateright can check, each with its condition from `conditions`.
 pub(crate) fn checked_properties<M: stateright::Model>(
     scenario: &Scenario,
     conditions: &[fn(&M, &M::State) -> bool; PropertyId::ALL.len()],
 ) -> Vec<Property<M>> {
-    let by_state_or_step = |id: &&PropertyId| {
-        id.state_rule().is_some() || id.step_rule().is_some() || **id == PropertyId::W1
-    };
-    let ids = scenario.properties.iter().filter(by_state_or_step);
-    ids.map(|&id| Property {
+    let ids = scenario.properties.iter().copied();
+    let ids = ids.filter(|id| id.is_of_states_or_steps());
+    ids.map(|id| Property {
         expectation: Expectation::Always,
-        name: NAMES[id as usize],
+        name: id.name(),
         condition: conditions[id as usize],
     })
     .collect()
@@ -481,17 +454,5 @@ impl stateright::Model for Model {
 
     fn format_action(&self, action: &Action) -> String {
         label(self, *action)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_property_has_its_name_at_its_place() {
-        for id in PropertyId::ALL {
-            assert_eq!(NAMES[id as usize], id.to_string());
-        }
     }
 }

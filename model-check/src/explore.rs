@@ -7,9 +7,9 @@ use std::net::{SocketAddr, TcpListener};
 
 use stateright::{Model as _, Path, Property};
 
-use crate::check::{chart, checked_properties, for_each_property, holds, label, names};
+use crate::check::{chart, checked_properties, holds, label, names};
 use crate::model::{Action, Model, ModelState};
-use crate::properties::PropertyId;
+use crate::properties::{PropertyId, for_each_property};
 use crate::scenario::Scenario;
 use crate::sequence::Chart;
 

@@ -12,37 +12,36 @@ use crossguard_protocol::{Config, Input, Maneuver, Outputs, Robot, SessionId, St
 
 use crate::history::History;
 use crate::node::Node;
-use crate::properties::{PropertyId, StepView, Surroundings, View};
-use crate::road::{Pedestrian, w1_guards_in_place};
+use crate::properties::i10_lease::has_lease_on_lost;
+use crate::properties::{PropertyId, StateRule, StepView, Surroundings, View};
+use crate::road::Pedestrian;
 use crate::steps::judge;
-use crate::timed::{TimedProperty, has_lease_on_lost};
 
 /// A property that a run breaks.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Broken {
-    /// One of all runs.
-    Untimed(PropertyId),
-    /// One of runs whose clocks are those of the robots.
-    Timed(TimedProperty),
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Violation {
+    id: PropertyId,
+    statement: &'static str,
 }
 
-impl Broken {
+impl Violation {
+    /// Of what the property says.
+    #[must_use]
+    pub fn of(id: PropertyId) -> Self {
+        let statement = id.statement();
+        Self { id, statement }
+    }
+
     /// The property's id.
     #[must_use]
     pub fn name(self) -> String {
-        match self {
-            Self::Untimed(id) => id.to_string(),
-            Self::Timed(id) => id.name().to_owned(),
-        }
+        self.id.to_string()
     }
 
     /// What the property says.
     #[must_use]
     pub const fn statement(self) -> &'static str {
-        match self {
-            Self::Untimed(id) => id.statement(),
-            Self::Timed(id) => id.statement(),
-        }
+        self.statement
     }
 }
 
@@ -170,7 +169,7 @@ impl Monitor {
         input: Input,
         outputs: &Outputs,
         after: &Robot,
-    ) -> Option<Broken> {
+    ) -> Option<Violation> {
         let seat = &mut self.seats.0[place];
         let next = seat.node.observed(input, outputs, after.clone());
         let before = std::mem::replace(&mut seat.node, next);
@@ -189,7 +188,10 @@ impl Monitor {
         let (premises, broken) = judge(&PropertyId::ALL, &view, false);
         self.premises |= premises;
         let has_strangers = self.has_strangers;
-        let judged = |id: &PropertyId| broken & id.bit() != 0 && !(has_strangers && is_of_two(*id));
+        let judged = |id: &PropertyId| {
+            let is_open = has_strangers && id.step_rule().is_some_and(|rule| rule.of_two);
+            broken & id.bit() != 0 && !is_open
+        };
         let mut first = PropertyId::ALL.into_iter().find(judged);
         if view.is_historic()
             && let (Some(from), Some(to)) = (&before.robot, &seat.node.robot)
@@ -203,25 +205,31 @@ impl Monitor {
             let seats = self.seats.0.iter().filter(|seat| !seat.is_hung);
             self.is_timed && has_lease_on_lost(&seats.filter_map(|seat| seat.node.robot.as_ref()))
         };
-        match first {
-            Some(id) => Some(Broken::Untimed(id)),
-            None => late().then_some(Broken::Timed(TimedProperty::I10)),
-        }
+        first
+            .or_else(|| late().then_some(PropertyId::I10))
+            .map(Violation::of)
     }
 
     /// Somebody steps on the road at the sign of a session, whose crossing requires so many guards. The
     /// property that this breaks.
-    pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<Broken> {
+    pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<Violation> {
         let nodes: Vec<&Node> = self.seats.0.iter().map(|seat| &seat.node).collect();
         let view = View {
             nodes: &nodes,
             history: &self.history,
             world: &self.seats,
         };
-        let are_there = self.has_strangers || w1_guards_in_place::holds(&view, session, required);
-        self.premises |= PropertyId::W1.bit();
+        let mut broken = None;
+        for id in PropertyId::ALL {
+            if let Some(holds) = id.keeps_guards(&view, session, required) {
+                self.premises |= id.bit();
+                if !holds && !self.has_strangers {
+                    broken = Some(Violation::of(id));
+                }
+            }
+        }
         self.on_road.push(session);
-        (!are_there).then_some(Broken::Untimed(PropertyId::W1))
+        broken
     }
 
     /// A person who stepped on the road at the sign of this session is across.
@@ -250,8 +258,8 @@ impl Monitor {
         };
         let mut premises = self.premises;
         let broken = PropertyId::ALL.into_iter().find(|id| {
-            let is_open = self.has_strangers && is_of_two(*id);
-            let rule = id.state_rule().filter(|_| !is_open);
+            let is_open = |rule: &StateRule| self.has_strangers && rule.of_two;
+            let rule = id.state_rule().filter(|rule| !is_open(rule));
             rule.is_some_and(|rule| {
                 if premises & id.bit() == 0 && (rule.premise)(&view) {
                     premises |= id.bit();
@@ -278,14 +286,6 @@ impl Monitor {
         let ids = PropertyId::ALL.into_iter();
         ids.filter(move |id| met & id.bit() != 0)
     }
-}
-
-/// Whether a property speaks of what two robots know of each other's past.
-const fn is_of_two(id: PropertyId) -> bool {
-    matches!(
-        id,
-        PropertyId::I2 | PropertyId::I3 | PropertyId::I6 | PropertyId::I8
-    )
 }
 
 #[cfg(test)]
@@ -316,7 +316,7 @@ mod tests {
         let is_lock = |output: &&Output| matches!(output, Output::LockIdentity);
         let forgetful: Outputs = outputs.iter().filter(|o| !is_lock(o)).copied().collect();
         let broken = monitor.step(place, request(), &forgetful, &robot);
-        assert_eq!(broken, Some(Broken::Untimed(PropertyId::I18)));
+        assert_eq!(broken, Some(Violation::of(PropertyId::I18)));
     }
 
     #[test]
@@ -336,7 +336,7 @@ mod tests {
         // It follows out of nothing: nobody has confirmed it.
         let idle = Input::Elapsed(crossguard_protocol::Millis(1));
         let broken = monitor.step(place, idle, &Outputs::default(), &robot);
-        assert_eq!(broken, Some(Broken::Untimed(PropertyId::I2)));
+        assert_eq!(broken, Some(Violation::of(PropertyId::I2)));
     }
 
     /// Takes `robot` to a role in the session of `requester`.

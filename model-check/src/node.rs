@@ -172,6 +172,29 @@ impl Node {
             .is_none_or(|robot| matches!(robot.phase(), Phase::Idle))
     }
 
+    /// Whether the robot asks for help.
+    #[must_use]
+    pub fn is_requesting(&self) -> bool {
+        let robot = self.robot.as_ref();
+        robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
+    }
+
+    /// Whether the robot follows.
+    #[must_use]
+    pub fn is_following(&self) -> bool {
+        let robot = self.robot.as_ref();
+        robot.is_some_and(|robot| matches!(robot.phase(), Phase::Following(_)))
+    }
+
+    /// Whether the robot follows and has lost contact with its leader.
+    #[must_use]
+    pub fn has_lost_contact(&self) -> bool {
+        let robot = self.robot.as_ref();
+        robot.is_some_and(|robot| {
+            matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost())
+        })
+    }
+
     /// Whether what the body does is what the protocol state says.
     #[must_use]
     pub fn actuation_agrees(&self) -> bool {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::check::{chart, placed};
 use crate::model::{Action, Model, ModelState};
-use crate::properties::{Kind, PropertyId};
+use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
 use crate::sequence::ChartStep;
 
@@ -58,7 +58,10 @@ impl Replay {
     /// speaks about all that may follow. A run of a timed scenario is followed by its chart only.
     #[must_use]
     pub fn of(report: &ScenarioReport, property: &PropertyReport) -> Option<Self> {
-        let is_run = !property.counterexample.is_empty() && property.id != "L7";
+        let id = property.id.parse::<PropertyId>().ok();
+        let claim = id.and_then(PropertyId::untimed);
+        let is_run =
+            !property.counterexample.is_empty() && claim.is_none_or(Claim::is_shown_by_run);
         let is_run = is_run && report.figures.is_empty();
         is_run.then(|| Self {
             scenario: report.name.clone(),
@@ -73,7 +76,7 @@ impl Replay {
     #[must_use]
     pub fn is_broken(&self, followed: &Followed) -> bool {
         match (followed, self.property.parse::<PropertyId>()) {
-            (Followed::ToTheEnd(broken), Ok(id)) => id.kind() == Kind::L || broken.contains(&id),
+            (Followed::ToTheEnd(broken), Ok(id)) => id.is_of_runs() || broken.contains(&id),
             _ => false,
         }
     }

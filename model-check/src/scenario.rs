@@ -20,7 +20,7 @@ pub use setup::{Bounds, ChannelSetup, MAX_ROBOTS, RobotSetup, Size};
 pub use symmetric::Asymmetry;
 
 use crate::network::MAX_DELAYED;
-use crate::properties::PropertyId;
+use crate::properties::{PropertyId, listed};
 use crate::timed::{Timed, TimedImpossibility};
 
 /// How many robots a cooperative scenario may have.
@@ -133,10 +133,8 @@ pub enum Impossibility {
     #[error("station ids {0} and {1} must not differ by a multiple of {PSEUDONYM_STEP}")]
     SamePseudonyms(StationId, StationId),
     /// A property that assumes what the scenario does not.
-    #[error(
-        "L3 and W7 speak about cooperative scenarios only; this one lacks 'cooperative = true'"
-    )]
-    NotCooperative,
+    #[error("{0} speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
+    NotCooperative(PropertyId),
     /// What does not fit a monotone channel.
     #[error(transparent)]
     Monotone(#[from] Misfit),
@@ -144,7 +142,7 @@ pub enum Impossibility {
     #[error(transparent)]
     Asymmetry(#[from] Asymmetry),
     /// An unknown property.
-    #[error("no property '{0}': {list}", list = PropertyId::list())]
+    #[error("no property '{0}': {list}", list = listed(PropertyId::all_untimed()))]
     Property(String),
     /// The protocol's settings contradict each other.
     #[error(transparent)]

@@ -7,8 +7,8 @@ use crossguard_protocol::{Phase, Robot, SessionId, Timer};
 use super::{Action, Delivery, Draft, Model, ModelState, RobotStep, Shared};
 use crate::network::{Network, Transmission, concerns};
 use crate::node::Node;
-use crate::properties::{PropertyId, StepView, View};
-use crate::road::{Body, Pedestrian, w1_guards_in_place};
+use crate::properties::StepView;
+use crate::road::{Body, Pedestrian};
 use crate::scenario::Bounds;
 use crate::steps::{Cause, ComputedStep, judge_historic};
 
@@ -133,17 +133,20 @@ impl Model {
         Some((self.ranked(next), step))
     }
 
-    /// The session at whose sign somebody steps on the road. Judges W1.
+    /// The session at whose sign somebody steps on the road. Judges whether the guards are in place.
     fn step_on_road(&self, next: &mut ModelState, i: usize) -> Option<SessionId> {
         let node = self.0.steps.nodes.value(next.nodes[i]);
         let session = node.robot.as_ref()?.session()?;
-        if self.0.scenario.properties.contains(&PropertyId::W1) {
-            let required = usize::from(self.0.scenario.request.followers);
-            let in_place = |view: &View| w1_guards_in_place::holds(view, session, required);
-            if !self.look(next, in_place) {
-                next.broken |= PropertyId::W1.bit();
+        let required = usize::from(self.0.scenario.request.followers);
+        for &property in &self.0.scenario.properties {
+            let keeps_guards =
+                self.look(next, |view| property.keeps_guards(view, session, required));
+            if let Some(holds) = keeps_guards {
+                self.note_premise(property);
+                if !holds {
+                    next.broken |= property.bit();
+                }
             }
-            self.note_premises(PropertyId::W1.bit());
         }
         Some(session)
     }

@@ -4,12 +4,25 @@
 
 use crossguard_protocol::{Member, Phase};
 
-use super::{LivenessRule, LivenessSubject, LivenessSubjects, View, leading_of};
+use super::property::{Claim, Kind, LivenessRule, Property, Rule};
+use super::view::{LivenessSubject, LivenessSubjects, View, leading_of};
 
-pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: LivenessSubjects::Robots,
-    from: asks,
-    to: has_completed,
+pub(super) const PROPERTY: Property = Property {
+    id: "L3",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "if everything around the robots cooperates, a request leads to a completed task",
+        premise: Some("a robot asks for help"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Robots,
+            from: asks,
+            to: has_completed,
+            needs_cooperation: true,
+            broken_by_old_requests: false,
+        }),
+        weakening: "ReadsNoProgress",
+    }),
+    timed: None,
 };
 
 fn asks(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {

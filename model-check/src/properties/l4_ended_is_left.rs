@@ -2,12 +2,25 @@
 //!
 //! A follower has no way out of its session but to `Idle`, so what is to be shown is that it leaves.
 
-use super::{LivenessRule, LivenessSubject, LivenessSubjects, View, following_of};
+use super::property::{Claim, Kind, LivenessRule, Property, Rule};
+use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
 
-pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: LivenessSubjects::Robots,
-    from: is_orphaned,
-    to: |view, subject| !is_orphaned(view, subject),
+pub(super) const PROPERTY: Property = Property {
+    id: "L4",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "the end of a session leads to every former member being idle",
+        premise: Some("a robot follows in a session that no robot leads"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Robots,
+            from: is_orphaned,
+            to: |view, subject| !is_orphaned(view, subject),
+            needs_cooperation: false,
+            broken_by_old_requests: false,
+        }),
+        weakening: "FollowersWaitForEver",
+    }),
+    timed: None,
 };
 
 /// Whether the robot follows in a session that nobody leads any more.

@@ -5,12 +5,25 @@
 
 use crossguard_protocol::Phase;
 
-use super::{LivenessRule, LivenessSubject, LivenessSubjects, View};
+use super::property::{Claim, Kind, LivenessRule, Property, Rule};
+use super::view::{LivenessSubject, LivenessSubjects, View};
 
-pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: LivenessSubjects::Pairs,
-    from: both_claim,
-    to: |view, subject| !both_claim(view, subject),
+pub(super) const PROPERTY: Property = Property {
+    id: "L6",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "two robots that ask or lead at one place do not both do so for ever",
+        premise: Some("two robots ask or lead"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Pairs,
+            from: both_claim,
+            to: |view, subject| !both_claim(view, subject),
+            needs_cooperation: false,
+            broken_by_old_requests: true,
+        }),
+        weakening: "InsistsOnItsRequest",
+    }),
+    timed: None,
 };
 
 fn both_claim(view: &View, LivenessSubject { robot, other }: LivenessSubject) -> bool {

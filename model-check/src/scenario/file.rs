@@ -14,7 +14,7 @@ use super::{
 };
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
-use crate::timed::{Section, TimedImpossibility, TimedProperty};
+use crate::timed::{Section, TimedImpossibility};
 
 /// The file's form of a scenario.
 #[derive(Deserialize)]
@@ -157,17 +157,30 @@ impl File {
                 return Err(at(Location::Key("cooperative"), cause));
             }
             checked.properties = all_named(&self.properties, |name| {
+                let id = name
+                    .parse()
+                    .ok()
+                    .filter(|id: &PropertyId| id.timed().is_some());
                 let unknown = || TimedImpossibility::Property(name.to_owned());
-                TimedProperty::named(name).ok_or_else(|| unknown().into())
+                id.ok_or_else(|| unknown().into())
             })?;
             timed = Some(checked);
         }
         let properties = match timed {
             Some(_) => Vec::new(),
-            None => all_named(&self.properties, |name| match name.parse() {
-                Ok(PropertyId::L3 | PropertyId::W7) if !self.cooperative => Err(I::NotCooperative),
-                Ok(property) => Ok(property),
-                Err(()) => Err(I::Property(name.to_owned())),
+            None => all_named(&self.properties, |name| {
+                let id = name
+                    .parse()
+                    .ok()
+                    .filter(|id: &PropertyId| id.untimed().is_some());
+                let id = id.ok_or_else(|| I::Property(name.to_owned()))?;
+                let needs_cooperation = id
+                    .liveness_rule()
+                    .is_some_and(|rule| rule.needs_cooperation);
+                if needs_cooperation && !self.cooperative {
+                    return Err(I::NotCooperative(id));
+                }
+                Ok(id)
             })?,
         };
         Ok(Scenario {

@@ -73,7 +73,10 @@ pub(super) fn check(
         return Err((Location::Key("cooperative"), Misfit::Cooperative));
     }
     for name in properties {
-        if let Ok(id @ PropertyId::L6) = name.get_ref().parse() {
+        if let Ok(id) = name.get_ref().parse::<PropertyId>()
+            && let Some(rule) = id.liveness_rule()
+            && rule.broken_by_old_requests
+        {
             return Err((Location::Offset(name.span().start), Misfit::Property(id)));
         }
     }

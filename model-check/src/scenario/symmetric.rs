@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use super::location::Location;
 use super::setup::{Bounds, RobotSetup};
-use crate::properties::{Kind, PropertyId};
+use crate::properties::PropertyId;
 
 /// What is wrong with the symmetry that a scenario claims.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -98,7 +98,7 @@ impl SymmetryClaim<'_> {
         }
         for name in self.properties {
             if let Ok(id) = name.get_ref().parse::<PropertyId>()
-                && id.kind() == Kind::L
+                && id.is_of_runs()
             {
                 return Err((Location::Offset(name.span().start), Asymmetry::Fairness(id)));
             }

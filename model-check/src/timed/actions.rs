@@ -5,7 +5,6 @@ use crossguard_protocol::{Corridor, Event, Member, Millis, Phase};
 
 use super::channel::Flight;
 use super::model::TimedModel;
-use super::rules;
 use super::section::Looks;
 use super::state::{TimedAction, TimedState};
 use super::watch::StopWatch;
@@ -13,7 +12,7 @@ use super::watch::StopWatch;
 impl TimedModel {
     /// Everything that may happen in `state`.
     pub fn actions_in(&self, state: &TimedState, actions: &mut Vec<TimedAction>) {
-        if rules::is_over(self, state) {
+        if self.is_over(state) {
             return;
         }
         for &leader in self.timed.teams.leaders() {

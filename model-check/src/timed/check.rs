@@ -5,15 +5,15 @@ use std::time::Instant;
 use crossguard_protocol::Outputs;
 
 use super::explore::Explored;
+use super::measure::Longest;
 use super::model::TimedModel;
-use super::rules::TimedProperty;
 use super::section::{Looks, Rates};
 use super::state::{TimedAction, TimedCause, TimedState};
-use super::watch::Longest;
 use crate::check::names;
 use crate::cost::Meter;
 use crate::exploration::{CheckProgress, Options};
 use crate::network::Transmission;
+use crate::properties::{Claim, PropertyId};
 use crate::report::{CheckVerdict, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep, Fate};
@@ -50,7 +50,13 @@ pub fn check(
             .filter(|_| exhaustive)
             .map(|expected| expected == size),
         properties: properties
-            .flat_map(|&id| [Some(rule(model, &explored, id)), premise(&explored, id)])
+            .filter_map(|&id| Some((id, id.timed()?)))
+            .flat_map(|(id, claim)| {
+                [
+                    Some(rule(model, &explored, id, claim)),
+                    premise(&explored, id, claim),
+                ]
+            })
             .flatten()
             .collect(),
         figures: explored.longest.figures(timed, model.limits()),
@@ -61,21 +67,21 @@ pub fn check(
     }
 }
 
-fn rule(model: &TimedModel, explored: &Explored, id: TimedProperty) -> PropertyReport {
+fn rule(model: &TimedModel, explored: &Explored, id: PropertyId, claim: &Claim) -> PropertyReport {
     let path = explored.path_to_broken(id);
     PropertyReport {
         id: id.name().to_owned(),
-        kind: id.kind().to_owned(),
+        kind: claim.kind.name().to_owned(),
         verdict: CheckVerdict::of_property(path.is_some(), explored.cut_off),
-        statement: id.statement().to_owned(),
+        statement: claim.statement.to_owned(),
         counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
         repeats_after: None,
     }
 }
 
-fn premise(explored: &Explored, id: TimedProperty) -> Option<PropertyReport> {
-    id.premise().map(|premise| PropertyReport {
-        id: format!("{}-premise", id.name()),
+fn premise(explored: &Explored, id: PropertyId, claim: &Claim) -> Option<PropertyReport> {
+    claim.premise.map(|premise| PropertyReport {
+        id: format!("{id}-premise"),
         kind: "premise".to_owned(),
         verdict: CheckVerdict::of_premise(explored.premises.met(id), explored.cut_off),
         statement: premise.to_owned(),

@@ -4,11 +4,14 @@ use std::collections::{HashMap, VecDeque};
 
 use rustc_hash::FxBuildHasher;
 
+use super::measure::Longest;
 use super::model::TimedModel;
-use super::rules::{Premises, TimedProperty};
+use super::premises::Premises;
 use super::state::{TimedAction, TimedState};
-use super::watch::Longest;
+
 use crate::exploration::{CheckProgress, ExplorationLimits};
+use crate::properties::PropertyId;
+use crate::properties::timed_view::{RobotSteps, TimedStepView};
 use crate::report::CutOff;
 
 /// What an exploration found.
@@ -20,8 +23,8 @@ pub(super) struct Explored {
     pub(super) premises: Premises,
     /// For each state the one through which it was first reached, and by which of its actions.
     parents: Vec<(u32, u16)>,
-    /// For each property, in the order of [`TimedProperty::ALL`], the first state that breaks it.
-    broken: [Option<u32>; TimedProperty::ALL.len()],
+    /// For each property, in the order of [`PropertyId::ALL`], the first state that breaks it.
+    broken: [Option<u32>; PropertyId::ALL.len()],
     /// Transitions in which no time passes.
     instant: Vec<(u32, u32)>,
 }
@@ -33,7 +36,7 @@ impl Explored {
         limits: &ExplorationLimits,
         watch: &mut dyn FnMut(CheckProgress),
     ) -> Self {
-        let mut explored = Self::new();
+        let mut explored = Self::new(Premises::of(&model.timed().properties));
         let mut numbers: HashMap<TimedState, u32, FxBuildHasher> = HashMap::default();
         let mut waiting = VecDeque::new();
         explored.add(model, model.initial(), (0, 0), &mut numbers, &mut waiting);
@@ -58,7 +61,10 @@ impl Explored {
                 let Some(next) = model.successor(&state, action, &mut explored.longest) else {
                     continue;
                 };
-                explored.premises.note_step(model, &state, &next);
+                if !explored.premises.are_met() {
+                    let note = |step: &TimedStepView<'_>| explored.premises.note_step(step);
+                    model.look_at_step(&state, &next, RobotSteps::NONE, note);
+                }
                 let to = match numbers.get(&next) {
                     Some(&known) => known,
                     None if limits.states_reached(numbers.len()) => {
@@ -74,7 +80,7 @@ impl Explored {
                 }
             }
             if stuck {
-                explored.broken[TimedProperty::I12 as usize].get_or_insert(from);
+                explored.broken[PropertyId::I12 as usize].get_or_insert(from);
             }
             at += 1;
         }
@@ -83,15 +89,15 @@ impl Explored {
         explored
     }
 
-    fn new() -> Self {
+    fn new(premises: Premises) -> Self {
         Self {
             transitions: 0,
             depth: 0,
             cut_off: None,
             longest: Longest::default(),
-            premises: Premises::default(),
+            premises,
             parents: Vec::new(),
-            broken: [None; TimedProperty::ALL.len()],
+            broken: [None; PropertyId::ALL.len()],
             instant: Vec::new(),
         }
     }
@@ -106,8 +112,10 @@ impl Explored {
     ) -> u32 {
         let fresh = number(numbers.len());
         self.parents.push(parent);
-        self.premises.note(model, &state);
-        for property in TimedProperty::ALL {
+        if !self.premises.are_met() {
+            model.look(&state, |state| self.premises.note(state));
+        }
+        for property in PropertyId::ALL {
             if state.broken.has(property) {
                 self.broken[property as usize].get_or_insert(fresh);
             }
@@ -152,7 +160,7 @@ impl Explored {
             }
         }
         if let Some(held) = incoming.iter().position(|&left| left > 0) {
-            self.broken[TimedProperty::I12 as usize].get_or_insert(number(held));
+            self.broken[PropertyId::I12 as usize].get_or_insert(number(held));
         }
     }
 
@@ -161,7 +169,7 @@ impl Explored {
     }
 
     /// The actions of a shortest run to a state that breaks a property, if one does.
-    pub(super) fn path_to_broken(&self, property: TimedProperty) -> Option<Vec<u16>> {
+    pub(super) fn path_to_broken(&self, property: PropertyId) -> Option<Vec<u16>> {
         let mut at = self.broken[property as usize]?;
         let mut path = Vec::new();
         while at != 0 {

@@ -6,7 +6,7 @@
 //!                                            │
 //!             state, what may happen in it (actions), what comes of it (successor)
 //!                                            │
-//!                       rules, watch ◄── explore ──► check ──► report, figures in ms
+//!          properties ◄── judge, measure ◄── explore ──► check ──► report, figures in ms
 //! ```
 //!
 //! The untimed model ([`model`](crate::model)) lets any armed timer expire at any moment, so it says
@@ -59,28 +59,34 @@
 //! - *Heartbeats* are counted from the oldest that occurs in a state, which keeps their distances.
 
 mod actions;
+mod broken;
 mod channel;
 mod check;
-mod clock;
+pub(crate) mod clock;
 mod explore;
-mod limits;
+mod judge;
+pub(crate) mod limits;
+mod measure;
 mod model;
+mod premises;
 mod quiet;
-mod rules;
 mod section;
 mod sign;
 mod state;
 mod successor;
-mod told;
-mod watch;
+pub(crate) mod teams;
+pub(crate) mod told;
+pub(crate) mod watch;
 
 pub use channel::Flight;
 pub use check::check;
 pub use clock::{Clock, longest};
 pub use limits::Limits;
+pub use measure::Figure;
 pub use model::TimedModel;
-pub use rules::{TimedProperty, has_lease_on_lost, leases};
 pub(crate) use section::Section;
 pub use section::{Looks, Rates, Timed, TimedImpossibility};
 pub use state::{TimedAction, TimedState};
-pub use watch::{Figure, StopWatch};
+pub use watch::StopWatch;
+
+pub use crate::properties::i10_lease::{has_lease_on_lost, leases};

@@ -23,20 +23,22 @@ use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
-use super::Timed;
+use super::broken::BrokenSet;
 use super::channel::TimedChannel;
 use super::limits::Limits;
 use super::quiet::ContactChange;
-use super::rules::{Broken, TimedProperty};
-use super::section::MAX_TEAMS;
+use super::section::Timed;
 use super::sign::Sign;
 use super::state::{TimedCause, TimedState};
+use super::teams::MAX_TEAMS;
 use super::told::{Telling, Told};
 use super::watch::StopWatch;
 use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
 use crate::intern::Interner;
 use crate::network::Message;
 use crate::node::{Node, Protocol, Rules};
+use crate::properties::PropertyId;
+use crate::properties::timed_view::RobotSteps;
 use crate::scenario::{MAX_ROBOTS, Scenario};
 
 /// What comes of a robot's step.
@@ -126,15 +128,18 @@ impl TimedModel {
             rates: None,
             signs: [Sign::Stop; MAX_TEAMS],
             unguarded: [None; MAX_TEAMS],
-            waiting: self.timed.claims(TimedProperty::W8).then_some(0),
+            waiting: self.timed.claims(PropertyId::W8).then_some(0),
             told: Told::NOTHING,
             quiet: [None; MAX_ROBOTS],
-            broken: Broken::NOTHING,
+            broken: BrokenSet::NOTHING,
         };
+        let mut robots = RobotSteps::NONE;
         for &leader in self.timed.teams.leaders() {
             let detected = Event::PedestrianDetected(self.scenario.request_of(leader.into()));
-            let _ = self.robot_step(&mut state, leader, TimedCause::Event(detected));
+            let cause = TimedCause::Event(detected);
+            let _ = self.robot_step(&mut state, leader, cause, &mut robots);
         }
+        state.broken = self.judge(&state, &state, robots);
         self.canonicalize(&mut state);
         state
     }

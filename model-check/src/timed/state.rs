@@ -2,14 +2,14 @@
 
 use crossguard_protocol::{Event, Millis};
 
+use super::broken::BrokenSet;
 use super::channel::{Flight, TimedChannel};
 use super::quiet::Quiet;
-use super::rules::Broken;
-use super::section::MAX_TEAMS;
 use super::sign::Sign;
+use super::teams::MAX_TEAMS;
 use super::told::Told;
 use super::watch::StopWatch;
-use crate::scenario::{Bounds, MAX_ROBOTS};
+use crate::scenario::setup::{Bounds, MAX_ROBOTS};
 
 /// A global state between two ticks.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -35,14 +35,10 @@ pub struct TimedState {
     /// For how long each robot has heard no news of its leader.
     pub(super) quiet: [Option<Quiet>; MAX_ROBOTS],
     /// What the step into this state broke.
-    pub(super) broken: Broken,
+    pub(super) broken: BrokenSet,
 }
 
 impl TimedState {
-    pub(super) const fn watch(&self) -> StopWatch {
-        self.watch
-    }
-
     /// Whether the sign of a team shows go.
     pub(super) const fn shows_go(&self, team: usize) -> bool {
         self.signs[team].shows_go()

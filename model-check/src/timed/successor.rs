@@ -3,15 +3,18 @@
 use crossguard_protocol::{Event, Millis, Outputs};
 use smallvec::SmallVec;
 
+use super::broken::BrokenSet;
+use super::measure::{Longest, Measure};
 use super::model::{TimedModel, TimedRobotStep};
 use super::quiet::Quiet;
-use super::rules::{self, Broken, TimedProperty};
-use super::section::{Looks, MAX_TEAMS, Rates};
+use super::section::{Looks, Rates};
 use super::sign::Sign;
 use super::state::{TimedAction, TimedCause, TimedState};
+use super::teams::MAX_TEAMS;
 use super::told::{Reason, Told};
-use super::watch::{Longest, Measure, StopWatch};
+use super::watch::StopWatch;
 use crate::network::{Transmission, concerns};
+use crate::properties::timed_view::{RobotSteps, falls_back};
 use crate::scenario::MAX_ROBOTS;
 
 impl TimedModel {
@@ -24,7 +27,7 @@ impl TimedModel {
         longest: &mut Longest,
     ) -> Option<TimedState> {
         let mut next = state.clone();
-        next.broken = Broken::NOTHING;
+        next.broken = BrokenSet::NOTHING;
         let taken_in = self.taken_in(state, action);
         match action {
             TimedAction::Tick(fast) => self.tick(&mut next, fast),
@@ -42,11 +45,12 @@ impl TimedModel {
             TimedAction::Look(_) | TimedAction::GoOn(_) => {}
         }
         let (mut is_ignored, mut reason) = (false, Reason::None);
+        let mut robots = RobotSteps::NONE;
         for (i, cause) in taken_in {
             if matches!(cause, TimedCause::Elapsed(_)) {
                 next.untold[usize::from(i)] = Millis::ZERO;
             }
-            if let Some(taken) = self.robot_step(&mut next, i, cause) {
+            if let Some(taken) = self.robot_step(&mut next, i, cause, &mut robots) {
                 is_ignored = taken.is_ignored;
                 reason = reason.max(taken.telling.reason);
             } else {
@@ -68,7 +72,7 @@ impl TimedModel {
         if matches!(action, TimedAction::GoOn(_)) {
             next.watch = StopWatch::Off;
         }
-        next.broken.add(rules::broken(self, state, &next));
+        next.broken = self.judge(state, &next, robots);
         self.canonicalize(&mut next);
         Some(next)
     }
@@ -164,7 +168,10 @@ impl TimedModel {
         match next.watch {
             StopWatch::Off | StopWatch::Apart | StopWatch::Near => {}
             StopWatch::Request(ticks) => {
-                if !rules::is_requesting(self.node(next, self.timed.teams.leaders()[0])) {
+                if !self
+                    .node(next, self.timed.teams.leaders()[0])
+                    .is_requesting()
+                {
                     longest.note(Measure::Roles, ticks);
                     next.watch = StopWatch::Off;
                 }
@@ -175,7 +182,7 @@ impl TimedModel {
                 {
                     longest.note(Measure::Stopped, ticks);
                 }
-                if robots().any(|(b, n)| rules::is_following(b) && !rules::is_following(n)) {
+                if robots().any(|(b, n)| b.is_following() && !n.is_following()) {
                     longest.note(Measure::Left, ticks);
                 }
             }
@@ -210,7 +217,7 @@ impl TimedModel {
     fn measure_unguarded(&self, before: &TimedState, next: &mut TimedState, longest: &mut Longest) {
         let mut fallen = [false; MAX_TEAMS];
         for (place, (before, next)) in (0..).zip(self.nodes(before).zip(self.nodes(next))) {
-            fallen[self.timed.teams.team_of(place)] |= rules::falls_back(before, next);
+            fallen[self.timed.teams.team_of(place)] |= falls_back(before, next);
         }
         for (team, fallen) in fallen.into_iter().enumerate() {
             if fallen {
@@ -254,6 +261,7 @@ impl TimedModel {
         next: &mut TimedState,
         i: u8,
         cause: TimedCause,
+        robots: &mut RobotSteps,
     ) -> Option<TimedRobotStep> {
         let place = usize::from(i);
         let step = self.step(next.nodes[place], cause)?;
@@ -268,12 +276,8 @@ impl TimedModel {
         };
         let (quiet, keeps) = Quiet::after(next.quiet[place], elapsed, step.contact);
         next.quiet[place] = quiet;
-        if !keeps {
-            next.broken.add(Broken::of(TimedProperty::I19));
-        }
-        if !step.is_valid {
-            next.broken.add(Broken::INVALID);
-        }
+        robots.keep_contact &= keeps;
+        robots.are_valid &= step.is_valid;
         self.send(next, i, &step.sends);
         Some(step)
     }
@@ -310,7 +314,7 @@ impl TimedModel {
             if let Some((_, outputs)) = self.compute(at.nodes[usize::from(i)], cause) {
                 put_out.push((i, cause, outputs));
             }
-            let _ = self.robot_step(&mut at, i, cause);
+            let _ = self.robot_step(&mut at, i, cause, &mut RobotSteps::NONE.clone());
         }
         put_out
     }

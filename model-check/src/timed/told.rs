@@ -6,7 +6,7 @@ use crossguard_protocol::{Notice, Output, Outputs, StationId};
 /// Of which followers the application was told that their leases stand, and of which that they do what they
 /// were commanded to: one bit per place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Told {
+pub(crate) struct Told {
     leases: u8,
     works: u8,
 }
@@ -18,7 +18,7 @@ impl Told {
     };
 
     /// Whether the application counts on the follower at `place` as a guard.
-    pub(super) const fn counts_on(self, place: u8) -> bool {
+    pub(crate) const fn counts_on(self, place: u8) -> bool {
         self.leases & self.works & 1 << place != 0
     }
 }

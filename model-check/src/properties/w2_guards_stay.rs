@@ -6,13 +6,26 @@
 
 use crossguard_protocol::{FallbackPolicy, ManeuverId, Output, StopReason, TaskType};
 
-use crate::properties::{StepRule, StepView};
 use crate::road::Body;
 
-pub(crate) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: true,
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::StepView;
+
+pub(super) const PROPERTY: Property = Property {
+    id: "W2",
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "while a pedestrian is on the road, every guard that is able to stay does",
+        premise: Some("a guard's maneuver ends while a pedestrian is on the road"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: true,
+            of_two: false,
+        }),
+        weakening: "StopsInPlace",
+    }),
+    timed: None,
 };
 
 /// The maneuver by which the body guards who is on the road, also while it falls back.

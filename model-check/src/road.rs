@@ -1,4 +1,8 @@
-//! Bodies, what a leader has heard of another one, and the pedestrian.
+//! What is true on the road, whatever the robots believe: bodies, signs and a pedestrian. The properties W1 to W8
+//! are about them.
+//!
+//! Nothing here asks a robot's state what is so. A body observes the outputs of its robot and moves by its
+//! own actions; the pedestrian looks at signs and at nothing else.
 //!
 //! An application is truthful. It says that its body is in position when it is; that a maneuver which guards
 //! is finished, that the road is clear and that the task is done only when nobody is on the road. To be in
