@@ -4,6 +4,7 @@
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::export::{GraphFormat, export};
 use crossguard_model_check::model::Model;
+use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CheckVerdict, CutOff};
 use crossguard_model_check::scenario::Scenario;
 
@@ -65,7 +66,14 @@ fn together_the_scenarios_check_every_property() {
         .collect();
     checked.sort_unstable();
     checked.dedup();
-    assert_eq!(checked, crossguard_model_check::properties::PropertyId::ALL);
+    assert!(PropertyId::all_untimed().eq(checked));
+    let mut timed: Vec<_> = Scenario::shipped()
+        .filter_map(|name| Scenario::load(name).unwrap().timed)
+        .flat_map(|timed| timed.properties)
+        .collect();
+    timed.sort_unstable();
+    timed.dedup();
+    assert!(PropertyId::all_timed().eq(timed));
 }
 
 #[test]

@@ -120,17 +120,25 @@ fn an_offer_whose_safety_timer_is_shorter_than_the_lease_allows_is_not_taken() {
     );
 }
 
+/// A follower waits longer for its leader than the team's settings say.
+fn follows_too_long() -> Misconfigured {
+    Misconfigured::new(2, |settings| settings.t_safety = Millis(300))
+}
+
 #[test]
 fn a_safety_timer_that_is_too_long_stops_a_follower_too_late() {
-    let follower = Misconfigured::new(2, |settings| settings.t_safety = Millis(300));
-    let (violated, _) = violated(pair(&[NO_FOLLOWER_FAILS]), follower);
+    let (violated, _) = violated(pair(&[NO_FOLLOWER_FAILS]), follows_too_long());
     assert_eq!(violated, ["I16", "L5"]);
+}
+
+/// A requester waits longer for help than the team's settings say.
+fn asks_too_long() -> Misconfigured {
+    Misconfigured::new(1, |settings| settings.t_help = Millis(350))
 }
 
 #[test]
 fn a_request_that_stands_too_long_is_noticed() {
-    let leader = Misconfigured::new(1, |settings| settings.t_help = Millis(350));
-    let (violated, _) = violated(sound_pair(), leader);
+    let (violated, _) = violated(sound_pair(), asks_too_long());
     assert_eq!(violated, ["I16", "L1"]);
 }
 
@@ -154,18 +162,18 @@ impl Rules for NeverClosesTheCorridor {
 }
 
 /// Longer than any lease.
-const TOO_LONG: NeverClosesTheCorridor = NeverClosesTheCorridor(Some(Millis(300)));
+const SHOWS_GO_TOO_LONG: NeverClosesTheCorridor = NeverClosesTheCorridor(Some(Millis(300)));
 
 #[test]
 fn a_corridor_that_does_not_close_in_time_is_noticed() {
-    let (violated, _) = violated(pair(&[]), TOO_LONG);
+    let (violated, _) = violated(pair(&[]), SHOWS_GO_TOO_LONG);
     // The sign also shows go when the follower has fallen back.
     assert_eq!(violated, ["I11", "W1"]);
 }
 
 #[test]
 fn a_sign_that_shows_go_after_a_fallback_is_noticed() {
-    let (violated, _) = violated(sound_pair(), TOO_LONG);
+    let (violated, _) = violated(sound_pair(), SHOWS_GO_TOO_LONG);
     assert_eq!(violated, ["W1"]);
 }
 

@@ -6,10 +6,9 @@
 //! Idle on a safety timeout, release by a RAM with `none`. It must fail, and [`check`] shows where.
 //!
 //! ```text
-//!   robot ──► model ──► stateright ──► counterexamples ──┬──► report
-//!               ▲                                        ├──► page (doc/paper-literal.md)
-//!            hazards (P0..P12) ◄── texts                 └──► story (stories/*.json)
-//!            road (W1..W4, W7)
+//!   robot ──► world ──► model ──► stateright ──► counterexamples ──┬──► report
+//!     └─► road ─┘         ▲                           ▲            ├──► page (doc/paper-literal.md)
+//!                       found: P0 to P12, W1 to W4, W7 texts       └──► story (stories/*.json)
 //! ```
 //!
 //! With the road around it, bodies, a sign and a pedestrian, the same model shows what the wording means for
@@ -30,6 +29,7 @@
 //!   by what it executes, either at the pedestrian's side or from a place that it has to reach first;
 //! - only a robot in Idle answers a `needHelp`; no time limit is given for any state.
 
+mod found;
 mod hazards;
 mod model;
 mod page;
@@ -37,20 +37,23 @@ mod road;
 mod robot;
 mod story;
 mod texts;
+mod world;
 
 use std::time::Instant;
 
 use stateright::{Checker, Model as _};
 
-pub use hazards::{Hazard, Text};
+pub use hazards::Hazard;
 pub use page::page;
 pub use story::{Happening, Link, Party, Story, StoryMessage, StoryStep, stories};
+pub use texts::Text;
 
 use crate::cost::Meter;
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::transitions::Transitions;
-use model::{Cast, PaperAction, PaperWorld, Question};
+use model::{Cast, PaperAction, Question};
 use road::{Inquiry, Task};
+use world::PaperWorld;
 
 /// The name of the report.
 pub const NAME: &str = "paper-literal";
@@ -165,14 +168,14 @@ pub fn check() -> ScenarioReport {
 /// Whether the report is that of [`check`]; no scenario can have its properties.
 #[must_use]
 pub fn made(report: &ScenarioReport) -> bool {
-    report.verdict(hazards::HOLDS).is_some()
+    report.verdict(model::HOLDS).is_some()
 }
 
 /// Whether exactly P1 to P12 and the properties of the road are violated in a report of [`check`], as they
 /// must be.
 #[must_use]
 pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
-    let fine = [hazards::HOLDS, hazards::PREMISE].map(|id| report.verdict(id))
+    let fine = [model::HOLDS, model::PREMISE].map(|id| report.verdict(id))
         == [Some(CheckVerdict::Holds), Some(CheckVerdict::Reachable)];
     let hazards = Hazard::ALL.map(|hazard| hazard.text().id);
     let on_road = road::RoadProperty::ALL.map(|property| property.text().id);
@@ -192,13 +195,13 @@ fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport
     };
     vec![
         report(
-            hazards::HOLDS,
+            model::HOLDS,
             "S",
             CheckVerdict::of_property(is_p0_broken, None),
             "a follower starts only what its leader commanded it",
         ),
         report(
-            hazards::PREMISE,
+            model::PREMISE,
             "premise",
             CheckVerdict::of_premise(is_crossing_found, None),
             "a crossing of two maneuvers goes well, and all robots are idle again",
@@ -262,8 +265,8 @@ fn explore(cast: Cast, guards: Option<Task>) -> Exploration {
         // What stateright counts has the initial state in it.
         transitions: checker.state_count() - 1,
         depth: checker.max_depth(),
-        is_p0_broken: checker.discovery(hazards::HOLDS).is_some(),
-        is_crossing_found: checker.discovery(hazards::PREMISE).is_some(),
+        is_p0_broken: checker.discovery(model::HOLDS).is_some(),
+        is_crossing_found: checker.discovery(model::PREMISE).is_some(),
     }
 }
 
@@ -323,7 +326,7 @@ fn find_on_road(property: road::RoadProperty, task: Task) -> Option<Counterexamp
         text: texts::on_road(property, task),
         is_without_end: property.is_without_end(),
         cast,
-        steps: shortest(question, hazards::ON_ROAD)?,
+        steps: shortest(question, model::ON_ROAD)?,
     })
 }
 

@@ -4,14 +4,21 @@
 //! while; one RAM at a time may be delayed. An RMCM is sent once; it arrives after any time, also
 //! repeatedly, or gets lost. At most one of a kind is under way on each link.
 
-use std::fmt;
-
 use crossguard_protocol::State as Stage;
 use stateright::Property;
 
-use super::hazards::{self, Hazard};
+use super::found::{self, HOLDS_BIT, is_crossed};
+use super::hazards::Hazard;
 use super::road::{Inquiry, Move, Road};
-use super::robot::{PaperCommand, PaperInput, PaperRam, PaperRmcm, PaperRobot, RobotIndex};
+use super::robot::{PaperCommand, PaperInput, PaperRmcm, PaperRobot, RobotIndex};
+use super::world::{Content, FlightKind, Memory, PaperFlight, PaperWorld};
+
+/// P0: what holds.
+pub(super) const HOLDS: &str = "P0";
+/// The premise of P0.
+pub(super) const PREMISE: &str = "P0-premise";
+/// What is asked about the road.
+pub(super) const ON_ROAD: &str = "W";
 
 /// Robots, and how often what may happen to them in one run.
 #[derive(Clone, Copy, Debug)]
@@ -37,29 +44,6 @@ pub(super) struct Question {
     pub(super) hazard: Option<Hazard>,
     /// What to ask about the road; without, there is none.
     pub(super) road: Option<Inquiry>,
-}
-
-/// A message under way.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) struct PaperFlight {
-    pub(super) from: RobotIndex,
-    pub(super) to: RobotIndex,
-    pub(super) kind: FlightKind,
-}
-
-/// What a message under way is.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) enum FlightKind {
-    Ram,
-    Command,
-    Acknowledgement,
-}
-
-/// What a message under way says.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Content {
-    Ram(PaperRam),
-    Rmcm(PaperRmcm),
 }
 
 /// What happens.
@@ -91,91 +75,7 @@ pub(super) enum PaperAction {
     Road(Move),
 }
 
-/// Robots, messages under way, and what the properties remember.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub(super) struct PaperWorld {
-    /// `None` where a robot has broken down.
-    pub(super) robots: Vec<Option<PaperRobot>>,
-    /// In order, at most one for each flight.
-    pub(super) flying: Vec<(PaperFlight, Content)>,
-    pub(super) memory: Memory,
-    /// `None` where nothing is asked about the road.
-    pub(super) road: Option<Road>,
-    detections: u8,
-    crashes: u8,
-}
-
-/// What the properties remember; sets of commands are bits by serial number.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
-pub(super) struct Memory {
-    /// How many commands were given.
-    pub(super) given: u8,
-    pub(super) started: u8,
-    pub(super) fallen_back: u8,
-    pub(super) finished: u8,
-    /// Hazards that the newest step has brought about, by their place in the list.
-    pub(super) brought_about: u16,
-}
-
 impl PaperWorld {
-    pub(super) fn robots(&self) -> impl Iterator<Item = (RobotIndex, &PaperRobot)> + Clone {
-        self.robots
-            .iter()
-            .enumerate()
-            .filter_map(|(i, robot)| Some((i, robot.as_ref()?)))
-    }
-
-    pub(super) fn robot(&self, place: RobotIndex) -> Option<&PaperRobot> {
-        self.robots[place].as_ref()
-    }
-
-    pub(super) fn content(&self, flight: PaperFlight) -> Option<Content> {
-        let found = self.flying.iter().find(|(other, _)| *other == flight)?;
-        Some(found.1)
-    }
-
-    /// Whether nothing goes on by itself: nothing is under way, no timeout and no maneuver runs, no
-    /// application has anything to say, and no RAM tells anybody anything new.
-    pub(super) fn is_stuck(&self) -> bool {
-        let acts = |robot: &PaperRobot| robot.leader().is_some() || robot.may_command();
-        self.flying.is_empty()
-            && !self.robots().any(|(_, robot)| acts(robot))
-            && self.telling_links().next().is_none()
-    }
-
-    /// The links on which the sender's current RAM would change the receiver.
-    pub(super) fn telling_links(&self) -> impl Iterator<Item = (RobotIndex, RobotIndex)> {
-        self.links()
-            .filter(|&(from, to)| self.told(from, to) != self.robots[to])
-    }
-
-    /// From every robot to every other.
-    pub(super) fn links(&self) -> impl Iterator<Item = (RobotIndex, RobotIndex)> {
-        self.robots().flat_map(move |(from, _)| {
-            let others = self.robots().filter(move |(to, _)| *to != from);
-            others.map(move |(to, _)| (from, to))
-        })
-    }
-
-    /// The robot at `to` if it heard the current RAM of the robot at `from`.
-    pub(super) fn told(&self, from: RobotIndex, to: RobotIndex) -> Option<PaperRobot> {
-        let mut robot = self.robots[to]?;
-        robot.step(to, PaperInput::Ram(from, self.robots[from]?.ram()));
-        Some(robot)
-    }
-
-    fn send(&mut self, from: RobotIndex, to: RobotIndex, content: Content) -> Option<()> {
-        let kind = content.kind();
-        let flight = PaperFlight { from, to, kind };
-        let place = self.flying.binary_search_by_key(&flight, |(f, _)| *f);
-        self.flying.insert(place.err()?, (flight, content));
-        Some(())
-    }
-
-    fn land(&mut self, flight: PaperFlight) {
-        self.flying.retain(|(other, _)| *other != flight);
-    }
-
     /// A robot's step, what it sends, and what the properties remember of it.
     fn step(&mut self, place: RobotIndex, input: PaperInput) -> Option<()> {
         let before = self.clone();
@@ -190,7 +90,7 @@ impl PaperWorld {
         if let (Some(to), Some(rmcm)) = (partner, sent) {
             self.send(place, to, Content::Rmcm(rmcm))?;
         }
-        self.memory.brought_about = hazards::brought_about(&before, place, input, &after);
+        self.memory.brought_about = found::brought_about(&before, place, input, &after);
         self.remember(&before, place, input, sent);
         if let (Some(road), Some(robot)) = (&mut self.road, before.robot(place)) {
             road.observe(robot, place, input, &after);
@@ -215,25 +115,6 @@ impl PaperWorld {
                 self.memory.started |= bit(Some(command))
             }
             _ => {}
-        }
-    }
-}
-
-impl Content {
-    const fn kind(self) -> FlightKind {
-        match self {
-            Self::Ram(_) => FlightKind::Ram,
-            Self::Rmcm(PaperRmcm::Command(_)) => FlightKind::Command,
-            Self::Rmcm(PaperRmcm::Acknowledgement(_)) => FlightKind::Acknowledgement,
-        }
-    }
-}
-
-impl fmt::Display for Content {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Ram(ram) => ram.fmt(f),
-            Self::Rmcm(rmcm) => rmcm.fmt(f),
         }
     }
 }
@@ -269,7 +150,11 @@ impl Cast {
         actions.extend(world.telling_links().map(hears));
         if let Some(road) = &world.road {
             let is_noted = |&(from, to): &(RobotIndex, RobotIndex)| {
-                world.told(from, to) == world.robots[to] && road.notes(world, from, to)
+                let (Some(sender), Some(receiver)) = (world.robot(from), world.robot(to)) else {
+                    return false;
+                };
+                world.told(from, to) == world.robots[to]
+                    && road.notes((from, sender), (to, receiver))
             };
             actions.extend(world.links().filter(is_noted).map(hears));
         }
@@ -336,13 +221,37 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
     Some(next)
 }
 
-impl Content {
-    const fn input(self, from: RobotIndex) -> PaperInput {
-        match self {
-            Self::Ram(ram) => PaperInput::Ram(from, ram),
-            Self::Rmcm(rmcm) => PaperInput::Rmcm(from, rmcm),
-        }
+/// What stateright looks at to answer a question.
+///
+/// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
+/// keeps the last.
+fn properties(question: &Question) -> Vec<Property<Question>> {
+    let mut properties = vec![match question.hazard {
+        Some(hazard) => Property::always(
+            hazard.text().id,
+            |question: &Question, world: &PaperWorld| {
+                question.hazard.is_none_or(|hazard| !hazard.is_in(world))
+            },
+        ),
+        None => Property::always(HOLDS, |_, world: &PaperWorld| {
+            world.memory.brought_about & HOLDS_BIT == 0
+        }),
+    }];
+    if question.road.is_some_and(|road| road.property.is_some()) {
+        let holds = |question: &Question, world: &PaperWorld| !is_found(question, world);
+        properties = vec![Property::always(ON_ROAD, holds)];
     }
+    if question.hazard.is_none() && question.road.is_none() && question.cast.commands > 1 {
+        let is_met = |_: &Question, world: &PaperWorld| is_crossed(world);
+        properties.push(Property::sometimes(PREMISE, is_met));
+    }
+    properties
+}
+
+/// Whether a question about the road has found what it asks for.
+fn is_found(question: &Question, world: &PaperWorld) -> bool {
+    let asked = question.road.and_then(|inquiry| inquiry.property);
+    asked.is_some_and(|property| property.is_broken(world))
 }
 
 impl stateright::Model for Question {
@@ -371,7 +280,7 @@ impl stateright::Model for Question {
         }
         if let Some(road) = &world.road {
             let mut moves = Vec::new();
-            road.moves(world, &mut moves);
+            road.moves(world.inviting(), &mut moves);
             actions.extend(moves.into_iter().map(PaperAction::Road));
         }
     }
@@ -381,6 +290,6 @@ impl stateright::Model for Question {
     }
 
     fn properties(&self) -> Vec<Property<Self>> {
-        hazards::properties(self)
+        properties(self)
     }
 }

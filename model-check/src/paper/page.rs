@@ -2,9 +2,10 @@
 
 use crossguard_protocol::State as Stage;
 
-use super::model::{Content, FlightKind, PaperAction, PaperFlight, PaperWorld};
+use super::model::PaperAction;
 use super::road::Move;
 use super::robot::{self, HelpStatus, PaperRmcm, PaperRobot};
+use super::world::{Content, FlightKind, PaperFlight, PaperWorld};
 use super::{Counterexample, Transition, broken_on_road, counterexamples};
 use crate::sequence::{Chart, ChartPlace, ChartStep, Fate};
 

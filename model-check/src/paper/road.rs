@@ -11,8 +11,9 @@
 
 use crossguard_protocol::State as Stage;
 
-use super::model::{PaperWorld, Question};
-use super::robot::{HelpStatus, PaperInput, PaperRmcm, PaperRobot, Progression, RobotIndex};
+use super::robot::{
+    HelpStatus, PaperInput, PaperRam, PaperRmcm, PaperRobot, Progression, RobotIndex,
+};
 
 /// How a follower guards.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -99,7 +100,8 @@ pub(super) struct Road {
 impl RoadProperty {
     pub(super) const ALL: [Self; 5] = [Self::W1, Self::W2, Self::W3, Self::W4, Self::W7];
 
-    const fn bit(self) -> u8 {
+    /// One bit for each.
+    pub(super) const fn bit(self) -> u8 {
         1 << self as u8
     }
 
@@ -107,34 +109,11 @@ impl RoadProperty {
     pub(super) const fn is_without_end(self) -> bool {
         matches!(self, Self::W7)
     }
-
-    /// Whether it is broken.
-    fn is_broken(self, world: &PaperWorld) -> bool {
-        let Some(road) = &world.road else {
-            return false;
-        };
-        match self {
-            Self::W1 | Self::W2 | Self::W4 => road.broken & self.bit() != 0,
-            Self::W3 => road.heard == 2 && inviting(world).count() > 1,
-            Self::W7 => road.waits_for_ever(world),
-        }
-    }
-}
-
-/// Whether a question about the road has found what it asks for.
-pub(super) fn is_found(question: &Question, world: &PaperWorld) -> bool {
-    let asked = question.road.and_then(|inquiry| inquiry.property);
-    asked.is_some_and(|property| property.is_broken(world))
 }
 
 /// Whether the robot at this place invites the pedestrian.
 pub(super) fn invites(robot: &PaperRobot) -> bool {
     robot.state == Stage::ManeuverExecuting && robot.follower().is_some()
-}
-
-fn inviting(world: &PaperWorld) -> impl Iterator<Item = RobotIndex> {
-    let invites = |(_, robot): &(RobotIndex, &PaperRobot)| invites(robot);
-    world.robots().filter(invites).map(|(place, _)| place)
 }
 
 impl Road {
@@ -154,10 +133,10 @@ impl Road {
         !matches!(self.pedestrian, PaperPedestrian::OnRoad(_))
     }
 
-    /// What may happen on the road by itself.
-    pub(super) fn moves(&self, world: &PaperWorld, moves: &mut Vec<Move>) {
+    /// What may happen on the road by itself, where these robots invite.
+    pub(super) fn moves(&self, inviting: impl Iterator<Item = RobotIndex>, moves: &mut Vec<Move>) {
         match self.pedestrian {
-            PaperPedestrian::Waiting => moves.extend(inviting(world).map(Move::StepOn)),
+            PaperPedestrian::Waiting => moves.extend(inviting.map(Move::StepOn)),
             PaperPedestrian::OnRoad(_) => moves.push(Move::Across),
             PaperPedestrian::Across => {}
         }
@@ -233,11 +212,12 @@ impl Road {
         self.broken = 0;
     }
 
-    /// Whether the road would note that `to` hears the current RAM of `from`.
-    pub(super) fn notes(&self, world: &PaperWorld, from: RobotIndex, to: RobotIndex) -> bool {
-        let (Some(sender), Some(receiver)) = (world.robot(from), world.robot(to)) else {
-            return false;
-        };
+    /// Whether the road would note that the robot at `to` hears the current RAM of the robot at `from`.
+    pub(super) fn notes(
+        &self,
+        (from, sender): (RobotIndex, &PaperRobot),
+        (to, receiver): (RobotIndex, &PaperRobot),
+    ) -> bool {
         let mut after = self.clone();
         after.hear(to, receiver, from, sender.ram());
         after != *self
@@ -292,13 +272,7 @@ impl Road {
         }
     }
 
-    fn hear(
-        &mut self,
-        place: RobotIndex,
-        robot: &PaperRobot,
-        from: RobotIndex,
-        ram: super::robot::PaperRam,
-    ) {
+    fn hear(&mut self, place: RobotIndex, robot: &PaperRobot, from: RobotIndex, ram: PaperRam) {
         if let PaperBody::FallingBack(charge) | PaperBody::Ended(charge) = self.bodies[from]
             && charge.leader == place
             && ram.progression != Progression::Executing
@@ -313,15 +287,18 @@ impl Road {
         }
     }
 
-    /// Somebody leads, nobody invites, nothing goes on, nobody has broken down, and the pedestrian waits.
-    fn waits_for_ever(&self, world: &PaperWorld) -> bool {
-        let all_are_up = world.robots().count() == self.bodies.len();
-        let is_led = world.robots().any(|(_, robot)| robot.follower().is_some());
-        let somebody_invites = inviting(world).next().is_some();
+    /// Whether somebody waits at the kerb.
+    pub(super) fn is_waited_at(&self) -> bool {
         self.pedestrian == PaperPedestrian::Waiting
-            && all_are_up
-            && is_led
-            && !somebody_invites
-            && world.is_stuck()
+    }
+
+    /// Whether the newest step broke a property.
+    pub(super) const fn is_broken(&self, property: RoadProperty) -> bool {
+        self.broken & property.bit() != 0
+    }
+
+    /// Whether a leader has heard twice a RAM of a leader that goes before it.
+    pub(super) const fn is_heard_twice(&self) -> bool {
+        self.heard == 2
     }
 }

@@ -10,8 +10,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Cast, FlightKind, PaperAction, PaperFlight, PaperWorld};
+use super::model::{Cast, PaperAction};
 use super::robot::{PaperRobot, RobotIndex};
+use super::world::{FlightKind, PaperFlight, PaperWorld};
 use super::{Counterexample, Transition, counterexamples};
 
 /// The story of one counterexample.

@@ -1,10 +1,25 @@
 //! The hazards in words.
 
-use super::hazards::{Hazard, Text};
+use super::hazards::Hazard;
 use super::road::{RoadProperty, Task};
 
+/// What there is to say about a hazard.
+#[derive(Clone, Copy, Debug)]
+pub struct Text {
+    /// Its id.
+    pub id: &'static str,
+    /// What happens, in a few words.
+    pub title: &'static str,
+    /// The property that it breaks.
+    pub statement: &'static str,
+    /// How it comes about and what harm it does.
+    pub explanation: &'static str,
+    /// The rule of the protocol that closes it, with the ids of the properties that verify it.
+    pub closed_by: &'static str,
+}
+
 /// In the order of [`Hazard::ALL`].
-pub(super) const TEXTS: [Text; Hazard::ALL.len()] = [
+const TEXTS: [Text; Hazard::ALL.len()] = [
     Text {
         id: "P1",
         title: "late acknowledgement after fallback",
@@ -145,5 +160,13 @@ impl RoadProperty {
     /// What there is to say about it.
     pub(super) const fn text(self) -> Text {
         on_road(self, Task::Move)
+    }
+}
+
+impl Hazard {
+    /// What there is to say about it.
+    #[must_use]
+    pub const fn text(self) -> Text {
+        TEXTS[self as usize]
     }
 }
