@@ -1,4 +1,4 @@
-//! Runs the checks of one scenario and says what came of them.
+//! Runs the checks of one scenario and reports the results.
 //!
 //! Two explorations run over the same model, one after the other, so that the memory of the first is free
 //! for the second. stateright's looks for states that break a property. The kit's own builds the whole
@@ -24,7 +24,7 @@ use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::{RobotSetup, Scenario, Size};
 use crate::sequence::{ChartPlace, ChartStep, Fate};
 
-/// Checks the model of a scenario. `watch` is told now and then how far it is.
+/// Checks the model of a scenario. `watch` receives the progress now and then.
 #[must_use]
 pub fn check(
     model: &Model,
@@ -113,7 +113,7 @@ struct Checked {
 }
 
 impl Checked {
-    /// Explores the model with stateright. `watch` is told now and then how many states it has found.
+    /// Explores the model with stateright. `watch` receives the number of states found now and then.
     fn of(
         model: &Model,
         options: &Options,
@@ -321,7 +321,7 @@ pub fn names(scenario: &Scenario) -> Vec<String> {
     scenario.robots.iter().map(name).collect()
 }
 
-/// The probability that any two of so many states share a 64-bit fingerprint, where fingerprints are as
+/// The probability that any two of this number of states share a 64-bit fingerprint, where fingerprints are as
 /// good as random; an upper bound (the union bound over all pairs).
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 fn collision_probability(states: usize) -> f64 {
@@ -353,20 +353,20 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
         receivers(scenario),
         "a crash stops the robot's body; station ids and boot counters survive it".to_owned(),
         "applications are truthful: a body is where they say that it is, a guard finishes, the road is \
-         clear and the task is done only when nobody is on the road"
+         clear and the task is done only when no pedestrian is on the road"
             .to_owned(),
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),
         format!(
-            "stateright tells states apart by 64-bit fingerprints: that any two of these share one \
-             has a probability of {:.0e}; the kit's own exploration compares whole states",
+            "stateright compares 64-bit fingerprints of states: any two of these states share one with \
+             a probability of {:.0e}; the kit's own exploration compares whole states",
             collision_probability(states)
         ),
     ];
     if scenario.bounds.hangs > 0 {
         assumptions.push(
             "a robot that hangs does and hears nothing, keeps its state, and goes on at some time; its \
-             body does what it was last told"
+             body does what it did before"
                 .to_owned(),
         );
     }
@@ -395,10 +395,10 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
     assumptions
 }
 
-/// Who hears a message first.
+/// Which receiver hears a message first.
 fn receivers(scenario: &Scenario) -> String {
     let order = if scenario.symmetric.is_empty() {
-        "those listed first hear it first"
+        "the ones listed first hear it first"
     } else {
         "any may hear it first"
     };

@@ -19,7 +19,7 @@ pub struct Options {
     pub time_max: Option<Duration>,
     /// Be content as soon as all of these are found to be broken; with none, find all that are.
     pub until_broken: Vec<PropertyId>,
-    /// Give up when somebody asks for it.
+    /// Give up when an observer asks for it.
     pub stop: Stop,
 }
 

@@ -37,7 +37,7 @@ impl Explorer {
     }
 }
 
-/// A model whose states are shown in words. Symmetric robots keep their places in it: who follows a run
+/// A model whose states are shown in words. Symmetric robots keep their places in it: a person who follows a run
 /// by hand wants to know which robot is which.
 struct Readable(Model);
 

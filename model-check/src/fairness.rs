@@ -24,7 +24,7 @@ const OWN_TIMERS: u32 = 8;
 const TIMERS_PER_FOLLOWER: u32 = 5;
 /// Events of the application that are treated fair.
 const EVENTS: u32 = 8;
-/// Kinds of RAM that are told apart.
+/// Kinds of RAM that differ here.
 const RAM_KINDS: u32 = 5;
 
 /// Numbers for the classes of a scenario's transitions.
@@ -124,7 +124,7 @@ impl Numbers<'_> {
             Coordination::Leader { .. } => 3,
             Coordination::Follower { .. } => 4,
         };
-        // Nobody sends to itself.
+        // No robot sends to itself.
         let to = u32::from(transmission.to - u8::from(transmission.to > transmission.from));
         let way = u32::from(transmission.from) * (self.robots() - 1) + to;
         let first = self.first_event() + self.robots() * EVENTS;

@@ -1,6 +1,6 @@
 //! The state diagram of the protocol, drawn from what the transition function does.
 //!
-//! Nothing here knows the rules: the edges are those that [`universe`](crate::universe) has seen one
+//! No rule is written here: the edges are the transitions that [`universe`](crate::universe) has seen one
 //! robot take among peers that say anything.
 
 use std::collections::{BTreeMap, BTreeSet};

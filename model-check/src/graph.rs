@@ -26,8 +26,8 @@ pub(crate) struct Graph {
     parents: Vec<u32>,
     /// Successors of all states, one after the other.
     targets: Vec<u32>,
-    /// Whether each of these is reached by nothing but arrivals on a monotone channel, which nobody can
-    /// rely on.
+    /// Whether each of these is reached by nothing but arrivals on a monotone channel, which may never
+    /// happen.
     by_chance: Vec<bool>,
     /// Where the successors of each state begin, and after the last where they end.
     starts: Vec<u32>,
@@ -148,7 +148,7 @@ fn short(number: usize) -> u32 {
 }
 
 impl Graph {
-    /// Explores `model` from its initial state, breadth first. `watch` is told how far it is, and says
+    /// Explores `model` from its initial state, breadth first. `watch` receives the progress, and says
     /// whether to stop.
     pub(crate) fn build(
         model: &Model,

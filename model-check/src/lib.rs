@@ -29,7 +29,7 @@
 //!
 //! - [`scenario`] reads what is to be explored, [`model`] says what may happen in it, with the robots of
 //!   [`node`], the channel of [`network`] or [`monotone`] and what must be remembered of the past in [`history`].
-//! - [`properties`] are the rules, [`check`] and [`report`] say what came of them, [`fair`] decides
+//! - [`properties`] are the rules, [`check`] and [`report`] say whether they hold, [`fair`] decides
 //!   leads-to, [`timed`] is the view in which time passes in ticks.
 //! - [`road`] is what bodies, signs and a pedestrian do, and what must be true of them.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
@@ -40,8 +40,8 @@
 //!
 //! There are no features.
 //!
-//! States that differ in names alone count as one in every scenario, and in those that name symmetric
-//! robots so do states that differ in which of these is which; [`symmetry`] says why that is exact.
+//! States that differ in names alone count as one in every scenario. Where a scenario names symmetric robots, so
+//! do states that differ in which of these is which; [`symmetry`] says why that is exact.
 
 mod canonical;
 pub mod check;

@@ -1,5 +1,5 @@
 //! The properties of robots that run: the rules of [`properties`](crate::properties), judged step by
-//! step on what a simulation does or a log tells.
+//! step on what a simulation does or a log records.
 //!
 //! A rule that the model checker tries on every state of a scenario is tried here on the states that
 //! one run passes through. What holds of every run in the model, whatever the order of what happens
@@ -17,40 +17,12 @@ use crate::properties::{PropertyId, StateRule, StepView, Surroundings, View};
 use crate::road::Pedestrian;
 use crate::steps::judge;
 
-/// A property that a run breaks.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Violation {
-    id: PropertyId,
-    statement: &'static str,
-}
-
-impl Violation {
-    /// Of what the property says.
-    #[must_use]
-    pub fn of(id: PropertyId) -> Self {
-        let statement = id.statement();
-        Self { id, statement }
-    }
-
-    /// The property's id.
-    #[must_use]
-    pub fn name(self) -> String {
-        self.id.to_string()
-    }
-
-    /// What the property says.
-    #[must_use]
-    pub const fn statement(self) -> &'static str {
-        self.statement
-    }
-}
-
 /// Judges one run. Robots are named by their places, from 0.
 #[derive(Debug)]
 pub struct Monitor {
     seats: Seats,
     history: History,
-    /// Whether what is told comes in the order of true time.
+    /// Whether steps come in the order of true time.
     is_timed: bool,
     has_strangers: bool,
     premises: u32,
@@ -84,15 +56,15 @@ impl Surroundings for Seats {
         self.0.iter().position(named)
     }
 
-    /// Nobody knows of a run that goes on.
+    /// While a run goes on this is not known.
     fn restarts_are_over(&self) -> bool {
         false
     }
 }
 
 impl Monitor {
-    /// Over a run that has not begun. Whether it is `timed`: whether steps are told in the order of
-    /// true time, so that states of two robots can be held against each other at one moment.
+    /// Over a run that has not begun. Whether it is `timed`: whether steps come in the order of
+    /// true time, so that states of two robots can be compared at one moment.
     #[must_use]
     pub fn new(timed: bool) -> Self {
         Self {
@@ -140,8 +112,8 @@ impl Monitor {
         self.seats.0[place].is_hung = is_hung;
     }
 
-    /// From now on robots hear others of which nothing is told here: what holds of two robots and one
-    /// of them is not known is not judged any more.
+    /// From now on robots hear others whose steps are not recorded here: a rule that compares two robots is not
+    /// judged any more.
     pub const fn has_strangers(&mut self) {
         self.has_strangers = true;
     }
@@ -169,7 +141,7 @@ impl Monitor {
         input: Input,
         outputs: &Outputs,
         after: &Robot,
-    ) -> Option<Violation> {
+    ) -> Option<PropertyId> {
         let seat = &mut self.seats.0[place];
         let next = seat.node.observed(input, outputs, after.clone());
         let before = std::mem::replace(&mut seat.node, next);
@@ -205,14 +177,12 @@ impl Monitor {
             let seats = self.seats.0.iter().filter(|seat| !seat.is_hung);
             self.is_timed && has_lease_on_lost(&seats.filter_map(|seat| seat.node.robot.as_ref()))
         };
-        first
-            .or_else(|| late().then_some(PropertyId::I10))
-            .map(Violation::of)
+        first.or_else(|| late().then_some(PropertyId::I10))
     }
 
-    /// Somebody steps on the road at the sign of a session, whose crossing requires so many guards. The
+    /// A pedestrian steps on the road at the sign of a session, whose crossing requires this number of guards. The
     /// property that this breaks.
-    pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<Violation> {
+    pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<PropertyId> {
         let nodes: Vec<&Node> = self.seats.0.iter().map(|seat| &seat.node).collect();
         let view = View {
             nodes: &nodes,
@@ -224,7 +194,7 @@ impl Monitor {
             if let Some(holds) = id.keeps_guards(&view, session, required) {
                 self.premises |= id.bit();
                 if !holds && !self.has_strangers {
-                    broken = Some(Violation::of(id));
+                    broken = Some(id);
                 }
             }
         }
@@ -271,7 +241,7 @@ impl Monitor {
         broken
     }
 
-    /// Where a robot is, and what its body has been told.
+    /// The state of a robot and of its body.
     ///
     /// # Panics
     /// When there is no such robot.
@@ -316,7 +286,7 @@ mod tests {
         let is_lock = |output: &&Output| matches!(output, Output::LockIdentity);
         let forgetful: Outputs = outputs.iter().filter(|o| !is_lock(o)).copied().collect();
         let broken = monitor.step(place, request(), &forgetful, &robot);
-        assert_eq!(broken, Some(Violation::of(PropertyId::I18)));
+        assert_eq!(broken, Some(PropertyId::I18));
     }
 
     #[test]
@@ -333,10 +303,10 @@ mod tests {
         assert!(
             matches!(robot.session(), Some(SessionId { .. }) if robot.session() == Some(session))
         );
-        // It follows out of nothing: nobody has confirmed it.
+        // It follows without a confirmation.
         let idle = Input::Elapsed(crossguard_protocol::Millis(1));
         let broken = monitor.step(place, idle, &Outputs::default(), &robot);
-        assert_eq!(broken, Some(Violation::of(PropertyId::I2)));
+        assert_eq!(broken, Some(PropertyId::I2));
     }
 
     /// Takes `robot` to a role in the session of `requester`.

@@ -16,7 +16,7 @@
 //!   robot offer ([`offers`](crate::scenario::Bounds::offers)). Beyond that the timer does not expire, and the message is not
 //!   heard. The first is a bound of the exploration, like that on commands; the second is something the
 //!   channel may do anyway.
-//! * Messages to a robot that is down for good are dropped: nobody will hear them, so that is exact.
+//! * Messages to a robot that is down for good are dropped: no robot will hear them, so that is exact.
 //!   Nothing else is dropped, and nothing is merged.
 //!
 //! # What is claimed of runs

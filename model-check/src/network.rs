@@ -182,7 +182,7 @@ impl Network {
 }
 
 /// Whether a message can have any effect on the receiver, whatever its state. Every robot within
-/// reach hears every message; those that are ignored in every state are left out of the model. That
+/// reach hears every message; messages that are ignored in every state are left out of the model. That
 /// they are ignored is checked in [`universe`](crate::universe).
 #[must_use]
 pub fn concerns(message: &Message, receiver: StationId) -> bool {

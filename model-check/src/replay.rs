@@ -87,8 +87,8 @@ impl Replay {
         self.follow_with(model, &mut |_, _| ())
     }
 
-    /// The same; `witness` is told each action that was possible, and the state that it led to. Where a
-    /// robot put out something else in the last one, it is told that one too.
+    /// The same; `witness` receives each action that was possible, and the state that it led to. Where a robot put
+    /// out something else in the last one, it receives that one too.
     pub fn follow_with(
         &self,
         model: &Model,
@@ -112,7 +112,7 @@ impl Replay {
     }
 }
 
-/// What comes of a step, with what is put out in it; `None` where it is not possible.
+/// The effect of a step, with its outputs; `None` where it is not possible.
 fn take(
     model: &Model,
     state: &ModelState,

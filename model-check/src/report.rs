@@ -7,7 +7,7 @@ use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
 use crate::transitions::Transitions;
 
-/// What came of checking one scenario.
+/// The result of checking one scenario.
 #[derive(Clone, Debug, Serialize)]
 pub struct ScenarioReport {
     /// The scenario's name.
@@ -56,7 +56,7 @@ pub enum CutOff {
     StateLimit,
     /// The limit on time.
     TimeLimit,
-    /// Somebody asked to give up.
+    /// An observer asked to give up.
     Stopped,
     /// All properties that were to be found broken were.
     FoundBroken,
@@ -96,7 +96,7 @@ pub enum CheckVerdict {
     Violated,
     /// The premise is met nowhere: the property says nothing in this scenario.
     Unreachable,
-    /// The exploration was cut off before it could tell.
+    /// The exploration was cut off before the answer was known.
     Incomplete,
 }
 

@@ -270,7 +270,7 @@ pub enum Pedestrian {
 }
 
 impl Pedestrian {
-    /// The session at whose sign somebody on the road stepped on it.
+    /// The session at whose sign the pedestrian on the road stepped on it.
     #[must_use]
     pub const fn on_road(self) -> Option<SessionId> {
         match self {

@@ -71,7 +71,7 @@ pub enum ScenarioError {
     Unknown {
         /// What was asked for.
         name: String,
-        /// The names of those that are shipped.
+        /// The names of the shipped ones.
         shipped: String,
     },
     /// The file cannot be read.
@@ -114,7 +114,7 @@ pub enum Impossibility {
     /// An urgency that is never used.
     #[error("robot {0} has an urgency but no 'detects = true', so it never asks for help")]
     UnusedUrgency(StationId),
-    /// Nobody can start.
+    /// No robot can start.
     #[error("no robot has 'detects = true', so nothing would ever happen")]
     NobodyDetects,
     /// The request cannot be met.
@@ -152,87 +152,39 @@ pub enum Impossibility {
     Timed(#[from] TimedImpossibility),
 }
 
-/// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 29] = [
-    ("pair", include_str!("../scenarios/pair.toml")),
-    ("contention", include_str!("../scenarios/contention.toml")),
-    ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
-    (
-        "leader-crash",
-        include_str!("../scenarios/leader-crash.toml"),
-    ),
-    ("offer-race", include_str!("../scenarios/offer-race.toml")),
-    ("bilateral", include_str!("../scenarios/bilateral.toml")),
-    ("trio", include_str!("../scenarios/trio.toml")),
-    (
-        "pair-monotone",
-        include_str!("../scenarios/pair-monotone.toml"),
-    ),
-    (
-        "contention-monotone",
-        include_str!("../scenarios/contention-monotone.toml"),
-    ),
-    ("pair-hang", include_str!("../scenarios/pair-hang.toml")),
-    (
-        "contention-urgency",
-        include_str!("../scenarios/contention-urgency.toml"),
-    ),
-    ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
-    ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
-    ("timed-hang", include_str!("../scenarios/timed-hang.toml")),
-    ("timed-wait", include_str!("../scenarios/timed-wait.toml")),
-    (
-        "timed-rivals",
-        include_str!("../scenarios/timed-rivals.toml"),
-    ),
-    ("wrap", include_str!("../scenarios/wrap.toml")),
-    ("stable", include_str!("../scenarios/stable.toml")),
-    ("blocker", include_str!("../scenarios/blocker.toml")),
-    (
-        "trio-corridor",
-        include_str!("../scenarios/trio-corridor.toml"),
-    ),
-    ("two-teams", include_str!("../scenarios/two-teams.toml")),
-    ("crossing", include_str!("../scenarios/crossing.toml")),
-    ("rivals", include_str!("../scenarios/rivals.toml")),
-    (
-        "trio-delayed",
-        include_str!("../scenarios/trio-delayed.toml"),
-    ),
-    (
-        "team-of-four",
-        include_str!("../scenarios/team-of-four.toml"),
-    ),
-    (
-        "team-symmetric",
-        include_str!("../scenarios/team-symmetric.toml"),
-    ),
-    (
-        "timed-in-use",
-        include_str!("../scenarios/timed-in-use.toml"),
-    ),
-    (
-        "timed-trio-drift",
-        include_str!("../scenarios/timed-trio-drift.toml"),
-    ),
-    (
-        "timed-trio-delay",
-        include_str!("../scenarios/timed-trio-delay.toml"),
-    ),
-];
+/// A scenario that comes with the kit.
+struct Shipped {
+    name: &'static str,
+    text: &'static str,
+    /// Whether a check takes seconds.
+    is_quick: bool,
+}
 
-/// How many of the shipped scenarios take seconds.
-const QUICK: usize = 23;
+macro_rules! shipped {
+    ($($duration:ident $time:ident $test:ident $name:literal;)*) => {
+        /// The scenarios that take seconds come first, the ones that take minutes follow.
+        const SHIPPED: &[Shipped] = &[$(Shipped {
+            name: $name,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/", $name, ".toml")),
+            is_quick: shipped!(@ $duration),
+        }),*];
+    };
+    (@ quick) => { true };
+    (@ long) => { false };
+}
+
+include!("../scenarios/list.rs");
 
 impl Scenario {
     /// The names of the shipped scenarios that take seconds.
     pub fn quick() -> impl Iterator<Item = &'static str> {
-        Self::shipped().take(QUICK)
+        let quick = SHIPPED.iter().filter(|shipped| shipped.is_quick);
+        quick.map(|shipped| shipped.name)
     }
 
     /// The names of the shipped scenarios.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
-        SHIPPED.iter().map(|(name, _)| *name)
+        SHIPPED.iter().map(|shipped| shipped.name)
     }
 
     /// The shipped scenario of this name, or the scenario in the file of this name.
@@ -240,8 +192,8 @@ impl Scenario {
     /// # Errors
     /// Every way in which there is no usable scenario of that name.
     pub fn load(name: &str) -> Result<Self, ScenarioError> {
-        if let Some((_, text)) = SHIPPED.iter().find(|(shipped, _)| *shipped == name) {
-            return Self::parse(name, text);
+        if let Some(shipped) = SHIPPED.iter().find(|shipped| shipped.name == name) {
+            return Self::parse(name, shipped.text);
         }
         let path = Path::new(name);
         if !path.exists() && path.extension().is_none() {

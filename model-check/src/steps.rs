@@ -28,7 +28,7 @@ pub(crate) enum Cause {
     Event(Event),
 }
 
-/// What comes of a robot's step, whatever has happened elsewhere.
+/// The effect of a robot's step, whatever has happened elsewhere.
 pub(crate) struct ComputedStep {
     /// What it took in.
     pub(crate) input: Input,

@@ -18,7 +18,7 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// The names of those that come along; quick scenarios first.
+    /// The names of the shipped subjects; quick scenarios first.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
         Scenario::shipped().chain([paper::NAME])
     }
@@ -34,7 +34,7 @@ impl Subject {
         Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
     }
 
-    /// Checks it. `watch` is told now and then how far it is; of the paper's text, which is small, never.
+    /// Checks it. `watch` receives the progress now and then; never of the paper's text, which is small.
     pub fn check(self, options: &Options, watch: &mut dyn FnMut(CheckProgress)) -> ScenarioReport {
         match self {
             Self::PaperLiteral => paper::check(),

@@ -38,7 +38,7 @@ pub struct Universe {
     pub transitions: Transitions,
     /// Steps after which the state was not valid, or that were ignored and changed something.
     pub invalid: Vec<String>,
-    /// Messages that the model leaves out because they concern nobody, and that had an effect.
+    /// Messages that the model leaves out because they concern no robot, and that had an effect.
     pub wrongly_left_out: Vec<String>,
 }
 

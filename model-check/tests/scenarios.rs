@@ -27,37 +27,29 @@ fn assert_verified(name: &str) {
     );
 }
 
-macro_rules! verified {
-    ($($test:ident $scenario:literal),*) => {
-        $(
-            #[test]
-            fn $test() {
-                assert_verified($scenario);
-            }
-        )*
+macro_rules! shipped {
+    ($($duration:ident $time:ident $test:ident $name:literal;)*) => {
+        $(shipped!(@ $duration $time $test $name);)*
 
-        const VERIFIED: &[&str] = &[$($scenario),*];
+        #[test]
+        fn the_list_says_in_which_scenarios_time_passes() {
+            $(
+                let is_timed = Scenario::load($name).unwrap().timed.is_some();
+                assert_eq!(is_timed, stringify!($time) == "timed", $name);
+            )*
+        }
     };
+    (@ quick plain $test:ident $name:literal) => {
+        #[test]
+        fn $test() {
+            assert_verified($name);
+        }
+    };
+    // Timed scenarios are verified in `timed.rs`, and long ones by `crossguard check --all`.
+    (@ $duration:ident $time:ident $test:ident $name:literal) => {};
 }
 
-verified!(
-    pair "pair", contention "contention", pair_reboot "pair-reboot", leader_crash "leader-crash",
-    offer_race "offer-race", bilateral "bilateral", trio "trio",
-    pair_monotone "pair-monotone", contention_monotone "contention-monotone", pair_hang "pair-hang",
-    contention_urgency "contention-urgency", wrap "wrap", stable "stable",
-    blocker "blocker", trio_corridor "trio-corridor", two_teams "two-teams", crossing "crossing", rivals "rivals"
-);
-
-#[test]
-fn every_quick_scenario_is_verified_here() {
-    // Timed scenarios are verified in `timed.rs`, where the long ones are left to `crossguard check`.
-    let untimed = |name: &&str| Scenario::load(name).unwrap().timed.is_none();
-    assert!(
-        Scenario::quick()
-            .filter(untimed)
-            .eq(VERIFIED.iter().copied())
-    );
-}
+include!("../scenarios/list.rs");
 
 #[test]
 fn together_the_scenarios_check_every_property() {

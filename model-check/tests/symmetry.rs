@@ -89,13 +89,13 @@ fn a_claim_of_symmetry_that_is_none_is_refused_with_its_line() {
             claim,
             "symmetric = [3, 3]",
             "symmetric",
-            "robot 3 is symmetric with itself",
+            "robot 3 is named twice",
         ),
         (
             claim,
             "symmetric = [3]",
             "symmetric",
-            "robot 3 alone is symmetric with nobody",
+            "robot 3 is the only symmetric one",
         ),
         (
             "followers = 2",

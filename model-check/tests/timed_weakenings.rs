@@ -19,7 +19,7 @@ fn violated(scenario: Scenario, rules: impl Rules + 'static) -> (Vec<String>, Sc
     (violated, report)
 }
 
-/// The pair in which nobody fails.
+/// The pair in which no robot fails.
 fn sound_pair() -> Scenario {
     pair(&[NO_FOLLOWER_FAILS, NOBODY_CRASHES])
 }

@@ -146,7 +146,7 @@ impl Model {
         let (scenario, left) = (&self.0.scenario, &state.left);
         let pedestrian = self.history(state).pedestrian;
         let is_road_free = pedestrian.on_road().is_none();
-        // Who cooperates in a crossing waits for its end.
+        // Applications that cooperate in a crossing wait for its end.
         let waits = scenario.cooperative && scenario.corridor && pedestrian != Pedestrian::Across;
         if let Some(maneuver) = node.actuation.body.running() {
             let settings = scenario.config.settings();
@@ -227,7 +227,7 @@ impl Model {
     }
 }
 
-/// Whether a timer does not run out when what is sent arrives and everybody does their part. The
+/// Whether a timer does not run out when messages arrive and every application does its part. The
 /// others pace the robot's own work.
 const fn guards_against_silence(timer: Timer) -> bool {
     !matches!(timer, Timer::Ram | Timer::Selection | Timer::Farewell)

@@ -1,4 +1,4 @@
-//! The state that stands for all those that differ in names, or in which of the symmetric robots is
+//! The state that stands for all states that differ in names, or in which of the symmetric robots is
 //! which.
 
 use smallvec::SmallVec;
@@ -10,7 +10,7 @@ use crate::scenario::MAX_ROBOTS;
 use crate::symmetry::{Exchange, Images, MAX_EXCHANGES};
 
 impl Model {
-    /// The state of all those that differ from the draft in names alone.
+    /// The state that stands for all states that differ from the draft in names alone.
     pub(super) fn ranked(&self, draft: Draft) -> Draft {
         let Draft {
             mut state,
@@ -60,7 +60,7 @@ impl Model {
         state
     }
 
-    /// The state that stands for `state` and all those that differ from it in which of the symmetric
+    /// The state that stands for `state` and all states that differ from it in which of the symmetric
     /// robots is which.
     #[must_use]
     pub fn representative(&self, state: &ModelState) -> ModelState {

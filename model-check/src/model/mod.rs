@@ -113,7 +113,7 @@ pub enum Delivery {
     AnyTime,
 }
 
-/// The model of one scenario. Clones share what has been found out. Somebody may ask to give up.
+/// The model of one scenario. Clones share their results. An observer may ask to give up.
 #[derive(Clone)]
 pub struct Model(Arc<Shared>, Stop);
 
@@ -186,7 +186,7 @@ impl Model {
         Self(self.0, stop.clone())
     }
 
-    /// Whether somebody asked to give up.
+    /// Whether an observer asked to give up.
     pub(crate) fn has_to_stop(&self) -> bool {
         self.1.is_requested()
     }

@@ -1,4 +1,4 @@
-//! What comes of an action: the next state, and the step of the robot that takes one.
+//! The effect of an action: the next state, and the step of the robot that takes one.
 
 use std::sync::atomic::Ordering;
 
@@ -13,7 +13,7 @@ use crate::scenario::Bounds;
 use crate::steps::{Cause, ComputedStep, judge_historic};
 
 impl Model {
-    /// What comes of `action` in `state`, with the robot's step if one takes a step; `None` if the
+    /// The state after `action` in `state`, with the robot's step if one takes a step; `None` if the
     /// action changes nothing.
     #[must_use]
     pub fn successor(
@@ -133,7 +133,7 @@ impl Model {
         Some((self.ranked(next), step))
     }
 
-    /// The session at whose sign somebody steps on the road. Judges whether the guards are in place.
+    /// The session at whose sign a pedestrian steps on the road. Judges whether the guards are in place.
     fn step_on_road(&self, next: &mut ModelState, i: usize) -> Option<SessionId> {
         let node = self.0.steps.nodes.value(next.nodes[i]);
         let session = node.robot.as_ref()?.session()?;
@@ -157,7 +157,7 @@ impl Model {
         next.history = self.0.histories.number(history);
     }
 
-    /// What a body has done last is of no account any more once nobody leads that session.
+    /// Forgets what a body has done last once no robot leads that session any more.
     fn forget_bodies(&self, next: &mut ModelState) {
         for i in 0..self.0.scenario.robots.len() {
             let node = self.0.steps.nodes.value(next.nodes[i]);

@@ -55,7 +55,7 @@ impl RoadProperty {
     }
 }
 
-/// Somebody leads, nobody invites, nothing goes on, and nobody has broken down.
+/// A robot leads, none invites, nothing goes on, and no robot has broken down.
 fn waits_for_ever(world: &PaperWorld) -> bool {
     let all_are_up = world.robots().count() == world.robots.len();
     let is_led = world.robots().any(|(_, robot)| robot.follower().is_some());

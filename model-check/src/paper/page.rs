@@ -46,7 +46,7 @@ fallen back, finished or lost power, as long as no message has told its leader s
 crossing, so that W3 is about every two leaders.
 
 Four of the six runs have no lost and no late message. They are not told to real endpoints: the kit's own model has the
-same road (`model-check/src/road`).
+same road (`model-check/src/road.rs`).
 ";
 
 /// The documentation page: each counterexample as a sequence chart, what it means, what closes it.

@@ -1,5 +1,5 @@
-//! I6: the leader counts `(s,q)` as acknowledged only if the follower accepted it; a follower
-//! executes only what it acknowledged, and acknowledges it first.
+//! I6: the leader counts `(s,q)` as acknowledged only if the follower accepted it; a follower acknowledges before
+//! it starts, which is rule R7 of the protocol.
 
 use crossguard_protocol::{Answer, ManeuverId, Output, Rmcm, StationId, Verdict};
 

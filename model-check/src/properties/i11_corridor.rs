@@ -1,7 +1,7 @@
 //! I11: the corridor is open only while every required follower is engaged.
 //!
-//! What is checked is what the outputs have told the application, against each record that the leader has of
-//! its followers. What is engaged is said here once more: this asks nothing of the protocol but the records.
+//! The outputs to the application are compared with each record that the leader has of its followers. When a
+//! follower is engaged is written here once more: of the protocol, only the records are read.
 
 use crossguard_protocol::{Config, Corridor, Leading, Member, Progress};
 

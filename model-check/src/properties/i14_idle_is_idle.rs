@@ -1,6 +1,6 @@
 //! I14: a released or idle robot executes nothing.
 //!
-//! What is checked is what the outputs have told the robot's body, not what the protocol believes.
+//! Checked is what the outputs have made the robot's body do, not what the protocol state says.
 
 use crossguard_protocol::Phase;
 

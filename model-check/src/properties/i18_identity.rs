@@ -1,8 +1,8 @@
 //! I18: the identity is locked while in a session.
 //!
-//! What is checked is what the outputs have told the part of the endpoint that changes pseudonyms. That two
-//! members of a session never carry the same station id needs no rule: the robots of a scenario differ, and
-//! who is locked does not change. A robot that takes its leader's id breaks I1.
+//! Checked are the outputs to the part of the endpoint that changes pseudonyms. That two members of a session
+//! never carry the same station id needs no rule: the robots of a scenario differ, and a locked id does not
+//! change. A robot that takes its leader's id breaks I1.
 
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;

@@ -1,6 +1,6 @@
 //! L4: an ended session leads to every former member being `Idle`.
 //!
-//! A follower has no way out of its session but to `Idle`, so what is to be shown is that it leaves.
+//! A follower has no way out of its session but to `Idle`, so it is enough to show that it leaves.
 
 use super::property::{Claim, Kind, LivenessRule, Property, Rule};
 use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
@@ -23,7 +23,7 @@ pub(super) const PROPERTY: Property = Property {
     timed: None,
 };
 
-/// Whether the robot follows in a session that nobody leads any more.
+/// Whether the robot follows in a session that no robot leads any more.
 fn is_orphaned(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     following_of(view.node(robot)).is_some_and(|following| {
         view.leaders()

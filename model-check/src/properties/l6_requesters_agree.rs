@@ -1,6 +1,6 @@
-//! L6: two robots that both ask or lead at one place: at some time at most one of them does.
+//! L6: two robots that ask or lead at one place do not both do so for ever.
 //!
-//! The robots of a scenario ask for one place. Two that both lead there for ever would be two teams at one
+//! The robots of a scenario ask for one place. Two robots that lead there for ever would be two teams at one
 //! crossing.
 
 use crossguard_protocol::Phase;

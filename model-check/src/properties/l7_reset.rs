@@ -8,7 +8,7 @@ use super::property::{Claim, Kind, Property, Rule};
 pub(super) const PROPERTY: Property = Property {
     id: "L7",
     untimed: Some(Claim {
-        kind: Kind::L,
+        kind: Kind::S,
         statement: "from every state some run leads to all robots being idle",
         premise: None,
         rule: Rule::Reset,

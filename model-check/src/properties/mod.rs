@@ -7,8 +7,8 @@
 //!        kind, statement, premise, rule, the weakening that breaks it
 //! ```
 //!
-//! A property counts only when its premise is reachable: a rule says what must hold, and its premise says when the
-//! rule says anything at all. The page `doc/verification.md` has a row for each.
+//! A rule says what must hold, and its premise in which situation. A property counts only when its premise is
+//! reachable. The page `doc/verification.md` has a row for each.
 
 mod i01_one_leader;
 mod i02_confirmed;
@@ -163,7 +163,7 @@ const fn claims_before(of: Of, end: usize) -> u32 {
     count
 }
 
-/// The bit of each property among those that are claimed of one of the models, or 0.
+/// The bit of each property among the properties that are claimed of one of the models, or 0.
 const fn bits(of: Of) -> [u32; PROPERTIES.len()] {
     let mut bits = [0; PROPERTIES.len()];
     let mut at = 0;
@@ -237,8 +237,8 @@ impl PropertyId {
         self.untimed()?.step_rule()
     }
 
-    /// Judges whether every guard is in place for somebody who steps on the road at the sign of this session,
-    /// whose crossing needs so many; `None` where the property says nothing of that.
+    /// Judges whether every guard is in place when a pedestrian steps on the road at the sign of this session, whose
+    /// crossing needs this number of guards; `None` where the property is not about that.
     pub(crate) fn keeps_guards(
         self,
         view: &View,

@@ -25,7 +25,7 @@ pub struct Claim {
     pub kind: Kind,
     /// What it says.
     pub statement: &'static str,
-    /// When it says anything; `None` for one that speaks about every state. Two parts are joined by `; and`.
+    /// The situation that it is about; `None` for one that is about every state. Two parts are joined by `; and`.
     pub premise: Option<&'static str>,
     pub(crate) rule: Rule,
     /// The weakening of the protocol in `model-check/tests` that breaks it.
@@ -64,7 +64,7 @@ pub(crate) enum Rule {
     Step(StepRule),
     /// On both.
     StateAndStep(StateRule, StepRule),
-    /// When a pedestrian steps on the road at the sign of this session, whose crossing needs so many guards.
+    /// When a pedestrian steps on the road at the sign of this session, whose crossing needs this number of guards.
     StepOnRoad(fn(&View, SessionId, usize) -> bool),
     /// On all fair runs.
     Live(LivenessRule),

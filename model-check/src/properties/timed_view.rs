@@ -28,7 +28,7 @@ pub(crate) struct TimedView<'a> {
     pub(crate) shows_go: [bool; MAX_TEAMS],
     /// Whether a sign shows go although a follower of its team fell back for lack of contact.
     pub(crate) is_unguarded: bool,
-    /// What the applications of the leaders were told of their followers.
+    /// What the applications of the leaders know of their followers.
     pub(crate) told: Told,
     /// For how many ticks the pedestrian has waited for go, or the application for a reason; where that is asked.
     pub(crate) waiting: Option<u8>,
@@ -80,7 +80,7 @@ impl<'a> TimedView<'a> {
         matches!(self.watch, StopWatch::Hung(place, _) if self.setup.teams.leads(place))
     }
 
-    /// Whether so many ticks are longer than a limit.
+    /// Whether this number of ticks is longer than a limit.
     pub(crate) fn is_over(&self, ticks: u8, limit: Millis) -> bool {
         self.setup.clock.millis(ticks) > limit
     }

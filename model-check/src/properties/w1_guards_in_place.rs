@@ -1,7 +1,7 @@
-//! W1: who steps on the road finds every required guard in place.
+//! W1: when a pedestrian steps on the road, every required guard is in place.
 //!
 //! Without time there is one exemption: a guard that has fallen back, finished, failed or lost power, as long
-//! as its leader was not told so. For how long a sign may go on showing go then is what the timed view finds.
+//! as its leader has not been informed. The timed model finds for how long a sign may show go then.
 
 use crossguard_protocol::SessionId;
 
@@ -33,7 +33,7 @@ pub(super) const PROPERTY: Property = Property {
     }),
 };
 
-/// Judged when a pedestrian steps on the road at the sign of `session`, where so many guards are required.
+/// Judged when a pedestrian steps on the road at the sign of `session`, where this number of guards is required.
 fn holds(view: &View, session: SessionId, required: usize) -> bool {
     let places = view.configured().enumerate();
     let counts = places.filter(|(place, (node, config))| {

@@ -1,4 +1,4 @@
-//! W3: at one place one sign shows go.
+//! W3: of two leaders at one place that hear each other, only one shows go.
 //!
 //! Without time there is one exemption: leaders of which the one that goes behind has not received two
 //! messages of the other, the second with a newer heartbeat. One message alone may be from a session that is

@@ -1,8 +1,8 @@
 //! W4: a robot begins nothing new before its last duty's fallback is finished and its application says that
 //! the road is clear.
 //!
-//! A duty is what a body falls back from, or that a sign has shown go, since when nobody has said that the
-//! road is clear or the task done. A reboot is exempt: the protocol persists no duty.
+//! A robot has a duty while its body falls back, and from when its sign has shown go until its application says
+//! that the road is clear or the task done. A reboot is exempt: the protocol persists no duty.
 
 use crossguard_protocol::{Coordination, Output, SessionId};
 

@@ -14,13 +14,13 @@ pub enum Asymmetry {
     #[error("no robot has station id {0}, so it cannot be symmetric")]
     NoRobot(StationId),
     /// A robot that is named twice.
-    #[error("robot {0} is symmetric with itself, which says nothing")]
+    #[error("robot {0} is named twice")]
     Twice(StationId),
     /// A single robot.
-    #[error("robot {0} alone is symmetric with nobody")]
+    #[error("robot {0} is the only symmetric one: name two robots or more")]
     Alone(StationId),
     /// A robot that may detect a pedestrian.
-    #[error("robot {0} detects: of two requesters the station ids tell which goes before")]
+    #[error("robot {0} detects: the station ids decide which of two requesters goes before")]
     Detects(StationId),
     /// A requester may choose.
     #[error(
@@ -40,7 +40,9 @@ pub enum Asymmetry {
     )]
     Pseudonyms(u8),
     /// A timed scenario.
-    #[error("symmetric robots have no place in a timed scenario: its model tells all robots apart")]
+    #[error(
+        "symmetric robots have no place in a timed scenario: its model treats every robot as different"
+    )]
     Timed,
     /// A property under fairness.
     #[error("{0} assumes fairness to each robot by itself, which symmetric robots do not show")]

@@ -61,7 +61,7 @@ impl TimedModel {
         channel && state.hung().is_none_or(hangs_on)
     }
 
-    /// Whether no robot with a due timer is told too late, on its own clock, if a tick with these fast
+    /// Whether no robot with a due timer takes in the time too late, on its own clock, if a tick with these fast
     /// clocks passes before.
     fn all_are_told_in_time(&self, state: &TimedState, fast: u8) -> bool {
         let Looks::Within(late_max) = self.timed.looks else {
@@ -77,7 +77,7 @@ impl TimedModel {
         })
     }
 
-    /// For how long a timer of the robot has been due when `untold` is to be told; `None` when none is.
+    /// For how long a timer of the robot has been due when the robot has yet to take in `untold`; `None` when none is.
     pub(super) fn overdue(&self, state: &TimedState, i: u8, untold: Millis) -> Option<Millis> {
         let due = self.node(state, i).robot.as_ref()?.next_due()?;
         (due <= untold).then(|| untold.saturating_sub(due))

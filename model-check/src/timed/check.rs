@@ -1,4 +1,4 @@
-//! Runs the check of one timed scenario and says what came of it.
+//! Runs the check of one timed scenario and reports the result.
 
 use std::time::Instant;
 
@@ -19,7 +19,7 @@ use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep, Fate};
 use crate::transitions::Transitions;
 
-/// Checks a timed model. `watch` is told now and then how far it is. Of the options, the limits on
+/// Checks a timed model. `watch` receives the progress now and then. Of the options, the limits on
 /// states and time count; one thread explores.
 #[must_use]
 pub fn check(
@@ -192,11 +192,11 @@ fn assumptions(model: &TimedModel) -> Vec<String> {
     };
     let looks = match timed.looks {
         Looks::EachTick => format!(
-            "timed: every robot looks once a tick of {} ms; what is due fires then",
+            "timed: every robot looks at its clock once a tick of {} ms; timers that are due fire then",
             clock.tick.0
         ),
         Looks::Within(late) => format!(
-            "timed: each robot looks when it likes, at the latest {} ms after a timer became due, at whole ticks of {} ms",
+            "timed: each robot looks at its clock at any time, at the latest {} ms after a timer became due, at whole ticks of {} ms",
             late.0, clock.tick.0
         ),
     };
@@ -208,7 +208,7 @@ fn assumptions(model: &TimedModel) -> Vec<String> {
     let (teams, failures) = if timed.teams.are_two() {
         let apart =
             "two teams reach each other at some time after both signs show go, and not before";
-        (Some(apart.to_owned()), "nobody fails")
+        (Some(apart.to_owned()), "no robot fails")
     } else {
         (None, "one failure in a run, after the request")
     };
@@ -224,7 +224,7 @@ fn assumptions(model: &TimedModel) -> Vec<String> {
             .to_owned(),
         "no run lasts as long as T_lock or T_exec".to_owned(),
         "figures and bounds are true time, and of these timers; a crash stops the robot's body and its sign, a hang neither".to_owned(),
-        "one exploration, by the kit itself, which tells states apart exactly".to_owned(),
+        "one exploration, by the kit itself, which compares whole states".to_owned(),
         "heartbeats are counted from the oldest one in a state; states that differ in the names of sessions and offers alone count as one"
             .to_owned(),
     ];

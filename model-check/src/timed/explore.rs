@@ -30,7 +30,7 @@ pub(super) struct Explored {
 }
 
 impl Explored {
-    /// Explores `model`. `watch` is told now and then how far it is.
+    /// Explores `model`. `watch` receives the progress now and then.
     pub(super) fn of(
         model: &TimedModel,
         limits: &ExplorationLimits,

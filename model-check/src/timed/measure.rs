@@ -68,8 +68,8 @@ impl Measure {
             Self::FollowerHung => "from a hang of a follower to the leader's sign at stop",
             Self::Unguarded => "from a follower's fallback to the leader's sign at stop",
             Self::BothGo => "from two leaders' first hearing to one sign at stop",
-            Self::Unaware => "from a guard gone to the leader's application told",
-            Self::Waiting => "from a detection to go or a reason told",
+            Self::Unaware => "from a guard gone to the leader's application informed",
+            Self::Waiting => "from a detection to go or a reason given",
         }
     }
 

@@ -1,4 +1,4 @@
-//! The timed model: robots that are told how much time has passed.
+//! The timed model: robots that take in how much time has passed.
 //!
 //! ```text
 //!   at a tick                     between two ticks, in no time and any order
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! A robot's part of a step is one call of [`Robot::step`](crossguard_protocol::Robot::step), as in
-//! the untimed model. Timers are urgent because the transition function makes them so: what is due
-//! fires when the robot is told of the time.
+//! the untimed model. Timers are urgent because the transition function makes them so: a timer that is
+//! due fires when the robot takes in the time.
 
 use std::sync::Arc;
 
@@ -41,14 +41,14 @@ use crate::properties::PropertyId;
 use crate::properties::timed_view::RobotSteps;
 use crate::scenario::{MAX_ROBOTS, Scenario};
 
-/// What comes of a robot's step.
+/// The effect of a robot's step.
 #[derive(Clone, Debug)]
 pub(super) struct TimedRobotStep {
     pub(super) after: u32,
     pub(super) sends: SmallVec<[u16; 2]>,
-    /// What the sign shows from then on, if it was told anything.
+    /// What the sign shows from then on, if an output was for it.
     pub(super) sign: Option<Sign>,
-    /// What it tells the application.
+    /// What it reports to the application.
     pub(super) telling: Telling,
     /// What it has to do with the contact to a leader.
     pub(super) contact: ContactChange,

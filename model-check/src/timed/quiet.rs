@@ -8,7 +8,7 @@ use crate::serial::beat_is_newer;
 /// What a follower has promised and how long it has heard nothing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Quiet {
-    /// The `t_safety` that its offer told.
+    /// The `t_safety` in its offer.
     promised: Millis,
     /// What its clock has shown since the last news; `None` once it has given its leader up.
     shown: Option<Millis>,
@@ -17,9 +17,9 @@ pub(super) struct Quiet {
 /// What a step of a robot has to do with its contact to a leader.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ContactChange {
-    /// It follows nobody.
+    /// It follows no leader.
     NoLeader,
-    /// It follows from now on, and its offer told this `t_safety`.
+    /// It follows from now on, and its offer had this `t_safety`.
     Joins(Millis),
     /// It hears news of its leader.
     News,

@@ -30,7 +30,7 @@ pub(crate) struct Section {
     hang_ms: u32,
 }
 
-/// When endpoints look at their clocks, and tell their robots.
+/// When endpoints look at their clocks, and give the time to their robots.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Looks {
     /// All of them at every tick.
@@ -84,7 +84,7 @@ impl Timed {
 pub enum TimedImpossibility {
     /// The tick is too long or zero.
     #[error(
-        "a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, for robots are told of time once a tick"
+        "a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, since robots take in the time once a tick"
     )]
     Tick {
         /// Of the section.
@@ -120,13 +120,13 @@ pub enum TimedImpossibility {
         "hangs of up to {0} ms: between 1 and 60000 ms are possible, with 'hangs' among the bounds"
     )]
     Hang(u32),
-    /// Nobody detects, or too many do, or the robots of no team come first.
+    /// No robot detects, or too many do, or the robots of no team come first.
     #[error(
         "{0} robots detect: in a timed scenario one does, or two that each begin a team, listed before its other robots"
     )]
     Detectors(usize),
     /// A failure where two teams meet.
-    #[error("'{0}' has no place in a timed scenario with two teams: nobody fails there")]
+    #[error("'{0}' has no place in a timed scenario with two teams: no robot fails there")]
     TwoTeams(&'static str),
     /// What the timed model has no use for.
     #[error(

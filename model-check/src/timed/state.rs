@@ -18,7 +18,7 @@ pub struct TimedState {
     pub(super) channel: TimedChannel,
     pub(super) left: Bounds,
     pub(super) watch: StopWatch,
-    /// What each robot's clock has shown since the robot was last told.
+    /// What each robot's clock has shown since the robot last took in the time.
     pub(super) untold: [Millis; MAX_ROBOTS],
     /// Which clocks are fast, one bit each, where each keeps its rate for a whole run.
     pub(super) rates: Option<u8>,
@@ -30,7 +30,7 @@ pub struct TimedState {
     /// Since when the pedestrian has waited for go, or the application for a reason, in ticks; where that is
     /// asked.
     pub(super) waiting: Option<u8>,
-    /// What the applications of the leaders were told of their followers.
+    /// What the applications of the leaders know of their followers.
     pub(super) told: Told,
     /// For how long each robot has heard no news of its leader.
     pub(super) quiet: [Option<Quiet>; MAX_ROBOTS],
@@ -76,9 +76,9 @@ pub enum TimedAction {
     Local(u8, Event),
     /// A robot crashes for good.
     Crash(u8),
-    /// A robot hangs: it is told nothing and sends nothing, its body goes on.
+    /// A robot hangs: it takes in nothing and sends nothing, its body goes on.
     Hang(u8),
-    /// A robot that hung goes on, and is told of the whole time at once.
+    /// A robot that hung goes on, and takes in the whole time at once.
     GoOn(u8),
     /// Two teams come within reach of each other.
     Meet,
@@ -87,7 +87,7 @@ pub enum TimedAction {
 /// What a robot takes in.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum TimedCause {
-    /// The time that its clock has shown since it was last told.
+    /// The time that its clock has shown since it last took in the time.
     Elapsed(Millis),
     /// A message, by its number.
     Message(u16),

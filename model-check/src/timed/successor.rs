@@ -1,4 +1,4 @@
-//! What comes of what happens: a step of the model.
+//! The effect of what happens: a step of the model.
 
 use crossguard_protocol::{Event, Millis, Outputs};
 use smallvec::SmallVec;
@@ -18,7 +18,7 @@ use crate::properties::timed_view::{RobotSteps, falls_back};
 use crate::scenario::MAX_ROBOTS;
 
 impl TimedModel {
-    /// What comes of `action` in `state`; `None` if the action changes nothing. The stop-watches
+    /// The state after `action` in `state`; `None` if the action changes nothing. The stop-watches
     /// that it stops are noted in `longest`.
     pub(super) fn successor(
         &self,
@@ -77,7 +77,7 @@ impl TimedModel {
         Some(next)
     }
 
-    /// What robots take in when `action` happens, in this order. A robot is told of the time before
+    /// What robots take in when `action` happens, in this order. A robot takes in the time before
     /// anything else.
     fn taken_in(
         &self,
@@ -255,7 +255,7 @@ impl TimedModel {
         }
     }
 
-    /// Lets a robot take a step; what came of it, `None` where the robot is down.
+    /// Lets a robot take a step; `None` where the robot is down.
     pub(super) fn robot_step(
         &self,
         next: &mut TimedState,
@@ -282,7 +282,7 @@ impl TimedModel {
         Some(step)
     }
 
-    /// Sends messages to all who are within reach and up.
+    /// Sends messages to all robots that are within reach and up.
     fn send(&self, next: &mut TimedState, from: u8, messages: &[u16]) {
         let team = |place| self.timed.teams.team_of(place);
         let is_near = |to: &u8| next.watch != StopWatch::Apart || team(*to) == team(from);

@@ -1,6 +1,6 @@
 //! What may be wrong with a record.
 
-use crossguard_model_check::monitor::Broken;
+use crossguard_model_check::properties::PropertyId;
 use crossguard_protocol::{BrokenInequality, StationId};
 
 use crossguard_endpoint::wire::Unheard;
@@ -139,5 +139,5 @@ pub enum Fault {
     },
     /// A property is broken.
     #[error("broke {}: {}", .0.name(), .0.statement())]
-    Broken(Broken),
+    Broken(PropertyId),
 }
