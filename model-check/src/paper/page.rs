@@ -12,7 +12,7 @@ use crate::sequence::{Chart, ChartPlace, ChartStep, Fate};
 const INTRODUCTION: &str = "\
 # The paper's text taken word for word
 
-The paper *Multi-PaperRobot Coordination in V2X Environments* (Arockiasamy, Vinel; arXiv 2605.06662)
+The paper *Multi-Robot Coordination in V2X Environments* (Arockiasamy, Vinel; arXiv 2605.06662)
 describes four states, two messages and what robots do with them. `crossguard check paper-literal`
 checks a small model of exactly that wording (`model-check/src/paper`), and the check must fail. Each
 counterexample below was found by stateright, is the shortest of its kind, and is the reason for a

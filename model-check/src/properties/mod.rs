@@ -1,10 +1,10 @@
 //! The properties: one file each, one line each in the list below.
 //!
 //! ```text
-//!   i04_started_once.rs ── PROPERTY ──► list below ──► PropertyId ──► scenarios, checks, monitor, reports
-//!                            │
-//!        id, and for each model that it is claimed of (untimed, timed):
-//!        kind, statement, premise, rule, the weakening that breaks it
+//!   i04_started_once.rs ── PROPERTY ──► list below ──► PropertyId ──► scenario, check, monitor, report
+//!                             │
+//!         id, and for each model that it is claimed of (untimed, timed):
+//!         kind, statement, premise, rule, the weakening that breaks it
 //! ```
 //!
 //! A rule says what must hold, and its premise in which situation. A property counts only when its premise is
@@ -142,18 +142,18 @@ const fn is_same(one: &str, other: &str) -> bool {
 
 /// Which claims are asked for.
 #[derive(Clone, Copy)]
-enum Of {
+enum ClaimedOf {
     Untimed,
     Timed,
 }
 
 /// How many properties before `end` are claimed of one of the models.
-const fn claims_before(of: Of, end: usize) -> u32 {
+const fn claims_before(of: ClaimedOf, end: usize) -> u32 {
     let (mut at, mut count) = (0, 0);
     while at < end {
         let claim = match of {
-            Of::Untimed => &PROPERTIES[at].untimed,
-            Of::Timed => &PROPERTIES[at].timed,
+            ClaimedOf::Untimed => &PROPERTIES[at].untimed,
+            ClaimedOf::Timed => &PROPERTIES[at].timed,
         };
         if claim.is_some() {
             count += 1;
@@ -164,7 +164,7 @@ const fn claims_before(of: Of, end: usize) -> u32 {
 }
 
 /// The bit of each property among the properties that are claimed of one of the models, or 0.
-const fn bits(of: Of) -> [u32; PROPERTIES.len()] {
+const fn bits(of: ClaimedOf) -> [u32; PROPERTIES.len()] {
     let mut bits = [0; PROPERTIES.len()];
     let mut at = 0;
     while at < bits.len() {
@@ -177,8 +177,8 @@ const fn bits(of: Of) -> [u32; PROPERTIES.len()] {
     bits
 }
 
-const UNTIMED_BITS: [u32; PROPERTIES.len()] = bits(Of::Untimed);
-const TIMED_BITS: [u32; PROPERTIES.len()] = bits(Of::Timed);
+const UNTIMED_BITS: [u32; PROPERTIES.len()] = bits(ClaimedOf::Untimed);
+const TIMED_BITS: [u32; PROPERTIES.len()] = bits(ClaimedOf::Timed);
 
 impl PropertyId {
     /// The property.

@@ -23,9 +23,10 @@
 //!   not, in any order with the messages and events of that tick; it looks at the latest `delay_max` after
 //!   a timer of its robot became due, on its own clock, for it has no other. A robot takes in the time before a
 //!   message or an event. As long as none of its timers is due it makes no difference when it does (what passes
-//!   in two parts passes in one), so in the model it does at once, and only a robot with a due timer waits. Every run of the
-//!   synchronous view is one of these, and every one of these is one of real robots. Endpoints that look between two ticks are not explored: their delays count as whole ticks, and
-//!   a message that arrives just before a timer becomes due counts as one of the tick before.
+//!   in two parts passes in one), so in the model it does at once, and only a robot with a due timer waits. Every
+//!   run of the synchronous view is one of these, and every one of these is one of real robots. Endpoints that
+//!   look between two ticks are not explored: their delays count as whole ticks, and a message that arrives just
+//!   before a timer becomes due counts as one of the tick before.
 //! - *Late endpoints* (`late_ms`). How late free endpoints are in truth, where that is not the
 //!   `delay_max` of the settings. The bounds are of the settings.
 //! - *Clocks.* At each tick the clock of each robot shows either [`slow`](Clock::slow) or
