@@ -112,7 +112,7 @@ impl PaperWorld {
             (PaperInput::Finished, _) => self.memory.finished |= bit(executed),
             (_, Some(PaperRmcm::Command(_))) => self.memory.given += 1,
             (_, Some(PaperRmcm::Acknowledgement(command))) => {
-                self.memory.started |= bit(Some(command))
+                self.memory.started |= bit(Some(command));
             }
             _ => {}
         }
@@ -193,7 +193,7 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
             next.step(to, PaperInput::Ram(from, ram))?;
         }
         PaperAction::Command(place) => {
-            next.step(place, PaperInput::Commanded(world.memory.given))?
+            next.step(place, PaperInput::Commanded(world.memory.given))?;
         }
         PaperAction::Arrive { flight, again } => {
             if !again {

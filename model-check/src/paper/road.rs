@@ -143,7 +143,7 @@ impl Road {
         for (place, body) in self.bodies.iter().enumerate() {
             match body {
                 PaperBody::UnderWay(_) if self.task == Task::Block => {
-                    moves.push(Move::Reach(place))
+                    moves.push(Move::Reach(place));
                 }
                 PaperBody::FallingBack(_) if self.is_free() => moves.push(Move::EndFallback(place)),
                 _ => {}

@@ -126,7 +126,7 @@ impl PaperRobot {
                 return self.hear_command(from, command);
             }
             PaperInput::Rmcm(from, PaperRmcm::Acknowledgement(command)) => {
-                self.hear_ack(from, command)
+                self.hear_ack(from, command);
             }
             PaperInput::Detected => self.establish(State::HelpRequested, HelpStatus::NeedHelp),
             PaperInput::Commanded(serial) => return Some(self.give_command(serial)),

@@ -54,8 +54,9 @@ fn is_survived_in_time(step: &TimedStepView) -> bool {
     let limits = after.setup.limits;
     let runs = after.nodes().any(|node| node.actuation.running.is_some());
     let follows = after.nodes().any(Node::is_following);
-    !(runs && after.is_over(ticks, limits.stopped))
-        && !(follows && after.is_over(ticks, limits.left))
+    let goes_on = runs && after.is_over(ticks, limits.stopped);
+    let stays = follows && after.is_over(ticks, limits.left);
+    !goes_on && !stays
 }
 
 fn crashes_while_executed(view: &TimedView) -> bool {

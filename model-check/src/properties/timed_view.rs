@@ -86,15 +86,13 @@ impl<'a> TimedView<'a> {
     }
 }
 
-impl TimedStepView<'_> {
-    /// Whether a follower that executed falls back for lack of contact.
-    pub(crate) fn has_fallback(&self) -> bool {
-        let mut robots = self.before.nodes().zip(self.after.nodes());
-        robots.any(|(before, after)| falls_back(before, after))
-    }
+/// Whether a follower that executed falls back for lack of contact in a step of the model.
+pub(crate) fn has_fallback(step: &TimedStepView) -> bool {
+    let mut robots = step.before.nodes().zip(step.after.nodes());
+    robots.any(|(before, after)| falls_back(before, after))
 }
 
-/// Whether a follower that executed falls back for lack of contact in a step.
+/// Whether a follower that executed falls back for lack of contact in its step.
 pub(crate) fn falls_back(before: &Node, after: &Node) -> bool {
     let stops = before.actuation.running.is_some() && after.actuation.running.is_none();
     stops && after.has_lost_contact()

@@ -8,7 +8,7 @@ use crossguard_protocol::SessionId;
 use crate::road::Body;
 
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::TimedStepView;
+use super::timed_view::{TimedStepView, has_fallback};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
@@ -26,7 +26,7 @@ pub(super) const PROPERTY: Property = Property {
         premise: Some("an executing follower falls back for lack of contact"),
         rule: Rule::Timed(TimedRule {
             holds: |step: &TimedStepView| !step.after.is_unguarded,
-            premise: &[TimedPremise::Step(|step| step.has_fallback())],
+            premise: &[TimedPremise::Step(has_fallback)],
             ends_run: false,
         }),
         weakening: "SHOWS_GO_TOO_LONG",

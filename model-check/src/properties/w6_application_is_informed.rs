@@ -3,7 +3,7 @@
 //! It ends no run: a follower that is gone is dropped at some time.
 
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, TimedView};
+use super::timed_view::{TimedStepView, TimedView, has_fallback};
 use crate::node::Node;
 use crate::road::Body;
 use crate::timed::watch::StopWatch;
@@ -19,7 +19,7 @@ pub(super) const PROPERTY: Property = Property {
             holds,
             premise: &[
                 TimedPremise::State(guard_is_gone),
-                TimedPremise::Step(|step| step.has_fallback()),
+                TimedPremise::Step(has_fallback),
             ],
             ends_run: false,
         }),

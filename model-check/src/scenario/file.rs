@@ -89,27 +89,7 @@ impl File {
         if !(2..=MAX_ROBOTS).contains(&robots) {
             return Err(at(Location::Key("robots"), I::Robots(robots)));
         }
-        for (i, robot) in self.robots.iter().enumerate() {
-            let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
-            for other in self.robots[..i].iter().map(|other| other.station) {
-                if other == one {
-                    return Err(at(Location::Key("robots"), I::SameStation(one)));
-                }
-                if pseudonym(other) == pseudonym(one) {
-                    return Err(at(Location::Key("robots"), I::SamePseudonyms(other, one)));
-                }
-            }
-        }
-        let never_asks = |robot: &&RobotSetup| robot.urgency.is_some() && !robot.detects;
-        if let Some(robot) = self.robots.iter().find(never_asks) {
-            return Err(at(
-                Location::Key("urgency"),
-                I::UnusedUrgency(robot.station),
-            ));
-        }
-        if !self.robots.iter().any(|robot| robot.detects) {
-            return Err(at(Location::Key("robots"), I::NobodyDetects));
-        }
+        self.check_robots()?;
         let of_runs = |name: &toml::Spanned<String>| {
             let id = name.get_ref().parse::<PropertyId>();
             id.is_ok_and(|id| id.liveness_rule().is_some())
@@ -156,31 +136,13 @@ impl File {
                 let cause = TimedImpossibility::Untimed("cooperative");
                 return Err(at(Location::Key("cooperative"), cause));
             }
-            checked.properties = all_named(&self.properties, |name| {
-                let id = name
-                    .parse()
-                    .ok()
-                    .filter(|id: &PropertyId| id.timed().is_some());
-                let unknown = || TimedImpossibility::Property(name.to_owned());
-                id.ok_or_else(|| unknown().into())
-            })?;
+            checked.properties = all_named(&self.properties, timed_property)?;
             timed = Some(checked);
         }
         let properties = match timed {
             Some(_) => Vec::new(),
             None => all_named(&self.properties, |name| {
-                let id = name
-                    .parse()
-                    .ok()
-                    .filter(|id: &PropertyId| id.untimed().is_some());
-                let id = id.ok_or_else(|| I::Property(name.to_owned()))?;
-                let needs_cooperation = id
-                    .liveness_rule()
-                    .is_some_and(|rule| rule.needs_cooperation);
-                if needs_cooperation && !self.cooperative {
-                    return Err(I::NotCooperative(id));
-                }
-                Ok(id)
+                untimed_property(name, self.cooperative)
             })?,
         };
         Ok(Scenario {
@@ -199,13 +161,57 @@ impl File {
             expected: self.expected,
         })
     }
+
+    /// Whether the robots can be told apart, and one of them starts a run.
+    fn check_robots(&self) -> Result<(), Located> {
+        use Impossibility as I;
+        for (i, robot) in self.robots.iter().enumerate() {
+            let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
+            for other in self.robots[..i].iter().map(|other| other.station) {
+                if other == one {
+                    return Err(at(Location::Key("robots"), I::SameStation(one)));
+                }
+                if pseudonym(other) == pseudonym(one) {
+                    return Err(at(Location::Key("robots"), I::SamePseudonyms(other, one)));
+                }
+            }
+        }
+        let never_asks = |robot: &&RobotSetup| robot.urgency.is_some() && !robot.detects;
+        if let Some(robot) = self.robots.iter().find(never_asks) {
+            return Err(at(
+                Location::Key("urgency"),
+                I::UnusedUrgency(robot.station),
+            ));
+        }
+        if !self.robots.iter().any(|robot| robot.detects) {
+            return Err(at(Location::Key("robots"), I::NobodyDetects));
+        }
+        Ok(())
+    }
+}
+
+fn untimed_property(name: &str, is_cooperative: bool) -> Result<PropertyId, Impossibility> {
+    let id = name.parse().ok();
+    let id = id.filter(|id: &PropertyId| id.untimed().is_some());
+    let id = id.ok_or_else(|| Impossibility::Property(name.to_owned()))?;
+    let rule = id.liveness_rule();
+    if rule.is_some_and(|rule| rule.needs_cooperation) && !is_cooperative {
+        return Err(Impossibility::NotCooperative(id));
+    }
+    Ok(id)
+}
+
+fn timed_property(name: &str) -> Result<PropertyId, Impossibility> {
+    let id = name.parse().ok();
+    let id = id.filter(|id: &PropertyId| id.timed().is_some());
+    id.ok_or_else(|| TimedImpossibility::Property(name.to_owned()).into())
 }
 
 /// The properties of these names.
-fn all_named<P>(
+fn all_named(
     names: &[toml::Spanned<String>],
-    parse: impl Fn(&str) -> Result<P, Impossibility>,
-) -> Result<Vec<P>, Located> {
+    parse: impl Fn(&str) -> Result<PropertyId, Impossibility>,
+) -> Result<Vec<PropertyId>, Located> {
     let property = |name: &toml::Spanned<String>| {
         parse(name.get_ref()).map_err(|cause| at(Location::Offset(name.span().start), cause))
     };

@@ -4,6 +4,7 @@ use smallvec::SmallVec;
 
 use super::broken::BrokenSet;
 use super::model::TimedModel;
+use super::sign::Sign;
 use super::state::TimedState;
 use super::watch::StopWatch;
 use crate::node::Node;
@@ -24,7 +25,7 @@ impl TimedModel {
                 limits: self.limits(),
             },
             watch: state.watch,
-            shows_go: state.signs.map(|sign| sign.shows_go()),
+            shows_go: state.signs.map(Sign::shows_go),
             is_unguarded: state.is_unguarded(),
             told: state.told,
             waiting: state.waiting,
