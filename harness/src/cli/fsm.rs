@@ -1,5 +1,6 @@
 //! `crossguard fsm`.
 
+use crossguard_model_check::transitions::mode_name;
 use crossguard_model_check::{fsm, universe};
 
 use super::{Failure, print, print_json};
@@ -37,8 +38,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Format::Dot => print(fsm::diagram(&transitions, fsm::DiagramFormat::Dot).trim_end()),
         Format::Json => {
             let transitions = transitions.0.iter().map(|((from, to), labels)| Transition {
-                from: fsm::name(*from),
-                to: fsm::name(*to),
+                from: mode_name(*from),
+                to: mode_name(*to),
                 on: labels.iter().cloned().collect(),
             });
             print_json(&transitions.collect::<Vec<_>>())

@@ -75,13 +75,6 @@ macro_rules! properties {
             pub const ALL: [Self; PROPERTIES.len()] = [$(Self::$id,)*];
         }
 
-        const _: () = {
-            $(assert!(
-                is_same(stringify!($id), $file::PROPERTY.id),
-                "a property is listed under its id"
-            );)*
-        };
-
         /// An array of a function for each property, in the order of [`PropertyId::ALL`]: stateright wants a
         /// plain function for each.
         macro_rules! for_each_property {
@@ -131,54 +124,24 @@ properties! {
     W8: w8_go_or_a_reason,
 }
 
-const fn is_same(one: &str, other: &str) -> bool {
-    let (one, other) = (one.as_bytes(), other.as_bytes());
-    let mut at = 0;
-    while at < one.len() && at < other.len() && one[at] == other[at] {
-        at += 1;
-    }
-    at == one.len() && at == other.len()
-}
-
-/// Which claims are asked for.
-#[derive(Clone, Copy)]
-enum ClaimedOf {
-    Untimed,
-    Timed,
-}
-
-/// How many properties before `end` are claimed of one of the models.
-const fn claims_before(of: ClaimedOf, end: usize) -> u32 {
-    let (mut at, mut count) = (0, 0);
-    while at < end {
-        let claim = match of {
-            ClaimedOf::Untimed => &PROPERTIES[at].untimed,
-            ClaimedOf::Timed => &PROPERTIES[at].timed,
-        };
-        if claim.is_some() {
-            count += 1;
-        }
-        at += 1;
-    }
-    count
-}
-
 /// The bit of each property among the properties that are claimed of one of the models, or 0.
-const fn bits(of: ClaimedOf) -> [u32; PROPERTIES.len()] {
-    let mut bits = [0; PROPERTIES.len()];
-    let mut at = 0;
-    while at < bits.len() {
-        let number = claims_before(of, at);
-        if claims_before(of, at + 1) > number {
-            bits[at] = 1 << number;
+macro_rules! bits {
+    ($model:ident) => {{
+        let mut bits = [0; PROPERTIES.len()];
+        let (mut at, mut claims) = (0, 0);
+        while at < bits.len() {
+            if PROPERTIES[at].$model.is_some() {
+                bits[at] = 1 << claims;
+                claims += 1;
+            }
+            at += 1;
         }
-        at += 1;
-    }
-    bits
+        bits
+    }};
 }
 
-const UNTIMED_BITS: [u32; PROPERTIES.len()] = bits(ClaimedOf::Untimed);
-const TIMED_BITS: [u32; PROPERTIES.len()] = bits(ClaimedOf::Timed);
+const UNTIMED_BITS: [u32; PROPERTIES.len()] = bits!(untimed);
+const TIMED_BITS: [u32; PROPERTIES.len()] = bits!(timed);
 
 impl PropertyId {
     /// The property.
