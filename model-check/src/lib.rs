@@ -31,7 +31,7 @@
 //!   [`node`], the channel of [`network`] or [`monotone`] and what must be remembered of the past in [`history`].
 //! - [`properties`] are the rules, [`check`] and [`report`] say whether they hold, [`fair`] decides
 //!   leads-to, [`timed`] is the view in which time passes in ticks.
-//! - [`road`] is what bodies, signs and a pedestrian do, and what must be true of them.
+//! - [`road`] is what bodies, signs and a pedestrian do.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
 //!   states to other tools.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
