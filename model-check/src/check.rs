@@ -1,138 +1,50 @@
-//! Runs the checks of one scenario and says what came of them.
+//! Runs the checks of one scenario and reports the results.
 //!
 //! Two explorations run over the same model, one after the other, so that the memory of the first is free
 //! for the second. stateright's looks for states that break a property. The kit's own builds the whole
 //! graph, for what is a fact about all runs, and counts the states a second time. Only when both have
 //! visited everything and agree is a check exhaustive.
 
-use std::num::NonZeroUsize;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
 use crate::cost::Meter;
+use crate::exploration::ExplorationLimits;
+pub use crate::exploration::{CheckProgress, Options, Stop};
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Runs;
 use crate::graph::Graph;
-use crate::model::{Action, Delivery, Model, State};
+use crate::model::{Action, Delivery, Model, ModelState};
 use crate::network::Transmission;
-use crate::properties::{Kind, PropertyId, Subject, View};
-use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
+use crate::properties::{
+    Claim, LivenessRule, LivenessSubject, PropertyId, Rule, View, for_each_property,
+};
+use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::{RobotSetup, Scenario, Size};
-use crate::sequence::{ChartStep, Fate, Place};
+use crate::sequence::{ChartPlace, ChartStep, Fate};
 
-/// How far and with what a check may go.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Threads that stateright explores with.
-    pub threads: NonZeroUsize,
-    /// Give up after this many states.
-    pub states_max: Option<usize>,
-    /// Give up after this time.
-    pub time_max: Option<Duration>,
-    /// Be content as soon as all of these are found to be broken; with none, find all that are.
-    pub until_broken: Vec<PropertyId>,
-    /// Give up when somebody asks for it.
-    pub stop: Stop,
-}
-
-/// A request to give up, which an observer of a check may make. Clones are the same request.
-#[derive(Clone, Debug, Default)]
-pub struct Stop(Arc<AtomicBool>);
-
-impl Stop {
-    /// Asks to give up.
-    pub fn request(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    pub(crate) fn is_requested(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        let threads = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        Self {
-            threads,
-            states_max: None,
-            time_max: None,
-            until_broken: Vec::new(),
-            stop: Stop::default(),
-        }
-    }
-}
-
-impl Options {
-    /// The limits on states and time; time runs from now.
-    pub(crate) fn limits(&self) -> Limits {
-        Limits {
-            states_max: self.states_max,
-            time_max: self.time_max,
-            start: Instant::now(),
-            stop: self.stop.clone(),
-        }
-    }
-}
-
-/// When an exploration has to stop.
-#[derive(Clone, Debug)]
-pub(crate) struct Limits {
-    states_max: Option<usize>,
-    time_max: Option<Duration>,
-    start: Instant,
-    stop: Stop,
-}
-
-impl Limits {
-    /// Whether there are as many states as there may be.
-    pub(crate) fn states_reached(&self, states: usize) -> bool {
-        self.states_max.is_some_and(|max| states >= max)
-    }
-
-    /// Why an exploration has to stop that has taken until now, if it has.
-    pub(crate) fn time_reached(&self) -> Option<CutOff> {
-        let reached = self.time_max.is_some_and(|max| self.start.elapsed() >= max);
-        let stopped = self.stop.is_requested().then_some(CutOff::Stopped);
-        stopped.or(reached.then_some(CutOff::TimeLimit))
-    }
-}
-
-/// How far a check is.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Progress {
-    /// Distinct states that stateright has found.
-    pub checked: usize,
-    /// Distinct states that the kit's own exploration has found.
-    pub explored: usize,
-    /// How many of the latter are still to be expanded.
-    pub frontier: usize,
-    /// Steps from the initial state to the farthest of the latter.
-    pub depth: usize,
-    /// How many there will be in the end, where the scenario's file says so.
-    pub expected: Option<usize>,
-}
-
-/// Checks the model of a scenario. `watch` is told now and then how far it is.
+/// Checks the model of a scenario. `watch` receives the progress now and then.
 #[must_use]
-pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+pub fn check(
+    model: &Model,
+    options: &Options,
+    watch: &mut dyn FnMut(CheckProgress),
+) -> ScenarioReport {
     let (meter, limits) = (Meter::start(), options.limits());
     let scenario = model.scenario();
-    let progress = Progress {
+    let progress = CheckProgress {
         expected: scenario.expected.map(|size| size.unique_states),
-        ..Progress::default()
+        ..CheckProgress::default()
     };
     let checked = Checked::of(model, options, &limits, &mut |checked| {
-        watch(Progress {
+        watch(CheckProgress {
             checked,
             ..progress
         });
     });
     let graph = Graph::build(model, &limits, &mut |reached| {
-        watch(Progress {
+        watch(CheckProgress {
             checked: checked.unique_states,
             explored: reached.states,
             frontier: reached.frontier,
@@ -171,7 +83,7 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
         figures: Vec::new(),
         assumptions: assumptions(scenario, size.unique_states),
         transitions_taken: model.transitions_taken(),
-        seconds: limits.start.elapsed().as_secs_f64(),
+        seconds: limits.elapsed().as_secs_f64(),
         cost: meter.read(size.unique_states),
     }
 }
@@ -186,11 +98,7 @@ fn configure(model: &Model, options: &Options) -> stateright::CheckerBuilder<Mod
         builder = builder.timeout(time);
     }
     if !options.until_broken.is_empty() {
-        let names = options
-            .until_broken
-            .iter()
-            .map(|id| NAMES[*id as usize])
-            .collect();
+        let names = options.until_broken.iter().map(|id| id.name()).collect();
         builder = builder.finish_when(HasDiscoveries::AllOf(names));
     }
     builder
@@ -205,8 +113,13 @@ struct Checked {
 }
 
 impl Checked {
-    /// Explores the model with stateright. `watch` is told now and then how many states it has found.
-    fn of(model: &Model, options: &Options, limits: &Limits, watch: &mut dyn FnMut(usize)) -> Self {
+    /// Explores the model with stateright. `watch` receives the number of states found now and then.
+    fn of(
+        model: &Model,
+        options: &Options,
+        limits: &ExplorationLimits,
+        watch: &mut dyn FnMut(usize),
+    ) -> Self {
         let checker = configure(model, options).spawn_bfs();
         while !checker.is_done() {
             std::thread::sleep(Duration::from_millis(20));
@@ -219,7 +132,7 @@ impl Checked {
         checker: &impl Checker<Model>,
         model: &Model,
         options: &Options,
-        limits: &Limits,
+        limits: &ExplorationLimits,
     ) -> Self {
         let mut discoveries = checker.discoveries();
         // stateright says it is done in all of these cases as well.
@@ -235,7 +148,7 @@ impl Checked {
             .properties
             .iter()
             .map(|id| {
-                let path = discoveries.remove(NAMES[*id as usize])?;
+                let path = discoveries.remove(id.name())?;
                 Some(chart(model, model.real_run(path.into_vec())))
             })
             .collect();
@@ -257,31 +170,27 @@ struct Findings<'a> {
 impl Findings<'_> {
     fn all(&self) -> Vec<PropertyReport> {
         let properties = self.model.scenario().properties.iter().enumerate();
-        properties
-            .flat_map(|(i, &id)| [Some(self.rule(i, id)), self.premise(id)])
+        let claimed = properties.filter_map(|(i, &id)| Some((i, id, id.untimed()?)));
+        claimed
+            .flat_map(|(i, id, claim)| [Some(self.rule(i, id, claim)), self.premise(id, claim)])
             .flatten()
             .collect()
     }
 
-    fn rule(&self, i: usize, id: PropertyId) -> PropertyReport {
-        let (counterexample, repeats_after) = match id {
-            PropertyId::L7 => (self.stuck(), None),
-            _ if id.kind() == Kind::L => match self.lasso(id) {
+    fn rule(&self, i: usize, id: PropertyId, claim: &Claim) -> PropertyReport {
+        let (counterexample, repeats_after) = match claim.rule {
+            Rule::Reset => (self.stuck(), None),
+            Rule::Live(rule) => match self.lasso(id, rule) {
                 Some((chart, repeats_after)) => (Some(chart), Some(repeats_after)),
                 None => (None, None),
             },
             _ => (self.checked.counterexamples[i].clone(), None),
         };
-        let kind = match id.kind() {
-            Kind::S => "S",
-            Kind::T => "T",
-            Kind::L => "L",
-        };
         PropertyReport {
             id: id.to_string(),
-            kind: kind.to_owned(),
-            verdict: Verdict::of_property(counterexample.is_some(), self.cut_off),
-            statement: id.statement().to_owned(),
+            kind: claim.kind.name().to_owned(),
+            verdict: CheckVerdict::of_property(counterexample.is_some(), self.cut_off),
+            statement: claim.statement.to_owned(),
             counterexample: counterexample.unwrap_or_default(),
             repeats_after,
         }
@@ -297,13 +206,12 @@ impl Findings<'_> {
 
     /// A fair run that breaks a liveness property, and how many steps of it come before its cycle.
     /// Notes the property's premise where it is met.
-    fn lasso(&self, id: PropertyId) -> Option<(Vec<ChartStep>, usize)> {
-        let rule = id.liveness_rule()?;
+    fn lasso(&self, id: PropertyId, rule: LivenessRule) -> Option<(Vec<ChartStep>, usize)> {
         if self.cut_off.is_some() {
             return None;
         }
         let runs = self.runs();
-        let look = |state, rule: fn(&View, Subject) -> bool, subject| {
+        let look = |state, rule: fn(&View, LivenessSubject) -> bool, subject| {
             let look = |view: &View| rule(view, subject);
             self.model.look(self.graph.state(state), look)
         };
@@ -332,11 +240,11 @@ impl Findings<'_> {
     }
 
     /// The premise of a property; `None` where the property speaks about every state.
-    fn premise(&self, id: PropertyId) -> Option<PropertyReport> {
-        id.premise().map(|premise| PropertyReport {
+    fn premise(&self, id: PropertyId, claim: &Claim) -> Option<PropertyReport> {
+        claim.premise.map(|premise| PropertyReport {
             id: format!("{id}-premise"),
             kind: "premise".to_owned(),
-            verdict: Verdict::of_premise(self.model.premise_met(id), self.cut_off),
+            verdict: CheckVerdict::of_premise(self.model.premise_met(id), self.cut_off),
             statement: premise.to_owned(),
             counterexample: Vec::new(),
             repeats_after: None,
@@ -344,7 +252,7 @@ impl Findings<'_> {
     }
 }
 
-pub(crate) fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<ChartStep> {
+pub(crate) fn chart(model: &Model, path: Vec<(ModelState, Option<Action>)>) -> Vec<ChartStep> {
     path.into_iter()
         .filter_map(|(state, action)| {
             let action = action?;
@@ -363,16 +271,16 @@ pub(crate) fn chart(model: &Model, path: Vec<(State, Option<Action>)>) -> Vec<Ch
 }
 
 /// An action in words, with its place in a chart.
-pub(crate) fn placed(model: &Model, action: Action) -> (Place, String) {
+pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
     let between = |Transmission { from, to, message }, fate| {
-        let place = Place::Between {
+        let place = ChartPlace::Between {
             from: from.into(),
             to: to.into(),
             fate,
         };
         (place, model.message(message).input().to_string())
     };
-    let at = |robot: u8, what: String| (Place::At(robot.into()), what);
+    let at = |robot: u8, what: String| (ChartPlace::At(robot.into()), what);
     match action {
         Action::Deliver { transmission, how } => {
             let fate = match how {
@@ -413,7 +321,7 @@ pub fn names(scenario: &Scenario) -> Vec<String> {
     scenario.robots.iter().map(name).collect()
 }
 
-/// The probability that any two of so many states share a 64-bit fingerprint, where fingerprints are as
+/// The probability that any two of this number of states share a 64-bit fingerprint, where fingerprints are as
 /// good as random; an upper bound (the union bound over all pairs).
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 fn collision_probability(states: usize) -> f64 {
@@ -445,20 +353,20 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
         receivers(scenario),
         "a crash stops the robot's body; station ids and boot counters survive it".to_owned(),
         "applications are truthful: a body is where they say that it is, a guard finishes, the road is \
-         clear and the task is done only when nobody is on the road"
+         clear and the task is done only when no pedestrian is on the road"
             .to_owned(),
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),
         format!(
-            "stateright tells states apart by 64-bit fingerprints: that any two of these share one \
-             has a probability of {:.0e}; the kit's own exploration compares whole states",
+            "stateright compares 64-bit fingerprints of states: any two of these states share one with \
+             a probability of {:.0e}; the kit's own exploration compares whole states",
             collision_probability(states)
         ),
     ];
     if scenario.bounds.hangs > 0 {
         assumptions.push(
             "a robot that hangs does and hears nothing, keeps its state, and goes on at some time; its \
-             body does what it was last told"
+             body does what it did before"
                 .to_owned(),
         );
     }
@@ -469,7 +377,7 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
             robots.join(", ")
         ));
     }
-    if scenario.properties.iter().any(|id| id.kind() == Kind::L) {
+    if scenario.properties.iter().any(|id| id.is_of_runs()) {
         assumptions.push(
             "L: weakly fair: an armed timer expires at some time, unless it is stopped or restarted \
              again and again; a message on air is delivered, lost or delayed at some time"
@@ -487,75 +395,55 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
     assumptions
 }
 
-/// Who hears a message first.
+/// Which receiver hears a message first.
 fn receivers(scenario: &Scenario) -> String {
     let order = if scenario.symmetric.is_empty() {
-        "those listed first hear it first"
+        "the ones listed first hear it first"
     } else {
         "any may hear it first"
     };
     format!("of the receivers of one message that is not delayed, {order}")
 }
 
-// stateright wants a plain function for each property; these are them.
-
-pub(crate) fn holds<const N: usize>(model: &Model, state: &State) -> bool {
+/// Whether a state keeps the property of this number. stateright wants a plain function for each.
+pub(crate) fn holds<const N: usize>(model: &Model, state: &ModelState) -> bool {
     let id = PropertyId::ALL[N];
     !Model::breaks(state, id) && model.state_rule_holds(state, id)
 }
 
-/// One such function for each property, in the order of [`PropertyId::ALL`].
-macro_rules! for_each_property {
-    ($f:ident) => {
-        for_each_property!($f: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28)
-    };
-    ($f:ident: $($n:literal)*) => {
-        [$($f::<$n>),*]
-    };
-}
-pub(crate) use for_each_property;
-
-const HOLDS: [fn(&Model, &State) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);
-
-/// Their names, which stateright wants to be static.
-const NAMES: [&str; PropertyId::ALL.len()] = [
-    "I1", "I2", "I3", "I4", "I5", "I6", "I7", "I8", "I9", "I11", "I12", "I13", "I14", "I15", "I16",
-    "I17", "I18", "L1", "L2", "L3", "L4", "L5", "L6", "L7", "W1", "W2", "W3", "W4", "W7",
-];
+const HOLDS: [fn(&Model, &ModelState) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);
 
 /// The properties of a scenario that stateright can check, each with its condition from `conditions`.
 pub(crate) fn checked_properties<M: stateright::Model>(
     scenario: &Scenario,
     conditions: &[fn(&M, &M::State) -> bool; PropertyId::ALL.len()],
 ) -> Vec<Property<M>> {
-    let by_state_or_step = |id: &&PropertyId| {
-        id.state_rule().is_some() || id.step_rule().is_some() || **id == PropertyId::W1
-    };
-    let ids = scenario.properties.iter().filter(by_state_or_step);
-    ids.map(|&id| Property {
+    let ids = scenario.properties.iter().copied();
+    let ids = ids.filter(|id| id.is_of_states_or_steps());
+    ids.map(|id| Property {
         expectation: Expectation::Always,
-        name: NAMES[id as usize],
+        name: id.name(),
         condition: conditions[id as usize],
     })
     .collect()
 }
 
 impl stateright::Model for Model {
-    type State = State;
+    type State = ModelState;
     type Action = Action;
 
-    fn init_states(&self) -> Vec<State> {
+    fn init_states(&self) -> Vec<ModelState> {
         vec![self.initial()]
     }
 
-    fn actions(&self, state: &State, actions: &mut Vec<Action>) {
+    fn actions(&self, state: &ModelState, actions: &mut Vec<Action>) {
         // stateright has no other way to be stopped.
         if !self.has_to_stop() {
             self.actions_in(state, actions);
         }
     }
 
-    fn next_state(&self, state: &State, action: Action) -> Option<State> {
+    fn next_state(&self, state: &ModelState, action: Action) -> Option<ModelState> {
         self.successor_up_to_symmetry(state, action)
             .map(|(next, _)| next)
     }
@@ -566,17 +454,5 @@ impl stateright::Model for Model {
 
     fn format_action(&self, action: &Action) -> String {
         label(self, *action)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_property_has_its_name_at_its_place() {
-        for id in PropertyId::ALL {
-            assert_eq!(NAMES[id as usize], id.to_string());
-        }
     }
 }

@@ -44,7 +44,7 @@ impl Meter {
         }
     }
 
-    /// What has been spent since then, for so many distinct states.
+    /// What has been spent since then, for this number of distinct states.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "figures for people")]
     pub fn read(self, states: usize) -> Cost {

@@ -7,9 +7,9 @@ use std::net::{SocketAddr, TcpListener};
 
 use stateright::{Model as _, Path, Property};
 
-use crate::check::{chart, checked_properties, for_each_property, holds, label, names};
-use crate::model::{Action, Model, State};
-use crate::properties::PropertyId;
+use crate::check::{chart, checked_properties, holds, label, names};
+use crate::model::{Action, Model, ModelState};
+use crate::properties::{PropertyId, for_each_property};
 use crate::scenario::Scenario;
 use crate::sequence::Chart;
 
@@ -37,14 +37,14 @@ impl Explorer {
     }
 }
 
-/// A model whose states are shown in words. Symmetric robots keep their places in it: who follows a run
+/// A model whose states are shown in words. Symmetric robots keep their places in it: a person who follows a run
 /// by hand wants to know which robot is which.
 struct Readable(Model);
 
 /// A state in words.
 #[derive(Clone)]
 struct Shown {
-    state: State,
+    state: ModelState,
     words: String,
 }
 
@@ -73,7 +73,7 @@ fn shown<const N: usize>(model: &Readable, shown: &Shown) -> bool {
 const SHOWN: [fn(&Readable, &Shown) -> bool; PropertyId::ALL.len()] = for_each_property!(shown);
 
 impl Readable {
-    fn show(&self, state: State) -> Shown {
+    fn show(&self, state: ModelState) -> Shown {
         let robots = self.0.nodes(&state).zip(names(self.0.scenario()));
         let lines = robots.enumerate().map(|(i, (node, name))| {
             let hangs = if state.hangs(i) { "; it hangs" } else { "" };

@@ -2,7 +2,8 @@
 
 use std::io::{self, Seek, SeekFrom, Write};
 
-use crate::check::{Options, label};
+use crate::check::label;
+use crate::exploration::Options;
 use crate::fairness::Runs;
 use crate::graph::Graph;
 use crate::model::Model;
@@ -10,7 +11,7 @@ use crate::report::CutOff;
 
 /// The form of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Format {
+pub enum GraphFormat {
     /// A digraph of Graphviz.
     Dot,
     /// Aldébaran, which CADP and mCRL2 read.
@@ -29,7 +30,7 @@ pub enum Format {
 pub fn export(
     model: &Model,
     options: &Options,
-    format: Format,
+    format: GraphFormat,
     to: &mut (impl Write + Seek),
 ) -> io::Result<Option<CutOff>> {
     let graph = Graph::build(model, &options.limits(), &mut |_| false);
@@ -44,8 +45,8 @@ pub fn export(
     let header = to.stream_position()?;
     // How many transitions there are is known in the end.
     match format {
-        Format::Dot => writeln!(to, "digraph \"{}\" {{", model.scenario().name)?,
-        Format::Aut => aut_header(to, 0, states)?,
+        GraphFormat::Dot => writeln!(to, "digraph \"{}\" {{", model.scenario().name)?,
+        GraphFormat::Aut => aut_header(to, 0, states)?,
     }
     let mut transitions = 0;
     for from in 0..states {
@@ -53,14 +54,14 @@ pub fn export(
             transitions += 1;
             let (what, to_state) = (label(model, action).replace('"', "'"), edge.to);
             match format {
-                Format::Dot => writeln!(to, "  {from} -> {to_state} [label=\"{what}\"];")?,
-                Format::Aut => writeln!(to, "({from}, \"{what}\", {to_state})")?,
+                GraphFormat::Dot => writeln!(to, "  {from} -> {to_state} [label=\"{what}\"];")?,
+                GraphFormat::Aut => writeln!(to, "({from}, \"{what}\", {to_state})")?,
             }
         }
     }
     match format {
-        Format::Dot => writeln!(to, "}}")?,
-        Format::Aut => {
+        GraphFormat::Dot => writeln!(to, "}}")?,
+        GraphFormat::Aut => {
             to.seek(SeekFrom::Start(header))?;
             aut_header(to, transitions, states)?;
             to.seek(SeekFrom::End(0))?;

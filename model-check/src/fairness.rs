@@ -14,7 +14,7 @@ use crossguard_protocol::{Coordination, Event, StationId, Timer};
 
 use crate::fair::{Classes, Edge, Fairness, System};
 use crate::graph::Graph;
-use crate::model::{Action, Delivery, Model, State};
+use crate::model::{Action, Delivery, Model, ModelState};
 use crate::network::{Message, Transmission};
 use crate::scenario::Scenario;
 
@@ -24,7 +24,7 @@ const OWN_TIMERS: u32 = 8;
 const TIMERS_PER_FOLLOWER: u32 = 5;
 /// Events of the application that are treated fair.
 const EVENTS: u32 = 8;
-/// Kinds of RAM that are told apart.
+/// Kinds of RAM that differ here.
 const RAM_KINDS: u32 = 5;
 
 /// Numbers for the classes of a scenario's transitions.
@@ -124,7 +124,7 @@ impl Numbers<'_> {
             Coordination::Leader { .. } => 3,
             Coordination::Follower { .. } => 4,
         };
-        // Nobody sends to itself.
+        // No robot sends to itself.
         let to = u32::from(transmission.to - u8::from(transmission.to > transmission.from));
         let way = u32::from(transmission.from) * (self.robots() - 1) + to;
         let first = self.first_event() + self.robots() * EVENTS;
@@ -206,7 +206,7 @@ impl Runs<'_> {
 
     /// What is enabled in a state but for messages on air, whose fate is decided first. A timer goes on
     /// running while they are on their way.
-    fn enabled_off_air(&self, state: &State) -> Classes {
+    fn enabled_off_air(&self, state: &ModelState) -> Classes {
         let mut actions = Vec::new();
         self.model.actions_off_air(state, &mut actions);
         let is_possible = |action: &Action| match action {
@@ -245,14 +245,14 @@ impl Runs<'_> {
     }
 
     /// A run along these states, with the action that leads to the next one.
-    pub(crate) fn along(&self, stem: &[u32], cycle: &[Edge]) -> Vec<(State, Option<Action>)> {
+    pub(crate) fn along(&self, stem: &[u32], cycle: &[Edge]) -> Vec<(ModelState, Option<Action>)> {
         let leads_to = |from: u32, to: u32, taken: Option<Classes>| {
             self.transitions(from)
                 .into_iter()
                 .find(|(_, edge)| edge.to == to && taken.is_none_or(|taken| edge.taken == taken))
                 .map(|(action, _)| action)
         };
-        let mut run: Vec<(State, Option<Action>)> = stem
+        let mut run: Vec<(ModelState, Option<Action>)> = stem
             .windows(2)
             .map(|pair| {
                 let action = leads_to(pair[0], pair[1], None);

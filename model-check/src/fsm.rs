@@ -1,18 +1,16 @@
 //! The state diagram of the protocol, drawn from what the transition function does.
 //!
-//! Nothing here knows the rules: the edges are those that [`universe`](crate::universe) has seen one
+//! No rule is written here: the edges are the transitions that [`universe`](crate::universe) has seen one
 //! robot take among peers that say anything.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use crossguard_protocol::{Role, State};
-
-use crate::transitions::{Mode, Transitions};
+use crate::transitions::{Mode, Transitions, mode_name, mode_parts};
 
 /// The form of a diagram.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Format {
+pub enum DiagramFormat {
     /// A `stateDiagram-v2` of Mermaid.
     Mermaid,
     /// A digraph of Graphviz.
@@ -21,7 +19,7 @@ pub enum Format {
 
 /// The diagram of what robots have been seen to do.
 #[must_use]
-pub fn diagram(transitions: &Transitions, format: Format) -> String {
+pub fn diagram(transitions: &Transitions, format: DiagramFormat) -> String {
     let modes: BTreeSet<Mode> = transitions
         .0
         .keys()
@@ -33,8 +31,8 @@ pub fn diagram(transitions: &Transitions, format: Format) -> String {
         .map(|(way, labels)| (*way, condense(labels)))
         .collect();
     match format {
-        Format::Mermaid => mermaid(&modes, &edges),
-        Format::Dot => dot(&modes, &edges),
+        DiagramFormat::Mermaid => mermaid(&modes, &edges),
+        DiagramFormat::Dot => dot(&modes, &edges),
     }
 }
 
@@ -53,49 +51,24 @@ fn condense(labels: &BTreeSet<String>) -> Vec<String> {
         .collect()
 }
 
-/// The parts of a mode's name: the paper's state, and the role that tells its two sides apart.
-fn parts((role, state): Mode) -> (&'static str, &'static str) {
-    let side = match role {
-        Role::None => "",
-        Role::Requester => "requester",
-        Role::Helper => "helper",
-        Role::Leader => "leader",
-        Role::Follower => "follower",
-    };
-    let state = match state {
-        State::Idle => "Idle",
-        State::HelpRequested => "HelpRequested",
-        State::RoleEstablished => "RoleEstablished",
-        State::ManeuverExecuting => "ManeuverExecuting",
-    };
-    (state, side)
-}
-
-/// The mode's name, one word.
-#[must_use]
-pub fn name(mode: Mode) -> String {
-    let (state, side) = parts(mode);
-    if side.is_empty() {
-        state.to_owned()
-    } else {
-        format!("{state}_{side}")
-    }
-}
-
 fn mermaid(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> String {
     let mut text = String::from("stateDiagram-v2\n    direction LR\n    [*] --> Idle\n");
     for &mode in modes {
-        let (state, side) = parts(mode);
+        let (state, side) = mode_parts(mode);
         if !side.is_empty() {
-            let _ = writeln!(text, "    state \"{state} ({side})\" as {}", name(mode));
+            let _ = writeln!(
+                text,
+                "    state \"{state} ({side})\" as {}",
+                mode_name(mode)
+            );
         }
     }
     for ((from, to), labels) in edges {
         let _ = writeln!(
             text,
             "    {} --> {}: {}",
-            name(*from),
-            name(*to),
+            mode_name(*from),
+            mode_name(*to),
             labels.join("<br>")
         );
     }
@@ -108,21 +81,21 @@ fn dot(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> S
          edge [fontname=sans, fontsize=9];\n",
     );
     for &mode in modes {
-        let (state, side) = parts(mode);
+        let (state, side) = mode_parts(mode);
         let label = if side.is_empty() {
             state.to_owned()
         } else {
             format!("{state}\\n{side}")
         };
-        let _ = writeln!(text, "    {} [label=\"{label}\"];", name(mode));
+        let _ = writeln!(text, "    {} [label=\"{label}\"];", mode_name(mode));
     }
     for ((from, to), labels) in edges {
         let label = labels.join("\\n");
         let _ = writeln!(
             text,
             "    {} -> {} [label=\"{label}\"];",
-            name(*from),
-            name(*to)
+            mode_name(*from),
+            mode_name(*to)
         );
     }
     text.push_str("}\n");

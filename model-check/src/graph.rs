@@ -5,8 +5,8 @@ use std::hash::BuildHasher;
 use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
-use crate::check::Limits;
-use crate::model::{Action, Delivery, Model, State};
+use crate::exploration::ExplorationLimits;
+use crate::model::{Action, Delivery, Model, ModelState};
 use crate::node::Node;
 use crate::report::CutOff;
 
@@ -21,13 +21,13 @@ pub(crate) struct Reached {
 
 /// Every reachable state and every transition between them.
 pub(crate) struct Graph {
-    states: Vec<State>,
+    states: Vec<ModelState>,
     /// For each state the first one through which it was reached; the initial state names itself.
     parents: Vec<u32>,
     /// Successors of all states, one after the other.
     targets: Vec<u32>,
-    /// Whether each of these is reached by nothing but arrivals on a monotone channel, which nobody can
-    /// rely on.
+    /// Whether each of these is reached by nothing but arrivals on a monotone channel, which may never
+    /// happen.
     by_chance: Vec<bool>,
     /// Where the successors of each state begin, and after the last where they end.
     starts: Vec<u32>,
@@ -69,7 +69,7 @@ impl Building {
     fn expand(
         &mut self,
         model: &Model,
-        limits: &Limits,
+        limits: &ExplorationLimits,
         at: usize,
         actions: &mut Vec<Action>,
     ) -> Option<CutOff> {
@@ -118,12 +118,12 @@ impl Building {
         graph
     }
 
-    fn known(&self, state: &State) -> Option<u32> {
+    fn known(&self, state: &ModelState) -> Option<u32> {
         let is_it = |number: &u32| self.graph.states[*number as usize] == *state;
         self.numbers.find(hash(state), is_it).copied()
     }
 
-    fn add(&mut self, state: State, parent: u32) -> u32 {
+    fn add(&mut self, state: ModelState, parent: u32) -> u32 {
         let states = &mut self.graph.states;
         let fresh = short(states.len());
         let hashed = hash(&state);
@@ -135,7 +135,7 @@ impl Building {
     }
 }
 
-fn hash(state: &State) -> u64 {
+fn hash(state: &ModelState) -> u64 {
     FxBuildHasher.hash_one(state)
 }
 
@@ -148,11 +148,11 @@ fn short(number: usize) -> u32 {
 }
 
 impl Graph {
-    /// Explores `model` from its initial state, breadth first. `watch` is told how far it is, and says
+    /// Explores `model` from its initial state, breadth first. `watch` receives the progress, and says
     /// whether to stop.
     pub(crate) fn build(
         model: &Model,
-        limits: &Limits,
+        limits: &ExplorationLimits,
         watch: &mut dyn FnMut(Reached) -> bool,
     ) -> Self {
         let mut building = Building::of(model);
@@ -178,7 +178,8 @@ impl Graph {
         }
         let mut graph = building.finished();
         // What comes after a broken step property was not explored.
-        let is_reset = |state: &State| model.nodes(state).all(Node::is_idle) || state.is_broken();
+        let is_reset =
+            |state: &ModelState| model.nodes(state).all(Node::is_idle) || state.is_broken();
         graph.resettable = graph.can_reach(is_reset);
         graph
     }
@@ -208,7 +209,7 @@ impl Graph {
         self.cut_off
     }
 
-    pub(crate) fn state(&self, number: u32) -> &State {
+    pub(crate) fn state(&self, number: u32) -> &ModelState {
         &self.states[number as usize]
     }
 
@@ -219,7 +220,7 @@ impl Graph {
     }
 
     /// The number of `next`, which is a successor of state `number`.
-    pub(crate) fn successor_number(&self, number: u32, next: &State) -> u32 {
+    pub(crate) fn successor_number(&self, number: u32, next: &ModelState) -> u32 {
         let mut targets = self.targets(number as usize).iter();
         *targets
             .find(|&&target| self.state(target) == next)
@@ -238,7 +239,7 @@ impl Graph {
 
     /// For each state, whether it can reach one that satisfies `goal`, on a monotone channel without the
     /// help of any message.
-    fn can_reach(&self, goal: impl Fn(&State) -> bool) -> Vec<bool> {
+    fn can_reach(&self, goal: impl Fn(&ModelState) -> bool) -> Vec<bool> {
         let states = self.states.len();
         // The predecessors of each state, one after the other. Each place is filled from its end, which
         // leaves its beginning in `starts`.

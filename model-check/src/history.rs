@@ -1,4 +1,4 @@
-//! What has happened, as far as a property needs it and no robot's state tells.
+//! What has happened, as far as a property needs it and no robot's state holds it.
 
 use crossguard_protocol::{
     Answer, Command, Confirmation, Coordination, Event, Input, ManeuverId, Notice, OfferNumber,
@@ -16,7 +16,7 @@ pub struct History {
     commands: Vec<CommandRecord>,
     confirmed: Vec<(SessionId, Confirmation)>,
     before_crash: Vec<(StationId, SessionId)>,
-    /// Who is on the road.
+    /// Whether the pedestrian is on the road.
     pub pedestrian: Pedestrian,
 }
 
@@ -40,7 +40,7 @@ pub struct CommandRecord {
     pub fell_back: bool,
     /// The follower's body has reached the place from which it guards.
     pub in_position: bool,
-    /// The leader was told that it has ended, or has dropped the follower.
+    /// The leader has received a report that it has ended, or has dropped the follower.
     pub told: bool,
 }
 
@@ -240,7 +240,7 @@ impl Renamable for History {
     }
 }
 
-/// The command of which a message tells its leader that it has ended, and its follower.
+/// The command whose end a message reports to its leader, and its follower.
 pub(crate) fn told_end(leader: StationId, input: Input) -> Option<(StationId, ManeuverId)> {
     let Input::Ram { ram, .. } = input else {
         return None;

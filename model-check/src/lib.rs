@@ -29,9 +29,9 @@
 //!
 //! - [`scenario`] reads what is to be explored, [`model`] says what may happen in it, with the robots of
 //!   [`node`], the channel of [`network`] or [`monotone`] and what must be remembered of the past in [`history`].
-//! - [`properties`] are the rules, [`check`] and [`report`] say what came of them, [`fair`] decides
+//! - [`properties`] are the rules, [`check`] and [`report`] say whether they hold, [`fair`] decides
 //!   leads-to, [`timed`] is the view in which time passes in ticks.
-//! - [`road`] is what bodies, signs and a pedestrian do, and what must be true of them.
+//! - [`road`] is what bodies, signs and a pedestrian do.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
 //!   states to other tools.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
@@ -40,12 +40,13 @@
 //!
 //! There are no features.
 //!
-//! States that differ in names alone count as one in every scenario, and in those that name symmetric
-//! robots so do states that differ in which of these is which; [`symmetry`] says why that is exact.
+//! States that differ in names alone count as one in every scenario. Where a scenario names symmetric robots, so
+//! do states that differ in which of these is which; [`symmetry`] says why that is exact.
 
 mod canonical;
 pub mod check;
 pub mod cost;
+mod exploration;
 pub mod explore;
 pub mod export;
 pub mod fair;
@@ -72,13 +73,14 @@ pub mod subject;
 pub mod symmetry;
 pub mod timed;
 pub mod transitions;
+mod transmission;
 pub mod universe;
 
 /// How many distinct states a scenario has, by the kit's own exploration alone. It says nothing about
 /// what must hold of them; [`check::check`] does.
 #[must_use]
 pub fn count_states(model: &model::Model) -> usize {
-    let limits = check::Options::default().limits();
+    let limits = exploration::Options::default().limits();
     graph::Graph::build(model, &limits, &mut |_| false).states()
 }
 

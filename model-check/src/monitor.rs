@@ -1,5 +1,5 @@
 //! The properties of robots that run: the rules of [`properties`](crate::properties), judged step by
-//! step on what a simulation does or a log tells.
+//! step on what a simulation does or a log records.
 //!
 //! A rule that the model checker tries on every state of a scenario is tried here on the states that
 //! one run passes through. What holds of every run in the model, whatever the order of what happens
@@ -12,46 +12,17 @@ use crossguard_protocol::{Config, Input, Maneuver, Outputs, Robot, SessionId, St
 
 use crate::history::History;
 use crate::node::Node;
-use crate::properties::{PropertyId, StepView, View, World};
-use crate::road::{Pedestrian, w1_guards_in_place};
+use crate::properties::i10_lease::has_lease_on_lost;
+use crate::properties::{PropertyId, StateRule, StepView, Surroundings, View};
+use crate::road::Pedestrian;
 use crate::steps::judge;
-use crate::timed::{TimedProperty, has_lease_on_lost};
-
-/// A property that a run breaks.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Broken {
-    /// One of all runs.
-    Untimed(PropertyId),
-    /// One of runs whose clocks are those of the robots.
-    Timed(TimedProperty),
-}
-
-impl Broken {
-    /// The property's id.
-    #[must_use]
-    pub fn name(self) -> String {
-        match self {
-            Self::Untimed(id) => id.to_string(),
-            Self::Timed(id) => id.name().to_owned(),
-        }
-    }
-
-    /// What the property says.
-    #[must_use]
-    pub const fn statement(self) -> &'static str {
-        match self {
-            Self::Untimed(id) => id.statement(),
-            Self::Timed(id) => id.statement(),
-        }
-    }
-}
 
 /// Judges one run. Robots are named by their places, from 0.
 #[derive(Debug)]
 pub struct Monitor {
     seats: Seats,
     history: History,
-    /// Whether what is told comes in the order of true time.
+    /// Whether steps come in the order of true time.
     is_timed: bool,
     has_strangers: bool,
     premises: u32,
@@ -70,7 +41,7 @@ struct Seat {
     is_hung: bool,
 }
 
-impl World for Seats {
+impl Surroundings for Seats {
     fn config(&self, place: usize) -> &Config {
         &self.0[place].config
     }
@@ -85,15 +56,15 @@ impl World for Seats {
         self.0.iter().position(named)
     }
 
-    /// Nobody knows of a run that goes on.
+    /// While a run goes on this is not known.
     fn restarts_are_over(&self) -> bool {
         false
     }
 }
 
 impl Monitor {
-    /// Over a run that has not begun. Whether it is `timed`: whether steps are told in the order of
-    /// true time, so that states of two robots can be held against each other at one moment.
+    /// Over a run that has not begun. Whether it is `timed`: whether steps come in the order of
+    /// true time, so that states of two robots can be compared at one moment.
     #[must_use]
     pub fn new(timed: bool) -> Self {
         Self {
@@ -141,8 +112,8 @@ impl Monitor {
         self.seats.0[place].is_hung = is_hung;
     }
 
-    /// From now on robots hear others of which nothing is told here: what holds of two robots and one
-    /// of them is not known is not judged any more.
+    /// From now on robots hear others whose steps are not recorded here: a rule that compares two robots is not
+    /// judged any more.
     pub const fn has_strangers(&mut self) {
         self.has_strangers = true;
     }
@@ -170,7 +141,7 @@ impl Monitor {
         input: Input,
         outputs: &Outputs,
         after: &Robot,
-    ) -> Option<Broken> {
+    ) -> Option<PropertyId> {
         let seat = &mut self.seats.0[place];
         let next = seat.node.observed(input, outputs, after.clone());
         let before = std::mem::replace(&mut seat.node, next);
@@ -189,7 +160,10 @@ impl Monitor {
         let (premises, broken) = judge(&PropertyId::ALL, &view, false);
         self.premises |= premises;
         let has_strangers = self.has_strangers;
-        let judged = |id: &PropertyId| broken & id.bit() != 0 && !(has_strangers && is_of_two(*id));
+        let judged = |id: &PropertyId| {
+            let is_open = has_strangers && id.step_rule().is_some_and(|rule| rule.of_two);
+            broken & id.bit() != 0 && !is_open
+        };
         let mut first = PropertyId::ALL.into_iter().find(judged);
         if view.is_historic()
             && let (Some(from), Some(to)) = (&before.robot, &seat.node.robot)
@@ -203,25 +177,29 @@ impl Monitor {
             let seats = self.seats.0.iter().filter(|seat| !seat.is_hung);
             self.is_timed && has_lease_on_lost(&seats.filter_map(|seat| seat.node.robot.as_ref()))
         };
-        match first {
-            Some(id) => Some(Broken::Untimed(id)),
-            None => late().then_some(Broken::Timed(TimedProperty::I10)),
-        }
+        first.or_else(|| late().then_some(PropertyId::I10))
     }
 
-    /// Somebody steps on the road at the sign of a session, whose crossing requires so many guards. The
+    /// A pedestrian steps on the road at the sign of a session, whose crossing requires this number of guards. The
     /// property that this breaks.
-    pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<Broken> {
+    pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<PropertyId> {
         let nodes: Vec<&Node> = self.seats.0.iter().map(|seat| &seat.node).collect();
         let view = View {
             nodes: &nodes,
             history: &self.history,
             world: &self.seats,
         };
-        let are_there = self.has_strangers || w1_guards_in_place::holds(&view, session, required);
-        self.premises |= PropertyId::W1.bit();
+        let mut broken = None;
+        for id in PropertyId::ALL {
+            if let Some(holds) = id.keeps_guards(&view, session, required) {
+                self.premises |= id.bit();
+                if !holds && !self.has_strangers {
+                    broken = Some(id);
+                }
+            }
+        }
         self.on_road.push(session);
-        (!are_there).then_some(Broken::Untimed(PropertyId::W1))
+        broken
     }
 
     /// A person who stepped on the road at the sign of this session is across.
@@ -250,8 +228,8 @@ impl Monitor {
         };
         let mut premises = self.premises;
         let broken = PropertyId::ALL.into_iter().find(|id| {
-            let is_open = self.has_strangers && is_of_two(*id);
-            let rule = id.state_rule().filter(|_| !is_open);
+            let is_open = |rule: &StateRule| self.has_strangers && rule.of_two;
+            let rule = id.state_rule().filter(|rule| !is_open(rule));
             rule.is_some_and(|rule| {
                 if premises & id.bit() == 0 && (rule.premise)(&view) {
                     premises |= id.bit();
@@ -263,7 +241,7 @@ impl Monitor {
         broken
     }
 
-    /// Where a robot is, and what its body has been told.
+    /// The state of a robot and of its body.
     ///
     /// # Panics
     /// When there is no such robot.
@@ -278,14 +256,6 @@ impl Monitor {
         let ids = PropertyId::ALL.into_iter();
         ids.filter(move |id| met & id.bit() != 0)
     }
-}
-
-/// Whether a property speaks of what two robots know of each other's past.
-const fn is_of_two(id: PropertyId) -> bool {
-    matches!(
-        id,
-        PropertyId::I2 | PropertyId::I3 | PropertyId::I6 | PropertyId::I8
-    )
 }
 
 #[cfg(test)]
@@ -316,7 +286,7 @@ mod tests {
         let is_lock = |output: &&Output| matches!(output, Output::LockIdentity);
         let forgetful: Outputs = outputs.iter().filter(|o| !is_lock(o)).copied().collect();
         let broken = monitor.step(place, request(), &forgetful, &robot);
-        assert_eq!(broken, Some(Broken::Untimed(PropertyId::I18)));
+        assert_eq!(broken, Some(PropertyId::I18));
     }
 
     #[test]
@@ -333,10 +303,10 @@ mod tests {
         assert!(
             matches!(robot.session(), Some(SessionId { .. }) if robot.session() == Some(session))
         );
-        // It follows out of nothing: nobody has confirmed it.
+        // It follows without a confirmation.
         let idle = Input::Elapsed(crossguard_protocol::Millis(1));
         let broken = monitor.step(place, idle, &Outputs::default(), &robot);
-        assert_eq!(broken, Some(Broken::Untimed(PropertyId::I2)));
+        assert_eq!(broken, Some(PropertyId::I2));
     }
 
     /// Takes `robot` to a role in the session of `requester`.

@@ -12,11 +12,11 @@
 //!   everywhere; as the set keeps all of them, ranks close no gaps here.
 //! * What a run adds without end must be bounded: heartbeats, which a leader counts once a period, and
 //!   offers, which a helper numbers anew whenever an old request reaches it once more. A scenario says how
-//!   often a RAM timer may change its robot ([`Bounds::heartbeats`]) and how often a message may make a
-//!   robot offer ([`Bounds::offers`]). Beyond that the timer does not expire, and the message is not
+//!   often a RAM timer may change its robot ([`heartbeats`](crate::scenario::Bounds::heartbeats)) and how often a message may make a
+//!   robot offer ([`offers`](crate::scenario::Bounds::offers)). Beyond that the timer does not expire, and the message is not
 //!   heard. The first is a bound of the exploration, like that on commands; the second is something the
 //!   channel may do anyway.
-//! * Messages to a robot that is down for good are dropped: nobody will hear them, so that is exact.
+//! * Messages to a robot that is down for good are dropped: no robot will hear them, so that is exact.
 //!   Nothing else is dropped, and nothing is merged.
 //!
 //! # What is claimed of runs
@@ -31,97 +31,19 @@ use std::sync::Arc;
 
 use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
-use toml::Spanned;
 
 use crate::canonical::Renamings;
 use crate::intern::Interner;
-use crate::network::{Slot, Transmission};
-use crate::properties::PropertyId;
-use crate::scenario::{Bounds, Channel};
-use crate::symmetry::Wrong;
-
-/// What does not fit a monotone channel.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum Misfit {
-    /// Delayed messages are counted.
-    #[error(
-        "delayed = {0} and 'monotone = true' exclude each other: on a monotone channel every message \
-         may arrive late; leave 'delayed' out"
-    )]
-    Delayed(u8),
-    /// Loss is decided about.
-    #[error(
-        "'{0}': a monotone channel decides about no loss, a message that never arrives is lost; it \
-         needs 'loss = true' and no 'losses'"
-    )]
-    Loss(&'static str),
-    /// The set of messages would grow for ever.
-    #[error(
-        "'monotone = true' needs '{0} = n' in [bounds]: the channel keeps every message, so without a \
-         bound there is no end of states"
-    )]
-    Unbounded(&'static str),
-    /// A bound for a monotone channel only.
-    #[error("'{0}' bounds runs on a monotone channel only; this one lacks 'monotone = true'")]
-    NotMonotone(&'static str),
-    /// Messages are assumed to arrive.
-    #[error(
-        "'cooperative = true' assumes that messages arrive; on a monotone channel any may never arrive"
-    )]
-    Cooperative,
-    /// A property that does not hold of such a channel.
-    #[error(
-        "{0} does not hold of a monotone channel: old requests that arrive again and again make robots \
-         offer for ever; leave it out"
-    )]
-    Property(PropertyId),
-}
-
-/// Whether a scenario's channel and what is said of it fit together.
-pub(crate) fn check(
-    channel: Channel,
-    bounds: Bounds,
-    cooperative: bool,
-    properties: &[Spanned<String>],
-) -> Result<(), (Wrong, Misfit)> {
-    let for_monotone = [("heartbeats", bounds.heartbeats), ("offers", bounds.offers)];
-    if !channel.monotone {
-        let set = for_monotone.into_iter().find(|(_, bound)| bound.is_some());
-        return set.map_or(Ok(()), |(key, _)| {
-            Err((Wrong::Key(key), Misfit::NotMonotone(key)))
-        });
-    }
-    if channel.delayed > 0 {
-        return Err((Wrong::Key("delayed"), Misfit::Delayed(channel.delayed)));
-    }
-    if !channel.loss {
-        return Err((Wrong::Key("loss ="), Misfit::Loss("loss = false")));
-    }
-    if bounds.losses.is_some() {
-        return Err((Wrong::Key("losses"), Misfit::Loss("losses")));
-    }
-    if let Some((key, _)) = for_monotone.into_iter().find(|(_, bound)| bound.is_none()) {
-        return Err((Wrong::Key("monotone"), Misfit::Unbounded(key)));
-    }
-    if cooperative {
-        return Err((Wrong::Key("cooperative"), Misfit::Cooperative));
-    }
-    for name in properties {
-        if let Ok(id @ PropertyId::L6) = name.get_ref().parse() {
-            return Err((Wrong::At(name.span().start), Misfit::Property(id)));
-        }
-    }
-    Ok(())
-}
+use crate::transmission::{PackedTransmission, Transmission};
 
 /// A set of messages, each with its way, in order.
-type Set = Box<[Slot]>;
+type Set = Box<[PackedTransmission]>;
 
 /// All sets of messages that have occurred.
 pub(crate) struct Sets {
     known: Interner<Set>,
     /// What a set and one more message make.
-    with: DashMap<(u32, Slot), u32, FxBuildHasher>,
+    with: DashMap<(u32, PackedTransmission), u32, FxBuildHasher>,
     renamed: DashMap<(u32, u32), u32, FxBuildHasher>,
     renamings: Arc<Renamings>,
 }
@@ -160,7 +82,7 @@ impl Sets {
 
     /// A set and one more message.
     pub(crate) fn with(&self, set: u32, message: Transmission, names: &impl MessageNames) -> u32 {
-        let message = Slot::of(message);
+        let message = PackedTransmission::of(message);
         let slots = self.known.value(set);
         let Err(at) = slots.binary_search(&message) else {
             return set;
@@ -179,7 +101,7 @@ impl Sets {
     pub(crate) fn without(&self, set: u32, receiver: usize, names: &impl MessageNames) -> u32 {
         let stays = |sent: &Transmission| usize::from(sent.to) != receiver;
         let left = self.transmissions(set).filter(stays);
-        self.number(left.map(Slot::of).collect(), names)
+        self.number(left.map(PackedTransmission::of).collect(), names)
     }
 
     /// A set after the renaming of this number, which `message` carries out on one message.
@@ -211,9 +133,9 @@ impl Sets {
         names: &impl MessageNames,
         replace: impl Fn(Transmission) -> Transmission,
     ) -> u32 {
-        let mut slots: Vec<Slot> = self
+        let mut slots: Vec<PackedTransmission> = self
             .transmissions(set)
-            .map(|sent| Slot::of(replace(sent)))
+            .map(|sent| PackedTransmission::of(replace(sent)))
             .collect();
         slots.sort_unstable();
         slots.dedup();

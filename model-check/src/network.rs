@@ -25,6 +25,8 @@ use crossguard_protocol::{
 
 use crate::canonical::Renamable;
 use crate::monotone::Sets;
+use crate::transmission::PackedTransmission;
+pub use crate::transmission::Transmission;
 
 /// How many messages may be delayed at a time.
 pub const MAX_DELAYED: usize = 4;
@@ -64,66 +66,21 @@ impl Renamable for Message {
     }
 }
 
-/// One message on its way to one receiver.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Transmission {
-    /// The sender's place in the scenario.
-    pub from: u8,
-    /// The receiver's.
-    pub to: u8,
-    /// Number of the interned message.
-    pub message: u16,
-}
-
-/// A transmission in four bytes, or none. States are compared and hashed by the million.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(crate) struct Slot(u32);
-
-impl Slot {
-    const EMPTY: Self = Self(0);
-
-    const fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    pub(crate) const fn of(Transmission { from, to, message }: Transmission) -> Self {
-        Self(1 << 24 | (from as u32) << 20 | (to as u32) << 16 | message as u32)
-    }
-
-    /// Sender and message.
-    const fn broadcast(self) -> u32 {
-        self.0 & !(0xf << 16)
-    }
-
-    pub(crate) const fn transmission(self) -> Option<Transmission> {
-        if self.is_empty() {
-            return None;
-        }
-        let [_, from_to, high, low] = self.0.to_be_bytes();
-        let message = u16::from_be_bytes([high, low]);
-        Some(Transmission {
-            from: from_to >> 4,
-            to: from_to & 0xf,
-            message,
-        })
-    }
-}
-
 /// All messages on their way.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Network {
     /// Just sent, in the order of sending, then empty.
-    on_air: [Slot; MAX_ON_AIR],
+    on_air: [PackedTransmission; MAX_ON_AIR],
     /// Delayed, as a sorted set.
-    delayed: [Slot; MAX_DELAYED],
+    delayed: [PackedTransmission; MAX_DELAYED],
     /// Number of the set of all messages ever sent, where the channel is monotone.
     pub(crate) sent: u32,
 }
 
 impl Network {
     pub(crate) const EMPTY: Self = Self {
-        on_air: [Slot::EMPTY; MAX_ON_AIR],
-        delayed: [Slot::EMPTY; MAX_DELAYED],
+        on_air: [PackedTransmission::EMPTY; MAX_ON_AIR],
+        delayed: [PackedTransmission::EMPTY; MAX_DELAYED],
         sent: Sets::EMPTY,
     };
 
@@ -133,7 +90,7 @@ impl Network {
     /// When more messages are on air than one step and what it sets off can send.
     pub(crate) fn send(&mut self, transmission: Transmission) {
         let free = self.on_air.iter_mut().find(|slot| slot.is_empty());
-        *free.expect("room for what one step sends") = Slot::of(transmission);
+        *free.expect("room for what one step sends") = PackedTransmission::of(transmission);
     }
 
     /// The message whose fate is decided next, where receivers hear a broadcast in their order.
@@ -164,22 +121,23 @@ impl Network {
 
     /// Takes a message off air.
     pub(crate) fn take_off_air(&mut self, transmission: Transmission) {
-        let sent = Slot::of(transmission);
+        let sent = PackedTransmission::of(transmission);
         if let Some(at) = self.on_air.iter().position(|slot| *slot == sent) {
-            self.on_air[at] = Slot::EMPTY;
+            self.on_air[at] = PackedTransmission::EMPTY;
             self.on_air[at..].rotate_left(1);
         }
     }
 
     /// Whether one more message can be delayed, where at most `limit` may be.
     pub(crate) fn can_delay(&self, transmission: Transmission, limit: usize) -> bool {
-        self.delayed().count() < limit && !self.delayed.contains(&Slot::of(transmission))
+        self.delayed().count() < limit
+            && !self.delayed.contains(&PackedTransmission::of(transmission))
     }
 
     /// Delays a message, if there is room.
     pub(crate) fn delay(&mut self, transmission: Transmission) {
         if let Some(free) = self.delayed.iter_mut().find(|slot| slot.is_empty()) {
-            *free = Slot::of(transmission);
+            *free = PackedTransmission::of(transmission);
         }
         self.sort();
     }
@@ -187,8 +145,8 @@ impl Network {
     /// Takes a delayed message out of the channel.
     pub(crate) fn forget(&mut self, transmission: Transmission) {
         for slot in &mut self.delayed {
-            if *slot == Slot::of(transmission) {
-                *slot = Slot::EMPTY;
+            if *slot == PackedTransmission::of(transmission) {
+                *slot = PackedTransmission::EMPTY;
             }
         }
         self.sort();
@@ -211,7 +169,7 @@ impl Network {
         let mut network = *self;
         for slot in network.on_air.iter_mut().chain(&mut network.delayed) {
             if let Some(transmission) = slot.transmission() {
-                *slot = Slot::of(replace(transmission));
+                *slot = PackedTransmission::of(replace(transmission));
             }
         }
         network.sort();
@@ -224,7 +182,7 @@ impl Network {
 }
 
 /// Whether a message can have any effect on the receiver, whatever its state. Every robot within
-/// reach hears every message; those that are ignored in every state are left out of the model. That
+/// reach hears every message; messages that are ignored in every state are left out of the model. That
 /// they are ignored is checked in [`universe`](crate::universe).
 #[must_use]
 pub fn concerns(message: &Message, receiver: StationId) -> bool {

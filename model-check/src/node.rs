@@ -1,4 +1,4 @@
-//! A robot in the model: its protocol state, and what its body has been told to do.
+//! A robot in the model: its protocol state, and what its outputs have made its body do.
 
 use std::fmt;
 
@@ -42,7 +42,7 @@ pub struct Node {
     pub robot: Option<Robot>,
     /// The station id that it had when it went down, and its boot counter, which it has persisted.
     pub persisted: Persisted,
-    /// What the outputs so far have told the body to do.
+    /// What the outputs so far have made the body do.
     pub actuation: Actuation,
 }
 
@@ -56,8 +56,7 @@ pub struct Persisted {
     pub boot: u16,
 }
 
-/// What the outputs of a robot have told its body and its application, followed from the outputs
-/// alone. The properties compare it with the protocol state.
+/// What the body and the application of a robot do and know by its outputs alone. The properties compare it with the protocol state.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Actuation {
     /// The maneuver that runs.
@@ -66,11 +65,11 @@ pub struct Actuation {
     pub corridor_open: bool,
     /// Whether the pseudonym is held.
     pub identity_locked: bool,
-    /// What the body does, and what becomes of that without being told.
+    /// What the body does, also by itself.
     pub body: Body,
     /// What it has received, as a leader, of a leader that goes before it at its place.
     pub heard: Heard,
-    /// Whether its sign has shown go, and nobody has said since then that the road is clear.
+    /// Whether its sign has shown go, and its application has not said since then that the road is clear.
     pub road_unsure: bool,
 }
 
@@ -102,7 +101,7 @@ impl Node {
         }
     }
 
-    /// The robot after a crash. Its motors stop and it stays where it is; it shows nobody anything.
+    /// The robot after a crash. Its motors stop and it stays where it is; its sign shows nothing.
     #[must_use]
     pub fn crashed(&self) -> Self {
         Self {
@@ -124,7 +123,7 @@ impl Node {
         node
     }
 
-    /// One step of the transition function, and what it tells the body. `None` when the robot is
+    /// One step of the transition function, and what its outputs make the body do. `None` when the robot is
     /// down.
     pub fn step(
         &self,
@@ -170,6 +169,29 @@ impl Node {
         self.robot
             .as_ref()
             .is_none_or(|robot| matches!(robot.phase(), Phase::Idle))
+    }
+
+    /// Whether the robot asks for help.
+    #[must_use]
+    pub fn is_requesting(&self) -> bool {
+        let robot = self.robot.as_ref();
+        robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
+    }
+
+    /// Whether the robot follows.
+    #[must_use]
+    pub fn is_following(&self) -> bool {
+        let robot = self.robot.as_ref();
+        robot.is_some_and(|robot| matches!(robot.phase(), Phase::Following(_)))
+    }
+
+    /// Whether the robot follows and has lost contact with its leader.
+    #[must_use]
+    pub fn has_lost_contact(&self) -> bool {
+        let robot = self.robot.as_ref();
+        robot.is_some_and(|robot| {
+            matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost())
+        })
     }
 
     /// Whether what the body does is what the protocol state says.
@@ -284,7 +306,7 @@ impl Actuation {
                     self.running = None;
                 }
             }
-            // Without time it shows go until it is told otherwise: nobody need look at it.
+            // Without time it shows go until an output closes it; pedestrians may look at any time.
             Output::CorridorOpened(_) => (self.corridor_open, self.road_unsure) = (true, true),
             // A sign that is told to show go for longer shows go, whatever it showed before.
             Output::CorridorExtended(_) => self.corridor_open = true,

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::check::{chart, placed};
-use crate::model::{Action, Model, State};
-use crate::properties::{Kind, PropertyId};
+use crate::model::{Action, Model, ModelState};
+use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
 use crate::sequence::ChartStep;
 
@@ -58,7 +58,10 @@ impl Replay {
     /// speaks about all that may follow. A run of a timed scenario is followed by its chart only.
     #[must_use]
     pub fn of(report: &ScenarioReport, property: &PropertyReport) -> Option<Self> {
-        let is_run = !property.counterexample.is_empty() && property.id != "L7";
+        let id = property.id.parse::<PropertyId>().ok();
+        let claim = id.and_then(PropertyId::untimed);
+        let is_run =
+            !property.counterexample.is_empty() && claim.is_none_or(Claim::is_shown_by_run);
         let is_run = is_run && report.figures.is_empty();
         is_run.then(|| Self {
             scenario: report.name.clone(),
@@ -73,7 +76,7 @@ impl Replay {
     #[must_use]
     pub fn is_broken(&self, followed: &Followed) -> bool {
         match (followed, self.property.parse::<PropertyId>()) {
-            (Followed::ToTheEnd(broken), Ok(id)) => id.kind() == Kind::L || broken.contains(&id),
+            (Followed::ToTheEnd(broken), Ok(id)) => id.is_of_runs() || broken.contains(&id),
             _ => false,
         }
     }
@@ -84,9 +87,13 @@ impl Replay {
         self.follow_with(model, &mut |_, _| ())
     }
 
-    /// The same; `witness` is told each action that was possible, and the state that it led to. Where a
-    /// robot put out something else in the last one, it is told that one too.
-    pub fn follow_with(&self, model: &Model, witness: &mut dyn FnMut(Action, &State)) -> Followed {
+    /// The same; `witness` receives each action that was possible, and the state that it led to. Where a robot put
+    /// out something else in the last one, it receives that one too.
+    pub fn follow_with(
+        &self,
+        model: &Model,
+        witness: &mut dyn FnMut(Action, &ModelState),
+    ) -> Followed {
         let mut state = model.initial();
         for (i, step) in self.steps.iter().enumerate() {
             let Some((action, next, outputs)) = take(model, &state, step) else {
@@ -105,8 +112,12 @@ impl Replay {
     }
 }
 
-/// What comes of a step, with what is put out in it; `None` where it is not possible.
-fn take(model: &Model, state: &State, step: &ChartStep) -> Option<(Action, State, Vec<String>)> {
+/// The effect of a step, with its outputs; `None` where it is not possible.
+fn take(
+    model: &Model,
+    state: &ModelState,
+    step: &ChartStep,
+) -> Option<(Action, ModelState, Vec<String>)> {
     let mut actions = Vec::new();
     model.actions_in(state, &mut actions);
     let is_meant = |action: &Action| placed(model, *action) == (step.place, step.action.clone());

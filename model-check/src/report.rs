@@ -7,7 +7,7 @@ use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
 use crate::transitions::Transitions;
 
-/// What came of checking one scenario.
+/// The result of checking one scenario.
 #[derive(Clone, Debug, Serialize)]
 pub struct ScenarioReport {
     /// The scenario's name.
@@ -56,7 +56,7 @@ pub enum CutOff {
     StateLimit,
     /// The limit on time.
     TimeLimit,
-    /// Somebody asked to give up.
+    /// An observer asked to give up.
     Stopped,
     /// All properties that were to be found broken were.
     FoundBroken,
@@ -72,7 +72,7 @@ pub struct PropertyReport {
     /// `S`, `T`, `L`, or `premise`.
     pub kind: String,
     /// What was found.
-    pub verdict: Verdict,
+    pub verdict: CheckVerdict,
     /// What it says.
     pub statement: String,
     /// A run that breaks the property.
@@ -87,7 +87,7 @@ pub struct PropertyReport {
 /// What was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum CheckVerdict {
     /// The property holds of everything reachable.
     Holds,
     /// The premise is met somewhere.
@@ -96,11 +96,11 @@ pub enum Verdict {
     Violated,
     /// The premise is met nowhere: the property says nothing in this scenario.
     Unreachable,
-    /// The exploration was cut off before it could tell.
+    /// The exploration was cut off before the answer was known.
     Incomplete,
 }
 
-impl Verdict {
+impl CheckVerdict {
     /// The verdict on a property: what was not found broken holds only if nothing was cut off.
     pub(crate) const fn of_property(is_broken: bool, cut_off: Option<CutOff>) -> Self {
         match (is_broken, cut_off) {
@@ -125,14 +125,18 @@ impl ScenarioReport {
     /// the state space has another size than the scenario's file expects.
     #[must_use]
     pub fn failed(&self) -> bool {
-        let wrong =
-            |p: &PropertyReport| matches!(p.verdict, Verdict::Violated | Verdict::Unreachable);
+        let wrong = |p: &PropertyReport| {
+            matches!(
+                p.verdict,
+                CheckVerdict::Violated | CheckVerdict::Unreachable
+            )
+        };
         self.properties.iter().any(wrong) || self.size_as_expected == Some(false)
     }
 
     /// The verdict on a property or premise.
     #[must_use]
-    pub fn verdict(&self, id: &str) -> Option<Verdict> {
+    pub fn verdict(&self, id: &str) -> Option<CheckVerdict> {
         self.properties
             .iter()
             .find(|property| property.id == id)
@@ -152,7 +156,7 @@ impl ScenarioReport {
 
     /// The ids of the properties that are broken.
     pub fn violated(&self) -> impl Iterator<Item = &str> {
-        let violated = |p: &&PropertyReport| p.verdict == Verdict::Violated;
+        let violated = |p: &&PropertyReport| p.verdict == CheckVerdict::Violated;
         self.properties
             .iter()
             .filter(violated)

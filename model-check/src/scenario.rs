@@ -5,31 +5,28 @@
 //! the line.
 
 mod file;
+mod location;
+mod monotone;
+pub(crate) mod setup;
+mod symmetric;
 
-use std::fmt;
-use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use crossguard_protocol::{
-    Availability, BrokenInequality, Config, Event, HelpRequest, MAX_FOLLOWERS, StationId,
-    TaskNames, Urgency,
+    BrokenInequality, Config, HelpRequest, MAX_FOLLOWERS, StationId, TaskNames,
 };
-use serde::{Deserialize, Serialize};
 
-use crate::monotone;
+pub use monotone::Misfit;
+pub(crate) use setup::PSEUDONYM_STEP;
+pub use setup::{Bounds, ChannelSetup, MAX_ROBOTS, RobotSetup, Size};
+pub use symmetric::Asymmetry;
+
 use crate::network::MAX_DELAYED;
-use crate::properties::PropertyId;
-use crate::symmetry::Asymmetry;
+use crate::properties::{PropertyId, listed};
 use crate::timed::{Timed, TimedImpossibility};
-
-/// How many robots a scenario may have.
-pub const MAX_ROBOTS: usize = 4;
 
 /// How many robots a cooperative scenario may have.
 const MAX_COOPERATIVE_ROBOTS: usize = 3;
-
-/// By how much a robot's station id grows when it changes its pseudonym.
-pub(crate) const PSEUDONYM_STEP: u32 = 100;
 
 /// A scenario, checked.
 #[derive(Clone, Debug)]
@@ -50,7 +47,7 @@ pub struct Scenario {
     /// Whether a leader's application opens and closes the corridor, as often as it likes.
     pub corridor: bool,
     /// What the radio channel does.
-    pub channel: Channel,
+    pub channel: ChannelSetup,
     /// Whether everything around the robots does its part, which L3 assumes: an RMCM arrives, of the
     /// RAM that are sent again and again some arrive, no timer that guards against silence runs out,
     /// and applications command, finish, and end the task once it is completed. Where there is a corridor
@@ -66,96 +63,6 @@ pub struct Scenario {
     pub expected: Option<Size>,
 }
 
-/// The size of a state space.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Size {
-    /// Distinct states.
-    pub unique_states: usize,
-    /// Steps from the initial state to the farthest state.
-    pub depth: usize,
-}
-
-/// One robot of a scenario.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RobotSetup {
-    /// Its station id.
-    pub station: StationId,
-    /// Whether it may detect a pedestrian.
-    #[serde(default)]
-    pub detects: bool,
-    /// How urgent its requests are, where that differs from the scenario's request.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub urgency: Option<Urgency>,
-}
-
-/// How often each kind of event may happen in one run, over all robots together; never where a file
-/// says nothing.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Bounds {
-    /// A pedestrian is detected.
-    pub detections: u8,
-    /// A leader's application gives a command.
-    pub commands: u8,
-    /// An application's disturbance: a maneuver fails, a robot leaves, becomes
-    /// unavailable, or changes its pseudonym. To become available again costs nothing.
-    pub disturbances: u8,
-    /// A robot crashes.
-    pub crashes: u8,
-    /// A crashed robot boots again.
-    pub restarts: u8,
-    /// A message gets lost on its way to one receiver; any number of times where nothing is said.
-    pub losses: Option<u8>,
-    /// A robot hangs. To go on costs nothing.
-    pub hangs: u8,
-    /// A RAM timer expires and changes its robot, as it does where a heartbeat is counted. For a monotone
-    /// channel, which needs it.
-    pub heartbeats: Option<u8>,
-    /// A message makes a robot offer its help. For a monotone channel, which needs it.
-    pub offers: Option<u8>,
-}
-
-impl Bounds {
-    /// Takes an event off what may still happen.
-    pub(crate) fn spend(&mut self, event: Event) {
-        let bound = match event {
-            Event::PedestrianDetected(_) => &mut self.detections,
-            Event::CommandManeuver { .. } => &mut self.commands,
-            Event::ManeuverFailed(_)
-            | Event::LeaveRequested
-            | Event::AvailabilityChanged(Availability::Unavailable(_))
-            | Event::IdentityChanged(_) => &mut self.disturbances,
-            Event::InPosition(_)
-            | Event::ManeuverCompleted(_)
-            | Event::TaskCompleted
-            | Event::RoadClear
-            | Event::AllAnswered
-            | Event::EpochRenewed(_)
-            | Event::AvailabilityChanged(Availability::Available)
-            | Event::OpenCorridor
-            | Event::CloseCorridor => return,
-        };
-        *bound -= 1;
-    }
-}
-
-/// What the radio channel does.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Channel {
-    /// How many messages may be delayed at a time; each may arrive late, in any order, more than
-    /// once, or never. A timed scenario bounds for how long instead.
-    #[serde(default)]
-    pub delayed: u8,
-    /// Whether every message that was ever sent may arrive at any later time, any number of times.
-    #[serde(default)]
-    pub monotone: bool,
-    /// Whether a message may get lost on its way to one receiver and reach another.
-    pub loss: bool,
-}
-
 /// Why a scenario cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ScenarioError {
@@ -166,7 +73,7 @@ pub enum ScenarioError {
     Unknown {
         /// What was asked for.
         name: String,
-        /// The names of those that are shipped.
+        /// The names of the shipped ones.
         shipped: String,
     },
     /// The file cannot be read.
@@ -209,7 +116,7 @@ pub enum Impossibility {
     /// An urgency that is never used.
     #[error("robot {0} has an urgency but no 'detects = true', so it never asks for help")]
     UnusedUrgency(StationId),
-    /// Nobody can start.
+    /// No robot can start.
     #[error("no robot has 'detects = true', so nothing would ever happen")]
     NobodyDetects,
     /// The request cannot be met.
@@ -228,18 +135,16 @@ pub enum Impossibility {
     #[error("station ids {0} and {1} must not differ by a multiple of {PSEUDONYM_STEP}")]
     SamePseudonyms(StationId, StationId),
     /// A property that assumes what the scenario does not.
-    #[error(
-        "L3 and W7 speak about cooperative scenarios only; this one lacks 'cooperative = true'"
-    )]
-    NotCooperative,
+    #[error("{0} speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
+    NotCooperative(PropertyId),
     /// What does not fit a monotone channel.
     #[error(transparent)]
-    Monotone(#[from] monotone::Misfit),
+    Monotone(#[from] Misfit),
     /// Robots that are not symmetric.
     #[error(transparent)]
     Asymmetry(#[from] Asymmetry),
     /// An unknown property.
-    #[error("no property '{0}': {list}", list = PropertyId::list())]
+    #[error("no property '{0}': {list}", list = listed(PropertyId::all_untimed()))]
     Property(String),
     /// The protocol's settings contradict each other.
     #[error(transparent)]
@@ -249,87 +154,39 @@ pub enum Impossibility {
     Timed(#[from] TimedImpossibility),
 }
 
-/// The scenarios that come with the kit; those that take seconds first, then those that take minutes.
-const SHIPPED: [(&str, &str); 29] = [
-    ("pair", include_str!("../scenarios/pair.toml")),
-    ("contention", include_str!("../scenarios/contention.toml")),
-    ("pair-reboot", include_str!("../scenarios/pair-reboot.toml")),
-    (
-        "leader-crash",
-        include_str!("../scenarios/leader-crash.toml"),
-    ),
-    ("offer-race", include_str!("../scenarios/offer-race.toml")),
-    ("bilateral", include_str!("../scenarios/bilateral.toml")),
-    ("trio", include_str!("../scenarios/trio.toml")),
-    (
-        "pair-monotone",
-        include_str!("../scenarios/pair-monotone.toml"),
-    ),
-    (
-        "contention-monotone",
-        include_str!("../scenarios/contention-monotone.toml"),
-    ),
-    ("pair-hang", include_str!("../scenarios/pair-hang.toml")),
-    (
-        "contention-urgency",
-        include_str!("../scenarios/contention-urgency.toml"),
-    ),
-    ("timed-pair", include_str!("../scenarios/timed-pair.toml")),
-    ("timed-trio", include_str!("../scenarios/timed-trio.toml")),
-    ("timed-hang", include_str!("../scenarios/timed-hang.toml")),
-    ("timed-wait", include_str!("../scenarios/timed-wait.toml")),
-    (
-        "timed-rivals",
-        include_str!("../scenarios/timed-rivals.toml"),
-    ),
-    ("wrap", include_str!("../scenarios/wrap.toml")),
-    ("stable", include_str!("../scenarios/stable.toml")),
-    ("blocker", include_str!("../scenarios/blocker.toml")),
-    (
-        "trio-corridor",
-        include_str!("../scenarios/trio-corridor.toml"),
-    ),
-    ("two-teams", include_str!("../scenarios/two-teams.toml")),
-    ("crossing", include_str!("../scenarios/crossing.toml")),
-    ("rivals", include_str!("../scenarios/rivals.toml")),
-    (
-        "trio-delayed",
-        include_str!("../scenarios/trio-delayed.toml"),
-    ),
-    (
-        "team-of-four",
-        include_str!("../scenarios/team-of-four.toml"),
-    ),
-    (
-        "team-symmetric",
-        include_str!("../scenarios/team-symmetric.toml"),
-    ),
-    (
-        "timed-in-use",
-        include_str!("../scenarios/timed-in-use.toml"),
-    ),
-    (
-        "timed-trio-drift",
-        include_str!("../scenarios/timed-trio-drift.toml"),
-    ),
-    (
-        "timed-trio-delay",
-        include_str!("../scenarios/timed-trio-delay.toml"),
-    ),
-];
+/// A scenario that comes with the kit.
+struct Shipped {
+    name: &'static str,
+    text: &'static str,
+    /// Whether a check takes seconds.
+    is_quick: bool,
+}
 
-/// How many of the shipped scenarios take seconds.
-const QUICK: usize = 23;
+macro_rules! shipped {
+    ($($duration:ident $time:ident $test:ident $name:literal;)*) => {
+        /// The scenarios that take seconds come first, the ones that take minutes follow.
+        const SHIPPED: &[Shipped] = &[$(Shipped {
+            name: $name,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/", $name, ".toml")),
+            is_quick: shipped!(@ $duration),
+        }),*];
+    };
+    (@ quick) => { true };
+    (@ long) => { false };
+}
+
+include!("../scenarios/list.rs");
 
 impl Scenario {
     /// The names of the shipped scenarios that take seconds.
     pub fn quick() -> impl Iterator<Item = &'static str> {
-        Self::shipped().take(QUICK)
+        let quick = SHIPPED.iter().filter(|shipped| shipped.is_quick);
+        quick.map(|shipped| shipped.name)
     }
 
     /// The names of the shipped scenarios.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
-        SHIPPED.iter().map(|(name, _)| *name)
+        SHIPPED.iter().map(|shipped| shipped.name)
     }
 
     /// The shipped scenario of this name, or the scenario in the file of this name.
@@ -337,8 +194,8 @@ impl Scenario {
     /// # Errors
     /// Every way in which there is no usable scenario of that name.
     pub fn load(name: &str) -> Result<Self, ScenarioError> {
-        if let Some((_, text)) = SHIPPED.iter().find(|(shipped, _)| *shipped == name) {
-            return Self::parse(name, text);
+        if let Some(shipped) = SHIPPED.iter().find(|shipped| shipped.name == name) {
+            return Self::parse(name, shipped.text);
         }
         let path = Path::new(name);
         if !path.exists() && path.extension().is_none() {
@@ -371,58 +228,5 @@ impl Scenario {
         self.robots
             .iter()
             .position(|robot| base(robot.station) == base(station))
-    }
-}
-
-impl Hash for Bounds {
-    /// All bounds at once: states are hashed by the million.
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        let Self {
-            detections,
-            commands,
-            disturbances,
-            crashes,
-            restarts,
-            losses,
-            hangs,
-            heartbeats,
-            offers,
-        } = *self;
-        // A bound of 255 and none at all may share a hash.
-        let [losses, heartbeats, offers] =
-            [losses, heartbeats, offers].map(|bound| bound.unwrap_or(u8::MAX));
-        state.write(&[
-            detections,
-            commands,
-            disturbances,
-            crashes,
-            restarts,
-            losses,
-            hangs,
-            heartbeats,
-            offers,
-        ]);
-    }
-}
-
-impl fmt::Display for Bounds {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let bounds = [
-            ("detections", self.detections),
-            ("commands", self.commands),
-            ("disturbances", self.disturbances),
-            ("crashes", self.crashes),
-            ("restarts", self.restarts),
-            ("losses", self.losses.unwrap_or_default()),
-            ("hangs", self.hangs),
-            ("heartbeats", self.heartbeats.unwrap_or_default()),
-            ("offers", self.offers.unwrap_or_default()),
-        ];
-        let allowed: Vec<_> = bounds
-            .iter()
-            .filter(|(_, bound)| *bound > 0)
-            .map(|(name, bound)| format!("{name} <= {bound}"))
-            .collect();
-        f.write_str(&allowed.join(", "))
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct ChartStep {
     /// Where in the chart it stands.
-    pub place: Place,
+    pub place: ChartPlace,
     /// What happened.
     pub action: String,
     /// What the robot that took the step put out.
@@ -18,7 +18,7 @@ pub struct ChartStep {
 /// Where in a chart something stands. Robots are named by their places in the scenario, from 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub enum Place {
+pub enum ChartPlace {
     /// At one robot.
     At(usize),
     /// On the way from one robot to another.
@@ -83,8 +83,8 @@ impl ChartStep {
     #[must_use]
     pub fn line(&self, robots: &[String]) -> String {
         match self.place {
-            Place::At(robot) => format!("{}: {}", robots[robot], self.action),
-            Place::Between { from, to, fate } => {
+            ChartPlace::At(robot) => format!("{}: {}", robots[robot], self.action),
+            ChartPlace::Between { from, to, fate } => {
                 let arrow = if fate.arrives() { "->" } else { "-x" };
                 let (from, to) = (&robots[from], &robots[to]);
                 format!("{from} {arrow} {to}: {}{}", self.action, fate.remark())
@@ -95,7 +95,7 @@ impl ChartStep {
     /// The robot that the step is one of: the receiver of a message.
     const fn robot(&self) -> usize {
         match self.place {
-            Place::At(robot) | Place::Between { to: robot, .. } => robot,
+            ChartPlace::At(robot) | ChartPlace::Between { to: robot, .. } => robot,
         }
     }
 }
@@ -146,8 +146,8 @@ impl Chart<'_> {
             }
             let what = escaped(&step.action);
             let _ = match step.place {
-                Place::At(robot) => writeln!(chart, "    Note over r{robot}: {what}"),
-                Place::Between { from, to, fate } => {
+                ChartPlace::At(robot) => writeln!(chart, "    Note over r{robot}: {what}"),
+                ChartPlace::Between { from, to, fate } => {
                     let arrow = match fate {
                         Fate::Lost => "-x",
                         Fate::Delayed => "--)",
@@ -242,8 +242,8 @@ impl Drawing {
             "<text class='number' x='8' y='{y}'>{number}</text>"
         );
         match step.place {
-            Place::At(robot) => self.note("", robot, &step.action),
-            Place::Between { from, to, fate } => {
+            ChartPlace::At(robot) => self.note("", robot, &step.action),
+            ChartPlace::Between { from, to, fate } => {
                 let text = format!("{}{}", step.action, fate.remark());
                 let middle = usize::midpoint(Self::x(from), Self::x(to));
                 let _ = write!(
@@ -347,14 +347,14 @@ mod tests {
     use super::*;
 
     fn steps() -> Vec<ChartStep> {
-        let between = |from, to, fate| Place::Between { from, to, fate };
+        let between = |from, to, fate| ChartPlace::Between { from, to, fate };
         let step = |place, action: &str, outputs: &[&str]| ChartStep {
             place,
             action: action.to_owned(),
             outputs: outputs.iter().map(ToString::to_string).collect(),
         };
         vec![
-            step(Place::At(0), "pedestrian detected", &["send RAM"]),
+            step(ChartPlace::At(0), "pedestrian detected", &["send RAM"]),
             step(between(0, 1, Fate::Lost), "RAM needHelp 1#1.0", &[]),
             step(between(1, 0, Fate::ArrivesLate), "RAM <none>; & so on", &[]),
         ]
@@ -401,7 +401,7 @@ mod tests {
     fn in_svg_a_long_note_stays_within_the_picture() {
         let svg = |text: String| {
             let step = ChartStep {
-                place: Place::At(0),
+                place: ChartPlace::At(0),
                 action: text,
                 outputs: Vec::new(),
             };

@@ -28,8 +28,8 @@ pub(crate) enum Cause {
     Event(Event),
 }
 
-/// What comes of a robot's step, whatever has happened elsewhere.
-pub(crate) struct Step {
+/// The effect of a robot's step, whatever has happened elsewhere.
+pub(crate) struct ComputedStep {
     /// What it took in.
     pub(crate) input: Input,
     /// What it put out. Many steps put out the same.
@@ -57,7 +57,7 @@ pub(crate) struct Steps {
     rules: Box<dyn Rules>,
     pub(crate) nodes: Interner<Node>,
     pub(crate) messages: Interner<Message>,
-    computed: boxcar::Vec<Step>,
+    computed: boxcar::Vec<ComputedStep>,
     outputs: DashMap<Outputs, Arc<Outputs>, FxBuildHasher>,
     numbers: DashMap<(u32, Cause), u32, FxBuildHasher>,
 }
@@ -81,7 +81,7 @@ impl Steps {
         properties: &[PropertyId],
         node: u32,
         cause: Cause,
-    ) -> Option<&Step> {
+    ) -> Option<&ComputedStep> {
         if let Some(number) = self.numbers.get(&(node, cause)) {
             return Some(&self.computed[*number as usize]);
         }
@@ -93,7 +93,7 @@ impl Steps {
     }
 
     /// The steps that have been taken, each with the node before it.
-    pub(crate) fn taken(&self) -> impl Iterator<Item = (&Node, &Step)> {
+    pub(crate) fn taken(&self) -> impl Iterator<Item = (&Node, &ComputedStep)> {
         let steps = self.numbers.iter().map(|entry| {
             let before = self.nodes.value(entry.key().0);
             (before, &self.computed[*entry.value() as usize])
@@ -107,7 +107,7 @@ impl Steps {
         properties: &[PropertyId],
         node: u32,
         cause: Cause,
-    ) -> Option<Step> {
+    ) -> Option<ComputedStep> {
         let input = match cause {
             Cause::Message(number) => self.messages.value(number.into()).input(),
             Cause::Timer(timer) => Input::Expired(timer),
@@ -126,7 +126,7 @@ impl Steps {
         };
         let is_historic = view.is_historic();
         let (premises, broken) = judge(properties, &view, is_historic);
-        Some(Step {
+        Some(ComputedStep {
             input,
             outputs: self.shared(&outputs),
             sends: self.sends(&after, &outputs),

@@ -1,6 +1,7 @@
 //! What can be checked by name: scenarios, untimed and timed, and the paper's text.
 
-use crate::check::{Options, Progress, check};
+use crate::check::check;
+use crate::exploration::{CheckProgress, Options};
 use crate::model::Model;
 use crate::paper;
 use crate::report::ScenarioReport;
@@ -17,7 +18,7 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// The names of those that come along; quick scenarios first.
+    /// The names of the shipped subjects; quick scenarios first.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
         Scenario::shipped().chain([paper::NAME])
     }
@@ -33,11 +34,11 @@ impl Subject {
         Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
     }
 
-    /// Checks it. `watch` is told now and then how far it is; of the paper's text, which is small, never.
-    pub fn check(self, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+    /// Checks it. `watch` receives the progress now and then; never of the paper's text, which is small.
+    pub fn check(self, options: &Options, watch: &mut dyn FnMut(CheckProgress)) -> ScenarioReport {
         match self {
             Self::PaperLiteral => paper::check(),
-            Self::Scenario(scenario) => match timed::Model::new((*scenario).clone()) {
+            Self::Scenario(scenario) => match timed::TimedModel::new((*scenario).clone()) {
                 Some(model) => timed::check(&model, options, watch),
                 None => check(&Model::new(*scenario), options, watch),
             },

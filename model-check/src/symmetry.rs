@@ -36,125 +36,15 @@ use crossguard_protocol::{Renaming, StationId};
 use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
-use toml::Spanned;
 
 use crate::network::{Network, Transmission};
-use crate::properties::{Kind, PropertyId};
-use crate::scenario::{Bounds, MAX_ROBOTS, RobotSetup, Scenario};
+use crate::scenario::{MAX_ROBOTS, Scenario};
 
 /// How many symmetric robots a scenario may have: one robot at least detects.
 const MAX_SYMMETRIC: usize = MAX_ROBOTS - 1;
 
 /// In how many ways they can be exchanged.
 pub(crate) const MAX_EXCHANGES: usize = 6;
-
-/// What is wrong with the symmetry that a scenario claims.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum Asymmetry {
-    /// Not the station id of a robot.
-    #[error("no robot has station id {0}, so it cannot be symmetric")]
-    NoRobot(StationId),
-    /// A robot that is named twice.
-    #[error("robot {0} is symmetric with itself, which says nothing")]
-    Twice(StationId),
-    /// A single robot.
-    #[error("robot {0} alone is symmetric with nobody")]
-    Alone(StationId),
-    /// A robot that may detect a pedestrian.
-    #[error("robot {0} detects: of two requesters the station ids tell which goes before")]
-    Detects(StationId),
-    /// A requester may choose.
-    #[error(
-        "followers = {followers}: where a requester may choose, the station ids decide, so \
-         symmetric robots need followers = {needed}, all robots but the requester"
-    )]
-    Chosen {
-        /// How many are asked for.
-        followers: u8,
-        /// How many must be asked for.
-        needed: usize,
-    },
-    /// A robot may change its pseudonym.
-    #[error(
-        "disturbances = {0}: a robot that offers under two pseudonyms gives a requester a choice, and \
-         the station ids decide; symmetric robots need disturbances = 0"
-    )]
-    Pseudonyms(u8),
-    /// A timed scenario.
-    #[error("symmetric robots have no place in a timed scenario: its model tells all robots apart")]
-    Timed,
-    /// A property under fairness.
-    #[error("{0} assumes fairness to each robot by itself, which symmetric robots do not show")]
-    Fairness(PropertyId),
-}
-
-/// Where a claim is wrong.
-pub(crate) enum Wrong {
-    /// At this offset in the file.
-    At(usize),
-    /// In the line of this key.
-    Key(&'static str),
-}
-
-/// The part of a scenario that decides whether its robots are symmetric.
-pub(crate) struct Claim<'a> {
-    pub(crate) robots: &'a [RobotSetup],
-    pub(crate) followers: u8,
-    pub(crate) bounds: Bounds,
-    pub(crate) is_timed: bool,
-    pub(crate) properties: &'a [Spanned<String>],
-}
-
-impl Claim<'_> {
-    /// The station ids, if the robots are symmetric.
-    pub(crate) fn check(
-        &self,
-        stations: &[Spanned<StationId>],
-    ) -> Result<Vec<StationId>, (Wrong, Asymmetry)> {
-        for (i, spanned) in stations.iter().enumerate() {
-            let station = *spanned.get_ref();
-            let named = stations[..i].iter().map(Spanned::get_ref);
-            let robot = self.robots.iter().find(|robot| robot.station == station);
-            let cause = match robot {
-                None => Asymmetry::NoRobot(station),
-                Some(_) if named.into_iter().any(|other| *other == station) => {
-                    Asymmetry::Twice(station)
-                }
-                Some(robot) if robot.detects => Asymmetry::Detects(station),
-                Some(_) if stations.len() == 1 => Asymmetry::Alone(station),
-                Some(_) => continue,
-            };
-            return Err((Wrong::At(spanned.span().start), cause));
-        }
-        if !stations.is_empty() {
-            self.check_surroundings()?;
-        }
-        Ok(stations.iter().map(|station| *station.get_ref()).collect())
-    }
-
-    fn check_surroundings(&self) -> Result<(), (Wrong, Asymmetry)> {
-        if self.is_timed {
-            return Err((Wrong::Key("symmetric"), Asymmetry::Timed));
-        }
-        let (followers, needed) = (self.followers, self.robots.len() - 1);
-        if usize::from(followers) != needed {
-            let cause = Asymmetry::Chosen { followers, needed };
-            return Err((Wrong::Key("followers"), cause));
-        }
-        if self.bounds.disturbances > 0 {
-            let cause = Asymmetry::Pseudonyms(self.bounds.disturbances);
-            return Err((Wrong::Key("disturbances"), cause));
-        }
-        for name in self.properties {
-            if let Ok(id) = name.get_ref().parse::<PropertyId>()
-                && id.kind() == Kind::L
-            {
-                return Err((Wrong::At(name.span().start), Asymmetry::Fairness(id)));
-            }
-        }
-        Ok(())
-    }
-}
 
 /// One way to exchange the symmetric robots.
 #[derive(Clone, PartialEq, Eq, Debug)]

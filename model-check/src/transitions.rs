@@ -43,7 +43,6 @@ impl Transitions {
     /// Those of them that are not in `other`, as `from --> to: input`.
     #[must_use]
     pub fn not_in(&self, other: &Self) -> Vec<String> {
-        let name = crate::fsm::name;
         let missing = |way: &(Mode, Mode), label: &String| {
             other
                 .0
@@ -54,8 +53,39 @@ impl Transitions {
             .iter()
             .flat_map(|(way, labels)| labels.iter().map(move |label| (way, label)))
             .filter(|(way, label)| missing(way, label))
-            .map(|((from, to), label)| format!("{} --> {}: {label}", name(*from), name(*to)))
+            .map(|((from, to), label)| {
+                format!("{} --> {}: {label}", mode_name(*from), mode_name(*to))
+            })
             .collect()
+    }
+}
+
+/// The parts of a mode's name: the paper's state, and the role that tells its two sides apart.
+pub(crate) fn mode_parts((role, state): Mode) -> (&'static str, &'static str) {
+    let side = match role {
+        Role::None => "",
+        Role::Requester => "requester",
+        Role::Helper => "helper",
+        Role::Leader => "leader",
+        Role::Follower => "follower",
+    };
+    let state = match state {
+        State::Idle => "Idle",
+        State::HelpRequested => "HelpRequested",
+        State::RoleEstablished => "RoleEstablished",
+        State::ManeuverExecuting => "ManeuverExecuting",
+    };
+    (state, side)
+}
+
+/// The mode's name, one word.
+#[must_use]
+pub fn mode_name(mode: Mode) -> String {
+    let (state, side) = mode_parts(mode);
+    if side.is_empty() {
+        state.to_owned()
+    } else {
+        format!("{state}_{side}")
     }
 }
 

@@ -38,7 +38,7 @@ pub struct Universe {
     pub transitions: Transitions,
     /// Steps after which the state was not valid, or that were ignored and changed something.
     pub invalid: Vec<String>,
-    /// Messages that the model leaves out because they concern nobody, and that had an effect.
+    /// Messages that the model leaves out because they concern no robot, and that had an effect.
     pub wrongly_left_out: Vec<String>,
 }
 
@@ -497,7 +497,7 @@ fn answers(robot: &Robot) -> Vec<Answer> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fsm::{Format, diagram};
+    use crate::fsm::{DiagramFormat, diagram};
 
     /// Up to renaming.
     const STATES: usize = 48_202;
@@ -508,7 +508,7 @@ mod tests {
         assert_eq!(universe.invalid, Vec::<String>::new());
         assert_eq!(universe.wrongly_left_out, Vec::<String>::new());
         assert_eq!(universe.states, STATES, "verification.md says how many");
-        let dot = diagram(&universe.transitions, Format::Dot);
+        let dot = diagram(&universe.transitions, DiagramFormat::Dot);
         for state in ["Idle", "HelpRequested_helper", "ManeuverExecuting_leader"] {
             assert!(dot.contains(state), "{state} is not in:\n{dot}");
         }

@@ -2,7 +2,7 @@
 //! counterexamples are runs.
 
 use crossguard_model_check::check::{Options, check};
-use crossguard_model_check::model::{Action, Delivery, Model, State};
+use crossguard_model_check::model::{Action, Delivery, Model, ModelState};
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::properties::PropertyId::{self, *};
 use crossguard_model_check::replay::Replay;
@@ -127,7 +127,7 @@ fn a_monotone_channel_finds_a_rebooted_follower_that_is_drawn_back() {
 /// A run that a test makes up step by step.
 struct Run {
     model: Model,
-    state: State,
+    state: ModelState,
 }
 
 impl Run {
@@ -144,7 +144,7 @@ impl Run {
         self
     }
 
-    fn next(&self, is_meant: impl Fn(&Action) -> bool) -> Option<State> {
+    fn next(&self, is_meant: impl Fn(&Action) -> bool) -> Option<ModelState> {
         let mut actions = Vec::new();
         self.model.actions_in(&self.state, &mut actions);
         let meant = actions.into_iter().filter(is_meant);

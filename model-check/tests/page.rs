@@ -2,9 +2,8 @@
 
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
-use crossguard_model_check::properties::PropertyId;
+use crossguard_model_check::properties::{Claim, PropertyId};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::timed::TimedProperty;
 
 const PAGE: &str = include_str!("../doc/verification.md");
 const GUIDE: &str = include_str!("../doc/verifying.md");
@@ -36,18 +35,9 @@ fn every_scenario_stands_there_with_its_size_and_properties() {
         let row = row.unwrap_or_else(|| panic!("no row begins with {start}"));
         let cells: Vec<_> = row.split('|').map(str::trim).collect();
         assert_eq!(cells[5], size.depth.to_string(), "{row}");
-        let properties: Vec<_> = match &scenario.timed {
-            Some(timed) => timed
-                .properties
-                .iter()
-                .map(|id| id.name().to_owned())
-                .collect(),
-            None => scenario
-                .properties
-                .iter()
-                .map(ToString::to_string)
-                .collect(),
-        };
+        let timed = scenario.timed.as_ref().map(|timed| &timed.properties);
+        let properties = timed.unwrap_or(&scenario.properties).iter();
+        let properties: Vec<_> = properties.map(|id| id.name()).collect();
         assert_eq!(cells[7], properties.join(", "), "{row}");
         let summary = format!("| `{name}` | {} |", scenario.summary);
         assert!(PAGE.contains(&summary), "no row begins with {summary}");
@@ -73,25 +63,71 @@ fn breaking(id: &str) -> (Vec<&'static str>, &'static str) {
     (tests.collect(), cells[5])
 }
 
+const WEAKENINGS: &str = include_str!("weakenings.rs");
+const TIMED_WEAKENINGS: &str = include_str!("timed_weakenings.rs");
+const SHARED_WEAKENINGS: &str = include_str!("../../harness/testkit/src/rules.rs");
+
 /// The text of a test.
 fn body(name: &str) -> &'static str {
-    let files = [
-        include_str!("weakenings.rs"),
-        include_str!("timed_weakenings.rs"),
-    ];
     let start = format!("fn {name}() {{\n");
+    let files = [WEAKENINGS, TIMED_WEAKENINGS];
     let body = files.iter().find_map(|file| file.split_once(&start));
     let (_, body) = body.unwrap_or_else(|| panic!("no test {name}"));
     body.split_once("\n}\n").expect("it ends").0
 }
 
+fn words(text: &str) -> Vec<&str> {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_')
+        .collect()
+}
+
+/// Asserts that the weakening of a claim is one, and that a test of this file asserts that it breaks the property.
+fn assert_has_weakening(id: PropertyId, claim: &Claim, file: &'static str) {
+    let weakening = claim.weakening;
+    let is_defined = [file, SHARED_WEAKENINGS].iter().any(|file| {
+        let kinds = ["struct", "const", "fn"].iter();
+        kinds
+            .flat_map(|kind| ["(", ";", ":", " "].map(|end| format!("{kind} {weakening}{end}")))
+            .any(|definition| file.contains(&definition))
+    });
+    assert!(
+        is_defined,
+        "no weakening {weakening}, which is to break {id}"
+    );
+    let tests = file.split("#[test]\n").skip(1);
+    let mut tests = tests.map(|test| test.split_once("\n}\n").map_or(test, |(body, _)| body));
+    // What a test asserts to break stands in the last list of its call, or in that of its assertion.
+    let asserted = |test: &'static str| {
+        let timed = test.split_once("assert_eq!(violated, [");
+        let (_, list) = timed.or_else(|| test.rsplit_once("&["))?;
+        list.split_once(']').map(|(list, _)| list)
+    };
+    let breaks = |test: &'static str| {
+        let broken = asserted(test).is_some_and(|list| words(list).contains(&id.name()));
+        broken && words(test).contains(&weakening)
+    };
+    assert!(
+        tests.any(breaks),
+        "no test shows that {weakening} breaks {id}"
+    );
+}
+
+#[test]
+fn every_claim_names_a_weakening_that_a_test_shows_to_break_it() {
+    for id in PropertyId::ALL {
+        if let Some(claim) = id.untimed() {
+            assert_has_weakening(id, claim, WEAKENINGS);
+        }
+        if let Some(claim) = id.timed() {
+            assert_has_weakening(id, claim, TIMED_WEAKENINGS);
+        }
+    }
+}
+
 #[test]
 fn every_property_has_a_weakening_that_breaks_it_and_says_what_else_fails() {
-    // The other properties of the timed view are in the table as ones of the untimed view.
-    let timed = ["I10", "I19", "W5", "W6", "W8"].map(str::to_owned);
-    let known = format!("{}, {}", PropertyId::list(), TimedProperty::list());
-    for id in PropertyId::ALL.iter().map(ToString::to_string).chain(timed) {
-        let (tests, with) = breaking(&id);
+    for id in PropertyId::ALL.map(PropertyId::name) {
+        let (tests, with) = breaking(id);
         let is_told = with != "see below";
         let others = with
             .split(", ")
@@ -99,11 +135,11 @@ fn every_property_has_a_weakening_that_breaks_it_and_says_what_else_fails() {
         let others: Vec<_> = others.collect();
         for test in tests {
             let body = body(test);
-            let words: Vec<_> = body.split(|c: char| !c.is_alphanumeric()).collect();
-            assert!(words.contains(&id.as_str()), "{test} does not break {id}");
+            let words = words(body);
+            assert!(words.contains(&id), "{test} does not break {id}");
             let says_all = body.contains("assert_breaks_alone") || body.contains("violated(");
             assert_eq!(says_all, is_told, "{test} looks at all properties, or not");
-            let named = |id: &&str| known.split(", ").any(|known| known == *id);
+            let named = |word: &&str| word.parse::<PropertyId>().is_ok();
             let broken: Vec<_> = words.iter().filter(|word| named(word)).collect();
             assert!(
                 !is_told || broken.len() == others.len() + 1,

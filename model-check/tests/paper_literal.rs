@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use crossguard_model_check::paper::{Story, check, fails_as_it_must, page, stories};
-use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
+use crossguard_model_check::report::{CheckVerdict, PropertyReport, ScenarioReport};
 use serde::Serialize;
 
 static REPORT: LazyLock<ScenarioReport> = LazyLock::new(check);
@@ -67,9 +67,9 @@ fn a_report_that_says_anything_else_is_not_the_failure_it_must_be() {
         let mut other = report.clone();
         let verdict = &mut other.properties[i].verdict;
         *verdict = match verdict {
-            Verdict::Violated => Verdict::Holds,
-            Verdict::Reachable => Verdict::Unreachable,
-            _ => Verdict::Violated,
+            CheckVerdict::Violated => CheckVerdict::Holds,
+            CheckVerdict::Reachable => CheckVerdict::Unreachable,
+            _ => CheckVerdict::Violated,
         };
         assert!(!fails_as_it_must(&other), "{}", other.properties[i].id);
     }
@@ -77,7 +77,7 @@ fn a_report_that_says_anything_else_is_not_the_failure_it_must_be() {
 
 #[test]
 fn each_counterexample_is_the_shortest() {
-    let is_violated = |p: &&PropertyReport| p.verdict == Verdict::Violated;
+    let is_violated = |p: &&PropertyReport| p.verdict == CheckVerdict::Violated;
     let violated = REPORT.properties.iter().filter(is_violated);
     let steps: Vec<_> = violated.map(|p| p.counterexample.len()).collect();
     // P1 to P12, then W1 to W4 and W7.

@@ -75,7 +75,7 @@ fn impossible_values_are_named_with_their_line() {
         (
             "\"L4\"",
             "\"L3\"",
-            "L3 and W7 speak about cooperative scenarios only",
+            "L3 speaks about cooperative scenarios only",
         ),
     ];
     for (from, to, message) in cases {

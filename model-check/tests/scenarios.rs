@@ -2,9 +2,10 @@
 //! the state spaces have the sizes that their files name.
 
 use crossguard_model_check::check::{Options, check};
-use crossguard_model_check::export::{Format, export};
+use crossguard_model_check::export::{GraphFormat, export};
 use crossguard_model_check::model::Model;
-use crossguard_model_check::report::{CutOff, Verdict};
+use crossguard_model_check::properties::PropertyId;
+use crossguard_model_check::report::{CheckVerdict, CutOff};
 use crossguard_model_check::scenario::Scenario;
 
 fn assert_verified(name: &str) {
@@ -12,7 +13,10 @@ fn assert_verified(name: &str) {
     let report = check(&model, &Options::default(), &mut |_| ());
     assert!(report.exhaustive, "{name}: {:?}", report.cut_off);
     for property in &report.properties {
-        let fine = matches!(property.verdict, Verdict::Holds | Verdict::Reachable);
+        let fine = matches!(
+            property.verdict,
+            CheckVerdict::Holds | CheckVerdict::Reachable
+        );
         assert!(fine, "{name}: {property:#?}");
     }
     let found = (report.unique_states, report.depth);
@@ -23,37 +27,29 @@ fn assert_verified(name: &str) {
     );
 }
 
-macro_rules! verified {
-    ($($test:ident $scenario:literal),*) => {
-        $(
-            #[test]
-            fn $test() {
-                assert_verified($scenario);
-            }
-        )*
+macro_rules! shipped {
+    ($($duration:ident $time:ident $test:ident $name:literal;)*) => {
+        $(shipped!(@ $duration $time $test $name);)*
 
-        const VERIFIED: &[&str] = &[$($scenario),*];
+        #[test]
+        fn the_list_says_in_which_scenarios_time_passes() {
+            $(
+                let is_timed = Scenario::load($name).unwrap().timed.is_some();
+                assert_eq!(is_timed, stringify!($time) == "timed", $name);
+            )*
+        }
     };
+    (@ quick plain $test:ident $name:literal) => {
+        #[test]
+        fn $test() {
+            assert_verified($name);
+        }
+    };
+    // Timed scenarios are verified in `timed.rs`, and long ones by `crossguard check --all`.
+    (@ $duration:ident $time:ident $test:ident $name:literal) => {};
 }
 
-verified!(
-    pair "pair", contention "contention", pair_reboot "pair-reboot", leader_crash "leader-crash",
-    offer_race "offer-race", bilateral "bilateral", trio "trio",
-    pair_monotone "pair-monotone", contention_monotone "contention-monotone", pair_hang "pair-hang",
-    contention_urgency "contention-urgency", wrap "wrap", stable "stable",
-    blocker "blocker", trio_corridor "trio-corridor", two_teams "two-teams", crossing "crossing", rivals "rivals"
-);
-
-#[test]
-fn every_quick_scenario_is_verified_here() {
-    // Timed scenarios are verified in `timed.rs`, where the long ones are left to `crossguard check`.
-    let untimed = |name: &&str| Scenario::load(name).unwrap().timed.is_none();
-    assert!(
-        Scenario::quick()
-            .filter(untimed)
-            .eq(VERIFIED.iter().copied())
-    );
-}
+include!("../scenarios/list.rs");
 
 #[test]
 fn together_the_scenarios_check_every_property() {
@@ -62,7 +58,14 @@ fn together_the_scenarios_check_every_property() {
         .collect();
     checked.sort_unstable();
     checked.dedup();
-    assert_eq!(checked, crossguard_model_check::properties::PropertyId::ALL);
+    assert!(PropertyId::all_untimed().eq(checked));
+    let mut timed: Vec<_> = Scenario::shipped()
+        .filter_map(|name| Scenario::load(name).unwrap().timed)
+        .flat_map(|timed| timed.properties)
+        .collect();
+    timed.sort_unstable();
+    timed.dedup();
+    assert!(PropertyId::all_timed().eq(timed));
 }
 
 #[test]
@@ -79,7 +82,7 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
         !report
             .properties
             .iter()
-            .any(|p| p.verdict == Verdict::Holds)
+            .any(|p| p.verdict == CheckVerdict::Holds)
     );
     assert_eq!(report.size_as_expected, None);
     assert_eq!(
@@ -99,7 +102,7 @@ fn a_check_that_somebody_stops_is_incomplete_and_says_so() {
     });
     assert!(told > 0 && !report.exhaustive);
     assert_eq!(report.cut_off, Some(CutOff::Stopped));
-    assert_eq!(report.verdict("I1"), Some(Verdict::Incomplete));
+    assert_eq!(report.verdict("I1"), Some(CheckVerdict::Incomplete));
 }
 
 #[test]
@@ -112,7 +115,7 @@ fn a_limit_that_is_as_large_as_the_state_space_cuts_nothing_off() {
             ..Options::default()
         };
         let mut file = std::io::Cursor::new(Vec::new());
-        export(&model, &options, Format::Aut, &mut file).unwrap()
+        export(&model, &options, GraphFormat::Aut, &mut file).unwrap()
     };
     assert_eq!(explored(states), None);
     assert_eq!(explored(states - 1), Some(CutOff::StateLimit));
@@ -125,6 +128,9 @@ fn a_premise_that_is_met_nowhere_is_a_failure() {
         .replace("delayed = 1", "delayed = 0");
     let model = Model::new(Scenario::parse("no commands", &text).unwrap());
     let report = check(&model, &Options::default(), &mut |_| ());
-    assert_eq!(report.verdict("I4-premise"), Some(Verdict::Unreachable));
+    assert_eq!(
+        report.verdict("I4-premise"),
+        Some(CheckVerdict::Unreachable)
+    );
     assert!(report.failed());
 }

@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crossguard_model_check::check::{Options, check};
-use crossguard_model_check::model::{Model, State};
+use crossguard_model_check::model::{Model, ModelState};
 use crossguard_model_check::node::Node;
 use crossguard_model_check::properties::PropertyId::{self, *};
-use crossguard_model_check::report::Verdict;
+use crossguard_model_check::report::CheckVerdict;
 use crossguard_model_check::road::Body;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::{
@@ -195,10 +195,10 @@ fn assert_same_verdicts(printed: &str, mut scenario: Scenario) {
     assert_eq!(scenario.properties, checked);
     let report = check(&Model::new(scenario), &Options::default(), &mut |_| ());
     for id in checked {
-        let holds = report.verdict(&id.to_string()) == Some(Verdict::Holds);
+        let holds = report.verdict(&id.to_string()) == Some(CheckVerdict::Holds);
         assert_eq!(!says(printed, "violated", id), holds, "{id}: {printed}");
         if let Some(verdict) = report.verdict(&format!("{id}-premise")) {
-            let reachable = verdict == Verdict::Reachable;
+            let reachable = verdict == CheckVerdict::Reachable;
             assert_eq!(says(printed, "premise", id), reachable, "{id}: {printed}");
         }
     }
@@ -328,7 +328,7 @@ fn assert_same_sights(name: &str, scenario: Scenario) -> usize {
 
 /// What is to be seen in all states of the kit's model.
 fn sights(model: &Model) -> BTreeSet<u32> {
-    let mut known: HashSet<State> = HashSet::from([model.initial()]);
+    let mut known: HashSet<ModelState> = HashSet::from([model.initial()]);
     let (mut left, mut actions) = (vec![model.initial()], Vec::new());
     let mut sights = BTreeSet::new();
     while let Some(state) = left.pop() {
@@ -364,7 +364,7 @@ impl Sight {
         self.pack(u32::from(is_set), 1);
     }
 
-    fn add(&mut self, model: &Model, state: &State) {
+    fn add(&mut self, model: &Model, state: &ModelState) {
         let mut nodes = model.nodes(state);
         let (leader, helper) = (nodes.next().unwrap(), nodes.next().unwrap());
         self.add_requester(leader);

@@ -5,7 +5,7 @@ use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::replay::Replay;
-use crossguard_model_check::report::{ScenarioReport, Verdict};
+use crossguard_model_check::report::{CheckVerdict, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::Output;
 use crossguard_testkit::rules::{Drops, FollowersWaitForEver, LosesTwoForOne};
@@ -28,7 +28,7 @@ fn report(text: &str, rules: impl Rules + 'static) -> (Model, ScenarioReport) {
     (model, report)
 }
 
-fn verdicts(report: &ScenarioReport) -> Vec<(&str, Verdict)> {
+fn verdicts(report: &ScenarioReport) -> Vec<(&str, CheckVerdict)> {
     let properties = report.properties.iter();
     properties.map(|p| (p.id.as_str(), p.verdict)).collect()
 }
@@ -87,13 +87,13 @@ fn a_claim_of_symmetry_that_is_none_is_refused_with_its_line() {
             claim,
             "symmetric = [3, 3]",
             "symmetric",
-            "robot 3 is symmetric with itself",
+            "robot 3 is named twice",
         ),
         (
             claim,
             "symmetric = [3]",
             "symmetric",
-            "robot 3 alone is symmetric with nobody",
+            "robot 3 is the only symmetric one",
         ),
         (
             "followers = 2",

@@ -6,9 +6,9 @@
 mod timing;
 
 use crossguard_model_check::check::Options;
-use crossguard_model_check::report::{CutOff, ScenarioReport, Verdict};
+use crossguard_model_check::report::{CheckVerdict, CutOff, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::timed::{Limits, Model, check};
+use crossguard_model_check::timed::{Limits, TimedModel, check};
 use crossguard_protocol::Millis;
 use timing::*;
 
@@ -23,9 +23,12 @@ fn free_pair(changes: &[(&str, &str)]) -> Scenario {
 fn run_shipped(name: &str) -> ScenarioReport {
     let scenario = Scenario::load(name).unwrap();
     let limits = Limits::new(&scenario.config, scenario.timed.as_ref().unwrap().delay);
-    let report = run(Model::new(scenario));
+    let report = run(TimedModel::new(scenario));
     for property in &report.properties {
-        let fine = matches!(property.verdict, Verdict::Holds | Verdict::Reachable);
+        let fine = matches!(
+            property.verdict,
+            CheckVerdict::Holds | CheckVerdict::Reachable
+        );
         assert!(fine, "{name}: {property:#?}");
     }
     for figure in &report.figures {
@@ -141,7 +144,7 @@ fn three_robots_with_drifting_clocks_and_late_messages_keep_every_property() {
 fn clocks_of_three_robots_may_change_their_rates() {
     let changes = [("rates = \"constant\"\n", ""), ("free = true\n", "")];
     let text = changed(TRIO_DRIFT, &changes);
-    let report = run(Model::new(
+    let report = run(TimedModel::new(
         Scenario::parse("timed-trio-drift", &text).unwrap(),
     ));
     assert!(!report.failed(), "{:#?}", report.properties);
@@ -157,7 +160,7 @@ const NO_DELAY: (&str, &str) = ("delay_ms = 55", "delay_ms = 0");
 fn endpoints_that_are_later_than_their_settings_say_are_found_by_the_free_view_alone() {
     let changes = [NO_FOLLOWER_FAILS, NOBODY_CRASHES];
     let violated = |scenario: Scenario| {
-        let report = run(Model::new(scenario));
+        let report = run(TimedModel::new(scenario));
         report.violated().map(str::to_owned).collect::<Vec<_>>()
     };
     let late = free_pair(&[&[LATE], changes.as_slice()].concat());
@@ -174,7 +177,7 @@ fn settings_that_say_how_late_endpoints_are_keep_every_property() {
         NO_FOLLOWER_FAILS,
         NOBODY_CRASHES,
     ];
-    let report = run(Model::new(free_pair(&changes)));
+    let report = run(TimedModel::new(free_pair(&changes)));
     assert_eq!(report.violated().next(), None);
     assert_eq!(figure(&report, "L1"), Some((330, 364)));
 }
@@ -195,7 +198,7 @@ fn each_figure_follows_its_timer() {
         ("delay_ms = 0", "delay_ms = 55", [275, 275, 440]),
     ];
     for (from, to, expected) in cases {
-        let report = run(Model::new(pair(&[(from, to), NO_FOLLOWER_FAILS])));
+        let report = run(TimedModel::new(pair(&[(from, to), NO_FOLLOWER_FAILS])));
         let found: Vec<_> = report.figures.iter().map(|figure| figure.ms).collect();
         assert_eq!(found[..3], expected.map(Some), "{to}");
         assert_eq!(report.violated().next(), None, "{to}");
@@ -208,21 +211,24 @@ fn the_corridor_closes_later_with_a_longer_lease() {
         ("t_lease = 90", "t_lease = 150"),
         ("t_safety = 180", "t_safety = 250"),
     ];
-    let report = run(Model::new(pair(&longer)));
+    let report = run(TimedModel::new(pair(&longer)));
     assert_eq!(figure(&report, "I11, W1"), Some((165, 226)));
     assert_eq!(figure(&report, "W6"), Some((165, 226)));
-    assert_eq!(report.verdict("I11"), Some(Verdict::Holds));
+    assert_eq!(report.verdict("I11"), Some(CheckVerdict::Holds));
 }
 
 #[test]
 fn on_a_channel_without_loss_no_follower_falls_back() {
-    let report = run(Model::new(pair(&[
+    let report = run(TimedModel::new(pair(&[
         ("loss = true", "loss = false"),
         NO_FOLLOWER_FAILS,
         NOBODY_CRASHES,
     ])));
-    assert_eq!(report.verdict("I10"), Some(Verdict::Holds));
-    assert_eq!(report.verdict("I10-premise"), Some(Verdict::Unreachable));
+    assert_eq!(report.verdict("I10"), Some(CheckVerdict::Holds));
+    assert_eq!(
+        report.verdict("I10-premise"),
+        Some(CheckVerdict::Unreachable)
+    );
     assert!(report.failed(), "a property that was put to no test");
 }
 
@@ -232,7 +238,7 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
         states_max: Some(1_000),
         ..Options::default()
     };
-    let model = Model::new(pair(&[])).unwrap();
+    let model = TimedModel::new(pair(&[])).unwrap();
     let report = check(&model, &options, &mut |_| ());
     assert_eq!(report.cut_off, Some(CutOff::StateLimit));
     assert_eq!(
@@ -244,7 +250,7 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
         !report
             .properties
             .iter()
-            .any(|p| p.verdict == Verdict::Holds)
+            .any(|p| p.verdict == CheckVerdict::Holds)
     );
 }
 

@@ -4,22 +4,22 @@
 mod timing;
 
 use crossguard_model_check::node::Rules;
-use crossguard_model_check::report::{ScenarioReport, Verdict};
+use crossguard_model_check::report::{CheckVerdict, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::sequence::{ChartStep, Place};
-use crossguard_model_check::timed::Model;
+use crossguard_model_check::sequence::{ChartPlace, ChartStep};
+use crossguard_model_check::timed::TimedModel;
 use crossguard_protocol::*;
 use timing::*;
 
 const HANG: &str = include_str!("../scenarios/timed-hang.toml");
 
 fn violated(scenario: Scenario, rules: impl Rules + 'static) -> (Vec<String>, ScenarioReport) {
-    let report = run(Model::with_rules(scenario, rules));
+    let report = run(TimedModel::with_rules(scenario, rules));
     let violated = report.violated().map(str::to_owned).collect();
     (violated, report)
 }
 
-/// The pair in which nobody fails.
+/// The pair in which no robot fails.
 fn sound_pair() -> Scenario {
     pair(&[NO_FOLLOWER_FAILS, NOBODY_CRASHES])
 }
@@ -86,7 +86,7 @@ fn a_lease_that_is_longer_than_the_followers_safety_timer_allows_breaks_the_theo
     let chart = &lease_theorem.counterexample;
     let puts_out = |robot: usize, text: &str| {
         let of_robot = |step: &&ChartStep| match step.place {
-            Place::At(at) | Place::Between { to: at, .. } => at == robot,
+            ChartPlace::At(at) | ChartPlace::Between { to: at, .. } => at == robot,
         };
         let mut outputs = chart.iter().filter(of_robot).flat_map(|step| &step.outputs);
         outputs.any(|output| output.contains(text))
@@ -114,20 +114,31 @@ fn an_offer_whose_safety_timer_is_shorter_than_the_lease_allows_is_not_taken() {
     });
     let (violated, report) = violated(sound_pair(), follower);
     assert_eq!(violated, Vec::<String>::new());
-    assert_eq!(report.verdict("I10-premise"), Some(Verdict::Unreachable));
+    assert_eq!(
+        report.verdict("I10-premise"),
+        Some(CheckVerdict::Unreachable)
+    );
+}
+
+/// A follower waits longer for its leader than the team's settings say.
+fn follows_too_long() -> Misconfigured {
+    Misconfigured::new(2, |settings| settings.t_safety = Millis(300))
 }
 
 #[test]
 fn a_safety_timer_that_is_too_long_stops_a_follower_too_late() {
-    let follower = Misconfigured::new(2, |settings| settings.t_safety = Millis(300));
-    let (violated, _) = violated(pair(&[NO_FOLLOWER_FAILS]), follower);
+    let (violated, _) = violated(pair(&[NO_FOLLOWER_FAILS]), follows_too_long());
     assert_eq!(violated, ["I16", "L5"]);
+}
+
+/// A requester waits longer for help than the team's settings say.
+fn asks_too_long() -> Misconfigured {
+    Misconfigured::new(1, |settings| settings.t_help = Millis(350))
 }
 
 #[test]
 fn a_request_that_stands_too_long_is_noticed() {
-    let leader = Misconfigured::new(1, |settings| settings.t_help = Millis(350));
-    let (violated, _) = violated(sound_pair(), leader);
+    let (violated, _) = violated(sound_pair(), asks_too_long());
     assert_eq!(violated, ["I16", "L1"]);
 }
 
@@ -151,18 +162,18 @@ impl Rules for NeverClosesTheCorridor {
 }
 
 /// Longer than any lease.
-const TOO_LONG: NeverClosesTheCorridor = NeverClosesTheCorridor(Some(Millis(300)));
+const SHOWS_GO_TOO_LONG: NeverClosesTheCorridor = NeverClosesTheCorridor(Some(Millis(300)));
 
 #[test]
 fn a_corridor_that_does_not_close_in_time_is_noticed() {
-    let (violated, _) = violated(pair(&[]), TOO_LONG);
+    let (violated, _) = violated(pair(&[]), SHOWS_GO_TOO_LONG);
     // The sign also shows go when the follower has fallen back.
     assert_eq!(violated, ["I11", "W1"]);
 }
 
 #[test]
 fn a_sign_that_shows_go_after_a_fallback_is_noticed() {
-    let (violated, _) = violated(sound_pair(), TOO_LONG);
+    let (violated, _) = violated(sound_pair(), SHOWS_GO_TOO_LONG);
     assert_eq!(violated, ["W1"]);
 }
 
@@ -170,7 +181,7 @@ fn a_sign_that_shows_go_after_a_fallback_is_noticed() {
 fn a_corridor_that_is_not_closed_ends_by_itself_in_time() {
     let (violated, report) = violated(pair(&[]), NeverClosesTheCorridor(None));
     assert_eq!(violated, Vec::<String>::new());
-    assert_eq!(report.verdict("I11-premise"), Some(Verdict::Reachable));
+    assert_eq!(report.verdict("I11-premise"), Some(CheckVerdict::Reachable));
 }
 
 /// A robot that hears a RAM sends one.

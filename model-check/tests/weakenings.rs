@@ -6,7 +6,7 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::properties::PropertyId::{self, *};
 use crossguard_model_check::replay::Replay;
-use crossguard_model_check::report::Verdict;
+use crossguard_model_check::report::CheckVerdict;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
 use crossguard_testkit::rules::*;
@@ -25,7 +25,7 @@ fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[Prop
             .iter()
             .find(|p| p.id == id.to_string())
             .unwrap();
-        assert_eq!(property.verdict, Verdict::Violated, "{property:#?}");
+        assert_eq!(property.verdict, CheckVerdict::Violated, "{property:#?}");
         assert!(
             !property.counterexample.is_empty(),
             "{id} without a counterexample"
@@ -52,7 +52,7 @@ fn assert_breaks_alone(scenario: &str, rules: impl Rules + 'static, properties: 
             assert!(!replay.is_broken(&replay.follow(&protocol)), "{replay:#?}");
         }
         let is_run_without_end = property.kind == "L" && property.id != "L7";
-        if property.verdict == Verdict::Violated && is_run_without_end {
+        if property.verdict == CheckVerdict::Violated && is_run_without_end {
             assert!(property.repeats_after.unwrap() <= property.counterexample.len());
         }
     }
@@ -64,7 +64,7 @@ fn without_offer_numbers_a_rebooted_follower_is_drawn_back() {
 }
 
 #[test]
-fn without_confirmation_a_robot_follows_whom_it_should_not() {
+fn without_confirmation_a_robot_follows_a_leader_that_did_not_take_it() {
     assert_breaks_alone("pair", NeedsNoConfirmation, &[I2]);
 }
 
@@ -97,7 +97,7 @@ fn without_request_numbers_in_ram_a_stale_one_completes_a_newer_command() {
 fn a_corridor_that_is_not_closed_stays_open_over_nobody() {
     assert_breaks_alone(
         "pair",
-        Drops(|output| matches!(output, Output::CorridorClosed(_))),
+        NEVER_CLOSES_THE_CORRIDOR,
         // Who steps on the road then does so unguarded, or sees the guards leave.
         &[I11, W1, W2],
     );
@@ -106,20 +106,12 @@ fn a_corridor_that_is_not_closed_stays_open_over_nobody() {
 #[test]
 fn a_released_robot_that_is_not_stopped_goes_on() {
     // What runs then was accepted for another session, if at all.
-    assert_breaks_alone(
-        "pair",
-        Drops(|output| matches!(output, Output::StopManeuver(..))),
-        &[I6, I14],
-    );
+    assert_breaks_alone("pair", NEVER_STOPS, &[I6, I14]);
 }
 
 #[test]
 fn an_identity_that_is_not_locked_may_change_in_a_session() {
-    assert_breaks_alone(
-        "offer-race",
-        Drops(|output| matches!(output, Output::LockIdentity)),
-        &[I18],
-    );
+    assert_breaks_alone("offer-race", NEVER_LOCKS_ITS_IDENTITY, &[I18]);
 }
 
 #[test]
@@ -157,24 +149,27 @@ impl Rules for WaitsForEver {
     }
 }
 
+/// A request has no limit.
+const ASKS_FOR_EVER: WaitsForEver = WaitsForEver {
+    who: |phase| matches!(phase, Phase::Requesting(_)),
+    timer: |timer| matches!(timer, Timer::Help | Timer::IdentityLock),
+};
+
 #[test]
 fn without_a_limit_a_request_that_nobody_hears_never_ends() {
-    let rules = WaitsForEver {
-        who: |phase| matches!(phase, Phase::Requesting(_)),
-        timer: |timer| matches!(timer, Timer::Help | Timer::IdentityLock),
-    };
     // What is sent again and again is no progress.
-    assert_breaks_alone("pair", rules, &[I12, L1]);
+    assert_breaks_alone("pair", ASKS_FOR_EVER, &[I12, L1]);
 }
+
+/// A command is not repeated. The identity lock of either robot would end the session, and with it the command.
+const NEVER_REPEATS: WaitsForEver = WaitsForEver {
+    who: |phase| matches!(phase, Phase::Leading(_) | Phase::Following(_)),
+    timer: |timer| matches!(timer, Timer::Acknowledgement(_) | Timer::IdentityLock),
+};
 
 #[test]
 fn without_repeats_a_lost_command_stays_outstanding() {
-    let rules = WaitsForEver {
-        // The identity lock of either would end the session, and with it the command.
-        who: |phase| matches!(phase, Phase::Leading(_) | Phase::Following(_)),
-        timer: |timer| matches!(timer, Timer::Acknowledgement(_) | Timer::IdentityLock),
-    };
-    assert_breaks_alone("pair", rules, &[L2]);
+    assert_breaks_alone("pair", NEVER_REPEATS, &[L2]);
 }
 
 /// A requester does not listen to others, and does not give up.
@@ -197,7 +192,7 @@ impl Rules for InsistsOnItsRequest {
 }
 
 #[test]
-fn two_requesters_of_whom_neither_yields_wait_for_ever() {
+fn two_requesters_that_do_not_yield_wait_for_ever() {
     assert_breaks_alone("offer-race", InsistsOnItsRequest, &[I12, L1, L6]);
 }
 
@@ -316,8 +311,8 @@ fn a_state_that_no_message_can_tell_is_no_valid_state() {
 }
 
 #[test]
-fn a_follower_that_starts_before_it_says_so_is_noticed() {
-    assert_breaks_alone("bilateral", StartsBeforeItSaysSo, &[I6]);
+fn a_follower_that_starts_before_it_acknowledges_is_noticed() {
+    assert_breaks_alone("bilateral", StartsBeforeItAcknowledges, &[I6]);
 }
 
 #[test]

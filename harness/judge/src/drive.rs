@@ -14,7 +14,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use crossguard_codec::{Identifiers, Position, RobotState};
-use crossguard_model_check::model::{Action, Delivery, Model, State};
+use crossguard_model_check::model::{Action, Delivery, Model, ModelState};
 use crossguard_model_check::network::{Message, Transmission, concerns};
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_protocol::{
@@ -339,7 +339,7 @@ impl<'a> DrivenRobots<'a> {
     }
 
     /// Whether all robots are as the model says.
-    fn compare(&self, state: &State) -> Result<(), Disagreement> {
+    fn compare(&self, state: &ModelState) -> Result<(), Disagreement> {
         let mut names = BTreeMap::new();
         for (driver, node) in self.robots.iter().zip(self.model.nodes(state)) {
             let real = driver.endpoint.as_ref().map(Endpoint::robot);

@@ -54,7 +54,7 @@ impl Report<'_> {
     fn broken(&self) -> Option<String> {
         match self.verdict {
             Err(Invalid { fault, .. }) => match &**fault {
-                Fault::Broken(broken) => Some(broken.name()),
+                Fault::Broken(broken) => Some(broken.name().to_owned()),
                 _ => None,
             },
             Ok(_) => None,

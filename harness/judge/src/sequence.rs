@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use crossguard_codec::Identifiers;
-use crossguard_model_check::sequence::{Chart as Drawing, ChartStep, Fate, Place};
+use crossguard_model_check::sequence::{Chart as Drawing, ChartPlace, ChartStep, Fate};
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{Entry, Record};
 
@@ -45,7 +45,7 @@ impl Sequence {
     pub fn steps(&mut self, record: &Record) -> Vec<ChartStep> {
         let step = |mark| {
             let (place, text) = match mark {
-                Mark::Note { lane, text } => (Place::At(lane), text),
+                Mark::Note { lane, text } => (ChartPlace::At(lane), text),
                 Mark::Arrow {
                     from,
                     to,
@@ -53,7 +53,7 @@ impl Sequence {
                     is_lost,
                 } => {
                     let fate = if is_lost { Fate::Lost } else { Fate::Arrives };
-                    (Place::Between { from, to, fate }, text)
+                    (ChartPlace::Between { from, to, fate }, text)
                 }
             };
             self::step(record.at_us, place, &text)
@@ -77,7 +77,7 @@ impl Sequence {
             let lane = self.chart.names().position(|name| name == robot);
             let text = "! its records end here, and it did not stop in order";
             if let Some(lane) = lane {
-                steps.insert(*place, step(*at_us, Place::At(lane), text));
+                steps.insert(*place, step(*at_us, ChartPlace::At(lane), text));
             }
         }
     }
@@ -94,7 +94,7 @@ impl Sequence {
     }
 }
 
-fn step(at_us: u64, place: Place, text: &str) -> ChartStep {
+fn step(at_us: u64, place: ChartPlace, text: &str) -> ChartStep {
     let seconds = Duration::from_micros(at_us).as_secs_f64();
     ChartStep {
         place,

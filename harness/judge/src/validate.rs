@@ -46,7 +46,7 @@ use std::fmt;
 use std::io::BufRead;
 
 use crossguard_model_check::monitor::Monitor;
-use crossguard_model_check::timed::TimedProperty;
+use crossguard_model_check::properties::PropertyId;
 use crossguard_protocol::{Event, Input, StationId};
 use serde::Serialize;
 
@@ -465,7 +465,7 @@ impl LoggedRobots {
         let met = self.monitor.premises_met();
         let mut properties: Vec<_> = met.map(|id| id.to_string()).collect();
         let verdicts: Vec<_> = clocks.map(SharedClock::verdict).collect();
-        let i10 = TimedProperty::I10.name();
+        let i10 = PropertyId::I10.name();
         if verdicts.iter().any(Result::is_ok) {
             properties.push(i10.to_owned());
         }

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
-use crossguard_model_check::check::{Options, Progress, Stop};
+use crossguard_model_check::check::{CheckProgress, Options, Stop};
 use crossguard_model_check::report::ScenarioReport;
 use crossguard_model_check::subject::Subject;
 use pyo3::exceptions::PyValueError;
@@ -100,7 +100,7 @@ struct Asking {
 }
 
 impl Asking {
-    fn go_on(&mut self, progress: Progress) {
+    fn go_on(&mut self, progress: CheckProgress) {
         if self.raised.is_some() || self.asked.elapsed() < PATIENCE {
             return;
         }

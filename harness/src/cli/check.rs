@@ -10,12 +10,12 @@ use std::time::Duration;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_model_check::check::{Options, Progress};
+use crossguard_model_check::check::{CheckProgress, Options};
 use crossguard_model_check::cost::Cost;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
-use crossguard_model_check::report::{PropertyReport, ScenarioReport, Verdict};
+use crossguard_model_check::report::{CheckVerdict, PropertyReport, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_model_check::timed::Figure;
@@ -218,8 +218,8 @@ fn export_one(
         return Err(Failure::input("--export wants one scenario"));
     };
     let format = match format {
-        GraphFormat::Dot => export::Format::Dot,
-        GraphFormat::Aut => export::Format::Aut,
+        GraphFormat::Dot => export::GraphFormat::Dot,
+        GraphFormat::Aut => export::GraphFormat::Aut,
     };
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
     let model = Model::new(untimed(*scenario)?);
@@ -274,7 +274,7 @@ fn progress_bar(is_json: bool, scenario: &Scenario) -> ProgressBar {
     bar.with_style(style)
 }
 
-fn show(bar: &ProgressBar, progress: Progress) {
+fn show(bar: &ProgressBar, progress: CheckProgress) {
     if let Some(expected) = progress.expected {
         bar.set_length(expected as u64);
     }
@@ -313,8 +313,8 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         .filter(|property| property.kind != "premise")
     {
         let premise = match premise(&property.id) {
-            Some(Verdict::Unreachable) => "premise never met!",
-            Some(Verdict::Incomplete) => "premise not met yet",
+            Some(CheckVerdict::Unreachable) => "premise never met!",
+            Some(CheckVerdict::Incomplete) => "premise not met yet",
             _ => "",
         };
         table.add_row([
@@ -366,14 +366,14 @@ fn print_figures(figures: &[Figure]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn verdict(report: &ScenarioReport, verdict: Verdict) -> &'static str {
+fn verdict(report: &ScenarioReport, verdict: CheckVerdict) -> &'static str {
     match verdict {
-        Verdict::Violated if paper::fails_as_it_must(report) => "violated, as it must be",
-        Verdict::Holds => "holds",
-        Verdict::Reachable => "reachable",
-        Verdict::Violated => "VIOLATED",
-        Verdict::Unreachable => "unreachable",
-        Verdict::Incomplete => "incomplete",
+        CheckVerdict::Violated if paper::fails_as_it_must(report) => "violated, as it must be",
+        CheckVerdict::Holds => "holds",
+        CheckVerdict::Reachable => "reachable",
+        CheckVerdict::Violated => "VIOLATED",
+        CheckVerdict::Unreachable => "unreachable",
+        CheckVerdict::Incomplete => "incomplete",
     }
 }
 

@@ -1,5 +1,6 @@
 //! `crossguard fsm`.
 
+use crossguard_model_check::transitions::mode_name;
 use crossguard_model_check::{fsm, universe};
 
 use super::{Failure, print, print_json};
@@ -32,13 +33,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let transitions = universe::explore(&universe::config()).transitions;
     match arguments.format {
         DiagramFormat::Mermaid => {
-            print(fsm::diagram(&transitions, fsm::Format::Mermaid).trim_end())
+            print(fsm::diagram(&transitions, fsm::DiagramFormat::Mermaid).trim_end())
         }
-        DiagramFormat::Dot => print(fsm::diagram(&transitions, fsm::Format::Dot).trim_end()),
+        DiagramFormat::Dot => print(fsm::diagram(&transitions, fsm::DiagramFormat::Dot).trim_end()),
         DiagramFormat::Json => {
             let transitions = transitions.0.iter().map(|((from, to), labels)| Transition {
-                from: fsm::name(*from),
-                to: fsm::name(*to),
+                from: mode_name(*from),
+                to: mode_name(*to),
                 on: labels.iter().cloned().collect(),
             });
             print_json(&transitions.collect::<Vec<_>>())

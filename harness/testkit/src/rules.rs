@@ -21,6 +21,16 @@ impl Rules for Drops {
     }
 }
 
+/// The corridor is not closed.
+pub const NEVER_CLOSES_THE_CORRIDOR: Drops =
+    Drops(|output| matches!(output, Output::CorridorClosed(_)));
+
+/// A released robot is not stopped.
+pub const NEVER_STOPS: Drops = Drops(|output| matches!(output, Output::StopManeuver(..)));
+
+/// The identity is not locked.
+pub const NEVER_LOCKS_ITS_IDENTITY: Drops = Drops(|output| matches!(output, Output::LockIdentity));
+
 /// When one follower is gone, another one's lease goes too.
 pub struct LosesTwoForOne;
 
@@ -367,10 +377,10 @@ impl Rules for ForgetsItsDuty {
     }
 }
 
-/// A follower starts before it says that it does.
-pub struct StartsBeforeItSaysSo;
+/// A follower starts before it acknowledges (rule R7, property I6).
+pub struct StartsBeforeItAcknowledges;
 
-impl Rules for StartsBeforeItSaysSo {
+impl Rules for StartsBeforeItAcknowledges {
     fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
         let outputs = robot.step(config, input);
         let is_start = |output: &&Output| matches!(output, Output::StartManeuver(_));

@@ -10,7 +10,7 @@ use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_judge::validate::{self, Validated};
-use crossguard_model_check::paper::{Happening, Link, Message, Step, Story};
+use crossguard_model_check::paper::{Happening, Link, Story, StoryMessage, StoryStep};
 use crossguard_protocol::{
     Config, Corridor, Event, HelpRequest, Ignored, Input, Leading, Maneuver, ManeuverId, Phase,
     Place, Progress, Rmcm, Robot, StationId, TaskSet, TaskType, Urgency,
@@ -43,9 +43,9 @@ pub struct Street {
     now_ms: u64,
     actors: BTreeMap<u32, Actor>,
     silent: BTreeSet<Link>,
-    held: BTreeSet<Message>,
+    held: BTreeSet<StoryMessage>,
     /// Octets of the messages that are held.
-    kept: BTreeMap<Message, Vec<Vec<u8>>>,
+    kept: BTreeMap<StoryMessage, Vec<Vec<u8>>>,
     records: Vec<Record>,
 }
 
@@ -98,7 +98,7 @@ impl Street {
     }
 
     /// One step of the story, and the time that it takes.
-    pub fn take(&mut self, step: &Step) {
+    pub fn take(&mut self, step: &StoryStep) {
         if let Happening::SafetyTimeout(_) = step.what {
             // The radio is still as it was when the timer was armed.
             self.pass(u64::from(self.config.settings().t_safety.0));
@@ -118,7 +118,7 @@ impl Street {
             }
             Happening::Delay(link) => {
                 let ram = self.actors[&link.from].newest_ram.clone();
-                self.kept.insert(Message::Ram(link), vec![ram]);
+                self.kept.insert(StoryMessage::Ram(link), vec![ram]);
             }
             Happening::Command(link) => self.order(link),
             Happening::Arrive(message) | Happening::ArriveAgain(message) => {
@@ -273,9 +273,9 @@ impl Street {
             Some(Input::Rmcm(Rmcm::Command(_)))
         );
         let message = if is_command {
-            Message::Command(link)
+            StoryMessage::Command(link)
         } else {
-            Message::Answer(link)
+            StoryMessage::Answer(link)
         };
         let is_held = self.held.contains(&message);
         if is_held {
@@ -320,9 +320,11 @@ impl Actor {
     }
 }
 
-fn receiver(message: Message) -> u32 {
+fn receiver(message: StoryMessage) -> u32 {
     match message {
-        Message::Ram(link) | Message::Command(link) | Message::Answer(link) => link.to,
+        StoryMessage::Ram(link) | StoryMessage::Command(link) | StoryMessage::Answer(link) => {
+            link.to
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use crossguard_protocol::{
 };
 use smallvec::SmallVec;
 
-use super::{Action, Delivery, Model, State};
+use super::{Action, Delivery, Model, ModelState};
 use crate::network::{Message, Transmission};
 use crate::node::Node;
 use crate::road::{Body, Pedestrian};
@@ -13,7 +13,7 @@ use crate::scenario::{MAX_ROBOTS, PSEUDONYM_STEP};
 
 impl Model {
     /// The messages on air of which any may be the next whose fate is decided.
-    pub(super) fn next_on_air(&self, state: &State) -> SmallVec<[Transmission; MAX_ROBOTS]> {
+    pub(super) fn next_on_air(&self, state: &ModelState) -> SmallVec<[Transmission; MAX_ROBOTS]> {
         let network = self.network(state);
         if self.0.symmetry.is_trivial() {
             network.next_on_air().into_iter().collect()
@@ -23,7 +23,7 @@ impl Model {
     }
 
     /// Everything that may happen in `state`. An application's event may turn out to be ignored.
-    pub fn actions_in(&self, state: &State, actions: &mut Vec<Action>) {
+    pub fn actions_in(&self, state: &ModelState, actions: &mut Vec<Action>) {
         if state.broken != 0 {
             return;
         }
@@ -37,12 +37,12 @@ impl Model {
     }
 
     /// Whether the fate of some message is to be decided before anything else.
-    pub(crate) fn is_on_air(&self, state: &State) -> bool {
+    pub(crate) fn is_on_air(&self, state: &ModelState) -> bool {
         self.network(state).next_on_air().is_some()
     }
 
     /// Everything that may happen in `state` once nothing is on air any more.
-    pub(crate) fn actions_off_air(&self, state: &State, actions: &mut Vec<Action>) {
+    pub(crate) fn actions_off_air(&self, state: &ModelState, actions: &mut Vec<Action>) {
         for transmission in self.network(state).delayed() {
             for how in [Delivery::Late, Delivery::LateAndAgain] {
                 actions.push(Action::Deliver { transmission, how });
@@ -84,7 +84,7 @@ impl Model {
         self.pedestrian_actions(state, actions);
     }
 
-    fn pedestrian_actions(&self, state: &State, actions: &mut Vec<Action>) {
+    fn pedestrian_actions(&self, state: &ModelState, actions: &mut Vec<Action>) {
         match self.history(state).pedestrian {
             Pedestrian::Waiting => {
                 let signs = (0..).zip(self.nodes(state));
@@ -102,7 +102,7 @@ impl Model {
     }
 
     /// What may become of a message on air.
-    fn fates(&self, state: &State, transmission: Transmission, actions: &mut Vec<Action>) {
+    fn fates(&self, state: &ModelState, transmission: Transmission, actions: &mut Vec<Action>) {
         let channel = self.0.scenario.channel;
         if self.is_deaf(state, transmission.to.into()) {
             actions.push(Action::Lose(transmission));
@@ -128,7 +128,7 @@ impl Model {
     }
 
     /// Whether the robot at this place is down or hangs.
-    pub(super) fn is_deaf(&self, state: &State, place: usize) -> bool {
+    pub(super) fn is_deaf(&self, state: &ModelState, place: usize) -> bool {
         let node = self.0.steps.nodes.value(state.nodes[place]);
         node.robot.is_none() || state.hangs(place)
     }
@@ -136,7 +136,7 @@ impl Model {
     /// Every event that the application of a robot could come up with.
     fn local_events(
         &self,
-        state: &State,
+        state: &ModelState,
         i: u8,
         node: &Node,
         robot: &Robot,
@@ -146,7 +146,7 @@ impl Model {
         let (scenario, left) = (&self.0.scenario, &state.left);
         let pedestrian = self.history(state).pedestrian;
         let is_road_free = pedestrian.on_road().is_none();
-        // Who cooperates in a crossing waits for its end.
+        // Applications that cooperate in a crossing wait for its end.
         let waits = scenario.cooperative && scenario.corridor && pedestrian != Pedestrian::Across;
         if let Some(maneuver) = node.actuation.body.running() {
             let settings = scenario.config.settings();
@@ -227,7 +227,7 @@ impl Model {
     }
 }
 
-/// Whether a timer does not run out when what is sent arrives and everybody does their part. The
+/// Whether a timer does not run out when messages arrive and every application does its part. The
 /// others pace the robot's own work.
 const fn guards_against_silence(timer: Timer) -> bool {
     !matches!(timer, Timer::Ram | Timer::Selection | Timer::Farewell)

@@ -1,16 +1,16 @@
-//! The state that stands for all those that differ in names, or in which of the symmetric robots is
+//! The state that stands for all states that differ in names, or in which of the symmetric robots is
 //! which.
 
 use smallvec::SmallVec;
 
-use super::{Action, Draft, Model, Shared, State};
+use super::{Action, Draft, Model, ModelState, Shared};
 use crate::canonical::{NameSets, Renamable};
 use crate::network::Network;
 use crate::scenario::MAX_ROBOTS;
 use crate::symmetry::{Exchange, Images, MAX_EXCHANGES};
 
 impl Model {
-    /// The state of all those that differ from the draft in names alone.
+    /// The state that stands for all states that differ from the draft in names alone.
     pub(super) fn ranked(&self, draft: Draft) -> Draft {
         let Draft {
             mut state,
@@ -35,7 +35,7 @@ impl Model {
         Draft { state, network }
     }
 
-    fn rename(&self, state: &mut State, network: &mut Network, renaming: u32) {
+    fn rename(&self, state: &mut ModelState, network: &mut Network, renaming: u32) {
         let Shared {
             scenario,
             steps,
@@ -55,15 +55,15 @@ impl Model {
         state.history = histories.renamed(state.history, renaming);
     }
 
-    pub(super) fn interned(&self, Draft { mut state, network }: Draft) -> State {
+    pub(super) fn interned(&self, Draft { mut state, network }: Draft) -> ModelState {
         state.network = self.0.networks.number_nameless(network);
         state
     }
 
-    /// The state that stands for `state` and all those that differ from it in which of the symmetric
+    /// The state that stands for `state` and all states that differ from it in which of the symmetric
     /// robots is which.
     #[must_use]
-    pub fn representative(&self, state: &State) -> State {
+    pub fn representative(&self, state: &ModelState) -> ModelState {
         let network = *self.network(state);
         let state = state.clone();
         self.interned(self.representative_of(Draft { state, network }))
@@ -89,7 +89,7 @@ impl Model {
             .unwrap_or(draft)
     }
 
-    fn node_images(&self, state: &State) -> [Images; MAX_ROBOTS] {
+    fn node_images(&self, state: &ModelState) -> [Images; MAX_ROBOTS] {
         let Shared {
             scenario,
             steps,
@@ -140,7 +140,7 @@ impl Model {
         let mut network = exchanged.network(&draft.network, message);
         network.sent = sent[exchange];
         Draft {
-            state: State {
+            state: ModelState {
                 nodes,
                 history: history[exchange],
                 hung: exchanged.bits(draft.state.hung),
@@ -154,8 +154,8 @@ impl Model {
     /// where no robots are symmetric.
     pub(crate) fn real_run(
         &self,
-        path: Vec<(State, Option<Action>)>,
-    ) -> Vec<(State, Option<Action>)> {
+        path: Vec<(ModelState, Option<Action>)>,
+    ) -> Vec<(ModelState, Option<Action>)> {
         if self.0.symmetry.is_trivial() {
             return path;
         }
@@ -208,19 +208,19 @@ mod tests {
         Model::new(Scenario::parse("symmetric.toml", &text).unwrap())
     }
 
-    type Successor = fn(&Model, &State, Action) -> Option<State>;
+    type Successor = fn(&Model, &ModelState, Action) -> Option<ModelState>;
 
-    fn as_it_is(model: &Model, state: &State, action: Action) -> Option<State> {
+    fn as_it_is(model: &Model, state: &ModelState, action: Action) -> Option<ModelState> {
         Some(model.successor(state, action)?.0)
     }
 
-    fn up_to_symmetry(model: &Model, state: &State, action: Action) -> Option<State> {
+    fn up_to_symmetry(model: &Model, state: &ModelState, action: Action) -> Option<ModelState> {
         Some(model.successor_up_to_symmetry(state, action)?.0)
     }
 
-    fn reachable(model: &Model, successor: Successor) -> HashSet<State> {
+    fn reachable(model: &Model, successor: Successor) -> HashSet<ModelState> {
         let mut todo = vec![model.initial()];
-        let mut reached: HashSet<State> = todo.iter().cloned().collect();
+        let mut reached: HashSet<ModelState> = todo.iter().cloned().collect();
         let mut actions = Vec::new();
         while let Some(state) = todo.pop() {
             actions.clear();
@@ -237,7 +237,7 @@ mod tests {
     }
 
     /// All states that differ from `state` in which of the symmetric robots is which.
-    fn class(model: &Model, state: &State) -> HashSet<State> {
+    fn class(model: &Model, state: &ModelState) -> HashSet<ModelState> {
         let draft = Draft {
             state: state.clone(),
             network: *model.network(state),
@@ -261,7 +261,7 @@ mod tests {
         for state in &reduced {
             let class = class(model, state);
             assert!(class.iter().all(|state| all.contains(state)));
-            let stands_for = |other: &State| model.representative(other) == *state;
+            let stands_for = |other: &ModelState| model.representative(other) == *state;
             assert!(class.iter().all(stands_for));
             covered += class.len();
         }
@@ -302,7 +302,7 @@ mod tests {
             .replace("commands = 1", "commands = 0");
         let model = model(&team, "symmetric = [2, 3, 4]");
         assert_eq!(assert_covered(&model), (45_364, 8_253));
-        let successors = |state: &State| -> HashSet<State> {
+        let successors = |state: &ModelState| -> HashSet<ModelState> {
             let mut actions = Vec::new();
             model.actions_in(state, &mut actions);
             actions
@@ -320,7 +320,7 @@ mod tests {
 
     /// The robots and histories of all states, under names that depend on nothing else.
     fn parts(model: &Model) -> HashSet<(Vec<Node>, History)> {
-        let parts = |state: State| {
+        let parts = |state: ModelState| {
             let network = Network::EMPTY;
             let Draft { state, .. } = model.ranked(Draft { state, network });
             let nodes = model.nodes(&state).cloned().collect();

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use crossguard_protocol::{Event, Input, Outputs, Timer};
 
 use crate::canonical::{Ranks, Renamings};
-use crate::check::Stop;
+use crate::exploration::Stop;
 use crate::history::History;
 use crate::intern::Interner;
 use crate::monotone::Sets;
@@ -23,13 +23,13 @@ use crate::network::{Message, Network, Transmission};
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::PropertyId;
 use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
-use crate::steps::{Cause, Step, Steps};
+use crate::steps::{Cause, ComputedStep, Steps};
 use crate::symmetry::Symmetry;
 use crate::transitions::Transitions;
 
 /// A global state: numbers of interned parts, and what may still happen.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub struct State {
+pub struct ModelState {
     nodes: [u32; MAX_ROBOTS],
     history: u32,
     /// One bit per step property that the step into this state broke.
@@ -42,11 +42,11 @@ pub struct State {
 
 /// A state that is being made up, its network not interned yet.
 struct Draft {
-    state: State,
+    state: ModelState,
     network: Network,
 }
 
-impl State {
+impl ModelState {
     /// How often what may still happen.
     #[must_use]
     pub const fn left(&self) -> Bounds {
@@ -113,7 +113,7 @@ pub enum Delivery {
     AnyTime,
 }
 
-/// The model of one scenario. Clones share what has been found out. Somebody may ask to give up.
+/// The model of one scenario. Clones share their results. An observer may ask to give up.
 #[derive(Clone)]
 pub struct Model(Arc<Shared>, Stop);
 
@@ -135,7 +135,7 @@ struct Shared {
 pub struct RobotStep<'a> {
     /// Its place in the scenario.
     pub robot: usize,
-    step: &'a Step,
+    step: &'a ComputedStep,
 }
 
 impl RobotStep<'_> {
@@ -186,7 +186,7 @@ impl Model {
         Self(self.0, stop.clone())
     }
 
-    /// Whether somebody asked to give up.
+    /// Whether an observer asked to give up.
     pub(crate) fn has_to_stop(&self) -> bool {
         self.1.is_requested()
     }
@@ -199,12 +199,12 @@ impl Model {
 
     /// The state in which every run begins: all robots idle, nothing in flight.
     #[must_use]
-    pub fn initial(&self) -> State {
+    pub fn initial(&self) -> ModelState {
         let mut nodes = [0; MAX_ROBOTS];
         for (node, setup) in nodes.iter_mut().zip(&self.0.scenario.robots) {
             *node = self.0.steps.nodes.number(Node::first_boot(setup.station));
         }
-        State {
+        ModelState {
             nodes,
             history: self.0.histories.number(History::default()),
             broken: 0,
@@ -214,12 +214,12 @@ impl Model {
         }
     }
 
-    fn network(&self, state: &State) -> &Network {
+    fn network(&self, state: &ModelState) -> &Network {
         self.0.networks.value(state.network)
     }
 
     /// The robots of a state.
-    pub fn nodes<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a Node> + Clone {
+    pub fn nodes<'a>(&'a self, state: &'a ModelState) -> impl Iterator<Item = &'a Node> + Clone {
         let robots = self.0.scenario.robots.len();
         state.nodes[..robots]
             .iter()
@@ -228,7 +228,7 @@ impl Model {
 
     /// The history of a state.
     #[must_use]
-    pub fn history(&self, state: &State) -> &History {
+    pub fn history(&self, state: &ModelState) -> &History {
         self.0.histories.value(state.history)
     }
 
@@ -240,13 +240,13 @@ impl Model {
 
     /// Whether the step into this state broke a step property.
     #[must_use]
-    pub fn breaks(state: &State, property: PropertyId) -> bool {
+    pub fn breaks(state: &ModelState, property: PropertyId) -> bool {
         state.broken & property.bit() != 0
     }
 
     /// Whether a state keeps a property; true where the property is one of steps.
     #[must_use]
-    pub fn state_rule_holds(&self, state: &State, property: PropertyId) -> bool {
+    pub fn state_rule_holds(&self, state: &ModelState, property: PropertyId) -> bool {
         let Some(rule) = property.state_rule() else {
             return true;
         };
@@ -262,7 +262,7 @@ impl Model {
     /// the timer of periodic RAM. A robot that hangs goes on at some time, so its timers count; that a
     /// message of a monotone channel arrives at all is not sure, so it does not.
     #[must_use]
-    pub fn can_progress(&self, state: &State) -> bool {
+    pub fn can_progress(&self, state: &ModelState) -> bool {
         let Shared {
             scenario, steps, ..
         } = &*self.0;

@@ -1,26 +1,26 @@
-//! What comes of an action: the next state, and the step of the robot that takes one.
+//! The effect of an action: the next state, and the step of the robot that takes one.
 
 use std::sync::atomic::Ordering;
 
 use crossguard_protocol::{Phase, Robot, SessionId, Timer};
 
-use super::{Action, Delivery, Draft, Model, RobotStep, Shared, State};
+use super::{Action, Delivery, Draft, Model, ModelState, RobotStep, Shared};
 use crate::network::{Network, Transmission, concerns};
 use crate::node::Node;
-use crate::properties::{PropertyId, StepView, View};
-use crate::road::{Body, Pedestrian, w1_guards_in_place};
+use crate::properties::StepView;
+use crate::road::{Body, Pedestrian};
 use crate::scenario::Bounds;
-use crate::steps::{Cause, Step, judge_historic};
+use crate::steps::{Cause, ComputedStep, judge_historic};
 
 impl Model {
-    /// What comes of `action` in `state`, with the robot's step if one takes a step; `None` if the
+    /// The state after `action` in `state`, with the robot's step if one takes a step; `None` if the
     /// action changes nothing.
     #[must_use]
     pub fn successor(
         &self,
-        state: &State,
+        state: &ModelState,
         action: Action,
-    ) -> Option<(State, Option<RobotStep<'_>>)> {
+    ) -> Option<(ModelState, Option<RobotStep<'_>>)> {
         let (next, step) = self.take(state, action)?;
         Some((self.interned(next), step))
     }
@@ -29,14 +29,14 @@ impl Model {
     #[must_use]
     pub fn successor_up_to_symmetry(
         &self,
-        state: &State,
+        state: &ModelState,
         action: Action,
-    ) -> Option<(State, Option<RobotStep<'_>>)> {
+    ) -> Option<(ModelState, Option<RobotStep<'_>>)> {
         let (next, step) = self.take(state, action)?;
         Some((self.interned(self.representative_of(next)), step))
     }
 
-    fn take(&self, state: &State, action: Action) -> Option<(Draft, Option<RobotStep<'_>>)> {
+    fn take(&self, state: &ModelState, action: Action) -> Option<(Draft, Option<RobotStep<'_>>)> {
         let mut next = Draft {
             state: state.clone(),
             network: *self.network(state),
@@ -133,29 +133,32 @@ impl Model {
         Some((self.ranked(next), step))
     }
 
-    /// The session at whose sign somebody steps on the road. Judges W1.
-    fn step_on_road(&self, next: &mut State, i: usize) -> Option<SessionId> {
+    /// The session at whose sign a pedestrian steps on the road. Judges whether the guards are in place.
+    fn step_on_road(&self, next: &mut ModelState, i: usize) -> Option<SessionId> {
         let node = self.0.steps.nodes.value(next.nodes[i]);
         let session = node.robot.as_ref()?.session()?;
-        if self.0.scenario.properties.contains(&PropertyId::W1) {
-            let required = usize::from(self.0.scenario.request.followers);
-            let in_place = |view: &View| w1_guards_in_place::holds(view, session, required);
-            if !self.look(next, in_place) {
-                next.broken |= PropertyId::W1.bit();
+        let required = usize::from(self.0.scenario.request.followers);
+        for &property in &self.0.scenario.properties {
+            let keeps_guards =
+                self.look(next, |view| property.keeps_guards(view, session, required));
+            if let Some(holds) = keeps_guards {
+                self.note_premise(property);
+                if !holds {
+                    next.broken |= property.bit();
+                }
             }
-            self.note_premises(PropertyId::W1.bit());
         }
         Some(session)
     }
 
-    fn set_pedestrian(&self, next: &mut State, pedestrian: Pedestrian) {
+    fn set_pedestrian(&self, next: &mut ModelState, pedestrian: Pedestrian) {
         let mut history = self.history(next).clone();
         history.pedestrian = pedestrian;
         next.history = self.0.histories.number(history);
     }
 
-    /// What a body has done last is of no account any more once nobody leads that session.
-    fn forget_bodies(&self, next: &mut State) {
+    /// Forgets what a body has done last once no robot leads that session any more.
+    fn forget_bodies(&self, next: &mut ModelState) {
         for i in 0..self.0.scenario.robots.len() {
             let node = self.0.steps.nodes.value(next.nodes[i]);
             let Body::Ended(id, _) = node.actuation.body else {
@@ -173,7 +176,7 @@ impl Model {
         }
     }
 
-    fn crash(&self, next: &mut State, i: usize) {
+    fn crash(&self, next: &mut ModelState, i: usize) {
         let node = self.0.steps.nodes.value(next.nodes[i]);
         if let Some(robot) = &node.robot {
             let mut history = self.history(next).clone();
@@ -245,7 +248,7 @@ impl Model {
         left: &mut Bounds,
         before: u32,
         cause: Cause,
-        step: &Step,
+        step: &ComputedStep,
     ) -> Option<()> {
         let offers = |node: u32| {
             let robot = self.0.steps.nodes.value(node).robot.as_ref();
@@ -268,7 +271,7 @@ impl Model {
         Some(())
     }
 
-    fn transmit(&self, next: &mut Draft, from: usize, step: &Step) {
+    fn transmit(&self, next: &mut Draft, from: usize, step: &ComputedStep) {
         let Shared {
             scenario,
             steps,
@@ -312,7 +315,7 @@ impl Model {
 
 impl Draft {
     /// Whether nothing has changed.
-    fn is(&self, state: &State, network: &Network) -> bool {
+    fn is(&self, state: &ModelState, network: &Network) -> bool {
         self.state == *state && self.network == *network
     }
 }

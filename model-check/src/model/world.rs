@@ -3,14 +3,14 @@
 use crossguard_protocol::{Config, StationId};
 use smallvec::SmallVec;
 
-use super::{Model, State};
+use super::{Model, ModelState};
 use crate::node::Node;
-use crate::properties::{View, World};
+use crate::properties::{Surroundings, View};
 use crate::scenario::MAX_ROBOTS;
 
 impl Model {
     /// Shows a state as the rules see it.
-    pub(crate) fn look<T>(&self, state: &State, look: impl FnOnce(&View) -> T) -> T {
+    pub(crate) fn look<T>(&self, state: &ModelState, look: impl FnOnce(&View) -> T) -> T {
         let nodes: SmallVec<[&Node; MAX_ROBOTS]> = self.nodes(state).collect();
         look(&View {
             nodes: &nodes,
@@ -23,10 +23,10 @@ impl Model {
 /// A state as part of its model.
 struct InModel<'a> {
     model: &'a Model,
-    state: &'a State,
+    state: &'a ModelState,
 }
 
-impl World for InModel<'_> {
+impl Surroundings for InModel<'_> {
     fn config(&self, _place: usize) -> &Config {
         &self.model.scenario().config
     }

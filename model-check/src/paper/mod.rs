@@ -6,10 +6,9 @@
 //! Idle on a safety timeout, release by a RAM with `none`. It must fail, and [`check`] shows where.
 //!
 //! ```text
-//!   robot ──► model ──► stateright ──► counterexamples ──┬──► report
-//!               ▲                                        ├──► page (doc/paper-literal.md)
-//!            hazards (P0..P12) ◄── texts                 └──► story (stories/*.json)
-//!            road (W1..W4, W7)
+//!   robot ──► world ──► model ──► stateright ──► counterexamples ──┬──► report
+//!     └─► road ─┘         ▲                           ▲            ├──► page (doc/paper-literal.md)
+//!                       found: P0 to P12, W1 to W4, W7 texts       └──► story (stories/*.json)
 //! ```
 //!
 //! With the road around it, bodies, a sign and a pedestrian, the same model shows what the wording means for
@@ -30,6 +29,7 @@
 //!   by what it executes, either at the pedestrian's side or from a place that it has to reach first;
 //! - only a robot in Idle answers a `needHelp`; no time limit is given for any state.
 
+mod found;
 mod hazards;
 mod model;
 mod page;
@@ -37,20 +37,23 @@ mod road;
 mod robot;
 mod story;
 mod texts;
+mod world;
 
 use std::time::Instant;
 
 use stateright::{Checker, Model as _};
 
-pub use hazards::{Hazard, Text};
+pub use hazards::Hazard;
 pub use page::page;
-pub use story::{Happening, Link, Message, Party, Step, Story, stories};
+pub use story::{Happening, Link, Party, Story, StoryMessage, StoryStep, stories};
+pub use texts::Text;
 
 use crate::cost::Meter;
-use crate::report::{CutOff, PropertyReport, ScenarioReport, Verdict};
+use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::transitions::Transitions;
-use model::{Action, Cast, Question, World};
+use model::{Cast, PaperAction, Question};
 use road::{Inquiry, Task};
+use world::PaperWorld;
 
 /// The name of the report.
 pub const NAME: &str = "paper-literal";
@@ -102,9 +105,9 @@ struct Counterexample {
 }
 
 struct Transition {
-    before: World,
-    action: Action,
-    after: World,
+    before: PaperWorld,
+    action: PaperAction,
+    after: PaperWorld,
 }
 
 /// What stateright found in one cast, of everything that can happen.
@@ -137,7 +140,7 @@ pub fn check() -> ScenarioReport {
         let kind = if hazard.is_without_end() { "L" } else { "S" };
         must_fail_report(hazard.text(), kind, &found)
     }));
-    properties.extend(road::Property::ALL.map(|property| {
+    properties.extend(road::RoadProperty::ALL.map(|property| {
         let kind = if property.is_without_end() { "L" } else { "S" };
         must_fail_report(property.text(), kind, &on_road)
     }));
@@ -165,17 +168,17 @@ pub fn check() -> ScenarioReport {
 /// Whether the report is that of [`check`]; no scenario can have its properties.
 #[must_use]
 pub fn made(report: &ScenarioReport) -> bool {
-    report.verdict(hazards::HOLDS).is_some()
+    report.verdict(model::HOLDS).is_some()
 }
 
 /// Whether exactly P1 to P12 and the properties of the road are violated in a report of [`check`], as they
 /// must be.
 #[must_use]
 pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
-    let fine = [hazards::HOLDS, hazards::PREMISE].map(|id| report.verdict(id))
-        == [Some(Verdict::Holds), Some(Verdict::Reachable)];
+    let fine = [model::HOLDS, model::PREMISE].map(|id| report.verdict(id))
+        == [Some(CheckVerdict::Holds), Some(CheckVerdict::Reachable)];
     let hazards = Hazard::ALL.map(|hazard| hazard.text().id);
-    let on_road = road::Property::ALL.map(|property| property.text().id);
+    let on_road = road::RoadProperty::ALL.map(|property| property.text().id);
     let must_fail = hazards.into_iter().chain(on_road);
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
@@ -192,15 +195,15 @@ fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport
     };
     vec![
         report(
-            hazards::HOLDS,
+            model::HOLDS,
             "S",
-            Verdict::of_property(is_p0_broken, None),
+            CheckVerdict::of_property(is_p0_broken, None),
             "a follower starts only what its leader commanded it",
         ),
         report(
-            hazards::PREMISE,
+            model::PREMISE,
             "premise",
-            Verdict::of_premise(is_crossing_found, None),
+            CheckVerdict::of_premise(is_crossing_found, None),
             "a crossing of two maneuvers goes well, and all robots are idle again",
         ),
     ]
@@ -211,7 +214,7 @@ fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> Propert
     PropertyReport {
         id: text.id.to_owned(),
         kind: kind.to_owned(),
-        verdict: Verdict::of_property(counterexample.is_some(), None),
+        verdict: CheckVerdict::of_property(counterexample.is_some(), None),
         statement: text.statement.to_owned(),
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
         repeats_after: counterexample.and_then(Counterexample::repeats_after),
@@ -262,8 +265,8 @@ fn explore(cast: Cast, guards: Option<Task>) -> Exploration {
         // What stateright counts has the initial state in it.
         transitions: checker.state_count() - 1,
         depth: checker.max_depth(),
-        is_p0_broken: checker.discovery(hazards::HOLDS).is_some(),
-        is_crossing_found: checker.discovery(hazards::PREMISE).is_some(),
+        is_p0_broken: checker.discovery(model::HOLDS).is_some(),
+        is_crossing_found: checker.discovery(model::PREMISE).is_some(),
     }
 }
 
@@ -293,7 +296,7 @@ fn find(hazard: Hazard) -> Option<Counterexample> {
 
 /// The shortest run that breaks each property of the road, in order; W1 by either kind of guard.
 fn broken_on_road() -> Vec<Counterexample> {
-    use road::Property::{W1, W2, W3, W4, W7};
+    use road::RoadProperty::{W1, W2, W3, W4, W7};
     let inquiries = [
         (W1, Task::Block),
         (W1, Task::Move),
@@ -306,9 +309,9 @@ fn broken_on_road() -> Vec<Counterexample> {
     found.into_iter().flatten().collect()
 }
 
-fn find_on_road(property: road::Property, task: Task) -> Option<Counterexample> {
+fn find_on_road(property: road::RoadProperty, task: Task) -> Option<Counterexample> {
     let cast = match property {
-        road::Property::W3 => RIVALS,
+        road::RoadProperty::W3 => RIVALS,
         _ => CROSSING,
     };
     let question = Question {
@@ -323,7 +326,7 @@ fn find_on_road(property: road::Property, task: Task) -> Option<Counterexample> 
         text: texts::on_road(property, task),
         is_without_end: property.is_without_end(),
         cast,
-        steps: shortest(question, hazards::ON_ROAD)?,
+        steps: shortest(question, model::ON_ROAD)?,
     })
 }
 
@@ -332,7 +335,7 @@ fn shortest(question: Question, name: &'static str) -> Option<Vec<Transition>> {
     // One thread: of equally short counterexamples it always finds the same.
     let checker = question.checker().threads(1).spawn_bfs().join();
     let path = checker.discovery(name)?.into_vec();
-    let transition = |pair: &[(World, Option<Action>)]| {
+    let transition = |pair: &[(PaperWorld, Option<PaperAction>)]| {
         Some(Transition {
             before: pair[0].0.clone(),
             action: pair[0].1?,

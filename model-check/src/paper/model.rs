@@ -4,14 +4,21 @@
 //! while; one RAM at a time may be delayed. An RMCM is sent once; it arrives after any time, also
 //! repeatedly, or gets lost. At most one of a kind is under way on each link.
 
-use std::fmt;
-
 use crossguard_protocol::State as Stage;
 use stateright::Property;
 
-use super::hazards::{self, Hazard};
+use super::found::{self, HOLDS_BIT, is_crossed};
+use super::hazards::Hazard;
 use super::road::{Inquiry, Move, Road};
-use super::robot::{Command, Input, Place, Ram, Rmcm, Robot};
+use super::robot::{PaperCommand, PaperInput, PaperRmcm, PaperRobot, RobotIndex};
+use super::world::{Content, FlightKind, Memory, PaperFlight, PaperWorld};
+
+/// P0: what holds.
+pub(super) const HOLDS: &str = "P0";
+/// The premise of P0.
+pub(super) const PREMISE: &str = "P0-premise";
+/// What is asked about the road.
+pub(super) const ON_ROAD: &str = "W";
 
 /// Robots, and how often what may happen to them in one run.
 #[derive(Clone, Copy, Debug)]
@@ -39,158 +46,51 @@ pub(super) struct Question {
     pub(super) road: Option<Inquiry>,
 }
 
-/// A message under way.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) struct Flight {
-    pub(super) from: Place,
-    pub(super) to: Place,
-    pub(super) kind: Kind,
-}
-
-/// What a message under way is.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) enum Kind {
-    Ram,
-    Command,
-    Acknowledgement,
-}
-
-/// What a message under way says.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Content {
-    Ram(Ram),
-    Rmcm(Rmcm),
-}
-
 /// What happens.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Action {
-    Detect(Place),
+pub(super) enum PaperAction {
+    Detect(RobotIndex),
     /// The current, periodic RAM is heard.
     Hear {
-        from: Place,
-        to: Place,
+        from: RobotIndex,
+        to: RobotIndex,
     },
-    Command(Place),
+    Command(RobotIndex),
     /// A message under way arrives; `again` if a copy of it stays under way.
     Arrive {
-        flight: Flight,
+        flight: PaperFlight,
         again: bool,
     },
-    Finish(Place),
-    CompleteTask(Place),
-    SafetyTimeout(Place),
+    Finish(RobotIndex),
+    CompleteTask(RobotIndex),
+    SafetyTimeout(RobotIndex),
     /// The current, periodic RAM is delayed.
     Delay {
-        from: Place,
-        to: Place,
+        from: RobotIndex,
+        to: RobotIndex,
     },
-    Lose(Flight),
-    Crash(Place),
+    Lose(PaperFlight),
+    Crash(RobotIndex),
     /// On the road, by itself.
     Road(Move),
 }
 
-/// Robots, messages under way, and what the properties remember.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub(super) struct World {
-    /// `None` where a robot has broken down.
-    pub(super) robots: Vec<Option<Robot>>,
-    /// In order, at most one for each flight.
-    pub(super) flying: Vec<(Flight, Content)>,
-    pub(super) memory: Memory,
-    /// `None` where nothing is asked about the road.
-    pub(super) road: Option<Road>,
-    detections: u8,
-    crashes: u8,
-}
-
-/// What the properties remember; sets of commands are bits by serial number.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
-pub(super) struct Memory {
-    /// How many commands were given.
-    pub(super) given: u8,
-    pub(super) started: u8,
-    pub(super) fallen_back: u8,
-    pub(super) finished: u8,
-    /// Hazards that the newest step has brought about, by their place in the list.
-    pub(super) brought_about: u16,
-}
-
-impl World {
-    pub(super) fn robots(&self) -> impl Iterator<Item = (Place, &Robot)> + Clone {
-        self.robots
-            .iter()
-            .enumerate()
-            .filter_map(|(i, robot)| Some((i, robot.as_ref()?)))
-    }
-
-    pub(super) fn robot(&self, place: Place) -> Option<&Robot> {
-        self.robots[place].as_ref()
-    }
-
-    pub(super) fn content(&self, flight: Flight) -> Option<Content> {
-        let found = self.flying.iter().find(|(other, _)| *other == flight)?;
-        Some(found.1)
-    }
-
-    /// Whether nothing goes on by itself: nothing is under way, no timeout and no maneuver runs, no
-    /// application has anything to say, and no RAM tells anybody anything new.
-    pub(super) fn is_stuck(&self) -> bool {
-        let acts = |robot: &Robot| robot.leader().is_some() || robot.may_command();
-        self.flying.is_empty()
-            && !self.robots().any(|(_, robot)| acts(robot))
-            && self.telling_links().next().is_none()
-    }
-
-    /// The links on which the sender's current RAM would change the receiver.
-    pub(super) fn telling_links(&self) -> impl Iterator<Item = (Place, Place)> {
-        self.links()
-            .filter(|&(from, to)| self.told(from, to) != self.robots[to])
-    }
-
-    /// From every robot to every other.
-    pub(super) fn links(&self) -> impl Iterator<Item = (Place, Place)> {
-        self.robots().flat_map(move |(from, _)| {
-            let others = self.robots().filter(move |(to, _)| *to != from);
-            others.map(move |(to, _)| (from, to))
-        })
-    }
-
-    /// The robot at `to` if it heard the current RAM of the robot at `from`.
-    pub(super) fn told(&self, from: Place, to: Place) -> Option<Robot> {
-        let mut robot = self.robots[to]?;
-        robot.step(to, Input::Ram(from, self.robots[from]?.ram()));
-        Some(robot)
-    }
-
-    fn send(&mut self, from: Place, to: Place, content: Content) -> Option<()> {
-        let kind = content.kind();
-        let flight = Flight { from, to, kind };
-        let place = self.flying.binary_search_by_key(&flight, |(f, _)| *f);
-        self.flying.insert(place.err()?, (flight, content));
-        Some(())
-    }
-
-    fn land(&mut self, flight: Flight) {
-        self.flying.retain(|(other, _)| *other != flight);
-    }
-
+impl PaperWorld {
     /// A robot's step, what it sends, and what the properties remember of it.
-    fn step(&mut self, place: Place, input: Input) -> Option<()> {
+    fn step(&mut self, place: RobotIndex, input: PaperInput) -> Option<()> {
         let before = self.clone();
         let robot = self.robots[place].as_mut()?;
         let sent = robot.step(place, input);
         let after = *robot;
         let partner = match sent {
-            Some(Rmcm::Command(_)) => after.follower(),
-            Some(Rmcm::Acknowledgement(_)) => after.leader(),
+            Some(PaperRmcm::Command(_)) => after.follower(),
+            Some(PaperRmcm::Acknowledgement(_)) => after.leader(),
             None => None,
         };
         if let (Some(to), Some(rmcm)) = (partner, sent) {
             self.send(place, to, Content::Rmcm(rmcm))?;
         }
-        self.memory.brought_about = hazards::brought_about(&before, place, input, &after);
+        self.memory.brought_about = found::brought_about(&before, place, input, &after);
         self.remember(&before, place, input, sent);
         if let (Some(road), Some(robot)) = (&mut self.road, before.robot(place)) {
             road.observe(robot, place, input, &after);
@@ -198,40 +98,29 @@ impl World {
         Some(())
     }
 
-    fn remember(&mut self, before: &Self, place: Place, input: Input, sent: Option<Rmcm>) {
-        let bit = |command: Option<Command>| command.map_or(0, |command| 1 << command.serial);
-        let executed = before.robot(place).and_then(Robot::executing);
+    fn remember(
+        &mut self,
+        before: &Self,
+        place: RobotIndex,
+        input: PaperInput,
+        sent: Option<PaperRmcm>,
+    ) {
+        let bit = |command: Option<PaperCommand>| command.map_or(0, |command| 1 << command.serial);
+        let executed = before.robot(place).and_then(PaperRobot::executing);
         match (input, sent) {
-            (Input::SafetyTimeout, _) => self.memory.fallen_back |= bit(executed),
-            (Input::Finished, _) => self.memory.finished |= bit(executed),
-            (_, Some(Rmcm::Command(_))) => self.memory.given += 1,
-            (_, Some(Rmcm::Acknowledgement(command))) => self.memory.started |= bit(Some(command)),
+            (PaperInput::SafetyTimeout, _) => self.memory.fallen_back |= bit(executed),
+            (PaperInput::Finished, _) => self.memory.finished |= bit(executed),
+            (_, Some(PaperRmcm::Command(_))) => self.memory.given += 1,
+            (_, Some(PaperRmcm::Acknowledgement(command))) => {
+                self.memory.started |= bit(Some(command));
+            }
             _ => {}
         }
     }
 }
 
-impl Content {
-    const fn kind(self) -> Kind {
-        match self {
-            Self::Ram(_) => Kind::Ram,
-            Self::Rmcm(Rmcm::Command(_)) => Kind::Command,
-            Self::Rmcm(Rmcm::Acknowledgement(_)) => Kind::Acknowledgement,
-        }
-    }
-}
-
-impl fmt::Display for Content {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Ram(ram) => ram.fmt(f),
-            Self::Rmcm(rmcm) => rmcm.fmt(f),
-        }
-    }
-}
-
 impl Cast {
-    fn local_actions(&self, world: &World, actions: &mut Vec<Action>) {
+    fn local_actions(&self, world: &PaperWorld, actions: &mut Vec<PaperAction>) {
         // Applications are truthful: while somebody is on the road nothing is finished.
         let is_road_free = world.road.as_ref().is_none_or(Road::is_free);
         for (place, robot) in world.robots() {
@@ -239,109 +128,139 @@ impl Cast {
                 && place < self.detecting
                 && world.detections < self.detections
             {
-                actions.push(Action::Detect(place));
+                actions.push(PaperAction::Detect(place));
             }
             if robot.may_command() && world.memory.given < self.commands {
-                actions.push(Action::Command(place));
+                actions.push(PaperAction::Command(place));
             }
             if robot.executing().is_some() && is_road_free {
-                actions.push(Action::Finish(place));
+                actions.push(PaperAction::Finish(place));
             }
             if robot.may_complete_task() && is_road_free {
-                actions.push(Action::CompleteTask(place));
+                actions.push(PaperAction::CompleteTask(place));
             }
             if robot.leader().is_some() {
-                actions.push(Action::SafetyTimeout(place));
+                actions.push(PaperAction::SafetyTimeout(place));
             }
         }
     }
 
-    fn channel_actions(&self, world: &World, actions: &mut Vec<Action>) {
-        let hears = |(from, to)| Action::Hear { from, to };
+    fn channel_actions(&self, world: &PaperWorld, actions: &mut Vec<PaperAction>) {
+        let hears = |(from, to)| PaperAction::Hear { from, to };
         actions.extend(world.telling_links().map(hears));
         if let Some(road) = &world.road {
-            let is_noted = |&(from, to): &(Place, Place)| {
-                world.told(from, to) == world.robots[to] && road.notes(world, from, to)
+            let is_noted = |&(from, to): &(RobotIndex, RobotIndex)| {
+                let (Some(sender), Some(receiver)) = (world.robot(from), world.robot(to)) else {
+                    return false;
+                };
+                world.told(from, to) == world.robots[to]
+                    && road.notes((from, sender), (to, receiver))
             };
             actions.extend(world.links().filter(is_noted).map(hears));
         }
         for &(flight, _) in &world.flying {
             if world.robot(flight.to).is_some() {
-                let arrive = |again| Action::Arrive { flight, again };
+                let arrive = |again| PaperAction::Arrive { flight, again };
                 actions.extend([arrive(false), arrive(true)]);
             }
         }
         for &(flight, _) in &world.flying {
-            actions.push(Action::Lose(flight));
+            actions.push(PaperAction::Lose(flight));
         }
-        let is_delayed = |(flight, _): &(Flight, Content)| flight.kind == Kind::Ram;
+        let is_delayed = |(flight, _): &(PaperFlight, Content)| flight.kind == FlightKind::Ram;
         if self.delay && !world.flying.iter().any(is_delayed) {
             for (from, _) in world.robots() {
                 let others = world.robots().filter(|(to, _)| *to != from);
-                actions.extend(others.map(|(to, _)| Action::Delay { from, to }));
+                actions.extend(others.map(|(to, _)| PaperAction::Delay { from, to }));
             }
         }
     }
 }
 
-fn successor(world: &World, action: Action) -> Option<World> {
+fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
     let mut next = world.clone();
     next.memory.brought_about = 0;
     if let Some(road) = &mut next.road {
         road.forget_broken();
     }
     match action {
-        Action::Detect(place) => {
+        PaperAction::Detect(place) => {
             next.detections += 1;
-            next.step(place, Input::Detected)?;
+            next.step(place, PaperInput::Detected)?;
         }
-        Action::Hear { from, to } => {
+        PaperAction::Hear { from, to } => {
             let ram = world.robot(from)?.ram();
-            next.step(to, Input::Ram(from, ram))?;
+            next.step(to, PaperInput::Ram(from, ram))?;
         }
-        Action::Command(place) => next.step(place, Input::Commanded(world.memory.given))?,
-        Action::Arrive { flight, again } => {
+        PaperAction::Command(place) => {
+            next.step(place, PaperInput::Commanded(world.memory.given))?;
+        }
+        PaperAction::Arrive { flight, again } => {
             if !again {
                 next.land(flight);
             }
             next.step(flight.to, world.content(flight)?.input(flight.from))?;
         }
-        Action::Finish(place) => next.step(place, Input::Finished)?,
-        Action::CompleteTask(place) => next.step(place, Input::TaskCompleted)?,
-        Action::SafetyTimeout(place) => next.step(place, Input::SafetyTimeout)?,
-        Action::Delay { from, to } => {
+        PaperAction::Finish(place) => next.step(place, PaperInput::Finished)?,
+        PaperAction::CompleteTask(place) => next.step(place, PaperInput::TaskCompleted)?,
+        PaperAction::SafetyTimeout(place) => next.step(place, PaperInput::SafetyTimeout)?,
+        PaperAction::Delay { from, to } => {
             let ram = world.robot(from)?.ram();
             next.send(from, to, Content::Ram(ram))?;
         }
-        Action::Lose(flight) => next.land(flight),
-        Action::Crash(place) => {
+        PaperAction::Lose(flight) => next.land(flight),
+        PaperAction::Crash(place) => {
             next.crashes += 1;
             next.robots[place] = None;
             if let Some(road) = &mut next.road {
                 road.end(place);
             }
         }
-        Action::Road(what) => next.road.as_mut()?.happen(what),
+        PaperAction::Road(what) => next.road.as_mut()?.happen(what),
     }
     Some(next)
 }
 
-impl Content {
-    const fn input(self, from: Place) -> Input {
-        match self {
-            Self::Ram(ram) => Input::Ram(from, ram),
-            Self::Rmcm(rmcm) => Input::Rmcm(from, rmcm),
-        }
+/// What stateright looks at to answer a question.
+///
+/// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
+/// keeps the last.
+fn properties(question: &Question) -> Vec<Property<Question>> {
+    let mut properties = vec![match question.hazard {
+        Some(hazard) => Property::always(
+            hazard.text().id,
+            |question: &Question, world: &PaperWorld| {
+                question.hazard.is_none_or(|hazard| !hazard.is_in(world))
+            },
+        ),
+        None => Property::always(HOLDS, |_, world: &PaperWorld| {
+            world.memory.brought_about & HOLDS_BIT == 0
+        }),
+    }];
+    if question.road.is_some_and(|road| road.property.is_some()) {
+        let holds = |question: &Question, world: &PaperWorld| !is_found(question, world);
+        properties = vec![Property::always(ON_ROAD, holds)];
     }
+    if question.hazard.is_none() && question.road.is_none() && question.cast.commands > 1 {
+        let is_met = |_: &Question, world: &PaperWorld| is_crossed(world);
+        properties.push(Property::sometimes(PREMISE, is_met));
+    }
+    properties
+}
+
+/// Whether a question about the road has found what it asks for.
+fn is_found(question: &Question, world: &PaperWorld) -> bool {
+    let asked = question.road.and_then(|inquiry| inquiry.property);
+    asked.is_some_and(|property| property.is_broken(world))
 }
 
 impl stateright::Model for Question {
-    type State = World;
-    type Action = Action;
+    type State = PaperWorld;
+    type Action = PaperAction;
 
-    fn init_states(&self) -> Vec<World> {
-        vec![World {
-            robots: vec![Some(Robot::IDLE); self.cast.names.len()],
+    fn init_states(&self) -> Vec<PaperWorld> {
+        vec![PaperWorld {
+            robots: vec![Some(PaperRobot::IDLE); self.cast.names.len()],
             flying: Vec::new(),
             memory: Memory::default(),
             road: self
@@ -352,25 +271,25 @@ impl stateright::Model for Question {
         }]
     }
 
-    fn actions(&self, world: &World, actions: &mut Vec<Action>) {
+    fn actions(&self, world: &PaperWorld, actions: &mut Vec<PaperAction>) {
         // Of equally short counterexamples the first in this order is found.
         self.cast.channel_actions(world, actions);
         self.cast.local_actions(world, actions);
         if world.crashes < self.cast.crashes {
-            actions.extend(world.robots().map(|(place, _)| Action::Crash(place)));
+            actions.extend(world.robots().map(|(place, _)| PaperAction::Crash(place)));
         }
         if let Some(road) = &world.road {
             let mut moves = Vec::new();
-            road.moves(world, &mut moves);
-            actions.extend(moves.into_iter().map(Action::Road));
+            road.moves(world.inviting(), &mut moves);
+            actions.extend(moves.into_iter().map(PaperAction::Road));
         }
     }
 
-    fn next_state(&self, world: &World, action: Action) -> Option<World> {
+    fn next_state(&self, world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
         successor(world, action)
     }
 
     fn properties(&self) -> Vec<Property<Self>> {
-        hazards::properties(self)
+        properties(self)
     }
 }

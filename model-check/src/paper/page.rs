@@ -2,11 +2,12 @@
 
 use crossguard_protocol::State as Stage;
 
-use super::model::{Action, Content, Flight, Kind, World};
+use super::model::PaperAction;
 use super::road::Move;
-use super::robot::{self, HelpStatus, Rmcm, Robot};
+use super::robot::{self, HelpStatus, PaperRmcm, PaperRobot};
+use super::world::{Content, FlightKind, PaperFlight, PaperWorld};
 use super::{Counterexample, Transition, broken_on_road, counterexamples};
-use crate::sequence::{Chart, ChartStep, Fate, Place};
+use crate::sequence::{Chart, ChartPlace, ChartStep, Fate};
 
 const INTRODUCTION: &str = "\
 # The paper's text taken word for word
@@ -45,7 +46,7 @@ fallen back, finished or lost power, as long as no message has told its leader s
 crossing, so that W3 is about every two leaders.
 
 Four of the six runs have no lost and no late message. They are not told to real endpoints: the kit's own model has the
-same road (`model-check/src/road`).
+same road (`model-check/src/road.rs`).
 ";
 
 /// The documentation page: each counterexample as a sequence chart, what it means, what closes it.
@@ -107,19 +108,23 @@ impl Counterexample {
     }
 
     /// What happens in a step, and where.
-    fn placed(&self, step: usize) -> (Place, String) {
+    fn placed(&self, step: usize) -> (ChartPlace, String) {
         let Transition { before, action, .. } = &self.steps[step];
-        let between = |from, to, fate| Place::Between { from, to, fate };
-        let at = |robot, event: &str| (Place::At(robot), event.to_owned());
+        let between = |from, to, fate| ChartPlace::Between { from, to, fate };
+        let at = |robot, event: &str| (ChartPlace::At(robot), event.to_owned());
         match *action {
-            Action::Hear { from, to } => (between(from, to, Fate::Arrives), heard(before, from)),
-            Action::Delay { from, to } => (between(from, to, Fate::Delayed), heard(before, from)),
-            Action::Arrive { flight, again } => {
+            PaperAction::Hear { from, to } => {
+                (between(from, to, Fate::Arrives), heard(before, from))
+            }
+            PaperAction::Delay { from, to } => {
+                (between(from, to, Fate::Delayed), heard(before, from))
+            }
+            PaperAction::Arrive { flight, again } => {
                 let was_under_way =
                     step > 0 && self.steps[step - 1].before.content(flight).is_some();
                 let fate = match again {
                     true => Fate::ArrivesLateAndAgain,
-                    false if was_under_way || flight.kind == Kind::Ram => Fate::ArrivesLate,
+                    false if was_under_way || flight.kind == FlightKind::Ram => Fate::ArrivesLate,
                     false => Fate::Arrives,
                 };
                 (
@@ -127,33 +132,33 @@ impl Counterexample {
                     content(before, flight),
                 )
             }
-            Action::Lose(flight) => {
+            PaperAction::Lose(flight) => {
                 let place = between(flight.from, flight.to, Fate::Lost);
                 (place, content(before, flight))
             }
-            Action::Detect(robot) => at(robot, "pedestrian detected"),
-            Action::Command(robot) => at(robot, "gives a command"),
-            Action::Finish(robot) => at(robot, "maneuver finished"),
-            Action::CompleteTask(robot) => at(robot, "task completed"),
-            Action::SafetyTimeout(robot) => at(robot, "safety timeout"),
-            Action::Crash(robot) => at(robot, "breaks down"),
-            Action::Road(Move::StepOn(robot)) => {
+            PaperAction::Detect(robot) => at(robot, "pedestrian detected"),
+            PaperAction::Command(robot) => at(robot, "gives a command"),
+            PaperAction::Finish(robot) => at(robot, "maneuver finished"),
+            PaperAction::CompleteTask(robot) => at(robot, "task completed"),
+            PaperAction::SafetyTimeout(robot) => at(robot, "safety timeout"),
+            PaperAction::Crash(robot) => at(robot, "breaks down"),
+            PaperAction::Road(Move::StepOn(robot)) => {
                 at(robot, "invites, and the pedestrian steps on the road")
             }
-            Action::Road(Move::Across) => at(0, "the pedestrian is across"),
-            Action::Road(Move::Reach(robot)) => at(robot, "is in its place"),
-            Action::Road(Move::EndFallback(robot)) => at(robot, "has finished its fallback"),
+            PaperAction::Road(Move::Across) => at(0, "the pedestrian is across"),
+            PaperAction::Road(Move::Reach(robot)) => at(robot, "is in its place"),
+            PaperAction::Road(Move::EndFallback(robot)) => at(robot, "has finished its fallback"),
         }
     }
 }
 
-fn heard(world: &World, from: robot::Place) -> String {
+fn heard(world: &PaperWorld, from: robot::RobotIndex) -> String {
     world
         .robot(from)
         .map_or_else(String::new, |sender| sender.ram().to_string())
 }
 
-fn content(world: &World, flight: Flight) -> String {
+fn content(world: &PaperWorld, flight: PaperFlight) -> String {
     world
         .content(flight)
         .map_or_else(String::new, |content| content.to_string())
@@ -171,14 +176,14 @@ fn consequences(step: &Transition) -> Vec<String> {
     robots.flatten().collect()
 }
 
-fn change(before: &Robot, after: &Robot) -> Vec<String> {
+fn change(before: &PaperRobot, after: &PaperRobot) -> Vec<String> {
     let starts = after
         .executing()
         .filter(|_| before.executing() != after.executing());
     let command = match (starts, after.command, before.command) {
         (Some(command), ..) => Some(format!("acknowledges and starts {}", command.request)),
         (None, Some(command), None) if after.follower().is_some() => {
-            Some(format!("sends {}", Rmcm::Command(command)))
+            Some(format!("sends {}", PaperRmcm::Command(command)))
         }
         (None, None, Some(command)) if after.follower().is_some() => {
             Some(format!("counts {} as completed", command.request))
@@ -197,12 +202,12 @@ fn change(before: &Robot, after: &Robot) -> Vec<String> {
 
 /// Whether a command is started that was started before.
 fn is_restarted(step: &Transition) -> bool {
-    let Action::Arrive { flight, .. } = step.action else {
+    let PaperAction::Arrive { flight, .. } = step.action else {
         return false;
     };
-    let Some(Content::Rmcm(Rmcm::Command(command))) = step.before.content(flight) else {
+    let Some(Content::Rmcm(PaperRmcm::Command(command))) = step.before.content(flight) else {
         return false;
     };
-    let executing = step.after.robot(flight.to).and_then(Robot::executing);
+    let executing = step.after.robot(flight.to).and_then(PaperRobot::executing);
     step.before.memory.started & 1 << command.serial != 0 && executing == Some(command)
 }

@@ -11,8 +11,9 @@
 
 use crossguard_protocol::State as Stage;
 
-use super::model::{Question, World};
-use super::robot::{HelpStatus, Input, Place, Progression, Rmcm, Robot};
+use super::robot::{
+    HelpStatus, PaperInput, PaperRam, PaperRmcm, PaperRobot, Progression, RobotIndex,
+};
 
 /// How a follower guards.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -28,12 +29,12 @@ pub(super) enum Task {
 pub(super) struct Inquiry {
     pub(super) task: Task,
     /// The property to break; without one, everything is explored.
-    pub(super) property: Option<Property>,
+    pub(super) property: Option<RoadProperty>,
 }
 
 /// A property of the road.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) enum Property {
+pub(super) enum RoadProperty {
     W1,
     W2,
     W3,
@@ -43,7 +44,7 @@ pub(super) enum Property {
 
 /// What a body does, and by which command of which leader.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Body {
+pub(super) enum PaperBody {
     Parked,
     UnderWay(Charge),
     InPlace(Charge),
@@ -57,15 +58,15 @@ pub(super) enum Body {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Charge {
     serial: u8,
-    leader: Place,
+    leader: RobotIndex,
 }
 
 /// Somebody at the crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Pedestrian {
+pub(super) enum PaperPedestrian {
     Waiting,
     /// Since this leader invited.
-    OnRoad(Place),
+    OnRoad(RobotIndex),
     Across,
 }
 
@@ -73,21 +74,21 @@ pub(super) enum Pedestrian {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Move {
     /// The pedestrian steps on the road at this leader's invitation.
-    StepOn(Place),
+    StepOn(RobotIndex),
     /// The pedestrian is off the road.
     Across,
     /// A body reaches its place.
-    Reach(Place),
+    Reach(RobotIndex),
     /// A body has finished its fallback.
-    EndFallback(Place),
+    EndFallback(RobotIndex),
 }
 
 /// The road.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Road {
     task: Task,
-    bodies: Vec<Body>,
-    pedestrian: Pedestrian,
+    bodies: Vec<PaperBody>,
+    pedestrian: PaperPedestrian,
     /// Commands of which the leader has heard, by a RAM, that they are executed no more; bits by serial.
     told: u8,
     /// How often a leader has heard a RAM of a leader that goes before it, up to two.
@@ -96,10 +97,11 @@ pub(super) struct Road {
     broken: u8,
 }
 
-impl Property {
+impl RoadProperty {
     pub(super) const ALL: [Self; 5] = [Self::W1, Self::W2, Self::W3, Self::W4, Self::W7];
 
-    const fn bit(self) -> u8 {
+    /// One bit for each.
+    pub(super) const fn bit(self) -> u8 {
         1 << self as u8
     }
 
@@ -107,42 +109,19 @@ impl Property {
     pub(super) const fn is_without_end(self) -> bool {
         matches!(self, Self::W7)
     }
-
-    /// Whether it is broken.
-    fn is_broken(self, world: &World) -> bool {
-        let Some(road) = &world.road else {
-            return false;
-        };
-        match self {
-            Self::W1 | Self::W2 | Self::W4 => road.broken & self.bit() != 0,
-            Self::W3 => road.heard == 2 && inviting(world).count() > 1,
-            Self::W7 => road.waits_for_ever(world),
-        }
-    }
-}
-
-/// Whether a question about the road has found what it asks for.
-pub(super) fn is_found(question: &Question, world: &World) -> bool {
-    let asked = question.road.and_then(|inquiry| inquiry.property);
-    asked.is_some_and(|property| property.is_broken(world))
 }
 
 /// Whether the robot at this place invites the pedestrian.
-pub(super) fn invites(robot: &Robot) -> bool {
+pub(super) fn invites(robot: &PaperRobot) -> bool {
     robot.state == Stage::ManeuverExecuting && robot.follower().is_some()
-}
-
-fn inviting(world: &World) -> impl Iterator<Item = Place> {
-    let invites = |(_, robot): &(Place, &Robot)| invites(robot);
-    world.robots().filter(invites).map(|(place, _)| place)
 }
 
 impl Road {
     pub(super) fn new(robots: usize, task: Task) -> Self {
         Self {
             task,
-            bodies: vec![Body::Parked; robots],
-            pedestrian: Pedestrian::Waiting,
+            bodies: vec![PaperBody::Parked; robots],
+            pedestrian: PaperPedestrian::Waiting,
             told: 0,
             heard: 0,
             broken: 0,
@@ -151,20 +130,22 @@ impl Road {
 
     /// Whether nobody is on the road.
     pub(super) fn is_free(&self) -> bool {
-        !matches!(self.pedestrian, Pedestrian::OnRoad(_))
+        !matches!(self.pedestrian, PaperPedestrian::OnRoad(_))
     }
 
-    /// What may happen on the road by itself.
-    pub(super) fn moves(&self, world: &World, moves: &mut Vec<Move>) {
+    /// What may happen on the road by itself, where these robots invite.
+    pub(super) fn moves(&self, inviting: impl Iterator<Item = RobotIndex>, moves: &mut Vec<Move>) {
         match self.pedestrian {
-            Pedestrian::Waiting => moves.extend(inviting(world).map(Move::StepOn)),
-            Pedestrian::OnRoad(_) => moves.push(Move::Across),
-            Pedestrian::Across => {}
+            PaperPedestrian::Waiting => moves.extend(inviting.map(Move::StepOn)),
+            PaperPedestrian::OnRoad(_) => moves.push(Move::Across),
+            PaperPedestrian::Across => {}
         }
         for (place, body) in self.bodies.iter().enumerate() {
             match body {
-                Body::UnderWay(_) if self.task == Task::Block => moves.push(Move::Reach(place)),
-                Body::FallingBack(_) if self.is_free() => moves.push(Move::EndFallback(place)),
+                PaperBody::UnderWay(_) if self.task == Task::Block => {
+                    moves.push(Move::Reach(place));
+                }
+                PaperBody::FallingBack(_) if self.is_free() => moves.push(Move::EndFallback(place)),
                 _ => {}
             }
         }
@@ -174,16 +155,16 @@ impl Road {
     pub(super) fn happen(&mut self, what: Move) {
         match what {
             Move::StepOn(leader) => {
-                let is_there = |body: &Body| self.accounts_for(*body, leader);
+                let is_there = |body: &PaperBody| self.accounts_for(*body, leader);
                 if !self.bodies.iter().any(is_there) {
-                    self.broken |= Property::W1.bit();
+                    self.broken |= RoadProperty::W1.bit();
                 }
-                self.pedestrian = Pedestrian::OnRoad(leader);
+                self.pedestrian = PaperPedestrian::OnRoad(leader);
             }
-            Move::Across => self.pedestrian = Pedestrian::Across,
+            Move::Across => self.pedestrian = PaperPedestrian::Across,
             Move::Reach(place) => {
-                if let Body::UnderWay(charge) = self.bodies[place] {
-                    self.bodies[place] = Body::InPlace(charge);
+                if let PaperBody::UnderWay(charge) = self.bodies[place] {
+                    self.bodies[place] = PaperBody::InPlace(charge);
                 }
             }
             Move::EndFallback(place) => self.end(place),
@@ -191,10 +172,10 @@ impl Road {
     }
 
     /// Whether a body guards the people that this leader invites, or is gone and the leader has not been told.
-    fn accounts_for(&self, body: Body, leader: Place) -> bool {
+    fn accounts_for(&self, body: PaperBody, leader: RobotIndex) -> bool {
         let is_told = |charge: Charge| self.told & 1 << charge.serial != 0;
         match body {
-            Body::FallingBack(charge) | Body::Ended(charge) => {
+            PaperBody::FallingBack(charge) | PaperBody::Ended(charge) => {
                 charge.leader == leader && !is_told(charge)
             }
             _ => self
@@ -203,26 +184,27 @@ impl Road {
         }
     }
 
-    fn guarded_by(&self, body: Body) -> Option<Charge> {
+    fn guarded_by(&self, body: PaperBody) -> Option<Charge> {
         match body {
-            Body::UnderWay(charge) if self.task == Task::Move => Some(charge),
-            Body::InPlace(charge) => Some(charge),
+            PaperBody::UnderWay(charge) if self.task == Task::Move => Some(charge),
+            PaperBody::InPlace(charge) => Some(charge),
             _ => None,
         }
     }
 
     /// Whether this body guards somebody who is on the road.
-    fn needs(&self, body: Body) -> bool {
+    fn needs(&self, body: PaperBody) -> bool {
         let guarded_by = self.guarded_by(body);
-        guarded_by.is_some_and(|charge| self.pedestrian == Pedestrian::OnRoad(charge.leader))
+        guarded_by.is_some_and(|charge| self.pedestrian == PaperPedestrian::OnRoad(charge.leader))
     }
 
     /// A body does nothing any more.
-    pub(super) fn end(&mut self, place: Place) {
-        if let Body::UnderWay(charge) | Body::InPlace(charge) | Body::FallingBack(charge) =
-            self.bodies[place]
+    pub(super) fn end(&mut self, place: RobotIndex) {
+        if let PaperBody::UnderWay(charge)
+        | PaperBody::InPlace(charge)
+        | PaperBody::FallingBack(charge) = self.bodies[place]
         {
-            self.bodies[place] = Body::Ended(charge);
+            self.bodies[place] = PaperBody::Ended(charge);
         }
     }
 
@@ -230,60 +212,68 @@ impl Road {
         self.broken = 0;
     }
 
-    /// Whether the road would note that `to` hears the current RAM of `from`.
-    pub(super) fn notes(&self, world: &World, from: Place, to: Place) -> bool {
-        let (Some(sender), Some(receiver)) = (world.robot(from), world.robot(to)) else {
-            return false;
-        };
+    /// Whether the road would note that the robot at `to` hears the current RAM of the robot at `from`.
+    pub(super) fn notes(
+        &self,
+        (from, sender): (RobotIndex, &PaperRobot),
+        (to, receiver): (RobotIndex, &PaperRobot),
+    ) -> bool {
         let mut after = self.clone();
         after.hear(to, receiver, from, sender.ram());
         after != *self
     }
 
     /// What the step of the robot at `place` means for its body.
-    pub(super) fn observe(&mut self, before: &Robot, place: Place, input: Input, after: &Robot) {
+    pub(super) fn observe(
+        &mut self,
+        before: &PaperRobot,
+        place: RobotIndex,
+        input: PaperInput,
+        after: &PaperRobot,
+    ) {
         let body = self.bodies[place];
-        let falls_back = matches!(body, Body::FallingBack(_));
-        let asks_or_offers =
-            |robot: &Robot| matches!(robot.status, HelpStatus::NeedHelp | HelpStatus::OfferHelp);
+        let falls_back = matches!(body, PaperBody::FallingBack(_));
+        let asks_or_offers = |robot: &PaperRobot| {
+            matches!(robot.status, HelpStatus::NeedHelp | HelpStatus::OfferHelp)
+        };
         if falls_back && asks_or_offers(after) && !asks_or_offers(before) {
-            self.broken |= Property::W4.bit();
+            self.broken |= RoadProperty::W4.bit();
         }
         match (input, before.executing(), after.executing()) {
-            (Input::Rmcm(leader, Rmcm::Command(command)), _, Some(executed))
+            (PaperInput::Rmcm(leader, PaperRmcm::Command(command)), _, Some(executed))
                 if executed == command && after.leader() == Some(leader) =>
             {
                 self.leave(body);
                 let serial = command.serial;
-                self.bodies[place] = Body::UnderWay(Charge { serial, leader });
+                self.bodies[place] = PaperBody::UnderWay(Charge { serial, leader });
             }
-            (Input::SafetyTimeout, Some(_), None) => {
+            (PaperInput::SafetyTimeout, Some(_), None) => {
                 self.leave(body);
-                if let Body::UnderWay(charge) | Body::InPlace(charge) = body {
-                    self.bodies[place] = Body::FallingBack(charge);
+                if let PaperBody::UnderWay(charge) | PaperBody::InPlace(charge) = body {
+                    self.bodies[place] = PaperBody::FallingBack(charge);
                 }
             }
-            (Input::Finished, Some(_), None) => self.end(place),
+            (PaperInput::Finished, Some(_), None) => self.end(place),
             (_, Some(_), None) => {
                 self.leave(body);
-                self.bodies[place] = Body::Parked;
+                self.bodies[place] = PaperBody::Parked;
             }
             _ => {}
         }
-        if let Input::Ram(from, ram) = input {
+        if let PaperInput::Ram(from, ram) = input {
             self.hear(place, after, from, ram);
         }
     }
 
     /// A body is told to leave what it guards.
-    fn leave(&mut self, body: Body) {
+    fn leave(&mut self, body: PaperBody) {
         if self.needs(body) {
-            self.broken |= Property::W2.bit();
+            self.broken |= RoadProperty::W2.bit();
         }
     }
 
-    fn hear(&mut self, place: Place, robot: &Robot, from: Place, ram: super::robot::Ram) {
-        if let Body::FallingBack(charge) | Body::Ended(charge) = self.bodies[from]
+    fn hear(&mut self, place: RobotIndex, robot: &PaperRobot, from: RobotIndex, ram: PaperRam) {
+        if let PaperBody::FallingBack(charge) | PaperBody::Ended(charge) = self.bodies[from]
             && charge.leader == place
             && ram.progression != Progression::Executing
         {
@@ -297,15 +287,18 @@ impl Road {
         }
     }
 
-    /// Somebody leads, nobody invites, nothing goes on, nobody has broken down, and the pedestrian waits.
-    fn waits_for_ever(&self, world: &World) -> bool {
-        let all_are_up = world.robots().count() == self.bodies.len();
-        let is_led = world.robots().any(|(_, robot)| robot.follower().is_some());
-        let somebody_invites = inviting(world).next().is_some();
-        self.pedestrian == Pedestrian::Waiting
-            && all_are_up
-            && is_led
-            && !somebody_invites
-            && world.is_stuck()
+    /// Whether somebody waits at the kerb.
+    pub(super) fn is_waited_at(&self) -> bool {
+        self.pedestrian == PaperPedestrian::Waiting
+    }
+
+    /// Whether the newest step broke a property.
+    pub(super) const fn is_broken(&self, property: RoadProperty) -> bool {
+        self.broken & property.bit() != 0
+    }
+
+    /// Whether a leader has heard twice a RAM of a leader that goes before it.
+    pub(super) const fn is_heard_twice(&self) -> bool {
+        self.heard == 2
     }
 }

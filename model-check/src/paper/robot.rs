@@ -15,7 +15,7 @@ use std::fmt;
 use crossguard_protocol::State;
 
 /// A robot's place in the cast.
-pub(super) type Place = usize;
+pub(super) type RobotIndex = usize;
 
 /// `helpStatus` of a RAM (paper, stages 1 to 3).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -27,11 +27,11 @@ pub(super) enum HelpStatus {
     OfferHelp,
     /// `RoleConfirmed`: names the follower.
     Leader {
-        follower: Place,
+        follower: RobotIndex,
     },
     /// Names the leader.
     Follower {
-        leader: Place,
+        leader: RobotIndex,
     },
 }
 
@@ -45,14 +45,14 @@ pub(super) enum Progression {
 
 /// A Robot Awareness Message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Ram {
+pub(super) struct PaperRam {
     pub(super) status: HelpStatus,
     pub(super) progression: Progression,
 }
 
 /// A command. Robots know it by its `requestID`, the properties by its serial number in the run.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Command {
+pub(super) struct PaperCommand {
     /// `requestID`; a leader counts from 0.
     pub(super) request: u8,
     /// How many commands were given before, by anybody. No robot looks at it.
@@ -61,18 +61,18 @@ pub(super) struct Command {
 
 /// A Robot Maneuver Coordination Message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Rmcm {
+pub(super) enum PaperRmcm {
     /// `LeaderManeuverContainer` with the `requestID`.
-    Command(Command),
+    Command(PaperCommand),
     /// `FollowerManeuverContainer` with the `jobAdviceID`, which is that `requestID`.
-    Acknowledgement(Command),
+    Acknowledgement(PaperCommand),
 }
 
 /// What a robot takes in.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Input {
-    Ram(Place, Ram),
-    Rmcm(Place, Rmcm),
+pub(super) enum PaperInput {
+    Ram(RobotIndex, PaperRam),
+    Rmcm(RobotIndex, PaperRmcm),
     /// A pedestrian is detected.
     Detected,
     /// The leader's application gives the command with this serial number.
@@ -87,12 +87,12 @@ pub(super) enum Input {
 
 /// A robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Robot {
+pub(super) struct PaperRobot {
     pub(super) state: State,
     pub(super) status: HelpStatus,
     pub(super) progression: Progression,
     /// Leader: the command that is not completed yet. Follower: the newest command.
-    pub(super) command: Option<Command>,
+    pub(super) command: Option<PaperCommand>,
     /// Leader: `requestID` of the next command.
     next_request: u8,
     /// Follower: its leader's RAM was heard since the role or the newest RMCM. No rule of the paper
@@ -100,7 +100,7 @@ pub(super) struct Robot {
     pub(super) heard_leader: bool,
 }
 
-impl Robot {
+impl PaperRobot {
     pub(super) const IDLE: Self = Self {
         state: State::Idle,
         status: HelpStatus::None,
@@ -111,27 +111,31 @@ impl Robot {
     };
 
     /// The RAM that it sends periodically.
-    pub(super) const fn ram(&self) -> Ram {
-        Ram {
+    pub(super) const fn ram(&self) -> PaperRam {
+        PaperRam {
             status: self.status,
             progression: self.progression,
         }
     }
 
     /// One step; the RMCM that it sends, to the robot that `input` is from or about.
-    pub(super) fn step(&mut self, me: Place, input: Input) -> Option<Rmcm> {
+    pub(super) fn step(&mut self, me: RobotIndex, input: PaperInput) -> Option<PaperRmcm> {
         match input {
-            Input::Ram(from, ram) => self.hear_ram(me, from, ram),
-            Input::Rmcm(from, Rmcm::Command(command)) => return self.hear_command(from, command),
-            Input::Rmcm(from, Rmcm::Acknowledgement(command)) => self.hear_ack(from, command),
-            Input::Detected => self.establish(State::HelpRequested, HelpStatus::NeedHelp),
-            Input::Commanded(serial) => return Some(self.give_command(serial)),
-            Input::Finished => {
+            PaperInput::Ram(from, ram) => self.hear_ram(me, from, ram),
+            PaperInput::Rmcm(from, PaperRmcm::Command(command)) => {
+                return self.hear_command(from, command);
+            }
+            PaperInput::Rmcm(from, PaperRmcm::Acknowledgement(command)) => {
+                self.hear_ack(from, command);
+            }
+            PaperInput::Detected => self.establish(State::HelpRequested, HelpStatus::NeedHelp),
+            PaperInput::Commanded(serial) => return Some(self.give_command(serial)),
+            PaperInput::Finished => {
                 self.state = State::RoleEstablished;
                 self.progression = Progression::Completed;
             }
             // Release is a RAM with `helpStatus = none`: the idle default (paper, stage 5).
-            Input::TaskCompleted | Input::SafetyTimeout => *self = Self::IDLE,
+            PaperInput::TaskCompleted | PaperInput::SafetyTimeout => *self = Self::IDLE,
         }
         None
     }
@@ -141,7 +145,7 @@ impl Robot {
         self.status = status;
     }
 
-    fn hear_ram(&mut self, me: Place, from: Place, ram: Ram) {
+    fn hear_ram(&mut self, me: RobotIndex, from: RobotIndex, ram: PaperRam) {
         use HelpStatus::{Follower, Leader, NeedHelp, None, OfferHelp};
         match (self.status, ram.status) {
             (None, NeedHelp) => self.establish(State::HelpRequested, OfferHelp),
@@ -166,7 +170,7 @@ impl Robot {
         }
     }
 
-    fn hear_command(&mut self, from: Place, command: Command) -> Option<Rmcm> {
+    fn hear_command(&mut self, from: RobotIndex, command: PaperCommand) -> Option<PaperRmcm> {
         if self.status != (HelpStatus::Follower { leader: from }) {
             return None;
         }
@@ -174,10 +178,10 @@ impl Robot {
         self.progression = Progression::Executing;
         self.command = Some(command);
         self.heard_leader = false;
-        Some(Rmcm::Acknowledgement(command))
+        Some(PaperRmcm::Acknowledgement(command))
     }
 
-    fn hear_ack(&mut self, from: Place, answered: Command) {
+    fn hear_ack(&mut self, from: RobotIndex, answered: PaperCommand) {
         let is_outstanding = self.state == State::RoleEstablished
             && self.status == (HelpStatus::Leader { follower: from })
             && self.command.map(|command| command.request) == Some(answered.request);
@@ -186,12 +190,12 @@ impl Robot {
         }
     }
 
-    fn give_command(&mut self, serial: u8) -> Rmcm {
+    fn give_command(&mut self, serial: u8) -> PaperRmcm {
         let request = self.next_request;
-        let command = Command { request, serial };
+        let command = PaperCommand { request, serial };
         self.next_request += 1;
         self.command = Some(command);
-        Rmcm::Command(command)
+        PaperRmcm::Command(command)
     }
 
     /// Whether its application may give a command: it leads and waits for nothing.
@@ -205,7 +209,7 @@ impl Robot {
     }
 
     /// Whether it is a follower: then its safety timeout runs.
-    pub(super) const fn leader(&self) -> Option<Place> {
+    pub(super) const fn leader(&self) -> Option<RobotIndex> {
         match self.status {
             HelpStatus::Follower { leader } => Some(leader),
             _ => None,
@@ -213,7 +217,7 @@ impl Robot {
     }
 
     /// The robot that it leads.
-    pub(super) const fn follower(&self) -> Option<Place> {
+    pub(super) const fn follower(&self) -> Option<RobotIndex> {
         match self.status {
             HelpStatus::Leader { follower } => Some(follower),
             _ => None,
@@ -221,13 +225,13 @@ impl Robot {
     }
 
     /// The maneuver that it executes as a follower.
-    pub(super) fn executing(&self) -> Option<Command> {
+    pub(super) fn executing(&self) -> Option<PaperCommand> {
         let executes = self.leader().is_some() && self.state == State::ManeuverExecuting;
         self.command.filter(|_| executes)
     }
 }
 
-impl fmt::Display for Ram {
+impl fmt::Display for PaperRam {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self.status {
             HelpStatus::None => "RAM none",
@@ -243,7 +247,7 @@ impl fmt::Display for Ram {
     }
 }
 
-impl fmt::Display for Rmcm {
+impl fmt::Display for PaperRmcm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Command(command) => write!(f, "RMCM command {}", command.request),

@@ -10,8 +10,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Action, Cast, Flight, Kind, World};
-use super::robot::{Place, Robot};
+use super::model::{Cast, PaperAction};
+use super::robot::{PaperRobot, RobotIndex};
+use super::world::{FlightKind, PaperFlight, PaperWorld};
 use super::{Counterexample, Transition, counterexamples};
 
 /// The story of one counterexample.
@@ -25,7 +26,7 @@ pub struct Story {
     /// The robots.
     pub robots: Vec<Party>,
     /// What happens, in order.
-    pub steps: Vec<Step>,
+    pub steps: Vec<StoryStep>,
 }
 
 /// A robot of the story.
@@ -41,7 +42,7 @@ pub struct Party {
 /// One step of the story.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Step {
+pub struct StoryStep {
     /// What happens.
     pub what: Happening,
     /// Links that carry no RAM from now on.
@@ -49,7 +50,7 @@ pub struct Step {
     pub silent: Vec<Link>,
     /// Messages that are under way from now on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub held: Vec<Message>,
+    pub held: Vec<StoryMessage>,
 }
 
 /// What happens to robots and to messages. Robots are named by their station ids.
@@ -65,11 +66,11 @@ pub enum Happening {
     /// The application of one robot wants the other one to move along with the pedestrian.
     Command(Link),
     /// What is held arrives.
-    Arrive(Message),
+    Arrive(StoryMessage),
     /// What is held arrives, and a copy of it stays under way.
-    ArriveAgain(Message),
+    ArriveAgain(StoryMessage),
     /// What is held is lost.
-    Lose(Message),
+    Lose(StoryMessage),
     /// Its body has finished the maneuver.
     Finish(u32),
     /// Its application says that the task is done.
@@ -93,7 +94,7 @@ pub struct Link {
 /// A message on a link.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub enum Message {
+pub enum StoryMessage {
     /// A RAM.
     Ram(Link),
     /// An RMCM with a command.
@@ -114,7 +115,7 @@ pub fn stories() -> Vec<Story> {
 impl Counterexample {
     fn story(&self) -> Story {
         let text = self.text;
-        let steps = self.steps.iter().enumerate().map(|(i, step)| Step {
+        let steps = self.steps.iter().enumerate().map(|(i, step)| StoryStep {
             what: happening(&step.before, step.action),
             silent: self.silent(i),
             held: step.after.flying.iter().map(|(f, _)| message(*f)).collect(),
@@ -135,17 +136,17 @@ impl Counterexample {
             after,
         } = &self.steps[step];
         // That the leader was heard matters only to a safety timeout.
-        let is_timeout = |step: &Transition| matches!(step.action, Action::SafetyTimeout(_));
+        let is_timeout = |step: &Transition| matches!(step.action, PaperAction::SafetyTimeout(_));
         let times_out = self.steps[step..].iter().any(is_timeout);
-        let tells = |world: &World, from, to| {
+        let tells = |world: &PaperWorld, from, to| {
             let (robot, mut told) = (world.robots[to], world.told(from, to));
             if let (Some(robot), Some(told), false) = (robot, &mut told, times_out) {
                 told.heard_leader = robot.heard_leader;
             }
             told != robot
         };
-        let is_silent = |&(from, to): &(Place, Place)| {
-            let is_heard = *action == Action::Hear { from, to };
+        let is_silent = |&(from, to): &(RobotIndex, RobotIndex)| {
+            let is_heard = *action == PaperAction::Hear { from, to };
             tells(after, from, to) || !is_heard && tells(before, from, to)
         };
         after
@@ -157,47 +158,47 @@ impl Counterexample {
 }
 
 fn parties(cast: &Cast) -> Vec<Party> {
-    let party = |(place, name): (Place, &&str)| Party {
+    let party = |(place, name): (RobotIndex, &&str)| Party {
         name: (*name).to_owned(),
         station: station(place),
     };
     cast.names.iter().enumerate().map(party).collect()
 }
 
-fn station(place: Place) -> u32 {
+fn station(place: RobotIndex) -> u32 {
     u32::try_from(place + 1).expect("a cast has a handful of robots")
 }
 
-fn link(from: Place, to: Place) -> Link {
+fn link(from: RobotIndex, to: RobotIndex) -> Link {
     let (from, to) = (station(from), station(to));
     Link { from, to }
 }
 
-fn message(Flight { from, to, kind }: Flight) -> Message {
+fn message(PaperFlight { from, to, kind }: PaperFlight) -> StoryMessage {
     let link = link(from, to);
     match kind {
-        Kind::Ram => Message::Ram(link),
-        Kind::Command => Message::Command(link),
-        Kind::Acknowledgement => Message::Answer(link),
+        FlightKind::Ram => StoryMessage::Ram(link),
+        FlightKind::Command => StoryMessage::Command(link),
+        FlightKind::Acknowledgement => StoryMessage::Answer(link),
     }
 }
 
-fn happening(before: &World, action: Action) -> Happening {
+fn happening(before: &PaperWorld, action: PaperAction) -> Happening {
     match action {
-        Action::Detect(place) => Happening::Detect(station(place)),
-        Action::Hear { from, to } => Happening::Hear(link(from, to)),
-        Action::Delay { from, to } => Happening::Delay(link(from, to)),
-        Action::Command(place) => {
-            let follower = before.robot(place).and_then(Robot::follower);
+        PaperAction::Detect(place) => Happening::Detect(station(place)),
+        PaperAction::Hear { from, to } => Happening::Hear(link(from, to)),
+        PaperAction::Delay { from, to } => Happening::Delay(link(from, to)),
+        PaperAction::Command(place) => {
+            let follower = before.robot(place).and_then(PaperRobot::follower);
             Happening::Command(link(place, follower.expect("only a leader commands")))
         }
-        Action::Arrive { flight, again } if again => Happening::ArriveAgain(message(flight)),
-        Action::Arrive { flight, .. } => Happening::Arrive(message(flight)),
-        Action::Lose(flight) => Happening::Lose(message(flight)),
-        Action::Finish(place) => Happening::Finish(station(place)),
-        Action::CompleteTask(place) => Happening::CompleteTask(station(place)),
-        Action::SafetyTimeout(place) => Happening::SafetyTimeout(station(place)),
-        Action::Crash(place) => Happening::Crash(station(place)),
-        Action::Road(_) => unreachable!("stories are told of runs without a road"),
+        PaperAction::Arrive { flight, again } if again => Happening::ArriveAgain(message(flight)),
+        PaperAction::Arrive { flight, .. } => Happening::Arrive(message(flight)),
+        PaperAction::Lose(flight) => Happening::Lose(message(flight)),
+        PaperAction::Finish(place) => Happening::Finish(station(place)),
+        PaperAction::CompleteTask(place) => Happening::CompleteTask(station(place)),
+        PaperAction::SafetyTimeout(place) => Happening::SafetyTimeout(station(place)),
+        PaperAction::Crash(place) => Happening::Crash(station(place)),
+        PaperAction::Road(_) => unreachable!("stories are told of runs without a road"),
     }
 }

@@ -1,10 +1,25 @@
 //! The hazards in words.
 
-use super::hazards::{Hazard, Text};
-use super::road::{Property, Task};
+use super::hazards::Hazard;
+use super::road::{RoadProperty, Task};
+
+/// What there is to say about a hazard.
+#[derive(Clone, Copy, Debug)]
+pub struct Text {
+    /// Its id.
+    pub id: &'static str,
+    /// What happens, in a few words.
+    pub title: &'static str,
+    /// The property that it breaks.
+    pub statement: &'static str,
+    /// How it comes about and what harm it does.
+    pub explanation: &'static str,
+    /// The rule of the protocol that closes it, with the ids of the properties that verify it.
+    pub closed_by: &'static str,
+}
 
 /// In the order of [`Hazard::ALL`].
-pub(super) const TEXTS: [Text; Hazard::ALL.len()] = [
+const TEXTS: [Text; Hazard::ALL.len()] = [
     Text {
         id: "P1",
         title: "late acknowledgement after fallback",
@@ -94,44 +109,44 @@ pub(super) const TEXTS: [Text; Hazard::ALL.len()] = [
 const W1_STATEMENT: &str = "who steps on the road finds the guard in place, or that guard has fallen back, finished or lost power and its leader has not been told";
 
 /// What there is to say about a run that breaks a property of the road with a guard of this kind.
-pub(super) const fn on_road(property: Property, task: Task) -> Text {
+pub(super) const fn on_road(property: RoadProperty, task: Task) -> Text {
     match (property, task) {
-        (Property::W1, Task::Move) => Text {
+        (RoadProperty::W1, Task::Move) => Text {
             id: "W1",
             title: "invited although the guard was sent away",
             statement: W1_STATEMENT,
             explanation: "The pedestrian is invited onto a road on which nobody is at their side. A late RAM with `none`, as every idle robot sends it, has sent the escort away in the middle of its maneuver. The leader neither meant that nor hears of it: it takes the acknowledgement that is still on its way for a promise, and invites.",
             closed_by: "The end of a session is announced by naming it, so that a bare `none` sends nobody away; the corridor is open only while progress is reported and the lease stands, and an acknowledgement alone opens nothing (I2, I11, W1).",
         },
-        (Property::W1, Task::Block) => Text {
+        (RoadProperty::W1, Task::Block) => Text {
             id: "W1",
             title: "invited while the guard is still on its way",
             statement: W1_STATEMENT,
             explanation: "The pedestrian steps in front of the traffic that the guard has not reached yet. An acknowledgement says that a robot will go to its place, not that it is there, and the wording has no other message between the command and its completion. No message was lost or late.",
             closed_by: "Progress has a value *in position*; a task that guards from a place opens no corridor before it (I8, I11, W1).",
         },
-        (Property::W2, _) => Text {
+        (RoadProperty::W2, _) => Text {
             id: "W2",
             title: "left alone in the middle of the road",
             statement: "while somebody is on the road, no guard that is able to stays away",
             explanation: "The pedestrian is half-way across when the escort stops and becomes Idle, because no RMCM came for a while. The leader is there, every message has arrived, and the escort would be free for another task at once.",
             closed_by: "Newer heartbeats hold the safety timeout off, and every end but a completed crossing carries out the task's policy: an escort brings its person to the nearer kerb, a blocker holds until the road is clear (W2).",
         },
-        (Property::W3, _) => Text {
+        (RoadProperty::W3, _) => Text {
             id: "W3",
             title: "two robots that invite at one crossing",
             statement: "at one place one sign shows go, once the leader that goes behind has heard the other one twice",
             explanation: "Two robots invite people onto the same crossing, and only one of them has a guard. The helper of the first one has fallen back, detects the pedestrian itself and leads a team of its own; the first one counts on it as before. The people that the first one invites are guarded by nobody. The second one has heard the first one's RAM as a leader twice, and the wording gives it nothing to do about it.",
             closed_by: "Requests and sessions name their place. Of two leaders at one place the one behind shows stop at once and ends when its road is clear (W3).",
         },
-        (Property::W4, _) => Text {
+        (RoadProperty::W4, _) => Text {
             id: "W4",
             title: "something new before the last duty is over",
             statement: "a robot begins nothing new before its fallback is finished",
             explanation: "A guard that has just been sent to a safe position begins something else, and nothing asks whether somebody is on the road beside it. A pedestrian who was invited in the meantime would be left there. In the wording the robot is Idle, and an Idle robot asks and offers.",
             closed_by: "A duty outlives its session: the robot asks and offers again only when its application says that the road is clear (W4).",
         },
-        (Property::W7, _) => Text {
+        (RoadProperty::W7, _) => Text {
             id: "W7",
             title: "waiting at the kerb for ever",
             statement: "once messages arrive, and a helper is there, a request leads to a finished crossing",
@@ -141,9 +156,17 @@ pub(super) const fn on_road(property: Property, task: Task) -> Text {
     }
 }
 
-impl Property {
+impl RoadProperty {
     /// What there is to say about it.
     pub(super) const fn text(self) -> Text {
         on_road(self, Task::Move)
+    }
+}
+
+impl Hazard {
+    /// What there is to say about it.
+    #[must_use]
+    pub const fn text(self) -> Text {
+        TEXTS[self as usize]
     }
 }

@@ -1,11 +1,26 @@
-//! I1: nobody is leader and follower at once; a follower has one leader; a session has one leader.
+//! I1: no robot is leader and follower at once; a follower has one leader; a session has one leader.
 //!
-//! That a robot has one part in one session is the shape of its state. What is left to check is that
-//! no two robots lead the same session, and that nobody follows itself.
+//! The type of a robot's state allows one part in one session. The rest is checked: no two robots lead the same
+//! session, and no robot follows itself.
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule};
+use super::view::View;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I1",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "no robot is leader and follower at once; a session has one leader",
+        premise: Some("one robot leads and another follows"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: false,
+        }),
+        weakening: "TakesItsLeadersPseudonym",
+    }),
+    timed: None,
+};
 
 fn holds(view: &View) -> bool {
     let mut leaders = view.leaders().map(|(session, _)| session);

@@ -2,9 +2,24 @@
 
 use crossguard_protocol::Confirmation;
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule};
+use super::view::View;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I2",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a follower in a session was confirmed by its leader",
+        premise: Some("a robot follows"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: true,
+        }),
+        weakening: "NeedsNoConfirmation",
+    }),
+    timed: None,
+};
 
 fn holds(view: &View) -> bool {
     view.followers().all(|(robot, following)| {

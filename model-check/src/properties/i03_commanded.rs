@@ -1,11 +1,23 @@
 //! I3: a follower executes `(s,q)` only if its leader sent exactly that command to it.
 
-use super::{StepRule, StepView};
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::StepView;
 
-pub(super) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: true,
+pub(super) const PROPERTY: Property = Property {
+    id: "I3",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a follower starts only what its leader commanded it",
+        premise: Some("a follower starts a maneuver"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: true,
+            of_two: true,
+        }),
+        weakening: "ObeysCommandsOfAnySession",
+    }),
+    timed: None,
 };
 
 fn holds(step: &StepView) -> bool {

@@ -1,11 +1,23 @@
 //! I4: `(s,q)` is started at most once, whatever is duplicated.
 
-use super::{StepRule, StepView};
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::StepView;
 
-pub(super) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: true,
+pub(super) const PROPERTY: Property = Property {
+    id: "I4",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a command is started at most once",
+        premise: Some("a follower starts a maneuver"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: true,
+            of_two: false,
+        }),
+        weakening: "StartsRepeatedWhileRunning",
+    }),
+    timed: None,
 };
 
 fn holds(step: &StepView) -> bool {

@@ -2,12 +2,24 @@
 
 use crate::serial::request_is_newer;
 
-use super::{StepRule, StepView};
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::StepView;
 
-pub(super) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: true,
+pub(super) const PROPERTY: Property = Property {
+    id: "I5",
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "the started requestID only grows within a session",
+        premise: Some("a follower starts a second maneuver in the same session"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: true,
+            of_two: false,
+        }),
+        weakening: "StartsOlderCommands",
+    }),
+    timed: None,
 };
 
 fn newest_before(step: &StepView) -> Option<crossguard_protocol::RequestId> {

@@ -1,20 +1,37 @@
-//! I6: the leader counts `(s,q)` as acknowledged only if the follower accepted it; a follower
-//! executes only what it acknowledged, and acknowledges it first.
+//! I6: the leader counts `(s,q)` as acknowledged only if the follower accepted it; a follower acknowledges before
+//! it starts, which is rule R7 of the protocol.
 
 use crossguard_protocol::{Answer, ManeuverId, Output, Rmcm, StationId, Verdict};
 
-use super::{StateRule, StepRule, StepView, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule, StepRule};
+use super::view::{StepView, View};
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
-
-pub(super) const STEP_RULE: StepRule = StepRule {
-    holds: says_so_first,
-    premise: |step| step.started().is_some(),
-    looks_back: true,
+pub(super) const PROPERTY: Property = Property {
+    id: "I6",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a leader counts a command as acknowledged only if the follower accepted it; a follower acknowledges a command before it starts",
+        premise: Some("a leader counts a command as acknowledged"),
+        rule: Rule::StateAndStep(
+            StateRule {
+                holds,
+                premise,
+                of_two: true,
+            },
+            StepRule {
+                holds: acknowledges_before_it_starts,
+                premise: |step| step.started().is_some(),
+                looks_back: true,
+                of_two: true,
+            },
+        ),
+        weakening: "StartsBeforeItAcknowledges",
+    }),
+    timed: None,
 };
 
-/// Whether each start comes after its acknowledgement, in the outputs of one step too.
-fn says_so_first(step: &StepView) -> bool {
+/// Whether the follower acknowledges before it starts, in the outputs of one step too.
+fn acknowledges_before_it_starts(step: &StepView) -> bool {
     let station = step.after.persisted.station;
     let accepts = |output: &Output, id: ManeuverId| match output {
         Output::SendRmcm(Rmcm::Answer(Answer {

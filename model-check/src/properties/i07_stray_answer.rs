@@ -2,12 +2,24 @@
 
 use crossguard_protocol::{Answer, Input, Rmcm};
 
-use super::{StepRule, StepView, leading_of};
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::{StepView, leading_of};
 
-pub(super) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: false,
+pub(super) const PROPERTY: Property = Property {
+    id: "I7",
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "an answer that is not for the outstanding command changes nothing",
+        premise: Some("an answer arrives that is not for the outstanding command"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: false,
+            of_two: false,
+        }),
+        weakening: "TakesAnyAcknowledgement",
+    }),
+    timed: None,
 };
 
 fn holds(step: &StepView) -> bool {

@@ -2,9 +2,24 @@
 
 use crossguard_protocol::{ManeuverId, Progress, StationId};
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule};
+use super::view::View;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I8",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a leader counts a command as completed or in position only if the follower's body has done that",
+        premise: Some("a leader counts a command as completed or in position"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: true,
+        }),
+        weakening: "TakesAnyProgress",
+    }),
+    timed: None,
+};
 
 /// What leaders count as completed or in position.
 fn counted<'a>(

@@ -1,8 +1,23 @@
 //! I9: after fallback of `(s,q)` that command is never executed again.
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule};
+use super::view::View;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I9",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "after its fallback a command is never executed again",
+        premise: Some("a follower has fallen back"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: false,
+        }),
+        weakening: "StartsRepeatedCommands",
+    }),
+    timed: None,
+};
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {

@@ -1,13 +1,40 @@
 //! I11: the corridor is open only while every required follower is engaged.
 //!
-//! What is checked is what the outputs have told the application, against each record that the leader has of
-//! its followers. What is engaged is said here once more: this asks nothing of the protocol but the records.
+//! The outputs to the application are compared with each record that the leader has of its followers. When a
+//! follower is engaged is written here once more: of the protocol, only the records are read.
 
 use crossguard_protocol::{Config, Corridor, Leading, Member, Progress};
 
-use super::{StateRule, View, leading_of};
+use super::property::{Claim, Kind, Property, Rule, StateRule, TimedPremise, TimedRule};
+use super::timed_view::{TimedStepView, TimedView};
+use super::view::{View, leading_of};
+use crate::timed::watch::StopWatch;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I11",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "the corridor is open only while every required follower is engaged",
+        premise: Some("the corridor is open"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: false,
+        }),
+        weakening: "NEVER_CLOSES_THE_CORRIDOR",
+    }),
+    timed: Some(Claim {
+        kind: Kind::S,
+        statement: "after a follower's own failure the corridor closes within the bound",
+        premise: Some("a follower fails while the corridor is open"),
+        rule: Rule::Timed(TimedRule {
+            holds: closes_in_time,
+            premise: &[TimedPremise::State(fails_while_open)],
+            ends_run: true,
+        }),
+        weakening: "SHOWS_GO_TOO_LONG",
+    }),
+};
 
 fn holds(view: &View) -> bool {
     view.configured().all(|(node, config)| {
@@ -39,4 +66,19 @@ fn is_engaged(leading: &Leading, config: &Config) -> bool {
 
 fn premise(view: &View) -> bool {
     view.nodes().any(|node| node.actuation.corridor_open)
+}
+
+fn closes_in_time(step: &TimedStepView) -> bool {
+    let after = step.after;
+    match after.watch {
+        StopWatch::FollowerFailed(place, ticks) => {
+            let limit = after.setup.limits.corridor_closed;
+            !(after.shows_go_at(place) && after.is_over(ticks, limit))
+        }
+        _ => true,
+    }
+}
+
+fn fails_while_open(view: &TimedView) -> bool {
+    matches!(view.watch, StopWatch::FollowerFailed(place, 0) if view.shows_go_at(place))
 }

@@ -4,9 +4,36 @@
 //! that arrives or a timer that expires, and that changes the state; it takes no application's help. The
 //! timer of periodic RAM does not count: it always runs, and what it sends may always get lost.
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule, TimedRule};
+use super::timed_view::TimedStepView;
+use super::view::View;
+use crate::node::Node;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I12",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a robot with a part in a session can make progress, by more than its periodic RAM",
+        premise: Some("a robot has a part in a session"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: false,
+        }),
+        weakening: "LeadsWithoutTimers",
+    }),
+    timed: Some(Claim {
+        kind: Kind::S,
+        statement: "time can always pass, and never stands still for ever",
+        premise: None,
+        rule: Rule::Timed(TimedRule {
+            holds: time_can_pass,
+            premise: &[],
+            ends_run: false,
+        }),
+        weakening: "AnswersEveryRam",
+    }),
+};
 
 fn holds(view: &View) -> bool {
     !premise(view) || view.world.can_progress()
@@ -14,4 +41,14 @@ fn holds(view: &View) -> bool {
 
 fn premise(view: &View) -> bool {
     view.nodes().any(|node| !node.is_idle())
+}
+
+/// A robot with a part in a session waits for a time, and not in vain for a message. That time does not
+/// stand still over several steps is found by the exploration, which sees them all.
+fn time_can_pass(step: &TimedStepView) -> bool {
+    let waits_for_time = |node: &Node| {
+        let robot = node.robot.as_ref();
+        node.is_idle() || robot.is_none_or(|robot| robot.next_due().is_some())
+    };
+    step.after.nodes().all(waits_for_time)
 }

@@ -1,11 +1,23 @@
 //! I13: every input in every state yields a valid state, and an ignored input changes nothing.
 
-use super::{StepRule, StepView};
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::StepView;
 
-pub(super) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: false,
+pub(super) const PROPERTY: Property = Property {
+    id: "I13",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "every input in every state yields a valid state",
+        premise: None,
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: false,
+            of_two: false,
+        }),
+        weakening: "ReportsTheLeadersLimit",
+    }),
+    timed: None,
 };
 
 fn holds(step: &StepView) -> bool {

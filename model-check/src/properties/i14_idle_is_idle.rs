@@ -1,12 +1,27 @@
 //! I14: a released or idle robot executes nothing.
 //!
-//! What is checked is what the outputs have told the robot's body, not what the protocol believes.
+//! Checked is what the outputs have made the robot's body do, not what the protocol state says.
 
 use crossguard_protocol::Phase;
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule};
+use super::view::View;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I14",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a released or idle robot executes nothing",
+        premise: Some("a maneuver runs"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: false,
+        }),
+        weakening: "NEVER_STOPS",
+    }),
+    timed: None,
+};
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {

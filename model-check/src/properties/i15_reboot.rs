@@ -2,9 +2,24 @@
 
 use crossguard_protocol::{Phase, Robot};
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule};
+use super::view::View;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I15",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "a rebooted robot takes part in no session from before its reboot",
+        premise: Some("a robot that crashed in a role has a role again"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: false,
+        }),
+        weakening: "ConfirmsByStationAlone",
+    }),
+    timed: None,
+};
 
 fn has_role(robot: &Robot) -> bool {
     matches!(robot.phase(), Phase::Leading(_) | Phase::Following(_))

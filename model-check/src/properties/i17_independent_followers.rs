@@ -4,12 +4,24 @@ use crossguard_protocol::{
     Coordination, Countdown, EndReason, Input, Lease, Member, Millis, Notice, StationId,
 };
 
-use super::{StepRule, StepView, leading_of};
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::{StepView, leading_of};
 
-pub(super) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: false,
+pub(super) const PROPERTY: Property = Property {
+    id: "I17",
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "dropping one follower leaves the others' records unchanged",
+        premise: Some("a follower is dropped while another one stays"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: false,
+            of_two: false,
+        }),
+        weakening: "LosesTwoForOne",
+    }),
+    timed: None,
 };
 
 fn dropped(step: &StepView) -> Option<StationId> {

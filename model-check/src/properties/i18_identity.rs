@@ -1,12 +1,27 @@
 //! I18: the identity is locked while in a session.
 //!
-//! What is checked is what the outputs have told the part of the endpoint that changes pseudonyms. That two
-//! members of a session never carry the same station id needs no rule: the robots of a scenario differ, and
-//! who is locked does not change. A robot that takes its leader's id breaks I1.
+//! Checked are the outputs to the part of the endpoint that changes pseudonyms. That two members of a session
+//! never carry the same station id needs no rule: the robots of a scenario differ, and a locked id does not
+//! change. A robot that takes its leader's id breaks I1.
 
-use super::{StateRule, View};
+use super::property::{Claim, Kind, Property, Rule, StateRule};
+use super::view::View;
 
-pub(super) const RULE: StateRule = StateRule { holds, premise };
+pub(super) const PROPERTY: Property = Property {
+    id: "I18",
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "the identity is locked while the robot is in a session",
+        premise: Some("one robot leads and another follows"),
+        rule: Rule::State(StateRule {
+            holds,
+            premise,
+            of_two: false,
+        }),
+        weakening: "NEVER_LOCKS_ITS_IDENTITY",
+    }),
+    timed: None,
+};
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {

@@ -2,15 +2,63 @@
 
 use crossguard_protocol::State;
 
-use super::{LivenessRule, Subject, Subjects, View};
+use super::property::{Claim, Kind, LivenessRule, Property, Rule, TimedPremise, TimedRule};
+use super::timed_view::TimedStepView;
+use super::view::{LivenessSubject, LivenessSubjects, View};
+use crate::timed::watch::StopWatch;
 
-pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Robots,
-    from: in_help_requested,
-    to: |view, subject| !in_help_requested(view, subject),
+pub(super) const PROPERTY: Property = Property {
+    id: "L1",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "HelpRequested leads to RoleEstablished or Idle",
+        premise: Some("a robot is in HelpRequested"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Robots,
+            from: in_help_requested,
+            to: |view, subject| !in_help_requested(view, subject),
+            needs_cooperation: false,
+            broken_by_old_requests: false,
+        }),
+        weakening: "ASKS_FOR_EVER",
+    }),
+    timed: Some(Claim {
+        kind: Kind::L,
+        statement: "a request has roles or is given up within the bound",
+        premise: Some("a requester gets roles; and one gives up"),
+        rule: Rule::Timed(TimedRule {
+            holds: ends_in_time,
+            premise: &[TimedPremise::Step(gets_roles), TimedPremise::Step(gives_up)],
+            ends_run: true,
+        }),
+        weakening: "asks_too_long",
+    }),
 };
 
-fn in_help_requested(view: &View, Subject { robot, .. }: Subject) -> bool {
+fn in_help_requested(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     let robot = view.node(robot).robot.as_ref();
     robot.is_some_and(|robot| robot.state() == State::HelpRequested)
+}
+
+fn ends_in_time(step: &TimedStepView) -> bool {
+    let after = step.after;
+    match after.watch {
+        StopWatch::Request(ticks) => !after.is_over(ticks, after.setup.limits.roles),
+        _ => true,
+    }
+}
+
+fn request_ends(step: &TimedStepView) -> bool {
+    matches!(
+        (step.before.watch, step.after.watch),
+        (StopWatch::Request(_), StopWatch::Off)
+    )
+}
+
+fn gets_roles(step: &TimedStepView) -> bool {
+    request_ends(step) && !step.after.leader().is_idle()
+}
+
+fn gives_up(step: &TimedStepView) -> bool {
+    request_ends(step) && step.after.leader().is_idle()
 }

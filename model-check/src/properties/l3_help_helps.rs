@@ -4,20 +4,33 @@
 
 use crossguard_protocol::{Member, Phase};
 
-use super::{LivenessRule, Subject, Subjects, View, leading_of};
+use super::property::{Claim, Kind, LivenessRule, Property, Rule};
+use super::view::{LivenessSubject, LivenessSubjects, View, leading_of};
 
-pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Robots,
-    from: asks,
-    to: has_completed,
+pub(super) const PROPERTY: Property = Property {
+    id: "L3",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "if everything around the robots cooperates, a request leads to a completed task",
+        premise: Some("a robot asks for help"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Robots,
+            from: asks,
+            to: has_completed,
+            needs_cooperation: true,
+            broken_by_old_requests: false,
+        }),
+        weakening: "ReadsNoProgress",
+    }),
+    timed: None,
 };
 
-fn asks(view: &View, Subject { robot, .. }: Subject) -> bool {
+fn asks(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     let robot = view.node(robot).robot.as_ref();
     robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
 }
 
-fn has_completed(view: &View, Subject { robot, .. }: Subject) -> bool {
+fn has_completed(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     leading_of(view.node(robot))
         .is_some_and(|leading| leading.members.iter().any(Member::has_completed))
 }

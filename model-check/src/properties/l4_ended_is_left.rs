@@ -1,17 +1,30 @@
 //! L4: an ended session leads to every former member being `Idle`.
 //!
-//! A follower has no way out of its session but to `Idle`, so what is to be shown is that it leaves.
+//! A follower has no way out of its session but to `Idle`, so it is enough to show that it leaves.
 
-use super::{LivenessRule, Subject, Subjects, View, following_of};
+use super::property::{Claim, Kind, LivenessRule, Property, Rule};
+use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
 
-pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Robots,
-    from: is_orphaned,
-    to: |view, subject| !is_orphaned(view, subject),
+pub(super) const PROPERTY: Property = Property {
+    id: "L4",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "the end of a session leads to every former member being idle",
+        premise: Some("a robot follows in a session that no robot leads"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Robots,
+            from: is_orphaned,
+            to: |view, subject| !is_orphaned(view, subject),
+            needs_cooperation: false,
+            broken_by_old_requests: false,
+        }),
+        weakening: "FollowersWaitForEver",
+    }),
+    timed: None,
 };
 
-/// Whether the robot follows in a session that nobody leads any more.
-fn is_orphaned(view: &View, Subject { robot, .. }: Subject) -> bool {
+/// Whether the robot follows in a session that no robot leads any more.
+fn is_orphaned(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     following_of(view.node(robot)).is_some_and(|following| {
         view.leaders()
             .all(|(session, _)| session != following.session)

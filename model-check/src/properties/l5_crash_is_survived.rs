@@ -2,20 +2,64 @@
 //!
 //! Within which time is what the timed view finds.
 
-use super::{LivenessRule, Subject, Subjects, View, following_of};
+use super::property::{Claim, Kind, LivenessRule, Property, Rule, TimedPremise, TimedRule};
+use super::timed_view::{TimedStepView, TimedView};
+use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
+use crate::node::Node;
+use crate::timed::watch::StopWatch;
 
-pub(super) const RULE: LivenessRule = LivenessRule {
-    subjects: Subjects::Robots,
-    from: has_lost_its_leader,
-    to: |view, Subject { robot, .. }| {
-        view.node(robot).is_idle() && view.node(robot).actuation.running.is_none()
-    },
+pub(super) const PROPERTY: Property = Property {
+    id: "L5",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "a permanent crash of a leader leads to its followers being stopped and idle",
+        premise: Some("a robot follows one that has crashed for good"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Robots,
+            from: has_lost_its_leader,
+            to: |view, LivenessSubject { robot, .. }| {
+                view.node(robot).is_idle() && view.node(robot).actuation.running.is_none()
+            },
+            needs_cooperation: false,
+            broken_by_old_requests: false,
+        }),
+        weakening: "FollowersWaitForEver",
+    }),
+    timed: Some(Claim {
+        kind: Kind::L,
+        statement: "after the leader's crash a follower stops, and is idle, within the bounds",
+        premise: Some("the leader crashes while a follower executes"),
+        rule: Rule::Timed(TimedRule {
+            holds: is_survived_in_time,
+            premise: &[TimedPremise::State(crashes_while_executed)],
+            ends_run: true,
+        }),
+        weakening: "follows_too_long",
+    }),
 };
 
-fn has_lost_its_leader(view: &View, Subject { robot, .. }: Subject) -> bool {
+fn has_lost_its_leader(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     following_of(view.node(robot)).is_some_and(|following| {
         let leader = view.world.place_of(following.session.leader);
         leader.is_some_and(|leader| view.node(leader).robot.is_none())
             && view.world.restarts_are_over()
     })
+}
+
+fn is_survived_in_time(step: &TimedStepView) -> bool {
+    let after = step.after;
+    let StopWatch::LeaderDown(ticks) = after.watch else {
+        return true;
+    };
+    let limits = after.setup.limits;
+    let runs = after.nodes().any(|node| node.actuation.running.is_some());
+    let follows = after.nodes().any(Node::is_following);
+    let goes_on = runs && after.is_over(ticks, limits.stopped);
+    let stays = follows && after.is_over(ticks, limits.left);
+    !goes_on && !stays
+}
+
+fn crashes_while_executed(view: &TimedView) -> bool {
+    let runs = |node: &Node| node.actuation.running.is_some();
+    view.watch == StopWatch::LeaderDown(0) && view.nodes().any(runs)
 }

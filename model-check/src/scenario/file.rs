@@ -6,15 +6,15 @@ use crossguard_protocol::{
 };
 use serde::Deserialize;
 
+use super::location::Location;
+use super::symmetric::SymmetryClaim;
 use super::{
-    Bounds, Channel, Impossibility, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP, RobotSetup,
-    Scenario, ScenarioError, Size,
+    Bounds, ChannelSetup, Impossibility, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP,
+    RobotSetup, Scenario, ScenarioError, Size, monotone,
 };
-use crate::monotone;
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
-use crate::symmetry::{Claim, Wrong};
-use crate::timed::{Section, TimedImpossibility, TimedProperty};
+use crate::timed::{Section, TimedImpossibility};
 
 /// The file's form of a scenario.
 #[derive(Deserialize)]
@@ -31,7 +31,7 @@ struct File {
     corridor: bool,
     #[serde(default)]
     cooperative: bool,
-    channel: Channel,
+    channel: ChannelSetup,
     #[serde(default)]
     protocol: Settings,
     timed: Option<Section>,
@@ -70,44 +70,12 @@ impl Scenario {
     }
 }
 
-/// Where in a file something is wrong.
-enum Place {
-    Offset(usize),
-    Key(&'static str),
-}
-
-impl Place {
-    const fn of(wrong: &Wrong) -> Self {
-        match *wrong {
-            Wrong::At(offset) => Self::Offset(offset),
-            Wrong::Key(key) => Self::Key(key),
-        }
-    }
-
-    /// The line, counted from 1.
-    fn line_in(&self, text: &str) -> usize {
-        let offset = match self {
-            Self::Offset(offset) => *offset,
-            Self::Key(key) => text
-                .lines()
-                .scan(0, |start, line| {
-                    let this = *start;
-                    *start += line.len() + 1;
-                    Some((this, line))
-                })
-                .find(|(_, line)| line.trim_start().trim_start_matches('[').starts_with(key))
-                .map_or(0, |(start, _)| start),
-        };
-        text[..offset.min(text.len())].matches('\n').count() + 1
-    }
-}
-
 struct Located {
-    at: Place,
+    at: Location,
     cause: Impossibility,
 }
 
-fn at(at: Place, cause: impl Into<Impossibility>) -> Located {
+fn at(at: Location, cause: impl Into<Impossibility>) -> Located {
     Located {
         at,
         cause: cause.into(),
@@ -119,37 +87,20 @@ impl File {
         use Impossibility as I;
         let robots = self.robots.len();
         if !(2..=MAX_ROBOTS).contains(&robots) {
-            return Err(at(Place::Key("robots"), I::Robots(robots)));
+            return Err(at(Location::Key("robots"), I::Robots(robots)));
         }
-        for (i, robot) in self.robots.iter().enumerate() {
-            let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
-            for other in self.robots[..i].iter().map(|other| other.station) {
-                if other == one {
-                    return Err(at(Place::Key("robots"), I::SameStation(one)));
-                }
-                if pseudonym(other) == pseudonym(one) {
-                    return Err(at(Place::Key("robots"), I::SamePseudonyms(other, one)));
-                }
-            }
-        }
-        let never_asks = |robot: &&RobotSetup| robot.urgency.is_some() && !robot.detects;
-        if let Some(robot) = self.robots.iter().find(never_asks) {
-            return Err(at(Place::Key("urgency"), I::UnusedUrgency(robot.station)));
-        }
-        if !self.robots.iter().any(|robot| robot.detects) {
-            return Err(at(Place::Key("robots"), I::NobodyDetects));
-        }
+        self.check_robots()?;
         let of_runs = |name: &toml::Spanned<String>| {
             let id = name.get_ref().parse::<PropertyId>();
             id.is_ok_and(|id| id.liveness_rule().is_some())
         };
         let is_of_runs = self.properties.iter().any(of_runs);
         if self.cooperative && is_of_runs && robots > MAX_COOPERATIVE_ROBOTS {
-            return Err(at(Place::Key("cooperative"), I::Cooperative(robots)));
+            return Err(at(Location::Key("cooperative"), I::Cooperative(robots)));
         }
         let delayed = self.channel.delayed;
         if usize::from(delayed) > MAX_DELAYED {
-            return Err(at(Place::Key("delayed"), I::Delayed(delayed)));
+            return Err(at(Location::Key("delayed"), I::Delayed(delayed)));
         }
         monotone::check(
             self.channel,
@@ -157,7 +108,7 @@ impl File {
             self.cooperative,
             &self.properties,
         )
-        .map_err(|(wrong, cause)| at(Place::of(&wrong), cause))?;
+        .map_err(|(wrong, cause)| at(wrong, cause))?;
         let request = self.request.check()?;
         let mut settings = self.protocol;
         if self.timed.is_none() {
@@ -166,8 +117,8 @@ impl File {
             settings.t_cross = Millis(1);
         }
         let config = Config::new(settings)
-            .map_err(|broken| at(Place::Key(key_of(broken.0)), I::Settings(broken)))?;
-        let claim = Claim {
+            .map_err(|broken| at(Location::Key(key_of(broken.0)), I::Settings(broken)))?;
+        let claim = SymmetryClaim {
             robots: &self.robots,
             followers: request.followers,
             bounds: self.bounds,
@@ -176,27 +127,22 @@ impl File {
         };
         let symmetric = claim
             .check(&self.symmetric)
-            .map_err(|(wrong, cause)| at(Place::of(&wrong), cause))?;
+            .map_err(|(wrong, cause)| at(wrong, cause))?;
         let mut timed = None;
         if let Some(section) = self.timed {
             let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
-            let mut checked = checked.map_err(|(key, cause)| at(Place::Key(key), cause))?;
+            let mut checked = checked.map_err(|(key, cause)| at(Location::Key(key), cause))?;
             if self.cooperative {
                 let cause = TimedImpossibility::Untimed("cooperative");
-                return Err(at(Place::Key("cooperative"), cause));
+                return Err(at(Location::Key("cooperative"), cause));
             }
-            checked.properties = all_named(&self.properties, |name| {
-                let unknown = || TimedImpossibility::Property(name.to_owned());
-                TimedProperty::named(name).ok_or_else(|| unknown().into())
-            })?;
+            checked.properties = all_named(&self.properties, timed_property)?;
             timed = Some(checked);
         }
         let properties = match timed {
             Some(_) => Vec::new(),
-            None => all_named(&self.properties, |name| match name.parse() {
-                Ok(PropertyId::L3 | PropertyId::W7) if !self.cooperative => Err(I::NotCooperative),
-                Ok(property) => Ok(property),
-                Err(()) => Err(I::Property(name.to_owned())),
+            None => all_named(&self.properties, |name| {
+                untimed_property(name, self.cooperative)
             })?,
         };
         Ok(Scenario {
@@ -215,15 +161,59 @@ impl File {
             expected: self.expected,
         })
     }
+
+    /// Whether the robots can be told apart, and one of them starts a run.
+    fn check_robots(&self) -> Result<(), Located> {
+        use Impossibility as I;
+        for (i, robot) in self.robots.iter().enumerate() {
+            let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
+            for other in self.robots[..i].iter().map(|other| other.station) {
+                if other == one {
+                    return Err(at(Location::Key("robots"), I::SameStation(one)));
+                }
+                if pseudonym(other) == pseudonym(one) {
+                    return Err(at(Location::Key("robots"), I::SamePseudonyms(other, one)));
+                }
+            }
+        }
+        let never_asks = |robot: &&RobotSetup| robot.urgency.is_some() && !robot.detects;
+        if let Some(robot) = self.robots.iter().find(never_asks) {
+            return Err(at(
+                Location::Key("urgency"),
+                I::UnusedUrgency(robot.station),
+            ));
+        }
+        if !self.robots.iter().any(|robot| robot.detects) {
+            return Err(at(Location::Key("robots"), I::NobodyDetects));
+        }
+        Ok(())
+    }
+}
+
+fn untimed_property(name: &str, is_cooperative: bool) -> Result<PropertyId, Impossibility> {
+    let id = name.parse().ok();
+    let id = id.filter(|id: &PropertyId| id.untimed().is_some());
+    let id = id.ok_or_else(|| Impossibility::Property(name.to_owned()))?;
+    let rule = id.liveness_rule();
+    if rule.is_some_and(|rule| rule.needs_cooperation) && !is_cooperative {
+        return Err(Impossibility::NotCooperative(id));
+    }
+    Ok(id)
+}
+
+fn timed_property(name: &str) -> Result<PropertyId, Impossibility> {
+    let id = name.parse().ok();
+    let id = id.filter(|id: &PropertyId| id.timed().is_some());
+    id.ok_or_else(|| TimedImpossibility::Property(name.to_owned()).into())
 }
 
 /// The properties of these names.
-fn all_named<P>(
+fn all_named(
     names: &[toml::Spanned<String>],
-    parse: impl Fn(&str) -> Result<P, Impossibility>,
-) -> Result<Vec<P>, Located> {
+    parse: impl Fn(&str) -> Result<PropertyId, Impossibility>,
+) -> Result<Vec<PropertyId>, Located> {
     let property = |name: &toml::Spanned<String>| {
-        parse(name.get_ref()).map_err(|cause| at(Place::Offset(name.span().start), cause))
+        parse(name.get_ref()).map_err(|cause| at(Location::Offset(name.span().start), cause))
     };
     names.iter().map(property).collect()
 }
@@ -245,14 +235,14 @@ const fn key_of(inequality: Inequality) -> &'static str {
 
 impl Request {
     fn check(self) -> Result<HelpRequest, Located> {
-        let place = Place::Offset(self.followers.span().start);
+        let place = Location::Offset(self.followers.span().start);
         let followers = self.followers.into_inner();
         if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
             return Err(at(place, Impossibility::Followers(followers)));
         }
         let mut tasks = Vec::new();
         for name in self.tasks {
-            let place = Place::Offset(name.span().start);
+            let place = Location::Offset(name.span().start);
             let name = name.into_inner();
             match task_of(&name) {
                 Some(task) => tasks.push(task),

@@ -4,50 +4,55 @@
 use crossguard_protocol::{Corridor, Event, Member, Millis, Phase};
 
 use super::channel::Flight;
-use super::model::Model;
-use super::rules;
+use super::model::TimedModel;
 use super::section::Looks;
-use super::state::{Action, State};
-use super::watch::Watch;
+use super::state::{TimedAction, TimedState};
+use super::watch::StopWatch;
 
-impl Model {
+impl TimedModel {
     /// Everything that may happen in `state`.
-    pub fn actions_in(&self, state: &State, actions: &mut Vec<Action>) {
-        if rules::is_over(self, state) {
+    pub fn actions_in(&self, state: &TimedState, actions: &mut Vec<TimedAction>) {
+        if self.is_over(state) {
             return;
         }
         for &leader in self.timed.teams.leaders() {
             if let Some(event) = self.leader_event(state, leader) {
-                actions.push(Action::Local(leader, event));
+                actions.push(TimedAction::Local(leader, event));
                 return;
             }
         }
         if self.may_tick(state) {
             let in_time = |fast: &u8| self.all_are_told_in_time(state, *fast);
-            actions.extend(self.corners(state).filter(in_time).map(Action::Tick));
+            actions.extend(self.corners(state).filter(in_time).map(TimedAction::Tick));
         }
-        if state.watch == Watch::Apart && state.both_go() {
-            actions.push(Action::Meet);
+        if state.watch == StopWatch::Apart && state.both_go() {
+            actions.push(TimedAction::Meet);
         }
         let hears = |flight: &Flight| state.hung() != Some(flight.transmission.to);
-        actions.extend(state.channel.flights().filter(hears).map(Action::Deliver));
+        actions.extend(
+            state
+                .channel
+                .flights()
+                .filter(hears)
+                .map(TimedAction::Deliver),
+        );
         for i in (0..).take(self.scenario.robots.len()) {
             let is_hung = state.hung() == Some(i);
             if state.untold[usize::from(i)] > Millis::ZERO {
                 actions.push(if is_hung {
-                    Action::GoOn(i)
+                    TimedAction::GoOn(i)
                 } else {
-                    Action::Look(i)
+                    TimedAction::Look(i)
                 });
             }
         }
-        if state.watch == Watch::Off {
+        if state.watch == StopWatch::Off {
             self.failures(state, actions);
         }
     }
 
     /// Whether nothing has to happen before the next tick.
-    fn may_tick(&self, state: &State) -> bool {
+    fn may_tick(&self, state: &TimedState) -> bool {
         let must_arrive = |flight: Flight| {
             flight.ticks == self.timed.delay_ticks && state.hung() != Some(flight.transmission.to)
         };
@@ -56,9 +61,9 @@ impl Model {
         channel && state.hung().is_none_or(hangs_on)
     }
 
-    /// Whether no robot with a due timer is told too late, on its own clock, if a tick with these fast
+    /// Whether no robot with a due timer takes in the time too late, on its own clock, if a tick with these fast
     /// clocks passes before.
-    fn all_are_told_in_time(&self, state: &State, fast: u8) -> bool {
+    fn all_are_told_in_time(&self, state: &TimedState, fast: u8) -> bool {
         let Looks::Within(late_max) = self.timed.looks else {
             return true;
         };
@@ -72,14 +77,14 @@ impl Model {
         })
     }
 
-    /// For how long a timer of the robot has been due when `untold` is to be told; `None` when none is.
-    pub(super) fn overdue(&self, state: &State, i: u8, untold: Millis) -> Option<Millis> {
+    /// For how long a timer of the robot has been due when the robot has yet to take in `untold`; `None` when none is.
+    pub(super) fn overdue(&self, state: &TimedState, i: u8, untold: Millis) -> Option<Millis> {
         let due = self.node(state, i).robot.as_ref()?.next_due()?;
         (due <= untold).then(|| untold.saturating_sub(due))
     }
 
     /// The choices of clocks that may be fast in the next tick.
-    fn corners(&self, state: &State) -> std::ops::Range<u8> {
+    fn corners(&self, state: &TimedState) -> std::ops::Range<u8> {
         match state.rates {
             Some(rates) => rates..rates + 1,
             None if self.timed.clock.drifts() => 0..1 << self.scenario.robots.len(),
@@ -89,7 +94,7 @@ impl Model {
 
     /// What the application of the leader does at once: it commands a follower as soon as that has
     /// joined, and opens the corridor as soon as it may.
-    fn leader_event(&self, state: &State, leader: u8) -> Option<Event> {
+    fn leader_event(&self, state: &TimedState, leader: u8) -> Option<Event> {
         let robot = self.node(state, leader).robot.as_ref()?;
         let Phase::Leading(leading) = robot.phase() else {
             return None;
@@ -116,19 +121,19 @@ impl Model {
 
     /// One robot fails: the leader crashes or hangs, or a follower does or fails its maneuver while
     /// it executes.
-    fn failures(&self, state: &State, actions: &mut Vec<Action>) {
+    fn failures(&self, state: &TimedState, actions: &mut Vec<TimedAction>) {
         for (i, node) in (0..).zip(self.nodes(state)) {
             let (leads, running) = (self.timed.teams.leads(i), node.actuation.running);
             if state.left.crashes > 0 && node.robot.is_some() && (leads || running.is_some()) {
-                actions.push(Action::Crash(i));
+                actions.push(TimedAction::Crash(i));
             }
             if state.left.hangs > 0 && node.robot.is_some() && (leads || running.is_some()) {
-                actions.push(Action::Hang(i));
+                actions.push(TimedAction::Hang(i));
             }
             if state.left.disturbances > 0
                 && let Some(maneuver) = running
             {
-                actions.push(Action::Local(i, Event::ManeuverFailed(maneuver)));
+                actions.push(TimedAction::Local(i, Event::ManeuverFailed(maneuver)));
             }
         }
     }

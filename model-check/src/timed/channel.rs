@@ -11,9 +11,9 @@ const MAX_UNDER_WAY: usize = 20;
 
 /// A transmission with the ticks it has been under way, in four bytes, or none.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-struct Slot(u32);
+struct PackedFlight(u32);
 
-impl Slot {
+impl PackedFlight {
     const EMPTY: Self = Self(0);
 
     /// Ticks are counted from 1 here, so that no message is all zeros.
@@ -48,10 +48,10 @@ pub struct Flight {
 
 /// All messages under way, as a sorted set.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Channel([Slot; MAX_UNDER_WAY]);
+pub(super) struct TimedChannel([PackedFlight; MAX_UNDER_WAY]);
 
-impl Channel {
-    pub(super) const EMPTY: Self = Self([Slot::EMPTY; MAX_UNDER_WAY]);
+impl TimedChannel {
+    pub(super) const EMPTY: Self = Self([PackedFlight::EMPTY; MAX_UNDER_WAY]);
 
     /// Everything under way.
     pub(super) fn flights(&self) -> impl Iterator<Item = Flight> {
@@ -64,20 +64,20 @@ impl Channel {
     /// # Panics
     /// When more messages are under way than there is room for.
     pub(super) fn send(&mut self, transmission: Transmission) {
-        let is_same = |slot: &Slot| {
+        let is_same = |slot: &PackedFlight| {
             slot.flight()
                 .is_some_and(|f| f.transmission == transmission)
         };
         let place = (self.0.iter().position(is_same))
-            .or_else(|| self.0.iter().position(|slot| *slot == Slot::EMPTY));
+            .or_else(|| self.0.iter().position(|slot| *slot == PackedFlight::EMPTY));
         let place = place.expect("room for what is sent within the longest delay");
-        self.0[place] = Slot::of(transmission, 0);
+        self.0[place] = PackedFlight::of(transmission, 0);
         self.0.sort_unstable();
     }
 
     /// Takes away a message that has arrived.
     pub(super) fn take(&mut self, flight: Flight) {
-        let arrived = Slot::of(flight.transmission, flight.ticks);
+        let arrived = PackedFlight::of(flight.transmission, flight.ticks);
         self.retain(|slot| slot != arrived);
     }
 
@@ -96,8 +96,8 @@ impl Channel {
                 Some(Flight {
                     transmission,
                     ticks,
-                }) if ticks < ticks_max => Slot::of(transmission, ticks + 1),
-                _ => Slot::EMPTY,
+                }) if ticks < ticks_max => PackedFlight::of(transmission, ticks + 1),
+                _ => PackedFlight::EMPTY,
             };
         }
         self.0.sort_unstable();
@@ -115,7 +115,7 @@ impl Channel {
         ) in mapped.0.iter_mut().zip(self.flights())
         {
             let message = replace(transmission.message);
-            *slot = Slot::of(
+            *slot = PackedFlight::of(
                 Transmission {
                     message,
                     ..transmission
@@ -127,10 +127,10 @@ impl Channel {
         mapped
     }
 
-    fn retain(&mut self, keep: impl Fn(Slot) -> bool) {
+    fn retain(&mut self, keep: impl Fn(PackedFlight) -> bool) {
         for slot in &mut self.0 {
             if !keep(*slot) {
-                *slot = Slot::EMPTY;
+                *slot = PackedFlight::EMPTY;
             }
         }
         self.0.sort_unstable();
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_message_is_under_way_up_to_its_longest_delay_and_then_lost() {
-        let mut channel = Channel::EMPTY;
+        let mut channel = TimedChannel::EMPTY;
         channel.send(to(1, 0));
         channel.tick(2);
         channel.send(to(1, 7));
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn what_arrives_or_cannot_be_heard_is_taken_away() {
-        let mut channel = Channel::EMPTY;
+        let mut channel = TimedChannel::EMPTY;
         channel.send(to(1, 3));
         channel.send(to(2, 3));
         channel.send(to(2, 4));

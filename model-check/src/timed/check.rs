@@ -1,27 +1,32 @@
-//! Runs the check of one timed scenario and says what came of it.
+//! Runs the check of one timed scenario and reports the result.
 
 use std::time::Instant;
 
 use crossguard_protocol::Outputs;
 
 use super::explore::Explored;
-use super::model::Model;
-use super::rules::TimedProperty;
+use super::measure::Longest;
+use super::model::TimedModel;
 use super::section::{Looks, Rates};
-use super::state::{Action, Cause, State};
-use super::watch::Longest;
-use crate::check::{Options, Progress, names};
+use super::state::{TimedAction, TimedCause, TimedState};
+use crate::check::names;
 use crate::cost::Meter;
+use crate::exploration::{CheckProgress, Options};
 use crate::network::Transmission;
-use crate::report::{PropertyReport, ScenarioReport, Verdict};
+use crate::properties::{Claim, PropertyId};
+use crate::report::{CheckVerdict, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
-use crate::sequence::{ChartStep, Fate, Place};
+use crate::sequence::{ChartPlace, ChartStep, Fate};
 use crate::transitions::Transitions;
 
-/// Checks a timed model. `watch` is told now and then how far it is. Of the options, the limits on
+/// Checks a timed model. `watch` receives the progress now and then. Of the options, the limits on
 /// states and time count; one thread explores.
 #[must_use]
-pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) -> ScenarioReport {
+pub fn check(
+    model: &TimedModel,
+    options: &Options,
+    watch: &mut dyn FnMut(CheckProgress),
+) -> ScenarioReport {
     let (start, meter) = (Instant::now(), Meter::start());
     let (scenario, timed) = (model.scenario(), model.timed());
     let explored = Explored::of(model, &options.limits(), watch);
@@ -45,7 +50,13 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
             .filter(|_| exhaustive)
             .map(|expected| expected == size),
         properties: properties
-            .flat_map(|&id| [Some(rule(model, &explored, id)), premise(&explored, id)])
+            .filter_map(|&id| Some((id, id.timed()?)))
+            .flat_map(|(id, claim)| {
+                [
+                    Some(rule(model, &explored, id, claim)),
+                    premise(&explored, id, claim),
+                ]
+            })
             .flatten()
             .collect(),
         figures: explored.longest.figures(timed, model.limits()),
@@ -56,23 +67,23 @@ pub fn check(model: &Model, options: &Options, watch: &mut dyn FnMut(Progress)) 
     }
 }
 
-fn rule(model: &Model, explored: &Explored, id: TimedProperty) -> PropertyReport {
+fn rule(model: &TimedModel, explored: &Explored, id: PropertyId, claim: &Claim) -> PropertyReport {
     let path = explored.path_to_broken(id);
     PropertyReport {
         id: id.name().to_owned(),
-        kind: id.kind().to_owned(),
-        verdict: Verdict::of_property(path.is_some(), explored.cut_off),
-        statement: id.statement().to_owned(),
+        kind: claim.kind.name().to_owned(),
+        verdict: CheckVerdict::of_property(path.is_some(), explored.cut_off),
+        statement: claim.statement.to_owned(),
         counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
         repeats_after: None,
     }
 }
 
-fn premise(explored: &Explored, id: TimedProperty) -> Option<PropertyReport> {
-    id.premise().map(|premise| PropertyReport {
-        id: format!("{}-premise", id.name()),
+fn premise(explored: &Explored, id: PropertyId, claim: &Claim) -> Option<PropertyReport> {
+    claim.premise.map(|premise| PropertyReport {
+        id: format!("{id}-premise"),
         kind: "premise".to_owned(),
-        verdict: Verdict::of_premise(explored.premises.met(id), explored.cut_off),
+        verdict: CheckVerdict::of_premise(explored.premises.met(id), explored.cut_off),
         statement: premise.to_owned(),
         counterexample: Vec::new(),
         repeats_after: None,
@@ -80,7 +91,7 @@ fn premise(explored: &Explored, id: TimedProperty) -> Option<PropertyReport> {
 }
 
 /// A run as a chart: what happened at which time, and what the robots put out.
-fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
+fn chart(model: &TimedModel, path: &[u16]) -> Vec<ChartStep> {
     let mut state = model.initial();
     let mut actions = Vec::new();
     let mut time = 0;
@@ -89,7 +100,7 @@ fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
         actions.clear();
         model.actions_in(&state, &mut actions);
         let action = actions[usize::from(place)];
-        if matches!(action, Action::Tick(_)) {
+        if matches!(action, TimedAction::Tick(_)) {
             time += model.timed().clock.tick.0;
         }
         steps.extend(steps_of(model, &state, action, time));
@@ -102,33 +113,38 @@ fn chart(model: &Model, path: &[u16]) -> Vec<ChartStep> {
 }
 
 /// What an action is in a chart: what each robot takes in, and what it puts out.
-fn steps_of(model: &Model, state: &State, action: Action, time: u32) -> Vec<ChartStep> {
+fn steps_of(
+    model: &TimedModel,
+    state: &TimedState,
+    action: TimedAction,
+    time: u32,
+) -> Vec<ChartStep> {
     let at = |robot: u8, what: String, outputs: &[String]| ChartStep {
-        place: Place::At(robot.into()),
+        place: ChartPlace::At(robot.into()),
         action: format!("at {time} ms: {what}"),
         outputs: outputs.to_vec(),
     };
     let fault = match action {
-        Action::Crash(robot) => Some(at(robot, "crashes for good".to_owned(), &[])),
-        Action::Hang(robot) => Some(at(robot, "begins to hang".to_owned(), &[])),
-        Action::GoOn(robot) => Some(at(robot, "goes on".to_owned(), &[])),
-        Action::Meet => Some(at(
+        TimedAction::Crash(robot) => Some(at(robot, "crashes for good".to_owned(), &[])),
+        TimedAction::Hang(robot) => Some(at(robot, "begins to hang".to_owned(), &[])),
+        TimedAction::GoOn(robot) => Some(at(robot, "goes on".to_owned(), &[])),
+        TimedAction::Meet => Some(at(
             0,
             "its team and the other reach each other from now on".to_owned(),
             &[],
         )),
         _ => None,
     };
-    let step = |(robot, cause, outputs): (u8, Cause, Outputs)| {
+    let step = |(robot, cause, outputs): (u8, TimedCause, Outputs)| {
         let lines: Vec<_> = outputs.iter().map(ToString::to_string).collect();
         match (cause, action) {
-            (Cause::Elapsed(elapsed), _) => at(
+            (TimedCause::Elapsed(elapsed), _) => at(
                 robot,
                 format!("its clock shows {} ms more", elapsed.0),
                 &lines,
             ),
-            (Cause::Event(event), _) => at(robot, event.to_string(), &lines),
-            (Cause::Message(number), Action::Deliver(flight)) => {
+            (TimedCause::Event(event), _) => at(robot, event.to_string(), &lines),
+            (TimedCause::Message(number), TimedAction::Deliver(flight)) => {
                 let Transmission { from, to, .. } = flight.transmission;
                 let delay = model.timed().clock.millis(flight.ticks).0;
                 let input = model.message(number).input();
@@ -138,7 +154,7 @@ fn steps_of(model: &Model, state: &State, action: Action, time: u32) -> Vec<Char
                     Fate::ArrivesLate
                 };
                 ChartStep {
-                    place: Place::Between {
+                    place: ChartPlace::Between {
                         from: from.into(),
                         to: to.into(),
                         fate,
@@ -147,7 +163,7 @@ fn steps_of(model: &Model, state: &State, action: Action, time: u32) -> Vec<Char
                     outputs: lines,
                 }
             }
-            (Cause::Message(number), _) => {
+            (TimedCause::Message(number), _) => {
                 at(robot, model.message(number).input().to_string(), &lines)
             }
         }
@@ -156,7 +172,7 @@ fn steps_of(model: &Model, state: &State, action: Action, time: u32) -> Vec<Char
     fault.into_iter().chain(steps).collect()
 }
 
-fn assumptions(model: &Model) -> Vec<String> {
+fn assumptions(model: &TimedModel) -> Vec<String> {
     let (scenario, timed) = (model.scenario(), model.timed());
     let clock = &timed.clock;
     let drift = if clock.drifts() {
@@ -176,11 +192,11 @@ fn assumptions(model: &Model) -> Vec<String> {
     };
     let looks = match timed.looks {
         Looks::EachTick => format!(
-            "timed: every robot looks once a tick of {} ms; what is due fires then",
+            "timed: every robot looks at its clock once a tick of {} ms; timers that are due fire then",
             clock.tick.0
         ),
         Looks::Within(late) => format!(
-            "timed: each robot looks when it likes, at the latest {} ms after a timer became due, at whole ticks of {} ms",
+            "timed: each robot looks at its clock at any time, at the latest {} ms after a timer became due, at whole ticks of {} ms",
             late.0, clock.tick.0
         ),
     };
@@ -192,7 +208,7 @@ fn assumptions(model: &Model) -> Vec<String> {
     let (teams, failures) = if timed.teams.are_two() {
         let apart =
             "two teams reach each other at some time after both signs show go, and not before";
-        (Some(apart.to_owned()), "nobody fails")
+        (Some(apart.to_owned()), "no robot fails")
     } else {
         (None, "one failure in a run, after the request")
     };
@@ -208,7 +224,7 @@ fn assumptions(model: &Model) -> Vec<String> {
             .to_owned(),
         "no run lasts as long as T_lock or T_exec".to_owned(),
         "figures and bounds are true time, and of these timers; a crash stops the robot's body and its sign, a hang neither".to_owned(),
-        "one exploration, by the kit itself, which tells states apart exactly".to_owned(),
+        "one exploration, by the kit itself, which compares whole states".to_owned(),
         "heartbeats are counted from the oldest one in a state; states that differ in the names of sessions and offers alone count as one"
             .to_owned(),
     ];

@@ -43,15 +43,15 @@ impl Clock {
         }
     }
 
-    /// True time of so many ticks.
+    /// True time of this number of ticks.
     #[must_use]
     pub const fn millis(&self, ticks: u8) -> Millis {
         Millis(self.tick.0 * ticks as u32)
     }
 }
 
-/// The longest true time in which a timer of `timer` runs out and its robot is told so: the robot may be
-/// told late by `delay_max`, and its clock may be slow by the drift.
+/// The longest true time in which a timer of `timer` runs out and its robot takes that in: the robot may look at
+/// its clock late by `delay_max`, and the clock may be slow by the drift.
 ///
 /// Both times are on the robot's own clock, here as in
 /// [`Inequality::LeaseWithinSafety`](crossguard_protocol::Inequality::LeaseWithinSafety): an endpoint has no other

@@ -4,11 +4,14 @@ use std::collections::{HashMap, VecDeque};
 
 use rustc_hash::FxBuildHasher;
 
-use super::model::Model;
-use super::rules::{Premises, TimedProperty};
-use super::state::{Action, State};
-use super::watch::Longest;
-use crate::check::{Limits, Progress};
+use super::measure::Longest;
+use super::model::TimedModel;
+use super::premises::Premises;
+use super::state::{TimedAction, TimedState};
+
+use crate::exploration::{CheckProgress, ExplorationLimits};
+use crate::properties::PropertyId;
+use crate::properties::timed_view::{RobotSteps, TimedStepView};
 use crate::report::CutOff;
 
 /// What an exploration found.
@@ -20,17 +23,21 @@ pub(super) struct Explored {
     pub(super) premises: Premises,
     /// For each state the one through which it was first reached, and by which of its actions.
     parents: Vec<(u32, u16)>,
-    /// For each property, in the order of [`TimedProperty::ALL`], the first state that breaks it.
-    broken: [Option<u32>; TimedProperty::ALL.len()],
+    /// For each property, in the order of [`PropertyId::ALL`], the first state that breaks it.
+    broken: [Option<u32>; PropertyId::ALL.len()],
     /// Transitions in which no time passes.
     instant: Vec<(u32, u32)>,
 }
 
 impl Explored {
-    /// Explores `model`. `watch` is told now and then how far it is.
-    pub(super) fn of(model: &Model, limits: &Limits, watch: &mut dyn FnMut(Progress)) -> Self {
-        let mut explored = Self::new();
-        let mut numbers: HashMap<State, u32, FxBuildHasher> = HashMap::default();
+    /// Explores `model`. `watch` receives the progress now and then.
+    pub(super) fn of(
+        model: &TimedModel,
+        limits: &ExplorationLimits,
+        watch: &mut dyn FnMut(CheckProgress),
+    ) -> Self {
+        let mut explored = Self::new(Premises::of(&model.timed().properties));
+        let mut numbers: HashMap<TimedState, u32, FxBuildHasher> = HashMap::default();
         let mut waiting = VecDeque::new();
         explored.add(model, model.initial(), (0, 0), &mut numbers, &mut waiting);
         let (mut at, mut level_ends) = (0, 1);
@@ -54,7 +61,10 @@ impl Explored {
                 let Some(next) = model.successor(&state, action, &mut explored.longest) else {
                     continue;
                 };
-                explored.premises.note_step(model, &state, &next);
+                if !explored.premises.are_met() {
+                    let note = |step: &TimedStepView<'_>| explored.premises.note_step(step);
+                    model.look_at_step(&state, &next, RobotSteps::NONE, note);
+                }
                 let to = match numbers.get(&next) {
                     Some(&known) => known,
                     None if limits.states_reached(numbers.len()) => {
@@ -65,12 +75,12 @@ impl Explored {
                 };
                 stuck = false;
                 explored.transitions += 1;
-                if !matches!(action, Action::Tick(_)) {
+                if !matches!(action, TimedAction::Tick(_)) {
                     explored.instant.push((from, to));
                 }
             }
             if stuck {
-                explored.broken[TimedProperty::I12 as usize].get_or_insert(from);
+                explored.broken[PropertyId::I12 as usize].get_or_insert(from);
             }
             at += 1;
         }
@@ -79,31 +89,33 @@ impl Explored {
         explored
     }
 
-    fn new() -> Self {
+    fn new(premises: Premises) -> Self {
         Self {
             transitions: 0,
             depth: 0,
             cut_off: None,
             longest: Longest::default(),
-            premises: Premises::default(),
+            premises,
             parents: Vec::new(),
-            broken: [None; TimedProperty::ALL.len()],
+            broken: [None; PropertyId::ALL.len()],
             instant: Vec::new(),
         }
     }
 
     fn add(
         &mut self,
-        model: &Model,
-        state: State,
+        model: &TimedModel,
+        state: TimedState,
         parent: (u32, u16),
-        numbers: &mut HashMap<State, u32, FxBuildHasher>,
-        waiting: &mut VecDeque<State>,
+        numbers: &mut HashMap<TimedState, u32, FxBuildHasher>,
+        waiting: &mut VecDeque<TimedState>,
     ) -> u32 {
         let fresh = number(numbers.len());
         self.parents.push(parent);
-        self.premises.note(model, &state);
-        for property in TimedProperty::ALL {
+        if !self.premises.are_met() {
+            model.look(&state, |state| self.premises.note(state));
+        }
+        for property in PropertyId::ALL {
             if state.broken.has(property) {
                 self.broken[property as usize].get_or_insert(fresh);
             }
@@ -113,9 +125,9 @@ impl Explored {
         fresh
     }
 
-    fn tell(&self, model: &Model, frontier: usize, watch: &mut dyn FnMut(Progress)) {
+    fn tell(&self, model: &TimedModel, frontier: usize, watch: &mut dyn FnMut(CheckProgress)) {
         let states = self.states();
-        watch(Progress {
+        watch(CheckProgress {
             checked: states,
             explored: states,
             frontier,
@@ -148,7 +160,7 @@ impl Explored {
             }
         }
         if let Some(held) = incoming.iter().position(|&left| left > 0) {
-            self.broken[TimedProperty::I12 as usize].get_or_insert(number(held));
+            self.broken[PropertyId::I12 as usize].get_or_insert(number(held));
         }
     }
 
@@ -157,7 +169,7 @@ impl Explored {
     }
 
     /// The actions of a shortest run to a state that breaks a property, if one does.
-    pub(super) fn path_to_broken(&self, property: TimedProperty) -> Option<Vec<u16>> {
+    pub(super) fn path_to_broken(&self, property: PropertyId) -> Option<Vec<u16>> {
         let mut at = self.broken[property as usize]?;
         let mut path = Vec::new();
         while at != 0 {

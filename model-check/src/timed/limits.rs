@@ -17,19 +17,19 @@ pub struct Limits {
     /// From the leader's crash to the follower idle (L5).
     pub left: Millis,
     /// From a follower's own failure, crash or hang, or from a hang of the leader, to the sign at stop
-    /// (I11, W1, W5): nobody steps on the road later.
+    /// (I11, W1, W5): no pedestrian steps on the road later.
     pub corridor_closed: Millis,
     /// From a follower's fallback to the sign at stop (W1): the sign shows stop before.
     pub unguarded: Millis,
     /// From the first message that one of two leaders at a place hears of the other to one sign at stop, where
     /// no heartbeat gets lost from then on (W3).
     pub both_go: Millis,
-    /// From a follower's own failure, crash or hang to the leader's application told of it (W6).
+    /// From a follower's own failure, crash or hang until the leader's application is informed (W6).
     pub unaware: Millis,
-    /// From a detection, or from the newest news of a lost lease, to go or to a reason told to the application
+    /// From a detection, or from the newest news of a lost lease, to go or to a reason given to the application
     /// (W8). Applications command and open as soon as they may. Where a task holds a place, the time that the
-    /// body takes to get there comes on top; `T_exec` after its acknowledgement the application is told that
-    /// it failed.
+    /// body takes to get there comes on top; `T_exec` after its acknowledgement the application is informed
+    /// that it failed.
     pub waiting: Millis,
 }
 
@@ -72,7 +72,7 @@ impl Limits {
     }
 }
 
-/// What comes one after the other before a pedestrian sees go, each as late as it may without being told as a
+/// What comes one after the other before a pedestrian sees go, each as late as it may without being given as a
 /// reason: the roles; a follower that joins, without which it is gone after `t_lost`; the acknowledgement of
 /// its command; and its first report, for which the leader's lease on it waits.
 fn waiting(config: &Config) -> Millis {

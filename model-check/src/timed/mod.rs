@@ -6,26 +6,27 @@
 //!                                            │
 //!             state, what may happen in it (actions), what comes of it (successor)
 //!                                            │
-//!                       rules, watch ◄── explore ──► check ──► report, figures in ms
+//!          properties ◄── judge, measure ◄── explore ──► check ──► report, figures in ms
 //! ```
 //!
 //! The untimed model ([`model`](crate::model)) lets any armed timer expire at any moment, so it says
-//! nothing about how long something takes. This one tells each robot how much time has passed, by the
+//! nothing about how long something takes. This one gives each robot the time that has passed, by the
 //! very input that an endpoint uses, and so finds the lease theorem (I10) and the longest times.
 //!
 //! # What the discretisation stands for
 //!
-//! - *Endpoints that look once a tick* (`free = false`). All robots are told of time at the same ticks, and
-//!   of messages and events between two ticks, which takes no time. Every run of the model is one of real
-//!   robots whose endpoints look once a tick; a timer is told to be due up to one tick late, which
+//! - *Endpoints that look once a tick* (`free = false`). All robots take in the time at the same ticks, and
+//!   messages and events between two ticks, which takes no time. Every run of the model is one of real
+//!   robots whose endpoints look once a tick; a timer may fire up to one tick late, which
 //!   `delay_max` must allow. So every counterexample and every figure is one that can happen.
 //! - *Endpoints that look when they like* (`free = true`). After each tick each endpoint looks, or does
 //!   not, in any order with the messages and events of that tick; it looks at the latest `delay_max` after
-//!   a timer of its robot became due, on its own clock, for it has no other. Before a robot is told of a message or an event it is told of the time. As long as
-//!   none of its timers is due it makes no difference when it is told (what passes in two parts passes in
-//!   one), so the model tells it at once, and only a robot with a due timer waits. Every run of the
-//!   synchronous view is one of these, and every one of these is one of real robots. Endpoints that look between two ticks are not explored: their delays count as whole ticks, and
-//!   a message that arrives just before a timer becomes due counts as one of the tick before.
+//!   a timer of its robot became due, on its own clock, for it has no other. A robot takes in the time before a
+//!   message or an event. As long as none of its timers is due it makes no difference when it does (what passes
+//!   in two parts passes in one), so in the model it does at once, and only a robot with a due timer waits. Every
+//!   run of the synchronous view is one of these, and every one of these is one of real robots. Endpoints that
+//!   look between two ticks are not explored: their delays count as whole ticks, and a message that arrives just
+//!   before a timer becomes due counts as one of the tick before.
 //! - *Late endpoints* (`late_ms`). How late free endpoints are in truth, where that is not the
 //!   `delay_max` of the settings. The bounds are of the settings.
 //! - *Clocks.* At each tick the clock of each robot shows either [`slow`](Clock::slow) or
@@ -38,16 +39,16 @@
 //!   runs at one in between, is not covered. It is there for models that are too large otherwise.
 //! - *Messages* are under way for a whole number of ticks. With endpoints that look once a tick that
 //!   leaves out nothing.
-//! - *Hangs.* A robot that hangs is told nothing, hears nothing and sends nothing; its body does what it was
-//!   told before. After any number of ticks, up to `hang_ms` on its own clock, it goes on and is told of the
+//! - *Hangs.* A robot that hangs takes in nothing and sends nothing; its body does what it did
+//!   before. After any number of ticks, up to `hang_ms` on its own clock, it goes on and takes in the
 //!   whole time at once. Messages that arrived meanwhile are lost: an endpoint throws away what waited longer
 //!   than `delay_max`. One robot hangs at a time.
 //! - *Two teams.* Where two robots detect, each leads the robots that are listed after it. The teams do not
 //!   reach each other until both signs show go, as if they came from two sides; from some moment then every
-//!   message between them arrives, as it does within a team. Nobody fails, and the run is over once one sign
+//!   message between them arrives, as it does within a team. No robot fails, and the run is over once one sign
 //!   shows stop.
-//! - *News and what is told.* For how long a follower has heard no news (I19) and what an application knows
-//!   (W6, W8) is judged by what was delivered and what is put out; see `quiet` and `told`.
+//! - *News and notices.* For how long a follower has heard no news (I19) and what an application knows
+//!   (W6, W8) is judged by the messages that were delivered and the outputs; see `quiet` and `told`.
 //! - *The sign* of the leader runs on the leader's clock and ends by itself where its time is limited, also
 //!   while the leader hangs. A crash of the leader puts it out.
 //! - *Timers that are held.* The identity lock and `T_exec` last longer than anything that is
@@ -59,28 +60,34 @@
 //! - *Heartbeats* are counted from the oldest that occurs in a state, which keeps their distances.
 
 mod actions;
+mod broken;
 mod channel;
 mod check;
-mod clock;
+pub(crate) mod clock;
 mod explore;
-mod limits;
+mod judge;
+pub(crate) mod limits;
+mod measure;
 mod model;
+mod premises;
 mod quiet;
-mod rules;
 mod section;
 mod sign;
 mod state;
 mod successor;
-mod told;
-mod watch;
+pub(crate) mod teams;
+pub(crate) mod told;
+pub(crate) mod watch;
 
 pub use channel::Flight;
 pub use check::check;
 pub use clock::{Clock, longest};
 pub use limits::Limits;
-pub use model::Model;
-pub use rules::{TimedProperty, has_lease_on_lost, leases};
+pub use measure::Figure;
+pub use model::TimedModel;
 pub(crate) use section::Section;
 pub use section::{Looks, Rates, Timed, TimedImpossibility};
-pub use state::{Action, State};
-pub use watch::{Figure, Watch};
+pub use state::{TimedAction, TimedState};
+pub use watch::StopWatch;
+
+pub use crate::properties::i10_lease::{has_lease_on_lost, leases};

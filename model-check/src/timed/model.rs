@@ -1,4 +1,4 @@
-//! The timed model: robots that are told how much time has passed.
+//! The timed model: robots that take in how much time has passed.
 //!
 //! ```text
 //!   at a tick                     between two ticks, in no time and any order
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! A robot's part of a step is one call of [`Robot::step`](crossguard_protocol::Robot::step), as in
-//! the untimed model. Timers are urgent because the transition function makes them so: what is due
-//! fires when the robot is told of the time.
+//! the untimed model. Timers are urgent because the transition function makes them so: a timer that is
+//! due fires when the robot takes in the time.
 
 use std::sync::Arc;
 
@@ -23,39 +23,41 @@ use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
-use super::Timed;
-use super::channel::Channel;
+use super::broken::BrokenSet;
+use super::channel::TimedChannel;
 use super::limits::Limits;
-use super::quiet::Contact;
-use super::rules::{Broken, TimedProperty};
-use super::section::MAX_TEAMS;
+use super::quiet::ContactChange;
+use super::section::Timed;
 use super::sign::Sign;
-use super::state::{Cause, State};
+use super::state::{TimedCause, TimedState};
+use super::teams::MAX_TEAMS;
 use super::told::{Telling, Told};
-use super::watch::Watch;
+use super::watch::StopWatch;
 use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
 use crate::intern::Interner;
 use crate::network::Message;
 use crate::node::{Node, Protocol, Rules};
+use crate::properties::PropertyId;
+use crate::properties::timed_view::RobotSteps;
 use crate::scenario::{MAX_ROBOTS, Scenario};
 
-/// What comes of a robot's step.
+/// The effect of a robot's step.
 #[derive(Clone, Debug)]
-pub(super) struct Step {
+pub(super) struct TimedRobotStep {
     pub(super) after: u32,
     pub(super) sends: SmallVec<[u16; 2]>,
-    /// What the sign shows from then on, if it was told anything.
+    /// What the sign shows from then on, if an output was for it.
     pub(super) sign: Option<Sign>,
-    /// What it tells the application.
+    /// What it reports to the application.
     pub(super) telling: Telling,
     /// What it has to do with the contact to a leader.
-    pub(super) contact: Contact,
+    pub(super) contact: ContactChange,
     pub(super) is_ignored: bool,
     pub(super) is_valid: bool,
 }
 
 /// The timed model of one scenario.
-pub struct Model {
+pub struct TimedModel {
     pub(super) scenario: Scenario,
     pub(super) timed: Timed,
     limits: Limits,
@@ -64,10 +66,10 @@ pub struct Model {
     messages: Interner<Message>,
     renamings: Arc<Renamings>,
     /// Each step of a robot is computed once.
-    steps: DashMap<(u32, Cause), Step, FxBuildHasher>,
+    steps: DashMap<(u32, TimedCause), TimedRobotStep, FxBuildHasher>,
 }
 
-impl Model {
+impl TimedModel {
     /// The model of a timed scenario; `None` when the scenario says nothing of time.
     #[must_use]
     pub fn new(scenario: Scenario) -> Option<Self> {
@@ -108,39 +110,45 @@ impl Model {
     /// The state in which every run begins: all are idle, and one of each team has just detected a pedestrian.
     /// Two teams do not reach each other yet.
     #[must_use]
-    pub fn initial(&self) -> State {
+    pub fn initial(&self) -> TimedState {
         let mut nodes = [0; MAX_ROBOTS];
         for (node, setup) in nodes.iter_mut().zip(&self.scenario.robots) {
             *node = self.nodes.number(Node::first_boot(setup.station));
         }
-        let mut state = State {
+        let mut state = TimedState {
             nodes,
-            channel: Channel::EMPTY,
+            channel: TimedChannel::EMPTY,
             left: self.scenario.bounds,
             watch: if self.timed.teams.are_two() {
-                Watch::Apart
+                StopWatch::Apart
             } else {
-                Watch::Request(0)
+                StopWatch::Request(0)
             },
             untold: [Millis::ZERO; MAX_ROBOTS],
             rates: None,
             signs: [Sign::Stop; MAX_TEAMS],
             unguarded: [None; MAX_TEAMS],
-            waiting: self.timed.claims(TimedProperty::W8).then_some(0),
+            waiting: self.timed.claims(PropertyId::W8).then_some(0),
             told: Told::NOTHING,
             quiet: [None; MAX_ROBOTS],
-            broken: Broken::NOTHING,
+            broken: BrokenSet::NOTHING,
         };
+        let mut robots = RobotSteps::NONE;
         for &leader in self.timed.teams.leaders() {
             let detected = Event::PedestrianDetected(self.scenario.request_of(leader.into()));
-            let _ = self.robot_step(&mut state, leader, Cause::Event(detected));
+            let cause = TimedCause::Event(detected);
+            let _ = self.robot_step(&mut state, leader, cause, &mut robots);
         }
+        state.broken = self.judge(&state, &state, robots);
         self.canonicalize(&mut state);
         state
     }
 
     /// The robots of a state.
-    pub(super) fn nodes<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a Node> + Clone {
+    pub(super) fn nodes<'a>(
+        &'a self,
+        state: &'a TimedState,
+    ) -> impl Iterator<Item = &'a Node> + Clone {
         let robots = self.scenario.robots.len();
         state.nodes[..robots]
             .iter()
@@ -148,7 +156,7 @@ impl Model {
     }
 
     /// A robot of a state, by its place.
-    pub(super) fn node(&self, state: &State, place: u8) -> &Node {
+    pub(super) fn node(&self, state: &TimedState, place: u8) -> &Node {
         self.nodes.value(state.nodes[usize::from(place)])
     }
 
@@ -156,7 +164,7 @@ impl Model {
         self.messages.value(number.into())
     }
 
-    pub(super) fn step(&self, node: u32, cause: Cause) -> Option<Step> {
+    pub(super) fn step(&self, node: u32, cause: TimedCause) -> Option<TimedRobotStep> {
         if let Some(known) = self.steps.get(&(node, cause)) {
             return Some(known.clone());
         }
@@ -173,11 +181,11 @@ impl Model {
             config: &self.scenario.config,
             robot,
         };
-        let step = Step {
+        let step = TimedRobotStep {
             sends: sends.map(|message| self.message_number(message)).collect(),
             sign: outputs.iter().filter_map(Sign::told).last(),
             telling: Telling::of(&outputs, |station| self.bit_of(station)),
-            contact: Contact::of(&said, input, &outputs, &robot.ram()),
+            contact: ContactChange::of(&said, input, &outputs, &robot.ram()),
             is_ignored: outputs.ignored().is_some(),
             is_valid: robot.is_valid(&self.scenario.config),
             after: self.nodes.number(after.renamed(&mut held)),
@@ -186,18 +194,18 @@ impl Model {
         Some(step)
     }
 
-    pub(super) fn compute(&self, node: u32, cause: Cause) -> Option<(Node, Outputs)> {
+    pub(super) fn compute(&self, node: u32, cause: TimedCause) -> Option<(Node, Outputs)> {
         let input = self.input(cause);
         self.nodes
             .value(node)
             .step(&*self.rules, &self.scenario.config, input)
     }
 
-    fn input(&self, cause: Cause) -> Input {
+    fn input(&self, cause: TimedCause) -> Input {
         match cause {
-            Cause::Elapsed(elapsed) => Input::Elapsed(elapsed),
-            Cause::Message(number) => self.message(number).input(),
-            Cause::Event(event) => Input::Local(event),
+            TimedCause::Elapsed(elapsed) => Input::Elapsed(elapsed),
+            TimedCause::Message(number) => self.message(number).input(),
+            TimedCause::Event(event) => Input::Local(event),
         }
     }
 
@@ -217,7 +225,7 @@ impl Model {
         u16::try_from(number).expect("fewer than 65,536 distinct messages")
     }
 
-    pub(super) fn canonicalize(&self, state: &mut State) {
+    pub(super) fn canonicalize(&self, state: &mut TimedState) {
         let robots = self.scenario.robots.len();
         let mut sets = NameSets::default();
         for &node in &state.nodes[..robots] {

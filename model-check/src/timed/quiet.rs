@@ -8,7 +8,7 @@ use crate::serial::beat_is_newer;
 /// What a follower has promised and how long it has heard nothing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Quiet {
-    /// The `t_safety` that its offer told.
+    /// The `t_safety` in its offer.
     promised: Millis,
     /// What its clock has shown since the last news; `None` once it has given its leader up.
     shown: Option<Millis>,
@@ -16,10 +16,10 @@ pub(super) struct Quiet {
 
 /// What a step of a robot has to do with its contact to a leader.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Contact {
-    /// It follows nobody.
+pub(super) enum ContactChange {
+    /// It follows no leader.
     NoLeader,
-    /// It follows from now on, and its offer told this `t_safety`.
+    /// It follows from now on, and its offer had this `t_safety`.
     Joins(Millis),
     /// It hears news of its leader.
     News,
@@ -31,7 +31,7 @@ pub(super) enum Contact {
     Unchanged,
 }
 
-impl Contact {
+impl ContactChange {
     /// Of a step in which a robot that said `before` takes `input`, and says `after` now.
     pub(super) fn of(before: &Ram, input: Input, outputs: &Outputs, after: &Ram) -> Self {
         let Coordination::Follower { last, .. } = after.coordination else {
@@ -81,7 +81,7 @@ impl Quiet {
     pub(super) fn after(
         before: Option<Self>,
         elapsed: Millis,
-        contact: Contact,
+        contact: ContactChange,
     ) -> (Option<Self>, bool) {
         let known = before.map(|quiet| Self {
             shown: quiet
@@ -91,16 +91,16 @@ impl Quiet {
         });
         let with = |shown: Option<Millis>| known.map(|quiet| Self { shown, ..quiet });
         match contact {
-            Contact::NoLeader => (None, true),
-            Contact::Unchanged => (known, true),
-            Contact::News => (with(Some(Millis::ZERO)), true),
-            Contact::Joins(promised) => {
+            ContactChange::NoLeader => (None, true),
+            ContactChange::Unchanged => (known, true),
+            ContactChange::News => (with(Some(Millis::ZERO)), true),
+            ContactChange::Joins(promised) => {
                 let shown = Some(Millis::ZERO);
                 (Some(Self { promised, shown }), true)
             }
-            Contact::GivesUp | Contact::Leaves => {
+            ContactChange::GivesUp | ContactChange::Leaves => {
                 let is_long = |quiet: Self| quiet.shown.is_none_or(|shown| shown >= quiet.promised);
-                let after = with(None).filter(|_| contact == Contact::GivesUp);
+                let after = with(None).filter(|_| contact == ContactChange::GivesUp);
                 (after, known.is_none_or(is_long))
             }
         }
@@ -113,18 +113,18 @@ mod tests {
 
     #[test]
     fn who_gives_up_before_its_time_since_the_last_news_breaks_its_promise() {
-        let (joined, _) = Quiet::after(None, Millis::ZERO, Contact::Joins(Millis(100)));
+        let (joined, _) = Quiet::after(None, Millis::ZERO, ContactChange::Joins(Millis(100)));
         let step = |before, elapsed, contact| Quiet::after(before, Millis(elapsed), contact);
-        let (at_60, _) = step(joined, 60, Contact::Unchanged);
-        assert!(!step(at_60, 39, Contact::GivesUp).1);
-        let (given_up, keeps) = step(at_60, 40, Contact::GivesUp);
+        let (at_60, _) = step(joined, 60, ContactChange::Unchanged);
+        assert!(!step(at_60, 39, ContactChange::GivesUp).1);
+        let (given_up, keeps) = step(at_60, 40, ContactChange::GivesUp);
         assert!(keeps);
         // News starts the time anew; without any there is nothing more to give up.
-        let (heard, _) = step(at_60, 30, Contact::News);
-        assert!(!step(heard, 99, Contact::GivesUp).1);
-        assert!(step(given_up, 10, Contact::GivesUp).1);
-        assert_eq!(step(heard, 10, Contact::NoLeader), (None, true));
-        assert_eq!(step(heard, 10, Contact::Leaves), (None, false));
-        assert_eq!(step(given_up, 10, Contact::Leaves), (None, true));
+        let (heard, _) = step(at_60, 30, ContactChange::News);
+        assert!(!step(heard, 99, ContactChange::GivesUp).1);
+        assert!(step(given_up, 10, ContactChange::GivesUp).1);
+        assert_eq!(step(heard, 10, ContactChange::NoLeader), (None, true));
+        assert_eq!(step(heard, 10, ContactChange::Leaves), (None, false));
+        assert_eq!(step(given_up, 10, ContactChange::Leaves), (None, true));
     }
 }

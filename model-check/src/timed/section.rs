@@ -4,8 +4,9 @@ use crossguard_protocol::{Millis, Settings};
 use serde::Deserialize;
 
 use super::clock::Clock;
-use super::rules::TimedProperty;
-use crate::scenario::{Bounds, Channel, MAX_ROBOTS, RobotSetup};
+use super::teams::Teams;
+use crate::properties::{PropertyId, listed};
+use crate::scenario::setup::{Bounds, ChannelSetup, RobotSetup};
 
 /// The file's form of the section.
 #[derive(Clone, Copy, Deserialize)]
@@ -29,7 +30,7 @@ pub(crate) struct Section {
     hang_ms: u32,
 }
 
-/// When endpoints look at their clocks, and tell their robots.
+/// When endpoints look at their clocks, and give the time to their robots.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Looks {
     /// All of them at every tick.
@@ -63,7 +64,7 @@ pub struct Timed {
     /// The longest that a robot hangs, on its own clock.
     pub hang: Millis,
     /// The properties to check.
-    pub properties: Vec<TimedProperty>,
+    pub properties: Vec<PropertyId>,
     /// The robots that detect, each with its helpers.
     pub(super) teams: Teams,
     /// The delay in ticks.
@@ -73,59 +74,8 @@ pub struct Timed {
 impl Timed {
     /// Whether the scenario claims a property.
     #[must_use]
-    pub fn claims(&self, property: TimedProperty) -> bool {
+    pub fn claims(&self, property: PropertyId) -> bool {
         self.properties.contains(&property)
-    }
-}
-
-/// How many teams there may be.
-pub(super) const MAX_TEAMS: usize = 2;
-
-/// Which robots belong together. Where two detect, each leads a team of its own, which is itself and the
-/// robots that are listed after it.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Teams {
-    leaders: Vec<u8>,
-    /// By place.
-    of: [usize; MAX_ROBOTS],
-}
-
-impl Teams {
-    fn of(robots: &[RobotSetup]) -> Option<Self> {
-        let detects = |place: &u8| robots[usize::from(*place)].detects;
-        let leaders: Vec<u8> = (0..).take(robots.len()).filter(detects).collect();
-        let begins = |place: u8| leaders.iter().filter(|leader| **leader <= place).count();
-        let mut of = [0; MAX_ROBOTS];
-        match leaders.len() {
-            1 => {}
-            2 if leaders[0] == 0 => {
-                for (place, team) in (0..).zip(&mut of) {
-                    *team = begins(place) - 1;
-                }
-            }
-            _ => return None,
-        }
-        Some(Self { leaders, of })
-    }
-
-    /// The places of the leaders, team by team.
-    pub(super) fn leaders(&self) -> &[u8] {
-        &self.leaders
-    }
-
-    /// Whether the robot at `place` leads.
-    pub(super) fn leads(&self, place: u8) -> bool {
-        self.leaders.contains(&place)
-    }
-
-    /// The team of the robot at `place`, from 0.
-    pub(super) const fn team_of(&self, place: u8) -> usize {
-        self.of[place as usize]
-    }
-
-    /// Whether there are two.
-    pub(super) const fn are_two(&self) -> bool {
-        self.leaders.len() == 2
     }
 }
 
@@ -134,7 +84,7 @@ impl Teams {
 pub enum TimedImpossibility {
     /// The tick is too long or zero.
     #[error(
-        "a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, for robots are told of time once a tick"
+        "a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, since robots take in the time once a tick"
     )]
     Tick {
         /// Of the section.
@@ -170,13 +120,13 @@ pub enum TimedImpossibility {
         "hangs of up to {0} ms: between 1 and 60000 ms are possible, with 'hangs' among the bounds"
     )]
     Hang(u32),
-    /// Nobody detects, or too many do, or the robots of no team come first.
+    /// No robot detects, or too many do, or the robots of no team come first.
     #[error(
         "{0} robots detect: in a timed scenario one does, or two that each begin a team, listed before its other robots"
     )]
     Detectors(usize),
     /// A failure where two teams meet.
-    #[error("'{0}' has no place in a timed scenario with two teams: nobody fails there")]
+    #[error("'{0}' has no place in a timed scenario with two teams: no robot fails there")]
     TwoTeams(&'static str),
     /// What the timed model has no use for.
     #[error(
@@ -184,7 +134,7 @@ pub enum TimedImpossibility {
     )]
     Untimed(&'static str),
     /// An unknown property.
-    #[error("no timed property '{0}': {list}", list = TimedProperty::list())]
+    #[error("no timed property '{0}': {list}", list = listed(PropertyId::all_timed()))]
     Property(String),
 }
 
@@ -195,7 +145,7 @@ impl Section {
         settings: &Settings,
         robots: &[RobotSetup],
         bounds: Bounds,
-        channel: Channel,
+        channel: ChannelSetup,
     ) -> Result<Timed, (&'static str, TimedImpossibility)> {
         use TimedImpossibility as I;
         let (tick, delay, drift_ppm) = (self.tick_ms, self.delay_ms, settings.drift_ppm);

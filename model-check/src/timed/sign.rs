@@ -13,8 +13,8 @@ pub(super) enum Sign {
 }
 
 impl Sign {
-    /// What the sign shows once it was told this output; `None` for one that is not for it. The only
-    /// place that knows which outputs these are.
+    /// What the sign shows after this output; `None` for one that is not for it. The only place that knows
+    /// which outputs these are.
     pub(super) const fn told(output: &Output) -> Option<Self> {
         match output {
             Output::CorridorOpened(left) | Output::CorridorExtended(left) => Some(Self::Go(*left)),

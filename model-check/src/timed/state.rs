@@ -2,23 +2,23 @@
 
 use crossguard_protocol::{Event, Millis};
 
-use super::channel::{Channel, Flight};
+use super::broken::BrokenSet;
+use super::channel::{Flight, TimedChannel};
 use super::quiet::Quiet;
-use super::rules::Broken;
-use super::section::MAX_TEAMS;
 use super::sign::Sign;
+use super::teams::MAX_TEAMS;
 use super::told::Told;
-use super::watch::Watch;
-use crate::scenario::{Bounds, MAX_ROBOTS};
+use super::watch::StopWatch;
+use crate::scenario::setup::{Bounds, MAX_ROBOTS};
 
 /// A global state between two ticks.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub struct State {
+pub struct TimedState {
     pub(super) nodes: [u32; MAX_ROBOTS],
-    pub(super) channel: Channel,
+    pub(super) channel: TimedChannel,
     pub(super) left: Bounds,
-    pub(super) watch: Watch,
-    /// What each robot's clock has shown since the robot was last told.
+    pub(super) watch: StopWatch,
+    /// What each robot's clock has shown since the robot last took in the time.
     pub(super) untold: [Millis; MAX_ROBOTS],
     /// Which clocks are fast, one bit each, where each keeps its rate for a whole run.
     pub(super) rates: Option<u8>,
@@ -30,19 +30,15 @@ pub struct State {
     /// Since when the pedestrian has waited for go, or the application for a reason, in ticks; where that is
     /// asked.
     pub(super) waiting: Option<u8>,
-    /// What the applications of the leaders were told of their followers.
+    /// What the applications of the leaders know of their followers.
     pub(super) told: Told,
     /// For how long each robot has heard no news of its leader.
     pub(super) quiet: [Option<Quiet>; MAX_ROBOTS],
     /// What the step into this state broke.
-    pub(super) broken: Broken,
+    pub(super) broken: BrokenSet,
 }
 
-impl State {
-    pub(super) const fn watch(&self) -> Watch {
-        self.watch
-    }
-
+impl TimedState {
     /// Whether the sign of a team shows go.
     pub(super) const fn shows_go(&self, team: usize) -> bool {
         self.signs[team].shows_go()
@@ -61,7 +57,7 @@ impl State {
     /// The place of the robot that hangs.
     pub(super) const fn hung(&self) -> Option<u8> {
         match self.watch {
-            Watch::Hung(place, _) => Some(place),
+            StopWatch::Hung(place, _) => Some(place),
             _ => None,
         }
     }
@@ -69,7 +65,7 @@ impl State {
 
 /// One thing that can happen.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Action {
+pub enum TimedAction {
     /// A tick passes. One bit per robot: whether its clock is fast.
     Tick(u8),
     /// A robot's endpoint looks at its clock, which has a timer due.
@@ -80,9 +76,9 @@ pub enum Action {
     Local(u8, Event),
     /// A robot crashes for good.
     Crash(u8),
-    /// A robot hangs: it is told nothing and sends nothing, its body goes on.
+    /// A robot hangs: it takes in nothing and sends nothing, its body goes on.
     Hang(u8),
-    /// A robot that hung goes on, and is told of the whole time at once.
+    /// A robot that hung goes on, and takes in the whole time at once.
     GoOn(u8),
     /// Two teams come within reach of each other.
     Meet,
@@ -90,8 +86,8 @@ pub enum Action {
 
 /// What a robot takes in.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Cause {
-    /// The time that its clock has shown since it was last told.
+pub(super) enum TimedCause {
+    /// The time that its clock has shown since it last took in the time.
     Elapsed(Millis),
     /// A message, by its number.
     Message(u16),

@@ -1,52 +1,56 @@
-//! What comes of what happens: a step of the model.
+//! The effect of what happens: a step of the model.
 
 use crossguard_protocol::{Event, Millis, Outputs};
 use smallvec::SmallVec;
 
-use super::model::{Model, Step};
+use super::broken::BrokenSet;
+use super::measure::{Longest, Measure};
+use super::model::{TimedModel, TimedRobotStep};
 use super::quiet::Quiet;
-use super::rules::{self, Broken, TimedProperty};
-use super::section::{Looks, MAX_TEAMS, Rates};
+use super::section::{Looks, Rates};
 use super::sign::Sign;
-use super::state::{Action, Cause, State};
+use super::state::{TimedAction, TimedCause, TimedState};
+use super::teams::MAX_TEAMS;
 use super::told::{Reason, Told};
-use super::watch::{Longest, Measure, Watch};
+use super::watch::StopWatch;
 use crate::network::{Transmission, concerns};
+use crate::properties::timed_view::{RobotSteps, falls_back};
 use crate::scenario::MAX_ROBOTS;
 
-impl Model {
-    /// What comes of `action` in `state`; `None` if the action changes nothing. The stop-watches
+impl TimedModel {
+    /// The state after `action` in `state`; `None` if the action changes nothing. The stop-watches
     /// that it stops are noted in `longest`.
     pub(super) fn successor(
         &self,
-        state: &State,
-        action: Action,
+        state: &TimedState,
+        action: TimedAction,
         longest: &mut Longest,
-    ) -> Option<State> {
+    ) -> Option<TimedState> {
         let mut next = state.clone();
-        next.broken = Broken::NOTHING;
+        next.broken = BrokenSet::NOTHING;
         let taken_in = self.taken_in(state, action);
         match action {
-            Action::Tick(fast) => self.tick(&mut next, fast),
-            Action::Deliver(flight) => next.channel.take(flight),
-            Action::Local(i, event) => spend(&mut next, i, event),
-            Action::Crash(i) => self.crash(&mut next, i),
-            Action::Hang(i) => {
+            TimedAction::Tick(fast) => self.tick(&mut next, fast),
+            TimedAction::Deliver(flight) => next.channel.take(flight),
+            TimedAction::Local(i, event) => spend(&mut next, i, event),
+            TimedAction::Crash(i) => self.crash(&mut next, i),
+            TimedAction::Hang(i) => {
                 next.left.hangs -= 1;
                 if self.timed.teams.leads(i) {
                     next.waiting = None;
                 }
-                next.watch = Watch::Hung(i, 0);
+                next.watch = StopWatch::Hung(i, 0);
             }
-            Action::Meet => next.watch = Watch::Near,
-            Action::Look(_) | Action::GoOn(_) => {}
+            TimedAction::Meet => next.watch = StopWatch::Near,
+            TimedAction::Look(_) | TimedAction::GoOn(_) => {}
         }
         let (mut is_ignored, mut reason) = (false, Reason::None);
+        let mut robots = RobotSteps::NONE;
         for (i, cause) in taken_in {
-            if matches!(cause, Cause::Elapsed(_)) {
+            if matches!(cause, TimedCause::Elapsed(_)) {
                 next.untold[usize::from(i)] = Millis::ZERO;
             }
-            if let Some(taken) = self.robot_step(&mut next, i, cause) {
+            if let Some(taken) = self.robot_step(&mut next, i, cause, &mut robots) {
                 is_ignored = taken.is_ignored;
                 reason = reason.max(taken.telling.reason);
             } else {
@@ -55,8 +59,8 @@ impl Model {
         }
         let changes_nothing = match action {
             // It might as well never have arrived.
-            Action::Deliver(_) => is_ignored && self.scenario.channel.loss,
-            Action::Local(..) => is_ignored,
+            TimedAction::Deliver(_) => is_ignored && self.scenario.channel.loss,
+            TimedAction::Local(..) => is_ignored,
             _ => false,
         };
         if changes_nothing {
@@ -65,23 +69,27 @@ impl Model {
         self.hear_of_each_other(&mut next, action);
         self.measure(state, &mut next, longest);
         Self::measure_waiting(&mut next, reason, longest);
-        if matches!(action, Action::GoOn(_)) {
-            next.watch = Watch::Off;
+        if matches!(action, TimedAction::GoOn(_)) {
+            next.watch = StopWatch::Off;
         }
-        next.broken.add(rules::broken(self, state, &next));
+        next.broken = self.judge(state, &next, robots);
         self.canonicalize(&mut next);
         Some(next)
     }
 
-    /// What robots take in when `action` happens, in this order. A robot is told of the time before
+    /// What robots take in when `action` happens, in this order. A robot takes in the time before
     /// anything else.
-    fn taken_in(&self, state: &State, action: Action) -> SmallVec<[(u8, Cause); MAX_ROBOTS]> {
+    fn taken_in(
+        &self,
+        state: &TimedState,
+        action: TimedAction,
+    ) -> SmallVec<[(u8, TimedCause); MAX_ROBOTS]> {
         let time_of = |i: u8| {
             let untold = state.untold[usize::from(i)];
-            (untold > Millis::ZERO).then_some((i, Cause::Elapsed(untold)))
+            (untold > Millis::ZERO).then_some((i, TimedCause::Elapsed(untold)))
         };
         match action {
-            Action::Tick(fast) => {
+            TimedAction::Tick(fast) => {
                 let told = |i: u8| {
                     let untold = state.untold[usize::from(i)];
                     let elapsed = untold.saturating_add(self.timed.clock.elapsed(fast, i));
@@ -89,31 +97,31 @@ impl Model {
                     let is_told = state.hung() != Some(i)
                         && (self.timed.looks == Looks::EachTick
                             || self.overdue(state, i, elapsed).is_none());
-                    is_told.then_some((i, Cause::Elapsed(elapsed)))
+                    is_told.then_some((i, TimedCause::Elapsed(elapsed)))
                 };
                 (0..)
                     .take(self.scenario.robots.len())
                     .filter_map(told)
                     .collect()
             }
-            Action::Look(i) | Action::GoOn(i) => time_of(i).into_iter().collect(),
-            Action::Deliver(flight) => {
+            TimedAction::Look(i) | TimedAction::GoOn(i) => time_of(i).into_iter().collect(),
+            TimedAction::Deliver(flight) => {
                 let Transmission { to, message, .. } = flight.transmission;
                 time_of(to)
                     .into_iter()
-                    .chain([(to, Cause::Message(message))])
+                    .chain([(to, TimedCause::Message(message))])
                     .collect()
             }
-            Action::Local(i, event) => time_of(i)
+            TimedAction::Local(i, event) => time_of(i)
                 .into_iter()
-                .chain([(i, Cause::Event(event))])
+                .chain([(i, TimedCause::Event(event))])
                 .collect(),
-            Action::Crash(_) | Action::Hang(_) | Action::Meet => SmallVec::new(),
+            TimedAction::Crash(_) | TimedAction::Hang(_) | TimedAction::Meet => SmallVec::new(),
         }
     }
 
     /// A tick passes: messages grow older, every clock runs on, and with the leader's its sign's.
-    fn tick(&self, next: &mut State, fast: u8) {
+    fn tick(&self, next: &mut TimedState, fast: u8) {
         next.watch.tick();
         next.channel.tick(self.timed.delay_ticks);
         for (&leader, sign) in self.timed.teams.leaders().iter().zip(&mut next.signs) {
@@ -133,15 +141,15 @@ impl Model {
     }
 
     /// A robot crashes. A leader's sign goes dark with it, and its application knows nothing any more.
-    fn crash(&self, next: &mut State, i: u8) {
+    fn crash(&self, next: &mut TimedState, i: u8) {
         next.left.crashes -= 1;
         if self.timed.teams.leads(i) {
-            next.watch = Watch::LeaderDown(0);
+            next.watch = StopWatch::LeaderDown(0);
             next.signs[self.timed.teams.team_of(i)] = Sign::Stop;
             next.told = Told::NOTHING;
             next.waiting = None;
         } else {
-            next.watch = Watch::FollowerFailed(i, 0);
+            next.watch = StopWatch::FollowerFailed(i, 0);
         }
         next.quiet[usize::from(i)] = None;
         next.untold[usize::from(i)] = Millis::ZERO;
@@ -150,7 +158,7 @@ impl Model {
     }
 
     /// Stops the stop-watches.
-    fn measure(&self, before: &State, next: &mut State, longest: &mut Longest) {
+    fn measure(&self, before: &TimedState, next: &mut TimedState, longest: &mut Longest) {
         let robots = || self.nodes(before).zip(self.nodes(next));
         let stops = |place| {
             let team = self.timed.teams.team_of(place);
@@ -158,24 +166,27 @@ impl Model {
         };
         let is_told = |place| before.told.counts_on(place) && !next.told.counts_on(place);
         match next.watch {
-            Watch::Off | Watch::Apart | Watch::Near => {}
-            Watch::Request(ticks) => {
-                if !rules::is_requesting(self.node(next, self.timed.teams.leaders()[0])) {
+            StopWatch::Off | StopWatch::Apart | StopWatch::Near => {}
+            StopWatch::Request(ticks) => {
+                if !self
+                    .node(next, self.timed.teams.leaders()[0])
+                    .is_requesting()
+                {
                     longest.note(Measure::Roles, ticks);
-                    next.watch = Watch::Off;
+                    next.watch = StopWatch::Off;
                 }
             }
-            Watch::LeaderDown(ticks) => {
+            StopWatch::LeaderDown(ticks) => {
                 if robots()
                     .any(|(b, n)| b.actuation.running.is_some() && n.actuation.running.is_none())
                 {
                     longest.note(Measure::Stopped, ticks);
                 }
-                if robots().any(|(b, n)| rules::is_following(b) && !rules::is_following(n)) {
+                if robots().any(|(b, n)| b.is_following() && !n.is_following()) {
                     longest.note(Measure::Left, ticks);
                 }
             }
-            Watch::FollowerFailed(place, ticks) => {
+            StopWatch::FollowerFailed(place, ticks) => {
                 if stops(place) {
                     longest.note(Measure::CorridorClosed, ticks);
                 }
@@ -183,7 +194,7 @@ impl Model {
                     longest.note(Measure::Unaware, ticks);
                 }
             }
-            Watch::Hung(place, ticks) => {
+            StopWatch::Hung(place, ticks) => {
                 let leads = self.timed.teams.leads(place);
                 if stops(place) {
                     longest.note(Measure::of_hang(leads), ticks);
@@ -192,10 +203,10 @@ impl Model {
                     longest.note(Measure::Unaware, ticks);
                 }
             }
-            Watch::BothGo(ticks) => {
+            StopWatch::BothGo(ticks) => {
                 if !next.both_go() {
                     longest.note(Measure::BothGo, ticks);
-                    next.watch = Watch::Off;
+                    next.watch = StopWatch::Off;
                 }
             }
         }
@@ -203,10 +214,10 @@ impl Model {
     }
 
     /// For how long the sign of a team shows go although a follower of it fell back for lack of contact.
-    fn measure_unguarded(&self, before: &State, next: &mut State, longest: &mut Longest) {
+    fn measure_unguarded(&self, before: &TimedState, next: &mut TimedState, longest: &mut Longest) {
         let mut fallen = [false; MAX_TEAMS];
         for (place, (before, next)) in (0..).zip(self.nodes(before).zip(self.nodes(next))) {
-            fallen[self.timed.teams.team_of(place)] |= rules::falls_back(before, next);
+            fallen[self.timed.teams.team_of(place)] |= falls_back(before, next);
         }
         for (team, fallen) in fallen.into_iter().enumerate() {
             if fallen {
@@ -222,7 +233,7 @@ impl Model {
     }
 
     /// Whether the pedestrian still waits, and for how long it has.
-    fn measure_waiting(next: &mut State, reason: Reason, longest: &mut Longest) {
+    fn measure_waiting(next: &mut TimedState, reason: Reason, longest: &mut Longest) {
         let Some(ticks) = next.waiting else {
             return;
         };
@@ -234,18 +245,24 @@ impl Model {
     }
 
     /// Starts the stop-watch of two leaders once a message of one reaches the other.
-    fn hear_of_each_other(&self, next: &mut State, action: Action) {
-        if let (Watch::Near, Action::Deliver(flight)) = (next.watch, action) {
+    fn hear_of_each_other(&self, next: &mut TimedState, action: TimedAction) {
+        if let (StopWatch::Near, TimedAction::Deliver(flight)) = (next.watch, action) {
             let Transmission { from, to, .. } = flight.transmission;
             let teams = &self.timed.teams;
             if teams.leads(from) && teams.leads(to) {
-                next.watch = Watch::BothGo(0);
+                next.watch = StopWatch::BothGo(0);
             }
         }
     }
 
-    /// Lets a robot take a step; what came of it, `None` where the robot is down.
-    pub(super) fn robot_step(&self, next: &mut State, i: u8, cause: Cause) -> Option<Step> {
+    /// Lets a robot take a step; `None` where the robot is down.
+    pub(super) fn robot_step(
+        &self,
+        next: &mut TimedState,
+        i: u8,
+        cause: TimedCause,
+        robots: &mut RobotSteps,
+    ) -> Option<TimedRobotStep> {
         let place = usize::from(i);
         let step = self.step(next.nodes[place], cause)?;
         next.nodes[place] = step.after;
@@ -254,25 +271,21 @@ impl Model {
         }
         next.told = step.telling.after(next.told);
         let elapsed = match cause {
-            Cause::Elapsed(elapsed) => elapsed,
-            Cause::Message(_) | Cause::Event(_) => Millis::ZERO,
+            TimedCause::Elapsed(elapsed) => elapsed,
+            TimedCause::Message(_) | TimedCause::Event(_) => Millis::ZERO,
         };
         let (quiet, keeps) = Quiet::after(next.quiet[place], elapsed, step.contact);
         next.quiet[place] = quiet;
-        if !keeps {
-            next.broken.add(Broken::of(TimedProperty::I19));
-        }
-        if !step.is_valid {
-            next.broken.add(Broken::INVALID);
-        }
+        robots.keep_contact &= keeps;
+        robots.are_valid &= step.is_valid;
         self.send(next, i, &step.sends);
         Some(step)
     }
 
-    /// Sends messages to all who are within reach and up.
-    fn send(&self, next: &mut State, from: u8, messages: &[u16]) {
+    /// Sends messages to all robots that are within reach and up.
+    fn send(&self, next: &mut TimedState, from: u8, messages: &[u16]) {
         let team = |place| self.timed.teams.team_of(place);
-        let is_near = |to: &u8| next.watch != Watch::Apart || team(*to) == team(from);
+        let is_near = |to: &u8| next.watch != StopWatch::Apart || team(*to) == team(from);
         let others = (0..)
             .take(self.scenario.robots.len())
             .filter(|&to| to != from);
@@ -290,26 +303,30 @@ impl Model {
     }
 
     /// What robots take in and put out when `action` happens in `state`, for a chart.
-    pub(super) fn outputs(&self, state: &State, action: Action) -> Vec<(u8, Cause, Outputs)> {
+    pub(super) fn outputs(
+        &self,
+        state: &TimedState,
+        action: TimedAction,
+    ) -> Vec<(u8, TimedCause, Outputs)> {
         let mut at = state.clone();
         let mut put_out = Vec::new();
         for (i, cause) in self.taken_in(state, action) {
             if let Some((_, outputs)) = self.compute(at.nodes[usize::from(i)], cause) {
                 put_out.push((i, cause, outputs));
             }
-            let _ = self.robot_step(&mut at, i, cause);
+            let _ = self.robot_step(&mut at, i, cause, &mut RobotSteps::NONE.clone());
         }
         put_out
     }
 }
 
 /// Takes an event off what may still happen, and starts the stop-watch of a failure.
-fn spend(next: &mut State, place: u8, event: Event) {
+fn spend(next: &mut TimedState, place: u8, event: Event) {
     match event {
         Event::CommandManeuver { .. } => next.left.commands -= 1,
         Event::ManeuverFailed(_) => {
             next.left.disturbances -= 1;
-            next.watch = Watch::FollowerFailed(place, 0);
+            next.watch = StopWatch::FollowerFailed(place, 0);
         }
         _ => {}
     }

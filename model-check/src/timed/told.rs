@@ -1,12 +1,11 @@
-//! What the application of a leader is told of its followers. Followed from the notices alone, and from
-//! nothing that the protocol state says.
+//! What the application of a leader knows of its followers, by the notices alone and not by the protocol state.
 
 use crossguard_protocol::{Notice, Output, Outputs, StationId};
 
-/// Of which followers the application was told that their leases stand, and of which that they do what they
-/// were commanded to: one bit per place.
+/// The followers whose leases stand, and the followers that do what they were commanded to, as far as notices said
+/// so: one bit per place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Told {
+pub(crate) struct Told {
     leases: u8,
     works: u8,
 }
@@ -18,15 +17,15 @@ impl Told {
     };
 
     /// Whether the application counts on the follower at `place` as a guard.
-    pub(super) const fn counts_on(self, place: u8) -> bool {
+    pub(crate) const fn counts_on(self, place: u8) -> bool {
         self.leases & self.works & 1 << place != 0
     }
 }
 
-/// Why the pedestrian does not see go, as the application is told.
+/// Why the pedestrian does not see go, by the notices.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Reason {
-    /// It is told nothing.
+    /// No notice says why.
     None,
     /// A lease has run out. The protocol tries on, so the wait for go begins anew.
     Lease,
@@ -34,17 +33,17 @@ pub(super) enum Reason {
     Final,
 }
 
-/// What one step of a robot tells its application.
+/// What one step of a robot reports to its application.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Telling {
-    /// What stays of what it was told before.
+    /// What stays of what it knew before.
     keep: Told,
     add: Told,
     pub(super) reason: Reason,
 }
 
 impl Telling {
-    /// What `outputs` tell, where `bit_of` is the bit of a station's place.
+    /// What `outputs` report, where `bit_of` is the bit of a station's place.
     pub(super) fn of(outputs: &Outputs, bit_of: impl Fn(StationId) -> u8) -> Self {
         let mut telling = Self {
             keep: Told {
@@ -104,7 +103,7 @@ impl Telling {
         self.reason = self.reason.max(reason);
     }
 
-    /// What the application knows once it is told this.
+    /// What the application knows after this report.
     pub(super) const fn after(self, before: Told) -> Told {
         Told {
             leases: before.leases & self.keep.leases | self.add.leases,

@@ -4,7 +4,7 @@
 use crossguard_model_check::check::Options;
 use crossguard_model_check::report::ScenarioReport;
 use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::timed::{Model, check};
+use crossguard_model_check::timed::{TimedModel, check};
 
 pub const PAIR: &str = include_str!("../../scenarios/timed-pair.toml");
 
@@ -31,7 +31,7 @@ pub const NO_FOLLOWER_FAILS: (&str, &str) = ("disturbances = 1\n", "");
 /// Nobody crashes.
 pub const NOBODY_CRASHES: (&str, &str) = ("crashes = 1\n", "");
 
-pub fn run(model: Option<Model>) -> ScenarioReport {
+pub fn run(model: Option<TimedModel>) -> ScenarioReport {
     let report = check(&model.unwrap(), &Options::default(), &mut |_| ());
     assert!(report.exhaustive, "{:?}", report.cut_off);
     report

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use crossguard_endpoint::counters::CauseName;
-use crossguard_model_check::sequence::{ChartStep, Place};
+use crossguard_model_check::sequence::{ChartPlace, ChartStep};
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{LogError, Merged, Record};
 
@@ -105,7 +105,7 @@ impl Run {
         }
         if left_out > 0 {
             run.steps.push(ChartStep {
-                place: Place::At(0),
+                place: ChartPlace::At(0),
                 action: format!("… {left_out} steps are left out here …"),
                 outputs: Vec::new(),
             });

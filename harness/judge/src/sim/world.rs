@@ -12,8 +12,9 @@ use std::time::Duration;
 use crossguard_codec::Service;
 use crossguard_codec::si::timestamp_its;
 use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
-use crossguard_model_check::monitor::{Broken, Monitor};
+use crossguard_model_check::monitor::Monitor;
 use crossguard_model_check::node::{Protocol, Rules};
+use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::timed::Limits;
 use crossguard_protocol::{Event, Phase, Robot, StationId};
 use crossguard_robot::machine::Machine;
@@ -442,9 +443,9 @@ impl<'a> World<'a> {
         }
     }
 
-    fn finding(&self, broken: Broken, place: usize) -> Finding {
+    fn finding(&self, broken: PropertyId, place: usize) -> Finding {
         Finding {
-            property: broken.name(),
+            property: broken.name().to_owned(),
             statement: broken.statement().to_owned(),
             at_ms: self.now_us / 1_000,
             robot: self.seats[place].draw.name.clone(),

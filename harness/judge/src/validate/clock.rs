@@ -11,8 +11,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crossguard_model_check::monitor::Broken;
-use crossguard_model_check::timed::{TimedProperty, has_lease_on_lost, leases};
+use crossguard_model_check::properties::PropertyId;
+use crossguard_model_check::timed::{has_lease_on_lost, leases};
 use crossguard_protocol::Robot;
 use crossguard_robot::trace::{HELD_US, SAME_CLOCK_US};
 
@@ -50,7 +50,7 @@ pub(super) struct BrokenAt {
 
 impl BrokenAt {
     pub(super) const fn fault() -> Fault {
-        Fault::Broken(Broken::Timed(TimedProperty::I10))
+        Fault::Broken(PropertyId::I10)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What may be wrong with a record.
 
 use crossguard_endpoint::counters::CauseName;
-use crossguard_model_check::monitor::Broken;
+use crossguard_model_check::properties::PropertyId;
 use crossguard_protocol::{BrokenInequality, StationId};
 
 use crossguard_codec::Unheard;
@@ -140,5 +140,5 @@ pub enum Fault {
     },
     /// A property is broken.
     #[error("broke {}: {}", .0.name(), .0.statement())]
-    Broken(Broken),
+    Broken(PropertyId),
 }

@@ -5,7 +5,8 @@
 
 use std::collections::BTreeSet;
 
-use crossguard_model_check::monitor::{Broken, Monitor};
+use crossguard_model_check::monitor::Monitor;
+use crossguard_model_check::properties::PropertyId;
 use crossguard_protocol::{Duty, Event, Input, Output, Outputs, Phase, Robot, SessionId};
 
 /// Where people may be.
@@ -39,7 +40,7 @@ impl Crossings {
         outputs: &Outputs,
         after: &Robot,
         monitor: &mut Monitor,
-    ) -> Option<Broken> {
+    ) -> Option<PropertyId> {
         let (session, Phase::Leading(leading)) = (after.session()?, after.phase()) else {
             return None;
         };
@@ -56,8 +57,6 @@ fn is_go(output: &Output) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_model_check::properties::PropertyId;
-
     use crossguard_robot::trace::Entry;
 
     use super::super::tests::{records, text};
@@ -79,7 +78,7 @@ mod tests {
     #[test]
     fn somebody_steps_on_the_road_once_for_each_crossing_that_begins() {
         let (outputs, leader) = first_go();
-        let nobody_guards = Some(Broken::Untimed(PropertyId::W1));
+        let nobody_guards = Some(PropertyId::W1);
         let (mut road, mut monitor) = (Crossings::default(), Monitor::new(false));
         assert_eq!(road.shown(&outputs, &leader, &mut monitor), nobody_guards);
         // The sign shows go anew while they are still on the road.

@@ -1,4 +1,8 @@
-//! Bodies, what a leader has heard of another one, and the pedestrian.
+//! What is true on the road, whatever the robots believe: bodies, signs and a pedestrian. The properties W1 to W8
+//! are about them.
+//!
+//! Nothing here asks a robot's state what is so. A body observes the outputs of its robot and moves by its
+//! own actions; the pedestrian looks at signs and at nothing else.
 //!
 //! An application is truthful. It says that its body is in position when it is; that a maneuver which guards
 //! is finished, that the road is clear and that the task is done only when nobody is on the road. To be in
@@ -170,7 +174,7 @@ impl Heard {
     /// After a step in which a robot that said `before` received `input`, and says `after` now.
     #[must_use]
     pub fn after(self, before: &Ram, input: Input, after: &Ram) -> Self {
-        let (Some(own), Some(now)) = (Claim::of(before), Claim::of(after)) else {
+        let (Some(own), Some(now)) = (LeaderClaim::of(before), LeaderClaim::of(after)) else {
             return Self::Nothing;
         };
         if own.session != now.session {
@@ -182,7 +186,7 @@ impl Heard {
         if ram.station == before.station {
             return self;
         }
-        match (self, Claim::of(&ram)) {
+        match (self, LeaderClaim::of(&ram)) {
             (Self::Once(session, beat), Some(other))
                 if other.goes_before(&own) && other.session == session =>
             {
@@ -211,7 +215,7 @@ impl Heard {
 }
 
 /// What a leader's RAM claims.
-struct Claim {
+struct LeaderClaim {
     session: SessionId,
     beat: Heartbeat,
     urgency: crossguard_protocol::Urgency,
@@ -219,7 +223,7 @@ struct Claim {
     yields: bool,
 }
 
-impl Claim {
+impl LeaderClaim {
     fn of(ram: &Ram) -> Option<Self> {
         match ram.coordination {
             Coordination::Leader {
@@ -266,7 +270,7 @@ pub enum Pedestrian {
 }
 
 impl Pedestrian {
-    /// The session at whose sign somebody on the road stepped on it.
+    /// The session at whose sign the pedestrian on the road stepped on it.
     #[must_use]
     pub const fn on_road(self) -> Option<SessionId> {
         match self {

@@ -1,21 +1,34 @@
-//! W2: while somebody is on the road, no guard that is able to stays away.
+//! W2: while a pedestrian is on the road, every guard that is able to stay does.
 //!
-//! A guard that is in place is told neither to stop nor to do something else, whatever arrives, expires or
-//! reboots. It may be told to fall back, and then to hold its place, or to bring its person off the road. Its
-//! own fault may end what it does, and so may its own application, which is truthful.
+//! No output stops a guard that is in place or makes it do something else, whatever arrives, expires or reboots.
+//! It may fall back, and then holds its place or brings its person off the road. Its own fault may end what it
+//! does, and so may its own application, which is truthful.
 
 use crossguard_protocol::{FallbackPolicy, ManeuverId, Output, StopReason, TaskType};
 
-use crate::properties::{StepRule, StepView};
 use crate::road::Body;
 
-pub(crate) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: true,
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::StepView;
+
+pub(super) const PROPERTY: Property = Property {
+    id: "W2",
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "while a pedestrian is on the road, every guard that is able to stay does",
+        premise: Some("a guard's maneuver ends while a pedestrian is on the road"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: true,
+            of_two: false,
+        }),
+        weakening: "StopsInPlace",
+    }),
+    timed: None,
 };
 
-/// The maneuver by which the body guards who is on the road, also while it falls back.
+/// The maneuver by which the body guards the pedestrian on the road, also while it falls back.
 fn guarding(step: &StepView) -> Option<ManeuverId> {
     let session = step.history.pedestrian.on_road()?;
     let body = step.before.actuation.body;

@@ -1,19 +1,32 @@
 //! W4: a robot begins nothing new before its last duty's fallback is finished and its application says that
 //! the road is clear.
 //!
-//! A duty is what a body falls back from, or that a sign has shown go, since when nobody has said that the
-//! road is clear or the task done. A reboot is exempt: the protocol persists no duty.
+//! A robot has a duty while its body falls back, and from when its sign has shown go until its application says
+//! that the road is clear or the task done. A reboot is exempt: the protocol persists no duty.
 
 use crossguard_protocol::{Coordination, Output, SessionId};
 
 use crate::node::Node;
-use crate::properties::{StepRule, StepView};
 use crate::road::Body;
 
-pub(crate) const RULE: StepRule = StepRule {
-    holds,
-    premise,
-    looks_back: false,
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::StepView;
+
+pub(super) const PROPERTY: Property = Property {
+    id: "W4",
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "a robot begins nothing new before its duty on the road is over",
+        premise: Some("a robot has a duty on the road"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: false,
+            of_two: false,
+        }),
+        weakening: "ForgetsItsDuty",
+    }),
+    timed: None,
 };
 
 fn has_duty(node: &Node) -> bool {

@@ -1,0 +1,154 @@
+//! Robots of the paper's wording, the messages under way between them, and what the properties remember.
+
+use std::fmt;
+
+use super::road::{Road, invites};
+use super::robot::{PaperInput, PaperRam, PaperRmcm, PaperRobot, RobotIndex};
+
+/// A message under way.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) struct PaperFlight {
+    pub(super) from: RobotIndex,
+    pub(super) to: RobotIndex,
+    pub(super) kind: FlightKind,
+}
+
+/// What a message under way is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) enum FlightKind {
+    Ram,
+    Command,
+    Acknowledgement,
+}
+
+/// What a message under way says.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Content {
+    Ram(PaperRam),
+    Rmcm(PaperRmcm),
+}
+
+/// Robots, messages under way, and what the properties remember.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(super) struct PaperWorld {
+    /// `None` where a robot has broken down.
+    pub(super) robots: Vec<Option<PaperRobot>>,
+    /// In order, at most one for each flight.
+    pub(super) flying: Vec<(PaperFlight, Content)>,
+    pub(super) memory: Memory,
+    /// `None` where nothing is asked about the road.
+    pub(super) road: Option<Road>,
+    pub(super) detections: u8,
+    pub(super) crashes: u8,
+}
+
+/// What the properties remember; sets of commands are bits by serial number.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub(super) struct Memory {
+    /// How many commands were given.
+    pub(super) given: u8,
+    pub(super) started: u8,
+    pub(super) fallen_back: u8,
+    pub(super) finished: u8,
+    /// Hazards that the newest step has brought about, by their place in the list.
+    pub(super) brought_about: u16,
+}
+
+impl PaperWorld {
+    pub(super) fn robots(&self) -> impl Iterator<Item = (RobotIndex, &PaperRobot)> + Clone {
+        self.robots
+            .iter()
+            .enumerate()
+            .filter_map(|(i, robot)| Some((i, robot.as_ref()?)))
+    }
+
+    pub(super) fn robot(&self, place: RobotIndex) -> Option<&PaperRobot> {
+        self.robots[place].as_ref()
+    }
+
+    pub(super) fn content(&self, flight: PaperFlight) -> Option<Content> {
+        let found = self.flying.iter().find(|(other, _)| *other == flight)?;
+        Some(found.1)
+    }
+
+    /// Whether nothing goes on by itself: nothing is under way, no timeout and no maneuver runs, no
+    /// application has anything to say, and no RAM tells anybody anything new.
+    pub(super) fn is_stuck(&self) -> bool {
+        let acts = |robot: &PaperRobot| robot.leader().is_some() || robot.may_command();
+        self.flying.is_empty()
+            && !self.robots().any(|(_, robot)| acts(robot))
+            && self.telling_links().next().is_none()
+    }
+
+    /// The links on which the sender's current RAM would change the receiver.
+    pub(super) fn telling_links(&self) -> impl Iterator<Item = (RobotIndex, RobotIndex)> {
+        self.links()
+            .filter(|&(from, to)| self.told(from, to) != self.robots[to])
+    }
+
+    /// From every robot to every other.
+    pub(super) fn links(&self) -> impl Iterator<Item = (RobotIndex, RobotIndex)> {
+        self.robots().flat_map(move |(from, _)| {
+            let others = self.robots().filter(move |(to, _)| *to != from);
+            others.map(move |(to, _)| (from, to))
+        })
+    }
+
+    /// The robot at `to` if it heard the current RAM of the robot at `from`.
+    pub(super) fn told(&self, from: RobotIndex, to: RobotIndex) -> Option<PaperRobot> {
+        let mut robot = self.robots[to]?;
+        robot.step(to, PaperInput::Ram(from, self.robots[from]?.ram()));
+        Some(robot)
+    }
+
+    pub(super) fn send(
+        &mut self,
+        from: RobotIndex,
+        to: RobotIndex,
+        content: Content,
+    ) -> Option<()> {
+        let kind = content.kind();
+        let flight = PaperFlight { from, to, kind };
+        let place = self.flying.binary_search_by_key(&flight, |(f, _)| *f);
+        self.flying.insert(place.err()?, (flight, content));
+        Some(())
+    }
+
+    pub(super) fn land(&mut self, flight: PaperFlight) {
+        self.flying.retain(|(other, _)| *other != flight);
+    }
+
+    /// The robots that invite the pedestrian.
+    pub(super) fn inviting(&self) -> impl Iterator<Item = RobotIndex> {
+        let invites = |(_, robot): &(RobotIndex, &PaperRobot)| invites(robot);
+        self.robots().filter(invites).map(|(place, _)| place)
+    }
+}
+
+impl Content {
+    const fn kind(self) -> FlightKind {
+        match self {
+            Self::Ram(_) => FlightKind::Ram,
+            Self::Rmcm(PaperRmcm::Command(_)) => FlightKind::Command,
+            Self::Rmcm(PaperRmcm::Acknowledgement(_)) => FlightKind::Acknowledgement,
+        }
+    }
+}
+
+impl fmt::Display for Content {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ram(ram) => ram.fmt(f),
+            Self::Rmcm(rmcm) => rmcm.fmt(f),
+        }
+    }
+}
+
+impl Content {
+    pub(super) const fn input(self, from: RobotIndex) -> PaperInput {
+        match self {
+            Self::Ram(ram) => PaperInput::Ram(from, ram),
+            Self::Rmcm(rmcm) => PaperInput::Rmcm(from, rmcm),
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! I10: while the lease on a follower stands, the follower has not fallen back for lack of contact.
+//!
+//! Nothing but lack of contact and crashes takes a follower out of a session in the timed model, so there the
+//! follower has contact. Runs in which robots leave sessions for all kinds of reasons are judged by
+//! [`has_lease_on_lost`].
+
+use crossguard_protocol::{Contact, Lease, Phase, Robot, SessionId, StationId};
+
+use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
+use super::timed_view::{TimedStepView, TimedView};
+use crate::node::Node;
+
+pub(super) const PROPERTY: Property = Property {
+    id: "I10",
+    untimed: None,
+    timed: Some(Claim {
+        kind: Kind::S,
+        statement: "while the lease on a follower stands, the follower has not fallen back for lack of contact",
+        premise: Some("a lease stands; and a follower falls back for lack of contact"),
+        rule: Rule::Timed(TimedRule {
+            holds,
+            premise: &[
+                TimedPremise::State(lease_stands),
+                TimedPremise::State(falls_back),
+            ],
+            ends_run: false,
+        }),
+        weakening: "TakesAnyTimers",
+    }),
+};
+
+/// A robot may act on the last input until it takes in the tick, so the leader's lease before the tick is
+/// compared with the follower after it.
+fn holds(step: &TimedStepView) -> bool {
+    lease_theorem(step.before, step.after) && lease_theorem(step.after, step.after)
+}
+
+/// Of the leaders of one state and the followers of another. A leader that hangs does nothing for a lease that
+/// it still knows; what its sign does meanwhile is W1 and W5.
+fn lease_theorem(leaders: &TimedView, followers: &TimedView) -> bool {
+    if leaders.leader_hangs() {
+        return true;
+    }
+    let robots = leaders.nodes().filter_map(|node| node.robot.as_ref());
+    robots.flat_map(leases).all(|(session, station)| {
+        let follower = followers
+            .nodes()
+            .find(|node| node.persisted.station == station);
+        follower.is_none_or(|node| node.robot.is_none() || has_contact(node, session))
+    })
+}
+
+/// Whether a robot follows in `session` without having lost contact.
+fn has_contact(node: &Node, session: SessionId) -> bool {
+    let Some(robot) = &node.robot else {
+        return false;
+    };
+    matches!(robot.phase(), Phase::Following(following)
+        if following.session == session && matches!(following.contact, Contact::Fresh(_)))
+}
+
+fn lease_stands(view: &TimedView) -> bool {
+    let leader = view.leader().robot.iter();
+    leader.flat_map(leases).next().is_some()
+}
+
+fn falls_back(view: &TimedView) -> bool {
+    view.leader().robot.is_some() && view.nodes().any(Node::has_lost_contact)
+}
+
+/// The followers on which a leader's lease stands.
+pub fn leases(robot: &Robot) -> impl Iterator<Item = (SessionId, StationId)> {
+    let leading = match robot.phase() {
+        Phase::Leading(leading) => robot.session().map(|session| (session, leading)),
+        _ => None,
+    };
+    leading.into_iter().flat_map(|(session, leading)| {
+        let stands = leading
+            .members
+            .iter()
+            .filter(|member| matches!(member.lease, Lease::Stands(_)));
+        stands.map(move |member| (session, member.station))
+    })
+}
+
+/// Whether a leader's lease stands on a follower that has lost contact in that very session.
+pub fn has_lease_on_lost<'a>(robots: &(impl Iterator<Item = &'a Robot> + Clone)) -> bool {
+    let has_lost_contact = |robot: &Robot| matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost());
+    robots.clone().flat_map(leases).any(|(session, station)| {
+        robots.clone().any(|robot| {
+            let is_meant = robot.station() == station && robot.session() == Some(session);
+            is_meant && has_lost_contact(robot)
+        })
+    })
+}

@@ -1,0 +1,161 @@
+//! What a property is: a value with an id, what it says, the rule that judges it, and the weakening of the
+//! protocol that breaks it.
+
+use crossguard_protocol::SessionId;
+use serde::Serialize;
+
+use super::timed_view::{TimedStepView, TimedView};
+use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
+
+/// A property, as it is claimed of the model without time, of the timed model, or of both.
+#[derive(Debug)]
+pub struct Property {
+    /// Its id, the same everywhere: `I4`.
+    pub id: &'static str,
+    /// What is claimed of the model without time.
+    pub untimed: Option<Claim>,
+    /// What is claimed of the timed model.
+    pub timed: Option<Claim>,
+}
+
+/// What a property claims of one model.
+#[derive(Debug)]
+pub struct Claim {
+    /// What it speaks about.
+    pub kind: Kind,
+    /// What it says.
+    pub statement: &'static str,
+    /// The situation that it is about; `None` for one that is about every state. Two parts are joined by `; and`.
+    pub premise: Option<&'static str>,
+    pub(crate) rule: Rule,
+    /// The weakening of the protocol in `model-check/tests` that breaks it.
+    pub weakening: &'static str,
+}
+
+/// What a property speaks about.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize)]
+pub enum Kind {
+    /// Safety: of every reachable state.
+    S,
+    /// Of every transition.
+    T,
+    /// Liveness: of every fair run, or that something comes in time.
+    L,
+}
+
+impl Kind {
+    /// Its letter.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::S => "S",
+            Self::T => "T",
+            Self::L => "L",
+        }
+    }
+}
+
+/// How a property is judged.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Rule {
+    /// On every state.
+    State(StateRule),
+    /// On every step of a robot.
+    Step(StepRule),
+    /// On both.
+    StateAndStep(StateRule, StepRule),
+    /// When a pedestrian steps on the road at the sign of this session, whose crossing needs this number of guards.
+    StepOnRoad(fn(&View, SessionId, usize) -> bool),
+    /// On all fair runs.
+    Live(LivenessRule),
+    /// On the whole graph: some run leads from every state to all robots being idle.
+    Reset,
+    /// On every step of the timed model.
+    Timed(TimedRule),
+}
+
+/// Something that holds of every reachable state that meets its premise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StateRule {
+    pub(crate) holds: fn(&View) -> bool,
+    pub(crate) premise: fn(&View) -> bool,
+    /// Whether it compares what two robots know, so that it says nothing where the past of one is not recorded.
+    pub(crate) of_two: bool,
+}
+
+/// Something that holds of every robot's step that meets its premise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepRule {
+    pub(crate) holds: fn(&StepView) -> bool,
+    pub(crate) premise: fn(&StepView) -> bool,
+    /// Whether the two look at the history.
+    pub(crate) looks_back: bool,
+    /// As in [`StateRule`].
+    pub(crate) of_two: bool,
+}
+
+/// Something that leads to something on every fair run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LivenessRule {
+    pub(crate) subjects: LivenessSubjects,
+    pub(crate) from: fn(&View, LivenessSubject) -> bool,
+    pub(crate) to: fn(&View, LivenessSubject) -> bool,
+    /// Whether it speaks about cooperative scenarios only.
+    pub(crate) needs_cooperation: bool,
+    /// Whether old requests that arrive again and again break it, as they may on a monotone channel.
+    pub(crate) broken_by_old_requests: bool,
+}
+
+/// Something that holds of every step of the timed model.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TimedRule {
+    pub(crate) holds: fn(&TimedStepView) -> bool,
+    /// Its parts. Each has to be met somewhere.
+    pub(crate) premise: &'static [TimedPremise],
+    /// Whether a run ends where it is broken: what is late might never come.
+    pub(crate) ends_run: bool,
+}
+
+/// A part of the premise of a timed rule.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum TimedPremise {
+    /// Met by a state.
+    State(fn(&TimedView) -> bool),
+    /// Met by a step.
+    Step(fn(&TimedStepView) -> bool),
+}
+
+impl Claim {
+    pub(crate) const fn state_rule(&self) -> Option<StateRule> {
+        match self.rule {
+            Rule::State(rule) | Rule::StateAndStep(rule, _) => Some(rule),
+            _ => None,
+        }
+    }
+
+    pub(crate) const fn step_rule(&self) -> Option<StepRule> {
+        match self.rule {
+            Rule::Step(rule) | Rule::StateAndStep(_, rule) => Some(rule),
+            _ => None,
+        }
+    }
+
+    pub(crate) const fn liveness_rule(&self) -> Option<LivenessRule> {
+        match self.rule {
+            Rule::Live(rule) => Some(rule),
+            _ => None,
+        }
+    }
+
+    pub(crate) const fn timed_rule(&self) -> Option<TimedRule> {
+        match self.rule {
+            Rule::Timed(rule) => Some(rule),
+            _ => None,
+        }
+    }
+
+    /// Whether a broken one is shown by one run, and not by all that may follow from a state.
+    pub(crate) const fn is_shown_by_run(&self) -> bool {
+        !matches!(self.rule, Rule::Reset)
+    }
+}

@@ -1,0 +1,99 @@
+//! What timed rules see: a state of the timed model, and a step of it.
+
+use crossguard_protocol::Millis;
+
+use crate::node::Node;
+use crate::timed::clock::Clock;
+use crate::timed::limits::Limits;
+use crate::timed::teams::{MAX_TEAMS, Teams};
+use crate::timed::told::Told;
+use crate::timed::watch::StopWatch;
+
+/// What stays the same in all states of a timed model.
+#[derive(Clone, Copy)]
+pub(crate) struct TimedSetup<'a> {
+    pub(crate) teams: &'a Teams,
+    pub(crate) clock: &'a Clock,
+    pub(crate) limits: &'a Limits,
+}
+
+/// A state of the timed model.
+#[derive(Clone, Copy)]
+pub(crate) struct TimedView<'a> {
+    /// The robots, in the order of their places.
+    pub(crate) nodes: &'a [&'a Node],
+    pub(crate) setup: TimedSetup<'a>,
+    pub(crate) watch: StopWatch,
+    /// Whether the sign of each team shows go.
+    pub(crate) shows_go: [bool; MAX_TEAMS],
+    /// Whether a sign shows go although a follower of its team fell back for lack of contact.
+    pub(crate) is_unguarded: bool,
+    /// What the applications of the leaders know of their followers.
+    pub(crate) told: Told,
+    /// For how many ticks the pedestrian has waited for go, or the application for a reason; where that is asked.
+    pub(crate) waiting: Option<u8>,
+}
+
+/// What the steps of single robots have shown in one step of the timed model.
+#[derive(Clone, Copy)]
+pub(crate) struct RobotSteps {
+    /// Every follower that gave its leader up had waited for as long as it promised.
+    pub(crate) keep_contact: bool,
+    /// Every robot is in a valid state.
+    pub(crate) are_valid: bool,
+}
+
+/// A step of the timed model.
+#[derive(Clone, Copy)]
+pub(crate) struct TimedStepView<'a> {
+    pub(crate) before: &'a TimedView<'a>,
+    /// With the names of `before`.
+    pub(crate) after: &'a TimedView<'a>,
+    pub(crate) robots: RobotSteps,
+}
+
+impl RobotSteps {
+    /// Of no robot.
+    pub(crate) const NONE: Self = Self {
+        keep_contact: true,
+        are_valid: true,
+    };
+}
+
+impl<'a> TimedView<'a> {
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = &'a Node> + Clone + use<'a> {
+        self.nodes.iter().copied()
+    }
+
+    /// The robot of the first team that detects the pedestrian.
+    pub(crate) fn leader(&self) -> &'a Node {
+        self.nodes[usize::from(self.setup.teams.leaders()[0])]
+    }
+
+    /// Whether the sign of the robot's team shows go.
+    pub(crate) const fn shows_go_at(&self, place: u8) -> bool {
+        self.shows_go[self.setup.teams.team_of(place)]
+    }
+
+    /// Whether a leader hangs.
+    pub(crate) fn leader_hangs(&self) -> bool {
+        matches!(self.watch, StopWatch::Hung(place, _) if self.setup.teams.leads(place))
+    }
+
+    /// Whether this number of ticks is longer than a limit.
+    pub(crate) fn is_over(&self, ticks: u8, limit: Millis) -> bool {
+        self.setup.clock.millis(ticks) > limit
+    }
+}
+
+/// Whether a follower that executed falls back for lack of contact in a step of the model.
+pub(crate) fn has_fallback(step: &TimedStepView) -> bool {
+    let mut robots = step.before.nodes().zip(step.after.nodes());
+    robots.any(|(before, after)| falls_back(before, after))
+}
+
+/// Whether a follower that executed falls back for lack of contact in its step.
+pub(crate) fn falls_back(before: &Node, after: &Node) -> bool {
+    let stops = before.actuation.running.is_some() && after.actuation.running.is_none();
+    stops && after.has_lost_contact()
+}

@@ -1,0 +1,182 @@
+//! What rules without time see: a state, a robot's step, and the robots that a liveness property is about.
+
+use crossguard_protocol::{
+    Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Robot,
+    SessionId, StationId,
+};
+
+use crate::history::{History, told_end};
+use crate::node::Node;
+
+/// The robots that a liveness property speaks about, one at a time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum LivenessSubjects {
+    /// Each robot.
+    Robots,
+    /// Each two robots, either way round.
+    Pairs,
+}
+
+/// One of them, by their places in the scenario; `other` means nothing where only one is meant.
+#[derive(Clone, Copy)]
+pub(crate) struct LivenessSubject {
+    pub(crate) robot: usize,
+    pub(crate) other: usize,
+}
+
+impl LivenessSubjects {
+    pub(crate) fn among(self, robots: usize) -> Vec<LivenessSubject> {
+        let pairs = (0..robots).flat_map(|robot| (0..robots).map(move |other| (robot, other)));
+        pairs
+            .filter(|(robot, other)| match self {
+                Self::Robots => robot == other,
+                Self::Pairs => robot != other,
+            })
+            .map(|(robot, other)| LivenessSubject { robot, other })
+            .collect()
+    }
+}
+
+/// A state as the state rules see it.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a> {
+    /// The robots, in the order of their places.
+    pub(crate) nodes: &'a [&'a Node],
+    pub(crate) history: &'a History,
+    pub(crate) world: &'a dyn Surroundings,
+}
+
+/// What the robots of a state are part of.
+pub(crate) trait Surroundings {
+    /// The configuration of the robot at this place.
+    fn config(&self, place: usize) -> &Config;
+
+    /// Whether some message or timer changes the state, without any application's help.
+    fn can_progress(&self) -> bool;
+
+    /// Place of the robot that has this station id, or had it before it changed its pseudonym.
+    fn place_of(&self, station: StationId) -> Option<usize>;
+
+    /// Whether no robot that is down boots again.
+    fn restarts_are_over(&self) -> bool;
+}
+
+impl<'a> View<'a> {
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = &'a Node> + Clone + use<'a> {
+        self.nodes.iter().copied()
+    }
+
+    /// The robots with their configurations.
+    pub(crate) fn configured(
+        &self,
+    ) -> impl Iterator<Item = (&'a Node, &'a Config)> + Clone + use<'a> {
+        let world = self.world;
+        let places = self.nodes.iter().enumerate();
+        places.map(move |(place, node)| (*node, world.config(place)))
+    }
+
+    /// The robot at this place of the scenario.
+    pub(crate) fn node(&self, place: usize) -> &'a Node {
+        self.nodes[place]
+    }
+
+    /// The robots that are up.
+    pub(crate) fn robots(&self) -> impl Iterator<Item = &'a Robot> + Clone + use<'a> {
+        self.nodes().filter_map(|node| node.robot.as_ref())
+    }
+
+    /// The robots that lead, with their sessions.
+    pub(crate) fn leaders(
+        &self,
+    ) -> impl Iterator<Item = (SessionId, &'a Leading)> + Clone + use<'a> {
+        self.robots().filter_map(|robot| match robot.phase() {
+            Phase::Leading(leading) => Some((robot.session()?, leading)),
+            _ => None,
+        })
+    }
+
+    /// The robots that follow.
+    pub(crate) fn followers(
+        &self,
+    ) -> impl Iterator<Item = (&'a Robot, &'a Following)> + Clone + use<'a> {
+        self.robots().filter_map(|robot| match robot.phase() {
+            Phase::Following(following) => Some((robot, following)),
+            _ => None,
+        })
+    }
+
+    pub(crate) fn history(&self) -> &'a History {
+        self.history
+    }
+}
+
+/// A robot's step as the step rules see it.
+#[derive(Clone, Copy)]
+pub(crate) struct StepView<'a> {
+    pub(crate) config: &'a Config,
+    /// The history before the step.
+    pub(crate) history: &'a History,
+    pub(crate) before: &'a Node,
+    pub(crate) after: &'a Node,
+    pub(crate) input: Input,
+    pub(crate) outputs: &'a Outputs,
+}
+
+impl<'a> StepView<'a> {
+    /// The maneuver that the step starts.
+    pub(crate) fn started(&self) -> Option<Maneuver> {
+        self.outputs.iter().find_map(|output| match output {
+            Output::StartManeuver(maneuver) => Some(*maneuver),
+            _ => None,
+        })
+    }
+
+    /// Whether the step is one that the history records, or that a rule may look back from.
+    pub(crate) fn is_historic(&self) -> bool {
+        let reports = matches!(
+            self.input,
+            Input::Local(Event::ManeuverCompleted(_) | Event::InPosition(_))
+        );
+        reports
+            || told_end(self.before.persisted.station, self.input).is_some()
+            || self.outputs.iter().any(|output| {
+                matches!(
+                    output,
+                    Output::SendRmcm(_)
+                        | Output::StartManeuver(_)
+                        | Output::StopManeuver(..)
+                        | Output::FallBack(..)
+                        | Output::Notify(Notice::RolesEstablished(_) | Notice::FollowerGone(..))
+                )
+            })
+    }
+
+    /// The history after the step.
+    pub(crate) fn history_after(&self) -> History {
+        let mut history = self.history.clone();
+        if let (Some(before), Some(after)) = (&self.before.robot, &self.after.robot) {
+            history.record_step(before, after, self.input, self.outputs);
+        }
+        history
+    }
+
+    pub(crate) fn notices(&self) -> impl Iterator<Item = Notice> + use<'_, 'a> {
+        self.outputs.notices()
+    }
+}
+
+/// What a robot knows as a leader.
+pub(crate) fn leading_of(node: &Node) -> Option<&Leading> {
+    match node.robot.as_ref()?.phase() {
+        Phase::Leading(leading) => Some(leading),
+        _ => None,
+    }
+}
+
+/// What a robot knows as a follower.
+pub(crate) fn following_of(node: &Node) -> Option<&Following> {
+    match node.robot.as_ref()?.phase() {
+        Phase::Following(following) => Some(following),
+        _ => None,
+    }
+}

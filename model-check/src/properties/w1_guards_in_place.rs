@@ -1,0 +1,55 @@
+//! W1: when a pedestrian steps on the road, every required guard is in place.
+//!
+//! Without time there is one exemption: a guard that has fallen back, finished, failed or lost power, as long
+//! as its leader has not been informed. The timed model finds for how long a sign may show go then.
+
+use crossguard_protocol::SessionId;
+
+use crate::road::Body;
+
+use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
+use super::timed_view::{TimedStepView, has_fallback};
+use super::view::View;
+
+pub(super) const PROPERTY: Property = Property {
+    id: "W1",
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "when a pedestrian steps on the road, every guard is in place, or is gone and its leader has not been informed",
+        premise: Some("a pedestrian steps on the road"),
+        rule: Rule::StepOnRoad(holds),
+        weakening: "AsksForFewer",
+    }),
+    timed: Some(Claim {
+        kind: Kind::S,
+        statement: "no follower falls back for lack of contact while the sign shows go",
+        premise: Some("an executing follower falls back for lack of contact"),
+        rule: Rule::Timed(TimedRule {
+            holds: |step: &TimedStepView| !step.after.is_unguarded,
+            premise: &[TimedPremise::Step(has_fallback)],
+            ends_run: false,
+        }),
+        weakening: "SHOWS_GO_TOO_LONG",
+    }),
+};
+
+/// Judged when a pedestrian steps on the road at the sign of `session`, where this number of guards is required.
+fn holds(view: &View, session: SessionId, required: usize) -> bool {
+    let places = view.configured().enumerate();
+    let counts = places.filter(|(place, (node, config))| {
+        let body = node.actuation.body;
+        let of_session = body.maneuver().is_some_and(|id| id.session == session);
+        of_session
+            && (body.guards(config.settings()).is_some() || is_gone_untold(view, *place, body))
+    });
+    counts.count() >= required
+}
+
+fn is_gone_untold(view: &View, place: usize, body: Body) -> bool {
+    let (Body::FallingBack(..) | Body::Ended(..), Some(id)) = (body, body.maneuver()) else {
+        return false;
+    };
+    // By its place: it may have changed its pseudonym since.
+    let mut commands = view.history.commands_with(id);
+    commands.any(|command| view.world.place_of(command.to) == Some(place) && !command.told)
+}

@@ -1,0 +1,51 @@
+//! W5: after a robot begins to hang, the sign shows stop within the bound.
+//!
+//! It ends no run: a hang ends.
+
+use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
+use super::timed_view::{TimedStepView, TimedView};
+use crate::timed::watch::StopWatch;
+
+pub(super) const PROPERTY: Property = Property {
+    id: "W5",
+    untimed: None,
+    timed: Some(Claim {
+        kind: Kind::L,
+        statement: "after a robot begins to hang, the sign shows stop within the bound",
+        premise: Some("the leader hangs while the sign shows go; and a follower does"),
+        rule: Rule::Timed(TimedRule {
+            holds,
+            premise: &[
+                TimedPremise::State(leader_hangs),
+                TimedPremise::State(follower_hangs),
+            ],
+            ends_run: false,
+        }),
+        weakening: "NeverClosesTheCorridor",
+    }),
+};
+
+fn holds(step: &TimedStepView) -> bool {
+    let after = step.after;
+    match after.watch {
+        StopWatch::Hung(place, ticks) => {
+            let limit = after.setup.limits.corridor_closed;
+            !(after.shows_go_at(place) && after.is_over(ticks, limit))
+        }
+        _ => true,
+    }
+}
+
+/// Whether a robot has just begun to hang, while the sign shows go.
+fn hangs(view: &TimedView, leads: bool) -> bool {
+    matches!(view.watch, StopWatch::Hung(place, 0)
+        if view.shows_go_at(place) && view.setup.teams.leads(place) == leads)
+}
+
+fn leader_hangs(view: &TimedView) -> bool {
+    hangs(view, true)
+}
+
+fn follower_hangs(view: &TimedView) -> bool {
+    hangs(view, false)
+}

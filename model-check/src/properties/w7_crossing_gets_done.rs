@@ -1,0 +1,31 @@
+//! W7: once messages arrive and enough helpers are there, a request leads to a finished crossing.
+//!
+//! What that means here is said by [`Scenario::cooperative`](crate::scenario::Scenario::cooperative).
+
+use crossguard_protocol::Phase;
+
+use crate::road::Pedestrian;
+
+use super::property::{Claim, Kind, LivenessRule, Property, Rule};
+use super::view::{LivenessSubject, LivenessSubjects};
+
+pub(super) const PROPERTY: Property = Property {
+    id: "W7",
+    untimed: Some(Claim {
+        kind: Kind::L,
+        statement: "if everything around the robots cooperates, a request leads to a finished crossing",
+        premise: Some("a robot asks for help"),
+        rule: Rule::Live(LivenessRule {
+            subjects: LivenessSubjects::Robots,
+            from: |view, LivenessSubject { robot, .. }| {
+                let robot = view.node(robot).robot.as_ref();
+                robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
+            },
+            to: |view, _| view.history.pedestrian == Pedestrian::Across,
+            needs_cooperation: true,
+            broken_by_old_requests: false,
+        }),
+        weakening: "ReadsNoProgress",
+    }),
+    timed: None,
+};

@@ -1,0 +1,28 @@
+//! Where in a scenario file something is wrong.
+
+/// Where in a file something is wrong.
+pub(super) enum Location {
+    /// At this offset.
+    Offset(usize),
+    /// In the line of this key.
+    Key(&'static str),
+}
+
+impl Location {
+    /// The line, counted from 1.
+    pub(super) fn line_in(&self, text: &str) -> usize {
+        let offset = match self {
+            Self::Offset(offset) => *offset,
+            Self::Key(key) => text
+                .lines()
+                .scan(0, |start, line| {
+                    let this = *start;
+                    *start += line.len() + 1;
+                    Some((this, line))
+                })
+                .find(|(_, line)| line.trim_start().trim_start_matches('[').starts_with(key))
+                .map_or(0, |(start, _)| start),
+        };
+        text[..offset.min(text.len())].matches('\n').count() + 1
+    }
+}

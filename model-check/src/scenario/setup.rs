@@ -1,0 +1,156 @@
+//! The parts of a scenario: its robots, its bounds, its channel.
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+
+use crossguard_protocol::{Availability, Event, StationId, Urgency};
+use serde::{Deserialize, Serialize};
+
+/// How many robots a scenario may have.
+pub const MAX_ROBOTS: usize = 4;
+
+/// By how much a robot's station id grows when it changes its pseudonym.
+pub(crate) const PSEUDONYM_STEP: u32 = 100;
+
+/// The size of a state space.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Size {
+    /// Distinct states.
+    pub unique_states: usize,
+    /// Steps from the initial state to the farthest state.
+    pub depth: usize,
+}
+
+/// One robot of a scenario.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotSetup {
+    /// Its station id.
+    pub station: StationId,
+    /// Whether it may detect a pedestrian.
+    #[serde(default)]
+    pub detects: bool,
+    /// How urgent its requests are, where that differs from the scenario's request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub urgency: Option<Urgency>,
+}
+
+/// How often each kind of event may happen in one run, over all robots together; never where a file
+/// says nothing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bounds {
+    /// A pedestrian is detected.
+    pub detections: u8,
+    /// A leader's application gives a command.
+    pub commands: u8,
+    /// An application's disturbance: a maneuver fails, a robot leaves, becomes
+    /// unavailable, or changes its pseudonym. To become available again costs nothing.
+    pub disturbances: u8,
+    /// A robot crashes.
+    pub crashes: u8,
+    /// A crashed robot boots again.
+    pub restarts: u8,
+    /// A message gets lost on its way to one receiver; any number of times where nothing is said.
+    pub losses: Option<u8>,
+    /// A robot hangs. To go on costs nothing.
+    pub hangs: u8,
+    /// A RAM timer expires and changes its robot, as it does where a heartbeat is counted. For a monotone
+    /// channel, which needs it.
+    pub heartbeats: Option<u8>,
+    /// A message makes a robot offer its help. For a monotone channel, which needs it.
+    pub offers: Option<u8>,
+}
+
+impl Bounds {
+    /// Takes an event off what may still happen.
+    pub(crate) fn spend(&mut self, event: Event) {
+        let bound = match event {
+            Event::PedestrianDetected(_) => &mut self.detections,
+            Event::CommandManeuver { .. } => &mut self.commands,
+            Event::ManeuverFailed(_)
+            | Event::LeaveRequested
+            | Event::AvailabilityChanged(Availability::Unavailable(_))
+            | Event::IdentityChanged(_) => &mut self.disturbances,
+            Event::InPosition(_)
+            | Event::ManeuverCompleted(_)
+            | Event::TaskCompleted
+            | Event::RoadClear
+            | Event::AllAnswered
+            | Event::EpochRenewed(_)
+            | Event::AvailabilityChanged(Availability::Available)
+            | Event::OpenCorridor
+            | Event::CloseCorridor => return,
+        };
+        *bound -= 1;
+    }
+}
+
+/// What the radio channel does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChannelSetup {
+    /// How many messages may be delayed at a time; each may arrive late, in any order, more than
+    /// once, or never. A timed scenario bounds for how long instead.
+    #[serde(default)]
+    pub delayed: u8,
+    /// Whether every message that was ever sent may arrive at any later time, any number of times.
+    #[serde(default)]
+    pub monotone: bool,
+    /// Whether a message may get lost on its way to one receiver and reach another.
+    pub loss: bool,
+}
+
+impl Hash for Bounds {
+    /// All bounds at once: states are hashed by the million.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let Self {
+            detections,
+            commands,
+            disturbances,
+            crashes,
+            restarts,
+            losses,
+            hangs,
+            heartbeats,
+            offers,
+        } = *self;
+        // A bound of 255 and none at all may share a hash.
+        let [losses, heartbeats, offers] =
+            [losses, heartbeats, offers].map(|bound| bound.unwrap_or(u8::MAX));
+        state.write(&[
+            detections,
+            commands,
+            disturbances,
+            crashes,
+            restarts,
+            losses,
+            hangs,
+            heartbeats,
+            offers,
+        ]);
+    }
+}
+
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bounds = [
+            ("detections", self.detections),
+            ("commands", self.commands),
+            ("disturbances", self.disturbances),
+            ("crashes", self.crashes),
+            ("restarts", self.restarts),
+            ("losses", self.losses.unwrap_or_default()),
+            ("hangs", self.hangs),
+            ("heartbeats", self.heartbeats.unwrap_or_default()),
+            ("offers", self.offers.unwrap_or_default()),
+        ];
+        let allowed: Vec<_> = bounds
+            .iter()
+            .filter(|(_, bound)| *bound > 0)
+            .map(|(name, bound)| format!("{name} <= {bound}"))
+            .collect();
+        f.write_str(&allowed.join(", "))
+    }
+}

@@ -1,0 +1,97 @@
+//! Judges the steps of the timed model by the rules of the properties.
+
+use smallvec::SmallVec;
+
+use super::broken::BrokenSet;
+use super::model::TimedModel;
+use super::sign::Sign;
+use super::state::TimedState;
+use super::watch::StopWatch;
+use crate::node::Node;
+use crate::properties::PropertyId;
+use crate::properties::timed_view::{RobotSteps, TimedSetup, TimedStepView, TimedView};
+use crate::scenario::MAX_ROBOTS;
+
+impl TimedModel {
+    /// Shows a state as the rules see it.
+    pub(super) fn look<T>(&self, state: &TimedState, look: impl FnOnce(&TimedView) -> T) -> T {
+        let nodes: SmallVec<[&Node; MAX_ROBOTS]> = self.nodes(state).collect();
+        let timed = self.timed();
+        look(&TimedView {
+            nodes: &nodes,
+            setup: TimedSetup {
+                teams: &timed.teams,
+                clock: &timed.clock,
+                limits: self.limits(),
+            },
+            watch: state.watch,
+            shows_go: state.signs.map(Sign::shows_go),
+            is_unguarded: state.is_unguarded(),
+            told: state.told,
+            waiting: state.waiting,
+        })
+    }
+
+    /// Shows a step as the rules see it.
+    pub(super) fn look_at_step<T>(
+        &self,
+        before: &TimedState,
+        after: &TimedState,
+        robots: RobotSteps,
+        look: impl FnOnce(&TimedStepView) -> T,
+    ) -> T {
+        self.look(before, |before| {
+            self.look(after, |after| {
+                look(&TimedStepView {
+                    before,
+                    after,
+                    robots,
+                })
+            })
+        })
+    }
+
+    /// Which properties the step from `before` to `after` breaks. `after` has the names of `before`.
+    pub(super) fn judge(
+        &self,
+        before: &TimedState,
+        after: &TimedState,
+        robots: RobotSteps,
+    ) -> BrokenSet {
+        self.look_at_step(before, after, robots, |step| {
+            let mut broken = BrokenSet::NOTHING;
+            for property in PropertyId::ALL {
+                let Some(rule) = property.timed_rule() else {
+                    continue;
+                };
+                if !(rule.holds)(step) {
+                    broken.add(property);
+                }
+            }
+            broken
+        })
+    }
+
+    /// Whether nothing more is to be learned from a run.
+    pub(super) fn is_over(&self, state: &TimedState) -> bool {
+        if state.broken.ends_run() {
+            return true;
+        }
+        let timed = self.timed();
+        let leader = self.node(state, timed.teams.leaders()[0]);
+        match state.watch {
+            StopWatch::LeaderDown(_) => !self.nodes(state).any(Node::is_following),
+            // Nothing from before the failure is under way any more that could open the corridor again.
+            StopWatch::FollowerFailed(place, ticks) => {
+                let is_told = !state.told.counts_on(place) || !timed.claims(PropertyId::W6);
+                is_told && !state.shows_go(timed.teams.team_of(place)) && ticks > timed.delay_ticks
+            }
+            StopWatch::Hung(..) | StopWatch::Apart | StopWatch::Near | StopWatch::BothGo(_) => {
+                false
+            }
+            // One of two leaders has yielded.
+            StopWatch::Off if timed.teams.are_two() => true,
+            StopWatch::Off | StopWatch::Request(_) => leader.is_idle() && state.waiting.is_none(),
+        }
+    }
+}

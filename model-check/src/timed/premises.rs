@@ -1,0 +1,61 @@
+//! Which premises of the properties were met.
+
+use crate::properties::timed_view::{TimedStepView, TimedView};
+use crate::properties::{PropertyId, TimedPremise};
+
+/// The premises of the properties of a scenario, part by part.
+pub(super) struct Premises(Vec<Part>);
+
+struct Part {
+    property: PropertyId,
+    premise: TimedPremise,
+    is_met: bool,
+}
+
+impl Premises {
+    /// Of these properties, none met.
+    pub(super) fn of(properties: &[PropertyId]) -> Self {
+        let parts = properties.iter().flat_map(|&property| {
+            let premise = property.timed_rule().map_or(&[][..], |rule| rule.premise);
+            premise.iter().map(move |&premise| Part {
+                property,
+                premise,
+                is_met: false,
+            })
+        });
+        Self(parts.collect())
+    }
+
+    fn open(&mut self) -> impl Iterator<Item = &mut Part> {
+        self.0.iter_mut().filter(|part| !part.is_met)
+    }
+
+    /// Whether all are met.
+    pub(super) fn are_met(&self) -> bool {
+        self.0.iter().all(|part| part.is_met)
+    }
+
+    /// Adds what a state meets.
+    pub(super) fn note(&mut self, state: &TimedView) {
+        for part in self.open() {
+            if let TimedPremise::State(is_met) = part.premise {
+                part.is_met = is_met(state);
+            }
+        }
+    }
+
+    /// Adds what a step meets.
+    pub(super) fn note_step(&mut self, step: &TimedStepView) {
+        for part in self.open() {
+            if let TimedPremise::Step(is_met) = part.premise {
+                part.is_met = is_met(step);
+            }
+        }
+    }
+
+    /// Whether the premise of a property was met.
+    pub(super) fn met(&self, property: PropertyId) -> bool {
+        let mut parts = self.0.iter().filter(|part| part.property == property);
+        parts.all(|part| part.is_met)
+    }
+}

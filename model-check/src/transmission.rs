@@ -1,0 +1,46 @@
+//! One message on its way from one robot to another.
+
+/// One message on its way to one receiver.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Transmission {
+    /// The sender's place in the scenario.
+    pub from: u8,
+    /// The receiver's.
+    pub to: u8,
+    /// Number of the interned message.
+    pub message: u16,
+}
+
+/// A transmission in four bytes, or none. States are compared and hashed by the million.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(crate) struct PackedTransmission(u32);
+
+impl PackedTransmission {
+    pub(crate) const EMPTY: Self = Self(0);
+
+    pub(crate) const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    pub(crate) const fn of(Transmission { from, to, message }: Transmission) -> Self {
+        Self(1 << 24 | (from as u32) << 20 | (to as u32) << 16 | message as u32)
+    }
+
+    /// Sender and message.
+    pub(crate) const fn broadcast(self) -> u32 {
+        self.0 & !(0xf << 16)
+    }
+
+    pub(crate) const fn transmission(self) -> Option<Transmission> {
+        if self.is_empty() {
+            return None;
+        }
+        let [_, from_to, high, low] = self.0.to_be_bytes();
+        let message = u16::from_be_bytes([high, low]);
+        Some(Transmission {
+            from: from_to >> 4,
+            to: from_to & 0xf,
+            message,
+        })
+    }
+}
