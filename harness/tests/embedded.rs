@@ -1,4 +1,4 @@
-//! Robots in C and C++ (`protocol/c/examples`) and robots of `crossguard run`, as processes of their own,
+//! Robots in C and C++ (`harness/c/examples`) and robots of `crossguard run`, as processes of their own,
 //! lead and follow each other through a crossing.
 
 use std::fs::File;

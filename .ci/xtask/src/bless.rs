@@ -54,7 +54,7 @@ const GENERATED: [Generated; 9] = [
         by: &["codec/judges/run"],
     },
     Generated {
-        path: "protocol/c/include/crossguard.h",
+        path: "harness/c/include/crossguard.h",
         by: &["cargo", "test", "-p", "crossguard-c", "--test", "header"],
     },
     Generated {

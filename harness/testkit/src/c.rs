@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::built;
 
-/// What programs of `protocol/c` are compiled with: no warning, and every sanitizer that gcc has for C.
+/// What programs of `harness/c` are compiled with: no warning, and every sanitizer that gcc has for C.
 const FLAGS: [&str; 9] = [
     "-Wall",
     "-Wextra",
@@ -35,7 +35,7 @@ impl Language {
     }
 }
 
-/// The program that `source`, a path in `protocol/c`, compiles to. Where there is no compiler, says that
+/// The program that `source`, a path in `harness/c`, compiles to. Where there is no compiler, says that
 /// `test` is skipped.
 pub fn compile(test: &str, language: Language, source: &str) -> Option<PathBuf> {
     let folder = built::programs().join("c").join(test);
@@ -85,7 +85,7 @@ fn succeed(compiler: &mut Command) {
 
 /// The folder of the library for C.
 fn crate_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../protocol/c")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../harness/c")
 }
 
 /// The newest static library of those beside this test; cargo has built it before the test.

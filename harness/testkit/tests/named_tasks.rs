@@ -117,12 +117,12 @@ fn c_has_the_named_tasks() {
     let tasks = of_each(|value, name, meaning| {
         format!("    /// {meaning}\n    {} = {value},\n", camel(name))
     });
-    assert_named("protocol/c/src/codes.rs", |text| {
+    assert_named("harness/c/src/codes.rs", |text| {
         between_marks(text, "named tasks", "//", &tasks)
     });
     let tasks =
         of_each(|_, name, _| format!("  {} = CROSSGUARD_TASK_{},\n", lower(name), upper(name)));
-    assert_named("protocol/c/include/crossguard.hpp", |text| {
+    assert_named("harness/c/include/crossguard.hpp", |text| {
         between_marks(text, "named tasks", "//", &tasks)
     });
 }
