@@ -16,7 +16,8 @@ macro_rules! conversion {
                 let mut buffer = [0; core::max_octets::<core::$module::$name>()];
                 let length = core::encode(value, &mut buffer);
                 let length = length.map_err(DecodeError::of_core::<core::$module::$name>)?;
-                rasn::uper::decode(&buffer[..length]).map_err(|_| DecodeError::Disagreement)
+                let decoded = uper::decode(&buffer[..length]);
+                Ok(decoded.map_err(|_| DecodeError::Disagreement)?.value)
             }
         }
 

@@ -9,6 +9,7 @@ use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag,
 use rasn::{Codec, Decode};
 
 use super::source::{Additions, Rejected, Source};
+use super::width;
 use crate::core::Fault;
 
 type Result<T> = std::result::Result<T, Rejected>;
@@ -24,14 +25,6 @@ pub(super) struct Decoder<'s, 'a> {
     is_extended: bool,
     /// Its extension additions, once the root has been read.
     additions: Option<Additions>,
-}
-
-/// How many bits a number of this many values has.
-const fn width(values: u64) -> u32 {
-    match values {
-        0 | 1 => 0,
-        _ => (values - 1).ilog2() + 1,
-    }
 }
 
 impl<'s, 'a> Decoder<'s, 'a> {
