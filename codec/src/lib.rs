@@ -80,8 +80,6 @@ mod identifiers;
 pub mod its;
 mod message;
 mod part;
-#[cfg(feature = "std")]
-mod rules;
 #[cfg(feature = "security")]
 pub mod security;
 mod service;

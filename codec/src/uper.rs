@@ -26,7 +26,7 @@ use crate::core::Fault;
 use crate::error::{DecodeError, EncodeError, FieldPath};
 use decoder::Decoder;
 use encoder::{Bits, Encoder};
-use source::{Edit, Rejected, Source};
+use source::{BitSource, Edit, RasnError};
 
 /// A decoded value, and how many SEQUENCEs in it had unknown extension additions.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -83,7 +83,7 @@ pub fn decode<T>(octets: &[u8]) -> Result<Decoded<T>, DecodeError>
 where
     T: rasn::Decode + rasn::Encode,
 {
-    let source = Source::new(octets);
+    let source = BitSource::new(octets);
     let decoded = T::decode(&mut Decoder::new(&source)).and_then(|value| {
         let bits = source.position();
         source.padding(0)?;
@@ -105,7 +105,7 @@ where
 }
 
 /// What is wrong with the octets, and in which field.
-fn malformed(source: &Source<'_>, rejected: &Rejected) -> DecodeError {
+fn malformed(source: &BitSource<'_>, rejected: &RasnError) -> DecodeError {
     let mut kind = &*rejected.kind;
     let field = FieldPath::named(iter::from_fn(|| {
         let DecodeErrorKind::FieldError { name, nested } = kind else {

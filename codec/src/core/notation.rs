@@ -490,14 +490,14 @@ macro_rules! component {
 
 /// What the expansions of [`asn1!`] need.
 pub(super) mod prelude {
-    pub(in crate::core) use super::super::error::{FIELDS_MAX, Fault, Field};
-    pub(in crate::core) use super::super::list::SequenceOf;
-    pub(in crate::core) use super::super::reader::{Faults, Reader};
-    pub(in crate::core) use super::super::source::Source;
-    pub(in crate::core) use super::super::writer::Writer;
-    pub(in crate::core) use super::super::{Null, Uper, width};
-    pub(in crate::core) use super::super::{json, open_type};
     pub(in crate::core) use super::{asn1, component, longest, read_defaulted, read_optional};
+    pub(in crate::core) use crate::core::error::{FIELDS_MAX, Fault, Field};
+    pub(in crate::core) use crate::core::list::SequenceOf;
+    pub(in crate::core) use crate::core::reader::{Faults, Reader};
+    pub(in crate::core) use crate::core::source::Source;
+    pub(in crate::core) use crate::core::writer::Writer;
+    pub(in crate::core) use crate::core::{Null, Uper, width};
+    pub(in crate::core) use crate::core::{json, open_type};
     pub(in crate::core) use serde::{Deserialize, Deserializer, Serialize, Serializer};
 }
 
