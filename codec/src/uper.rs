@@ -44,12 +44,12 @@ pub struct Decoded<T> {
 pub fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError> {
     let mut bits = Bits::default();
     let encoded = value.encode(&mut Encoder::new(&mut bits));
-    encoded.map_err(inexpressible)?;
+    encoded.map_err(|error| inexpressible(&error))?;
     Ok(bits.into_octets())
 }
 
 /// Why a value has no encoding.
-fn inexpressible(error: rasn::error::EncodeError) -> EncodeError {
+fn inexpressible(error: &rasn::error::EncodeError) -> EncodeError {
     match &*error.kind {
         EncodeErrorKind::ValueConstraintNotSatisfied { value, expected } => EncodeError::Value {
             number: i64::try_from(value).unwrap_or(i64::MAX),

@@ -53,15 +53,15 @@ impl<'a> Core<'a> {
             defaults: BTreeSet::new(),
         };
         for message in MESSAGES {
-            core.visit(message, BTreeSet::new());
+            core.visit(message, &BTreeSet::new());
         }
         core
     }
 
     /// Visits a type, which is used without some of its alternatives, and what it consists of.
-    fn visit(&mut self, name: &'a str, left_out: BTreeSet<&'a str>) {
+    fn visit(&mut self, name: &'a str, left_out: &BTreeSet<&'a str>) {
         if let Some(before) = self.used.get(name) {
-            assert_eq!(*before, left_out, "{name} is used in two ways");
+            assert_eq!(before, left_out, "{name} is used in two ways");
             return;
         }
         self.used.insert(name, left_out.clone());
@@ -98,7 +98,7 @@ impl<'a> Core<'a> {
         }
         if let Some(name) = reference(ty) {
             let own = ty.constraints().into_iter().flatten();
-            self.visit(name, absent(own.chain(constraints)).collect());
+            self.visit(name, &absent(own.chain(constraints)).collect());
         }
     }
 
@@ -126,11 +126,11 @@ impl<'a> Core<'a> {
         text += &self.imports(module, modules);
         for limit in &LIMITS {
             if self.types_of(module).any(|one| one.name == limit.list) {
-                text += &format!(
-                    "\n{}pub const {}: usize = {};\n",
-                    doc(limit.doc, "", "///"),
-                    limit.name,
-                    limit.items
+                let doc = doc(limit.doc, "", "///");
+                let _ = writeln!(
+                    text,
+                    "\n{doc}pub const {}: usize = {};",
+                    limit.name, limit.items
                 );
             }
         }
@@ -377,7 +377,7 @@ fn bit_string(string: &BitString) -> String {
     );
     let rust = match max {
         ..=8 => "u8",
-        ..=16 => "u16",
+        9..=16 => "u16",
         _ => "u32",
     };
     format!("BIT STRING (SIZE({max})) as {rust}")
