@@ -5,20 +5,21 @@
 //! extension additions. Nothing here needs a heap or the standard library, and nothing panics.
 //!
 //! ```text
-//!               notation: asn1!{ BasicContainer ::= SEQUENCE { .. } }
+//!   asn1/*.asn ──► notation: asn1!{ BasicContainer ::= SEQUENCE { .. } }
 //!                  │ makes
 //!   octets ──► Reader ──► Uper::read   ──► value ──► Uper::encode ──► Writer ──► octets
 //!                  └── Error: field, bit, fault              arbitrary ◄── Source
 //! ```
 //!
 //! - [`cdd`], [`common`], [`vam`], [`ram`] and [`rmcm`] declare the types of the module of that name
-//!   in `asn1/*.asn`, in its notation. Sizes, names and arbitrary values follow from the same lines.
+//!   in `asn1/*.asn`, in its notation, and are generated from it. Sizes, names, JSON and arbitrary
+//!   values follow from the same lines.
 //! - [`laws`] are properties of these types as functions, for Kani, proptest and sweeps alike.
 //!
 //! The rasn types of [`asn1`](crate::asn1) are the reference: differential tests compare the two on
-//! values and on octets, and the messages convert to them and from them. An alternative of an ENUMERATED or CHOICE that a newer sender may know is an
-//! error, as it is there: a message that says something unknown where the protocol reads is not half
-//! understood.
+//! values, on octets and on JSON. An alternative of an ENUMERATED or CHOICE that a newer sender may
+//! know is an error, as it is there: a message that says something unknown where the protocol reads
+//! is not half understood.
 
 #![allow(
     clippy::cast_lossless,
@@ -35,6 +36,7 @@
 pub mod cdd;
 pub mod common;
 mod error;
+mod json;
 pub mod laws;
 mod list;
 mod notation;

@@ -29,6 +29,8 @@ pub mod ethernet;
 #[cfg(feature = "laws")]
 #[doc(hidden)]
 pub mod laws;
+mod opened;
+mod request;
 #[cfg(feature = "security")]
 mod secured;
 mod stack;
@@ -38,11 +40,13 @@ use serde::{Deserialize, Serialize};
 pub use codec::Encoded;
 pub use duplicates::{Duplicates, NUMBERS_MAX, SOURCES_MAX};
 pub use ego::EgoPosition;
-pub use envelope::{Envelope, EnvelopeError, Opened, Permits, Signer};
-pub use error::{Field, GeonetError};
+pub use envelope::{Envelope, EnvelopeError};
+pub use error::{GeonetError, HeaderField};
+pub use opened::{Opened, Permits, Signer};
+pub use request::{Destination, Request};
 #[cfg(feature = "security")]
 pub use secured::{Demand, Secured};
-pub use stack::{Destination, Discarded, Indication, Request, SendError, Stack};
+pub use stack::{Discarded, Indication, SendError, Stack};
 
 /// Octets of the basic header.
 pub const BASIC_LEN: usize = 4;

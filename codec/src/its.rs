@@ -21,6 +21,7 @@ mod cause;
 mod cpm;
 mod event;
 mod road_user;
+mod rules;
 
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +38,7 @@ use crate::identifiers::{Dictionary, Identifiers};
 use crate::message::sealed::Sealed;
 use crate::message::{Pdu, Received, decode, encode, header_of};
 use crate::size::MESSAGE_LEN_MAX;
-use crate::{asn1, rules, uper};
+use crate::{asn1, uper};
 
 pub use cause::Cause;
 pub use cpm::{CPM, CpmContainer};

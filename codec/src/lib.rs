@@ -7,7 +7,7 @@
 //!  RobotState (SI units) ────┼── view ───────┤  RAM   ├── message ──┤ octets │
 //!  TaskParameters ───────────┘   by si       │  RMCM  │  header     └────────┘
 //!  crossguard_protocol::Rmcm                 └───┬────┘
-//!                                              asn1: the same of rasn, as reference and as JSON
+//!                                              asn1: the same of rasn, as reference
 //! ```
 //!
 //! - `asn1/*.asn` in this crate are the messages, as ASN.1 modules that any compiler takes.
@@ -17,7 +17,7 @@
 //!   messages are accepted, extension additions of newer senders are skipped, and everything else is
 //!   an error that names the field. [`encode_into`] writes to a buffer of the caller's.
 //! - [`asn1`] has the types that rasn makes of the modules: the reference that the core is compared
-//!   with, the JSON view of the core's messages, and what the core does not have.
+//!   with, and what the core does not have.
 //! - [`its`] has the messages of other stations: CAM, DENM, VAM and CPM.
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
@@ -80,8 +80,6 @@ mod identifiers;
 pub mod its;
 mod message;
 mod part;
-#[cfg(feature = "std")]
-mod rules;
 #[cfg(feature = "security")]
 pub mod security;
 mod service;

@@ -1,18 +1,20 @@
-//! Canonical unaligned PER (ITU-T X.691): encoding by rasn, decoding by a strict decoder of our own.
+//! Canonical unaligned PER (ITU-T X.691) of the types of rasn, by an encoder and a strict decoder of our
+//! own behind the traits that rasn derives.
 //!
 //! rasn's decoder is lenient where a receiver has to be strict: it takes padding that is not zero and
 //! components that spell out their DEFAULT, and does not say where unknown extension additions were.
 //! [`decode`] accepts exactly the canonical encodings, skips unknown extension additions, and names
 //! the field that is wrong. What it has decoded is encoded again and compared, so the claim does not
-//! rest on the decoder alone.
+//! rest on the decoder alone. rasn's own encoder judges ours in the tests.
 //!
 //! ```text
-//! octets ──► decoder (rasn's Decode, our bits) ──► value ──► rasn's encoder ─┐
-//!    │                    └─► where additions were skipped                   ├─► equal?
-//!    └──────────────────────────► octets without these additions ───────────┘
+//! octets ──► decoder (rasn's Decode, our bits) ──► value ──► encoder (rasn's Encode) ─┐
+//!    │                    └─► where additions were skipped                            ├─► equal?
+//!    └──────────────────────────► octets without these additions ────────────────────┘
 //! ```
 
 mod decoder;
+mod encoder;
 mod source;
 
 use std::iter;
@@ -23,7 +25,8 @@ use rasn::types::BitString;
 use crate::core::Fault;
 use crate::error::{DecodeError, EncodeError, FieldPath};
 use decoder::Decoder;
-use source::{Edit, Rejected, Source};
+use encoder::{Bits, Encoder};
+use source::{BitSource, Edit, RasnError};
 
 /// A decoded value, and how many SEQUENCEs in it had unknown extension additions.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -39,7 +42,15 @@ pub struct Decoded<T> {
 /// # Errors
 /// When a number or size is not one of its type.
 pub fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError> {
-    rasn::uper::encode(value).map_err(|error| match &*error.kind {
+    let mut bits = Bits::default();
+    let encoded = value.encode(&mut Encoder::new(&mut bits));
+    encoded.map_err(|error| inexpressible(&error))?;
+    Ok(bits.into_octets())
+}
+
+/// Why a value has no encoding.
+fn inexpressible(error: &rasn::error::EncodeError) -> EncodeError {
+    match &*error.kind {
         EncodeErrorKind::ValueConstraintNotSatisfied { value, expected } => EncodeError::Value {
             number: i64::try_from(value).unwrap_or(i64::MAX),
             allowed: expected.to_string(),
@@ -53,7 +64,15 @@ pub fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError> {
             allowed: expected.to_string(),
         },
         other => EncodeError::Other(other.to_string()),
-    })
+    }
+}
+
+/// How many bits a number of this many values has.
+const fn width(values: u64) -> u32 {
+    match values {
+        0 | 1 => 0,
+        _ => (values - 1).ilog2() + 1,
+    }
 }
 
 /// The value whose canonical encoding `octets` are, but for unknown extension additions.
@@ -64,7 +83,7 @@ pub fn decode<T>(octets: &[u8]) -> Result<Decoded<T>, DecodeError>
 where
     T: rasn::Decode + rasn::Encode,
 {
-    let source = Source::new(octets);
+    let source = BitSource::new(octets);
     let decoded = T::decode(&mut Decoder::new(&source)).and_then(|value| {
         let bits = source.position();
         source.padding(0)?;
@@ -86,7 +105,7 @@ where
 }
 
 /// What is wrong with the octets, and in which field.
-fn malformed(source: &Source<'_>, rejected: &Rejected) -> DecodeError {
+fn malformed(source: &BitSource<'_>, rejected: &RasnError) -> DecodeError {
     let mut kind = &*rejected.kind;
     let field = FieldPath::named(iter::from_fn(|| {
         let DecodeErrorKind::FieldError { name, nested } = kind else {

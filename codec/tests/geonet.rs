@@ -97,12 +97,12 @@ fn golden_packets_decode_and_encode() {
 fn a_packet_that_ends_early_names_the_field_in_which_it_ends() {
     let packet = octets(GBC, 0);
     let cases = [
-        (0, Field::BasicNextHeader),
-        (3, Field::RemainingHopLimit),
-        (9, Field::PayloadLength),
-        (17, Field::Address),
-        (55, Field::AreaReserved),
-        (59, Field::PortInfo),
+        (0, HeaderField::BasicNextHeader),
+        (3, HeaderField::RemainingHopLimit),
+        (9, HeaderField::PayloadLength),
+        (17, HeaderField::Address),
+        (55, HeaderField::AreaReserved),
+        (59, HeaderField::PortInfo),
     ];
     for (length, field) in cases {
         let truncated = Headers::decode(&packet[..length]);
@@ -138,13 +138,13 @@ fn each_shape_has_its_header_type_and_no_other_is_accepted() {
 #[test]
 fn a_wrong_octet_names_its_field() {
     let cases = [
-        (0, 0x21, Field::BasicNextHeader),
-        (1, 1, Field::BasicReserved),
-        (3, 2, Field::RemainingHopLimit),
-        (4, 0x10, Field::CommonNextHeader),
-        (5, 0x51, Field::HeaderType),
-        (7, 0x81, Field::Flags),
-        (11, 1, Field::CommonReserved),
+        (0, 0x21, HeaderField::BasicNextHeader),
+        (1, 1, HeaderField::BasicReserved),
+        (3, 2, HeaderField::RemainingHopLimit),
+        (4, 0x10, HeaderField::CommonNextHeader),
+        (5, 0x51, HeaderField::HeaderType),
+        (7, 0x81, HeaderField::Flags),
+        (11, 1, HeaderField::CommonReserved),
     ];
     for (at, octet, wrong) in cases {
         let mut packet = octets(SHB, 59);

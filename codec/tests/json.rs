@@ -7,12 +7,16 @@ use std::fmt::Debug;
 use crossguard_codec::asn1;
 use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::vam::VAM;
-use crossguard_codec::core::ram::RAM;
-use crossguard_codec::{Identifiers, Message, RobotState, TaskParameters};
+use crossguard_codec::core::Uper;
+use crossguard_codec::core::cdd::{SpeedValue, VruClusterProfiles};
+use crossguard_codec::core::ram::{ConfirmedFollowers, RAM};
+use crossguard_codec::core::rmcm::RMCM;
+use crossguard_codec::{Identifiers, Message, RobotState, TaskParameters, core};
 use proptest::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
+use support::core::{Random, octets_of};
 use support::reference::Reference;
 use support::{arbitrary, samples};
 
@@ -97,11 +101,75 @@ proptest! {
         keeps(&arbitrary::message::<VAM>(&identifiers, seed));
         keeps(&arbitrary::message::<DENM>(&identifiers, seed));
     }
+}
+
+/// What the core writes is what the reference writes, and both read it. What the reference writes is
+/// read by the core if the core reads the encoding of the same value, and for the same value.
+fn agree<T, R>(seed: u64)
+where
+    T: Uper + Serialize + DeserializeOwned + Debug,
+    R: rasn::Encode + rasn::Decode + Serialize + DeserializeOwned + PartialEq + Debug,
+{
+    let random = &mut Random(seed);
+    let of_core = T::arbitrary(random);
+    let json = serde_json::to_string(&of_core).unwrap();
+    let of_reference = asn1::decode::<R>(&octets_of(&of_core)).unwrap().value;
+    assert_eq!(json, serde_json::to_string(&of_reference).unwrap());
+    assert_eq!(serde_json::from_str::<T>(&json).unwrap(), of_core);
+    assert_eq!(serde_json::from_str::<R>(&json).unwrap(), of_reference);
+
+    let of_reference: R = arbitrary::any(random.next());
+    let json = serde_json::to_string(&of_reference).unwrap();
+    let octets = asn1::encode(&of_reference).unwrap();
+    let decoded = core::decode::<T>(&octets).map(|(value, _)| value);
+    assert_eq!(serde_json::from_str::<T>(&json).ok(), decoded.ok());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2_048))]
 
     #[test]
-    fn a_message_has_the_json_of_the_reference(seed: u64) {
-        let ram = arbitrary::ram(&Identifiers::default(), seed);
-        let message = ram.to_message().unwrap();
-        prop_assert_eq!(serde_json::to_value(message).unwrap(), serde_json::to_value(ram).unwrap());
+    fn a_ram_has_the_json_of_the_reference(seed: u64) {
+        agree::<RAM, asn1::ram::RAM>(seed);
     }
+
+    #[test]
+    fn an_rmcm_has_the_json_of_the_reference(seed: u64) {
+        agree::<RMCM, asn1::rmcm::RMCM>(seed);
+    }
+}
+
+#[test]
+fn a_number_that_is_not_one_of_its_type_is_refused() {
+    let error = |text| {
+        serde_json::from_str::<SpeedValue>(text)
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(error("16384"), "16384 is not a number from 0 to 16383");
+    assert_eq!(error("-1"), "-1 is not a number from 0 to 16383");
+    assert!(serde_json::from_str::<SpeedValue>("1.5").is_err());
+    assert_eq!(serde_json::from_str("16383").ok(), SpeedValue::new(16_383));
+}
+
+#[test]
+fn a_list_whose_size_is_not_one_of_its_type_is_refused() {
+    let follower = json!({ "stationID": 1, "offerNumber": 1 });
+    for (length, is_read) in [(0, false), (1, true), (4, true), (5, false)] {
+        let followers = json!(vec![follower.clone(); length]);
+        let read = serde_json::from_value::<ConfirmedFollowers>(followers);
+        assert_eq!(read.is_ok(), is_read);
+        if let Err(error) = read {
+            let size = format!("invalid length {length}, expected a list of 1 to 4 items");
+            assert_eq!(error.to_string(), size);
+        }
+    }
+}
+
+#[test]
+fn the_padding_of_a_bit_string_is_zero() {
+    let read = |text: &str| serde_json::from_value::<VruClusterProfiles>(text.into());
+    assert_eq!(read("90").unwrap(), VruClusterProfiles::new(0b1001));
+    assert!(read("98").is_err());
+    assert!(read("9").is_err());
 }

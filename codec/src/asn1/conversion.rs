@@ -1,9 +1,6 @@
-//! RAM and RMCM of the [core](crate::core) and of rasn, converted into each other, and the JSON view
-//! of the core's, which is that of rasn's.
+//! RAM and RMCM of the [core](crate::core) and of rasn, converted into each other.
 //!
 //! The way from one to the other is the encoding, on which the two agree.
-
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 
 use super::{cdd, ram, rmcm};
 use crate::core;
@@ -19,7 +16,8 @@ macro_rules! conversion {
                 let mut buffer = [0; core::max_octets::<core::$module::$name>()];
                 let length = core::encode(value, &mut buffer);
                 let length = length.map_err(DecodeError::of_core::<core::$module::$name>)?;
-                rasn::uper::decode(&buffer[..length]).map_err(|_| DecodeError::Disagreement)
+                let decoded = uper::decode(&buffer[..length]);
+                Ok(decoded.map_err(|_| DecodeError::Disagreement)?.value)
             }
         }
 
@@ -36,27 +34,6 @@ macro_rules! conversion {
     };
 }
 
-macro_rules! json {
-    ($module:ident::$name:ident) => {
-        impl Serialize for core::$module::$name {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                let of_rasn = $module::$name::try_from(self).map_err(ser::Error::custom)?;
-                of_rasn.serialize(serializer)
-            }
-        }
-
-        impl<'de> Deserialize<'de> for core::$module::$name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let of_rasn = $module::$name::deserialize(deserializer)?;
-                Self::try_from(&of_rasn).map_err(de::Error::custom)
-            }
-        }
-    };
-}
-
 conversion!(ram::RAM);
 conversion!(rmcm::RMCM);
 conversion!(cdd::BasicContainer);
-
-json!(ram::RAM);
-json!(rmcm::RMCM);

@@ -1,4 +1,4 @@
-//! Generated from `asn1/*.asn` by `tests/generated.rs`; do not edit.
+//! Generated from `asn1/*.asn` by `tests/generated`; do not edit.
 #[allow(
     non_camel_case_types,
     non_snake_case,

@@ -1,4 +1,9 @@
-//! Types of the ETSI common data dictionary (TS 102 894-2 v2.4.1), as `asn1/Crossguard-CDD.asn` has them.
+//! Crossguard-CDD: the types of the ETSI common data dictionary (TS 102 894-2 v2.4.1) that VAM,
+//! RAM, RMCM, CAM and CPM share. Names, order, ranges and extension markers are those of the
+//! dictionary, so the encodings are the same bit for bit, and the dictionary's own module can be
+//! used instead. Comments give the unit of one step and the values with a meaning of their own.
+//!
+//! Generated from `asn1/Crossguard-CDD.asn` by `tests/generated`; do not edit.
 
 use super::notation::prelude::*;
 
@@ -112,12 +117,12 @@ asn1! {
 }
 
 asn1! {
-    /// 10⁻⁷ degree, north positive. CDD `Latitude`.
+    /// 10^-7 degree, north positive. CDD `Latitude`.
     Latitude ::= INTEGER (-900_000_000..900_000_001) as i32
 }
 
 asn1! {
-    /// 10⁻⁷ degree, east positive. CDD `Longitude`.
+    /// 10^-7 degree, east positive. CDD `Longitude`.
     Longitude ::= INTEGER (-1_800_000_000..1_800_000_001) as i32
 }
 
@@ -160,10 +165,13 @@ asn1! {
 }
 
 asn1! {
-    /// Largest error of the altitude at 95 %: alt-000-05 is 0.05 m. CDD `AltitudeConfidence`.
+    /// Largest error of the altitude at 95 %: `alt-000-05` is 0.05 m. CDD `AltitudeConfidence`.
     AltitudeConfidence ::= ENUMERATED {
-        Alt000_01, Alt000_02, Alt000_05, Alt000_10, Alt000_20, Alt000_50, Alt001_00, Alt002_00,
-        Alt005_00, Alt010_00, Alt020_00, Alt050_00, Alt100_00, Alt200_00, OutOfRange, Unavailable
+        Alt000_01 "alt-000-01", Alt000_02 "alt-000-02", Alt000_05 "alt-000-05",
+        Alt000_10 "alt-000-10", Alt000_20 "alt-000-20", Alt000_50 "alt-000-50",
+        Alt001_00 "alt-001-00", Alt002_00 "alt-002-00", Alt005_00 "alt-005-00",
+        Alt010_00 "alt-010-00", Alt020_00 "alt-020-00", Alt050_00 "alt-050-00",
+        Alt100_00 "alt-100-00", Alt200_00 "alt-200-00", OutOfRange, Unavailable
     }
 }
 
@@ -177,12 +185,12 @@ asn1! {
 }
 
 asn1! {
-    /// 10⁻⁷ degree, to the north positive. CDD `DeltaLatitude`.
+    /// 10^-7 degree, to the north positive. CDD `DeltaLatitude`.
     DeltaLatitude ::= INTEGER (-131_071..131_072) as i32
 }
 
 asn1! {
-    /// 10⁻⁷ degree, to the east positive. CDD `DeltaLongitude`.
+    /// 10^-7 degree, to the east positive. CDD `DeltaLongitude`.
     DeltaLongitude ::= INTEGER (-131_071..131_072) as i32
 }
 
@@ -265,12 +273,12 @@ asn1! {
 }
 
 asn1! {
-    /// 0.1 m/s², rounded up. CDD `AccelerationValue`.
+    /// 0.1 m/s^2, rounded up. CDD `AccelerationValue`.
     AccelerationValue ::= INTEGER (-160..161) as i16
 }
 
 asn1! {
-    /// 0.1 m/s², rounded up, at 95 %; 0 is not used. CDD `AccelerationConfidence`.
+    /// 0.1 m/s^2, rounded up, at 95 %; 0 is not used. CDD `AccelerationConfidence`.
     AccelerationConfidence ::= INTEGER (0..102) as u8
 }
 
@@ -283,15 +291,17 @@ asn1! {
 }
 
 asn1! {
-    /// 10⁻⁴ 1/m, rounded up, to the left positive. CDD `CurvatureValue`.
+    /// 10^-4 1/m, rounded up, to the left positive. CDD `CurvatureValue`.
     CurvatureValue ::= INTEGER (-1023..1023) as i16
 }
 
 asn1! {
     /// Largest error of the curvature at 95 %, in 1/m. CDD `CurvatureConfidence`.
     CurvatureConfidence ::= ENUMERATED {
-        OnePerMeter0_00002, OnePerMeter0_0001, OnePerMeter0_0005, OnePerMeter0_002,
-        OnePerMeter0_01, OnePerMeter0_1, OutOfRange, Unavailable
+        OnePerMeter0_00002 "onePerMeter-0-00002", OnePerMeter0_0001 "onePerMeter-0-0001",
+        OnePerMeter0_0005 "onePerMeter-0-0005", OnePerMeter0_002 "onePerMeter-0-002",
+        OnePerMeter0_01 "onePerMeter-0-01", OnePerMeter0_1 "onePerMeter-0-1", OutOfRange,
+        Unavailable
     }
 }
 
@@ -309,11 +319,12 @@ asn1! {
 }
 
 asn1! {
-    /// Largest error of the yaw rate at 95 %: `degSec`-000-05 is 0.05 degree/s. CDD
+    /// Largest error of the yaw rate at 95 %: `degSec-000-05` is 0.05 degree/s. CDD
     /// `YawRateConfidence`.
     YawRateConfidence ::= ENUMERATED {
-        DegSec000_01, DegSec000_05, DegSec000_10, DegSec001_00, DegSec005_00, DegSec010_00,
-        DegSec100_00, OutOfRange, Unavailable
+        DegSec000_01 "degSec-000-01", DegSec000_05 "degSec-000-05", DegSec000_10 "degSec-000-10",
+        DegSec001_00 "degSec-001-00", DegSec005_00 "degSec-005-00", DegSec010_00 "degSec-010-00",
+        DegSec100_00 "degSec-100-00", OutOfRange, Unavailable
     }
 }
 
@@ -420,8 +431,7 @@ asn1! {
 
 asn1! {
     /// Positions that the sender came from, newest first, each relative to the one before it. CDD
-    /// `PathHistory`.
-    /// In a RAM it has at most 10 items.
+    /// `PathHistory`. In a RAM it has at most 10 items.
     PathHistory ::= SEQUENCE (SIZE(0..40)) OF PathPoint AT MOST PATH_HISTORY_MAX
 }
 
@@ -441,8 +451,7 @@ asn1! {
 asn1! {
     /// Positions that the sender expects to take, nearest first. CDD `PathPredicted`, which also
     /// names the sizes 17..40 behind the marker; that changes no bit, and asn1c 0.9.28 does not
-    /// understand it.
-    /// In a RAM it has at most 10 items.
+    /// understand it. In a RAM it has at most 10 items.
     PathPredicted ::= SEQUENCE (SIZE(1..16, ...)) OF PathPointPredicted AT MOST PATH_PREDICTION_MAX
 }
 

@@ -1,4 +1,8 @@
-//! What RAM and RMCM share: sessions, task types and the state of a task. `asn1/Crossguard-Common.asn`.
+//! Crossguard-Common: what RAM and RMCM share: sessions, task types and the state of a task. No
+//! standard defines these types; they are Crossguard's, after Arockiasamy and Vinel, "Multi-Robot
+//! Coordination in V2X Environments" (ITSC 2026).
+//!
+//! Generated from `asn1/Crossguard-Common.asn` by `tests/generated`; do not edit.
 
 use super::cdd::StationId;
 use super::notation::prelude::*;
@@ -6,7 +10,7 @@ use super::notation::prelude::*;
 asn1! {
     /// A coordination session: the station that opened it and leads it, and its number for it.
     CoordinationSession ::= SEQUENCE {
-        leader_station_id StationId,
+        leader_station_id StationId "leaderStationID",
         session_number    SessionNumber
     }
 }
@@ -39,7 +43,7 @@ asn1! {
 }
 
 asn1! {
-    /// How far a robot is with its task. `executing`: on the way; `inPosition`: it holds the place
+    /// How far a robot is with its task. executing: on the way; `inPosition`: it holds the place
     /// from which it guards; `safeIdle`: it stopped because it lost contact with its leader.
     TaskProgression ::= ENUMERATED { Idle, Executing, InPosition, Completed, Failed, SafeIdle, ... }
 }

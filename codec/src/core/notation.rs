@@ -4,14 +4,15 @@
 //! implementation of it: encoding, decoding, largest size, field names, arbitrary values. A type reads
 //! as in `asn1/*.asn`, but for
 //!
-//! - names, which are in Rust's spelling, and `bool` and `Null` for BOOLEAN and NULL;
+//! - names, which are in Rust's spelling, with that of ASN.1 behind them where it does not follow:
+//!   `station_id StationId "stationID"`; and `bool` and `Null` for BOOLEAN and NULL;
 //! - what holds the value in Rust: `INTEGER (..) as i16`, or `is u8` when every `u8` is a value;
 //! - lists inside of other types, which have a type of their own, `AT MOST` as long as their message
 //!   allows;
 //! - alternatives that an inner subtype constraint leaves out, of which the number is given:
 //!   `3 ABSENT`.
 //!
-//! A test compares these declarations with the modules.
+//! JSON has the names of ASN.1. The declarations are generated from the modules by `tests/generated`.
 
 /// The Rust type of one ASN.1 type assignment, and its encoding.
 macro_rules! asn1 {
@@ -110,6 +111,19 @@ macro_rules! asn1 {
                 Self(source.integer($min.into(), $max.into()) as $rust)
             }
         }
+
+        impl Serialize for $name {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.0.serialize(serializer)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let number = json::number(deserializer, $min.into(), $max.into())?;
+                Ok(Self(number as $rust))
+            }
+        }
     };
 
     // BIT STRING of fixed size.
@@ -159,21 +173,35 @@ macro_rules! asn1 {
                 Self(source.integer(0, Self::MASK.into()) as $rust)
             }
         }
+
+        impl Serialize for $name {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                json::write_bits(u32::from(self.0).reverse_bits(), $size, serializer)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let first_highest = json::read_bits(deserializer, $size)?;
+                Ok(Self(first_highest.reverse_bits() as $rust))
+            }
+        }
     };
 
     // ENUMERATED.
-    ($(#[$meta:meta])* $name:ident ::= ENUMERATED { $($variant:ident),+ $(,)? }) => {
-        asn1!(@enumerated [$(#[$meta])*] $name [$($variant)+] false);
+    ($(#[$meta:meta])* $name:ident ::= ENUMERATED { $($variant:ident $($json:literal)?),+ }) => {
+        asn1!(@enumerated [$(#[$meta])*] $name [$($variant [$($json)?])+] false);
     };
-    ($(#[$meta:meta])* $name:ident ::= ENUMERATED { $($variant:ident),+, ... }) => {
-        asn1!(@enumerated [$(#[$meta])*] $name [$($variant)+] true);
+    ($(#[$meta:meta])* $name:ident ::= ENUMERATED { $($variant:ident $($json:literal)?),+, ... }) => {
+        asn1!(@enumerated [$(#[$meta])*] $name [$($variant [$($json)?])+] true);
     };
-    (@enumerated [$(#[$meta:meta])*] $name:ident [$($variant:ident)+] $extensible:literal) => {
+    (@enumerated [$(#[$meta:meta])*] $name:ident [$($variant:ident [$($json:literal)?])+] $extensible:literal) => {
         $(#[$meta])*
         #[allow(missing_docs, reason = "a value is its name")]
-        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+        #[serde(rename_all = "camelCase")]
         pub enum $name {
-            $($variant,)+
+            $($(#[serde(rename = $json)])? $variant,)+
         }
 
         impl $name {
@@ -221,18 +249,19 @@ macro_rules! asn1 {
     };
 
     // SEQUENCE.
-    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)?),+ $(,)? }) => {
-        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?])+] false);
+    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)? $($json:literal)?),+ }) => {
+        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?])+] false);
     };
-    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)?),+, ... }) => {
-        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?])+] true);
+    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)? $($json:literal)?),+, ... }) => {
+        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?])+] true);
     };
-    (@sequence [$(#[$meta:meta])*] $name:ident [$($field:ident $kind:tt)+] $extensible:literal) => {
+    (@sequence [$(#[$meta:meta])*] $name:ident [$($field:ident $kind:tt [$($json:literal)?])+] $extensible:literal) => {
         $(#[$meta])*
         #[allow(missing_docs, reason = "a component is what its type says")]
-        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+        #[serde(rename_all = "camelCase")]
         pub struct $name {
-            $(pub $field: component!(type $kind),)+
+            $($(#[serde(rename = $json)])? pub $field: component!(type $kind),)+
         }
 
         const _: () = {
@@ -295,7 +324,7 @@ macro_rules! asn1 {
     };
 
     // CHOICE.
-    ($(#[$meta:meta])* $name:ident ::= CHOICE { $($variant:ident $type:ident),+ $(,)? }) => {
+    ($(#[$meta:meta])* $name:ident ::= CHOICE { $($variant:ident $type:ident),+ }) => {
         asn1!(@choice [$(#[$meta])*] $name [$($variant $type)+] 0, [] false);
     };
     ($(#[$meta:meta])* $name:ident ::= CHOICE { $($variant:ident $type:ident),+ $(, $absent:literal ABSENT)?, ... $(, $addition:ident $addition_type:ident)* }) => {
@@ -308,7 +337,8 @@ macro_rules! asn1 {
         $(#[$meta])*
         #[allow(missing_docs, reason = "an alternative is what its type says")]
         #[allow(clippy::large_enum_variant, reason = "there is no heap")]
-        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+        #[serde(rename_all = "camelCase")]
         pub enum $name {
             $($variant($type),)+
             $($addition($addition_type),)*
@@ -460,14 +490,15 @@ macro_rules! component {
 
 /// What the expansions of [`asn1!`] need.
 pub(super) mod prelude {
-    pub(in crate::core) use super::super::error::{FIELDS_MAX, Fault, Field};
-    pub(in crate::core) use super::super::list::SequenceOf;
-    pub(in crate::core) use super::super::open_type;
-    pub(in crate::core) use super::super::reader::{Faults, Reader};
-    pub(in crate::core) use super::super::source::Source;
-    pub(in crate::core) use super::super::writer::Writer;
-    pub(in crate::core) use super::super::{Null, Uper, width};
     pub(in crate::core) use super::{asn1, component, longest, read_defaulted, read_optional};
+    pub(in crate::core) use crate::core::error::{FIELDS_MAX, Fault, Field};
+    pub(in crate::core) use crate::core::list::SequenceOf;
+    pub(in crate::core) use crate::core::reader::{Faults, Reader};
+    pub(in crate::core) use crate::core::source::Source;
+    pub(in crate::core) use crate::core::writer::Writer;
+    pub(in crate::core) use crate::core::{Null, Uper, width};
+    pub(in crate::core) use crate::core::{json, open_type};
+    pub(in crate::core) use serde::{Deserialize, Deserializer, Serialize, Serializer};
 }
 
 pub(super) use {asn1, component};

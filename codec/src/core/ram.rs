@@ -1,4 +1,9 @@
-//! The robot awareness message. `asn1/Crossguard-RAM.asn`.
+//! Crossguard-RAM: the robot awareness message. A robot broadcasts it to tell where it is, what it
+//! is, how it is, and what part it has in a coordination session. No standard defines it; it is
+//! Crossguard's, after Arockiasamy and Vinel, "Multi-Robot Coordination in V2X Environments" (ITSC
+//! 2026). Encoding: canonical unaligned PER.
+//!
+//! Generated from `asn1/Crossguard-RAM.asn` by `tests/generated`; do not edit.
 
 use super::cdd::{
     AccelerationComponent, BasicContainer, Curvature, DriveDirection, ExteriorLights,
@@ -118,8 +123,8 @@ asn1! {
     /// What the robot is and how it is. unavailability is present while the robot takes no part in
     /// coordination. `onDuty` is TRUE while the robot still has a duty on the road from a maneuver
     /// or session that ended early: until the road is clear it offers no help and takes no command.
-    /// `helpStatus` goes with the operation container: `needHelp` with a requester, `offerHelp` with
-    /// a helper, `roleConfirmed` with a leader or a follower, none with none of these.
+    /// `helpStatus` goes with the operation container: `needHelp` with a requester, `offerHelp`
+    /// with a helper, `roleConfirmed` with a leader or a follower, none with none of these.
     RobotStatusContainer ::= SEQUENCE {
         robot_category       RobotCategory,
         operational_job_role OperationalJobRole,
@@ -163,9 +168,7 @@ asn1! {
 
 asn1! {
     /// Who or what steers the robot.
-    ControlMode ::= ENUMERATED {
-        Autonomous, Teleoperated, EmergencyStop, Fault, Unavailable, ...
-    }
+    ControlMode ::= ENUMERATED { Autonomous, Teleoperated, EmergencyStop, Fault, Unavailable, ... }
 }
 
 asn1! {
@@ -225,8 +228,8 @@ asn1! {
 
 asn1! {
     /// Crossing of a request and its session, named like an `IntersectionReferenceID` of ISO/TS
-    /// 19091: the authority that numbers intersections, and the intersection. Where it is absent the
-    /// crossing is not known and may be any. 0:0 is never present.
+    /// 19091: the authority that numbers intersections, and the intersection. Where it is absent
+    /// the crossing is not known and may be any. 0:0 is never present.
     CrossingReference ::= SEQUENCE {
         regulator    CrossingNumber,
         intersection CrossingNumber
@@ -236,8 +239,8 @@ asn1! {
 asn1! {
     /// Offers to join the session of a requester, with the tasks that it can do of those asked for
     /// and the newest heartbeat of the request that it heard. `safetyTimeout` is the time without a
-    /// heartbeat after which it falls back; a requester whose lease is too long for it does not take
-    /// the offer.
+    /// heartbeat after which it falls back; a requester whose lease is too long for it does not
+    /// take the offer.
     HelperRole ::= SEQUENCE {
         session        CoordinationSession,
         offer_number   OfferNumber,
@@ -282,7 +285,7 @@ asn1! {
 asn1! {
     /// A follower, and its offer that the leader accepts.
     ConfirmedFollower ::= SEQUENCE {
-        station_id   StationId,
+        station_id   StationId "stationID",
         offer_number OfferNumber
     }
 }
@@ -302,14 +305,14 @@ asn1! {
     /// How far a follower is with a command. The status container's `taskProgression` says the
     /// same.
     CommandReport ::= SEQUENCE {
-        request_id RequestId,
+        request_id RequestId "requestID",
         progress   CommandProgress
     }
 }
 
 asn1! {
-    /// The maneuver runs while it is executing or `inPosition`: the robot is on the way, or it holds
-    /// the place from which it guards. Every other progress is final for its command.
+    /// The maneuver runs while it is executing or `inPosition`: the robot is on the way, or it
+    /// holds the place from which it guards. Every other progress is final for its command.
     CommandProgress ::= CHOICE {
         Executing  Null,
         InPosition Null,

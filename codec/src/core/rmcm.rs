@@ -1,4 +1,9 @@
-//! The robot maneuver coordination message. `asn1/Crossguard-RMCM.asn`.
+//! Crossguard-RMCM: the robot maneuver coordination message. A leader commands maneuvers with it, a
+//! follower acknowledges or rejects a command. No standard defines it; it is Crossguard's, after
+//! Arockiasamy and Vinel, "Multi-Robot Coordination in V2X Environments" (ITSC 2026). Encoding:
+//! canonical unaligned PER.
+//!
+//! Generated from `asn1/Crossguard-RMCM.asn` by `tests/generated`; do not edit.
 
 use super::cdd::{
     BasicContainer, DeltaReferencePosition, GenerationDeltaTime, GeoPosition, ItsPduHeader,
@@ -62,8 +67,8 @@ asn1! {
 asn1! {
     /// Command to one follower. `validityDuration` counts from the generation of the message.
     ManeuverCommand ::= SEQUENCE {
-        request_id                 RequestId,
-        target_follower_station_id StationId,
+        request_id                 RequestId "requestID",
+        target_follower_station_id StationId "targetFollowerStationID",
         task_type                  TaskType,
         target                     ManeuverTarget OPTIONAL,
         target_heading             Wgs84AngleValue OPTIONAL,
@@ -102,7 +107,7 @@ asn1! {
     /// A follower's answer to the command whose `requestID` equals `jobAdviceID`.
     FollowerManeuverContainer ::= SEQUENCE {
         session                      CoordinationSession,
-        job_advice_id                RequestId,
+        job_advice_id                RequestId "jobAdviceID",
         response                     ManeuverResponse,
         execution_status             TaskProgression,
         estimated_time_to_completion ManeuverDuration OPTIONAL,

@@ -1,4 +1,8 @@
-//! What a RAM takes from the VAM of ETSI TS 103 300-3 v2.3.1. `asn1/Crossguard-VAM.asn`.
+//! Crossguard-VAM: the vulnerable road user awareness message of ETSI TS 103 300-3 v2.3.1 on the
+//! common data dictionary v2.4.1. RAM takes its cluster information and motion prediction from
+//! here.
+//!
+//! Generated from `asn1/Crossguard-VAM.asn` by `tests/generated`; do not edit.
 
 use super::cdd::{
     AccelerationChangeIndication, HeadingChangeIndication, PathHistory, PathPredicted,

@@ -1,8 +1,8 @@
 //! Headers from octets and to octets.
 
 use super::{
-    Address, Area, BASIC_LEN, BasicHeader, Field, GeonetError, HEADERS_LEN_MAX, Headers, Lifetime,
-    LifetimeBase, LongPositionVector, NextHeader, Shape, TrafficClass, Transport,
+    Address, Area, BASIC_LEN, BasicHeader, GeonetError, HEADERS_LEN_MAX, HeaderField, Headers,
+    Lifetime, LifetimeBase, LongPositionVector, NextHeader, Shape, TrafficClass, Transport,
 };
 
 /// Version 1, common header next.
@@ -42,10 +42,10 @@ impl AsRef<[u8]> for Encoded {
 }
 
 /// Octets that are yet to be read.
-struct Reader<'a>(&'a [u8]);
+struct HeaderReader<'a>(&'a [u8]);
 
-impl Reader<'_> {
-    fn array<const N: usize>(&mut self, field: Field) -> Result<[u8; N], GeonetError> {
+impl HeaderReader<'_> {
+    fn array<const N: usize>(&mut self, field: HeaderField) -> Result<[u8; N], GeonetError> {
         let (first, rest) = self
             .0
             .split_first_chunk()
@@ -54,29 +54,29 @@ impl Reader<'_> {
         Ok(*first)
     }
 
-    fn u8(&mut self, field: Field) -> Result<u8, GeonetError> {
+    fn u8(&mut self, field: HeaderField) -> Result<u8, GeonetError> {
         self.array(field).map(u8::from_be_bytes)
     }
 
-    fn u16(&mut self, field: Field) -> Result<u16, GeonetError> {
+    fn u16(&mut self, field: HeaderField) -> Result<u16, GeonetError> {
         self.array(field).map(u16::from_be_bytes)
     }
 
-    fn i32(&mut self, field: Field) -> Result<i32, GeonetError> {
+    fn i32(&mut self, field: HeaderField) -> Result<i32, GeonetError> {
         self.array(field).map(i32::from_be_bytes)
     }
 
     /// Octets that are zero.
-    fn zero_u8(&mut self, field: Field) -> Result<(), GeonetError> {
+    fn zero_u8(&mut self, field: HeaderField) -> Result<(), GeonetError> {
         expect(field, self.u8(field)?.into(), 0)
     }
 
-    fn zero_u16(&mut self, field: Field) -> Result<(), GeonetError> {
+    fn zero_u16(&mut self, field: HeaderField) -> Result<(), GeonetError> {
         expect(field, self.u16(field)?, 0)
     }
 }
 
-fn expect(field: Field, found: u16, expected: u16) -> Result<(), GeonetError> {
+fn expect(field: HeaderField, found: u16, expected: u16) -> Result<(), GeonetError> {
     if found == expected {
         Ok(())
     } else {
@@ -85,7 +85,7 @@ fn expect(field: Field, found: u16, expected: u16) -> Result<(), GeonetError> {
 }
 
 /// `value`, if it fits in `bits`.
-fn fitting(field: Field, value: u16, bits: u32) -> Result<u16, GeonetError> {
+fn fitting(field: HeaderField, value: u16, bits: u32) -> Result<u16, GeonetError> {
     if value >> bits == 0 {
         Ok(value)
     } else {
@@ -98,12 +98,12 @@ fn fitting(field: Field, value: u16, bits: u32) -> Result<u16, GeonetError> {
 
 /// Octets that are being written. What is written fits. Values are checked before they come here, so
 /// that where something is written is a constant to a proof.
-struct Writer<const N: usize> {
+struct HeaderWriter<const N: usize> {
     octets: [u8; N],
     length: usize,
 }
 
-impl<const N: usize> Writer<N> {
+impl<const N: usize> HeaderWriter<N> {
     const fn new() -> Self {
         Self {
             octets: [0; N],
@@ -126,22 +126,22 @@ impl BasicHeader {
     /// # Errors
     /// What is wrong with which field.
     pub fn decode(packet: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
-        let reader = &mut Reader(packet);
-        let next = match reader.u8(Field::BasicNextHeader)? {
+        let reader = &mut HeaderReader(packet);
+        let next = match reader.u8(HeaderField::BasicNextHeader)? {
             BASIC_COMMON => NextHeader::Common,
             BASIC_SECURED => NextHeader::Secured,
             found => {
                 return Err(GeonetError::Value {
-                    field: Field::BasicNextHeader,
+                    field: HeaderField::BasicNextHeader,
                     found: found.into(),
                 });
             }
         };
-        reader.zero_u8(Field::BasicReserved)?;
+        reader.zero_u8(HeaderField::BasicReserved)?;
         let header = Self {
             next,
-            lifetime: Lifetime::of_octet(reader.u8(Field::Lifetime)?),
-            remaining_hop_limit: reader.u8(Field::RemainingHopLimit)?,
+            lifetime: Lifetime::of_octet(reader.u8(HeaderField::Lifetime)?),
+            remaining_hop_limit: reader.u8(HeaderField::RemainingHopLimit)?,
         };
         Ok((header, reader.0))
     }
@@ -189,29 +189,29 @@ impl Headers {
     /// # Errors
     /// What is wrong with which field.
     pub fn decode_behind(basic: BasicHeader, rest: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
-        let reader = &mut Reader(rest);
+        let reader = &mut HeaderReader(rest);
         let BasicHeader {
             lifetime,
             remaining_hop_limit,
             ..
         } = basic;
-        let next = reader.u8(Field::CommonNextHeader)?;
-        expect(Field::CommonNextHeader, next.into(), BTP_B.into())?;
-        let header_type = reader.u8(Field::HeaderType)?;
+        let next = reader.u8(HeaderField::CommonNextHeader)?;
+        expect(HeaderField::CommonNextHeader, next.into(), BTP_B.into())?;
+        let header_type = reader.u8(HeaderField::HeaderType)?;
         let shape = shape_of(header_type)?;
-        let traffic_class = TrafficClass::of_octet(reader.u8(Field::TrafficClass)?);
-        let flags = reader.u8(Field::Flags)?;
-        expect(Field::Flags, (flags & !MOBILE).into(), 0)?;
-        let announced = reader.u16(Field::PayloadLength)?;
-        let maximum_hop_limit = reader.u8(Field::MaximumHopLimit)?;
+        let traffic_class = TrafficClass::of_octet(reader.u8(HeaderField::TrafficClass)?);
+        let flags = reader.u8(HeaderField::Flags)?;
+        expect(HeaderField::Flags, (flags & !MOBILE).into(), 0)?;
+        let announced = reader.u16(HeaderField::PayloadLength)?;
+        let maximum_hop_limit = reader.u8(HeaderField::MaximumHopLimit)?;
         hops_are_possible(remaining_hop_limit, maximum_hop_limit)?;
-        reader.zero_u8(Field::CommonReserved)?;
-        let (source, transport) = decode_transport(Reader(reader.0), shape)?;
+        reader.zero_u8(HeaderField::CommonReserved)?;
+        let (source, transport) = decode_transport(HeaderReader(reader.0), shape)?;
         // What follows is where the shape says, which is a constant to a proof.
         reader.0 = &reader.0[transport_len(shape)..];
         let present = reader.0.len();
-        let port = reader.u16(Field::Port)?;
-        let port_info = reader.u16(Field::PortInfo)?;
+        let port = reader.u16(HeaderField::Port)?;
+        let port_info = reader.u16(HeaderField::PortInfo)?;
         if usize::from(announced) != present {
             return Err(GeonetError::PayloadLength { announced, present });
         }
@@ -248,7 +248,7 @@ impl Headers {
         let basic = self.basic(NextHeader::Common).encode()?;
         let traffic_class = self.traffic_class.octet()?;
         let source = self.source.octets()?;
-        let writer = Writer::new()
+        let writer = HeaderWriter::new()
             .put(basic)
             .put([BTP_B, header_type, traffic_class, flags])
             .put(announced.to_be_bytes())
@@ -264,7 +264,7 @@ impl Headers {
                 .put(source)
                 .put(area.octets()),
         };
-        let Writer { octets, length } = writer
+        let HeaderWriter { octets, length } = writer
             .put(self.port.to_be_bytes())
             .put(self.port_info.to_be_bytes());
         Ok(Encoded { octets, length })
@@ -280,16 +280,16 @@ const fn transport_len(shape: Option<Shape>) -> usize {
 }
 
 fn decode_transport(
-    mut reader: Reader,
+    mut reader: HeaderReader,
     shape: Option<Shape>,
 ) -> Result<(LongPositionVector, Transport), GeonetError> {
     let Some(shape) = shape else {
         let source = LongPositionVector::decode(&mut reader)?;
-        let media = reader.array(Field::Media)?;
+        let media = reader.array(HeaderField::Media)?;
         return Ok((source, Transport::SingleHop { media }));
     };
-    let sequence_number = reader.u16(Field::SequenceNumber)?;
-    reader.zero_u16(Field::SequenceReserved)?;
+    let sequence_number = reader.u16(HeaderField::SequenceNumber)?;
+    reader.zero_u16(HeaderField::SequenceReserved)?;
     let source = LongPositionVector::decode(&mut reader)?;
     let area = Area::decode(&mut reader, shape)?;
     let transport = Transport::GeoBroadcast {
@@ -307,7 +307,7 @@ fn shape_of(header_type: u8) -> Result<Option<Shape>, GeonetError> {
         BROADCAST_RECTANGLE => Ok(Some(Shape::Rectangle)),
         BROADCAST_ELLIPSE => Ok(Some(Shape::Ellipse)),
         found => Err(GeonetError::Value {
-            field: Field::HeaderType,
+            field: HeaderField::HeaderType,
             found: found.into(),
         }),
     }
@@ -319,7 +319,7 @@ fn hops_are_possible(remaining: u8, maximum: u8) -> Result<(), GeonetError> {
         return Ok(());
     }
     Err(GeonetError::Value {
-        field: Field::RemainingHopLimit,
+        field: HeaderField::RemainingHopLimit,
         found: remaining.into(),
     })
 }
@@ -347,7 +347,7 @@ impl Lifetime {
     }
 
     fn octet(self) -> Result<u8, GeonetError> {
-        fitting(Field::Lifetime, self.multiplier.into(), 6)?;
+        fitting(HeaderField::Lifetime, self.multiplier.into(), 6)?;
         let base = match self.base {
             LifetimeBase::FiftyMilliseconds => 0,
             LifetimeBase::OneSecond => 1,
@@ -368,29 +368,29 @@ impl TrafficClass {
     }
 
     fn octet(self) -> Result<u8, GeonetError> {
-        fitting(Field::TrafficClass, self.id.into(), 6)?;
+        fitting(HeaderField::TrafficClass, self.id.into(), 6)?;
         let flags = u8::from(self.store_carry_forward) << 7 | u8::from(self.channel_offload) << 6;
         Ok(flags | self.id)
     }
 }
 
 impl Address {
-    fn decode(reader: &mut Reader) -> Result<Self, GeonetError> {
-        let bits = reader.u16(Field::Address)?;
+    fn decode(reader: &mut HeaderReader) -> Result<Self, GeonetError> {
+        let bits = reader.u16(HeaderField::Address)?;
         let [_, station_type] = (bits >> 10 & 0x1F).to_be_bytes();
         Ok(Self {
             is_manual: bits & 0x8000 != 0,
             station_type,
             country_code: bits & 0x3FF,
-            link_layer: reader.array(Field::Address)?,
+            link_layer: reader.array(HeaderField::Address)?,
         })
     }
 
     fn octets(self) -> Result<[u8; ADDRESS_LEN], GeonetError> {
-        let station_type = fitting(Field::Address, self.station_type.into(), 5)?;
-        let country_code = fitting(Field::Address, self.country_code, 10)?;
+        let station_type = fitting(HeaderField::Address, self.station_type.into(), 5)?;
+        let country_code = fitting(HeaderField::Address, self.country_code, 10)?;
         let bits = u16::from(self.is_manual) << 15 | station_type << 10 | country_code;
-        Ok(Writer::new()
+        Ok(HeaderWriter::new()
             .put(bits.to_be_bytes())
             .put(self.link_layer)
             .octets)
@@ -398,12 +398,12 @@ impl Address {
 }
 
 impl LongPositionVector {
-    fn decode(reader: &mut Reader) -> Result<Self, GeonetError> {
+    fn decode(reader: &mut HeaderReader) -> Result<Self, GeonetError> {
         let address = Address::decode(reader)?;
-        let timestamp = u32::from_be_bytes(reader.array(Field::Timestamp)?);
-        let latitude = reader.i32(Field::Position)?;
-        let longitude = reader.i32(Field::Position)?;
-        let speed = reader.u16(Field::Speed)?;
+        let timestamp = u32::from_be_bytes(reader.array(HeaderField::Timestamp)?);
+        let latitude = reader.i32(HeaderField::Position)?;
+        let longitude = reader.i32(HeaderField::Position)?;
+        let speed = reader.u16(HeaderField::Speed)?;
         Ok(Self {
             address,
             timestamp,
@@ -412,19 +412,19 @@ impl LongPositionVector {
             is_accurate: speed & 0x8000 != 0,
             // Its 15 bits, extended by their sign.
             speed: (speed << 1).cast_signed() >> 1,
-            heading: reader.u16(Field::Heading)?,
+            heading: reader.u16(HeaderField::Heading)?,
         })
     }
 
     fn octets(&self) -> Result<[u8; POSITION_VECTOR_LEN], GeonetError> {
         if !(-0x4000..0x4000).contains(&self.speed) {
             return Err(GeonetError::Value {
-                field: Field::Speed,
+                field: HeaderField::Speed,
                 found: self.speed.cast_unsigned(),
             });
         }
         let speed = self.speed.cast_unsigned() & 0x7FFF;
-        Ok(Writer::new()
+        Ok(HeaderWriter::new()
             .put(self.address.octets()?)
             .put(self.timestamp.to_be_bytes())
             .put(self.latitude.to_be_bytes())
@@ -436,21 +436,21 @@ impl LongPositionVector {
 }
 
 impl Area {
-    fn decode(reader: &mut Reader, shape: Shape) -> Result<Self, GeonetError> {
+    fn decode(reader: &mut HeaderReader, shape: Shape) -> Result<Self, GeonetError> {
         let area = Self {
             shape,
-            latitude: reader.i32(Field::AreaPosition)?,
-            longitude: reader.i32(Field::AreaPosition)?,
-            distance_a: reader.u16(Field::AreaDistances)?,
-            distance_b: reader.u16(Field::AreaDistances)?,
-            angle: reader.u16(Field::AreaAngle)?,
+            latitude: reader.i32(HeaderField::AreaPosition)?,
+            longitude: reader.i32(HeaderField::AreaPosition)?,
+            distance_a: reader.u16(HeaderField::AreaDistances)?,
+            distance_b: reader.u16(HeaderField::AreaDistances)?,
+            angle: reader.u16(HeaderField::AreaAngle)?,
         };
-        reader.zero_u16(Field::AreaReserved)?;
+        reader.zero_u16(HeaderField::AreaReserved)?;
         Ok(area)
     }
 
     fn octets(&self) -> [u8; AREA_LEN] {
-        Writer::new()
+        HeaderWriter::new()
             .put(self.latitude.to_be_bytes())
             .put(self.longitude.to_be_bytes())
             .put(self.distance_a.to_be_bytes())

@@ -12,11 +12,11 @@ const LIFETIME_MS: u64 = 20_000;
 /// The newest sequence numbers of the newest sources.
 #[derive(Clone, Debug)]
 pub struct Duplicates {
-    sources: [Option<Source>; SOURCES_MAX],
+    sources: [Option<SourceHistory>; SOURCES_MAX],
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Source {
+struct SourceHistory {
     address: Address,
     /// When its newest packet came, as `TimestampIts`.
     heard_ms: u64,
@@ -47,8 +47,8 @@ impl Duplicates {
     }
 
     /// The record of a source, which may be new.
-    fn source(&mut self, address: Address, now_ms: u64) -> &mut Source {
-        let is_it = |source: &Option<Source>| {
+    fn source(&mut self, address: Address, now_ms: u64) -> &mut SourceHistory {
+        let is_it = |source: &Option<SourceHistory>| {
             source.is_some_and(|source| {
                 source.address == address && now_ms.saturating_sub(source.heard_ms) < LIFETIME_MS
             })
@@ -60,7 +60,7 @@ impl Duplicates {
             self.sources[index] = None;
             index
         });
-        self.sources[index].get_or_insert(Source {
+        self.sources[index].get_or_insert(SourceHistory {
             address,
             heard_ms: now_ms,
             numbers: [None; NUMBERS_MAX],

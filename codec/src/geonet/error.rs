@@ -5,7 +5,7 @@ use core::fmt;
 /// A field of the headers, or a group of fields that are read together.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
-pub enum Field {
+pub enum HeaderField {
     /// Basic header: version and next header.
     BasicNextHeader,
     /// Basic header: reserved octet.
@@ -58,7 +58,7 @@ pub enum Field {
     PortInfo,
 }
 
-impl fmt::Display for Field {
+impl fmt::Display for HeaderField {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(self, f)
     }
@@ -72,13 +72,13 @@ pub enum GeonetError {
     #[error("the packet ends within {field}")]
     Truncated {
         /// The field.
-        field: Field,
+        field: HeaderField,
     },
     /// The field has a value that it cannot have, or that this crate does not know.
     #[error("{field} is {found:#x}, which is not possible or not supported")]
     Value {
         /// The field.
-        field: Field,
+        field: HeaderField,
         /// Its value.
         found: u16,
     },

@@ -2,7 +2,7 @@
 //!
 //! Functions that assert, for the `proofs` crate to call. Not part of the stable interface.
 
-use super::{Field, GeonetError, HEADERS_LEN_MAX, Headers, Transport};
+use super::{GeonetError, HEADERS_LEN_MAX, HeaderField, Headers, Transport};
 
 /// Octets of the headers of single-hop broadcast.
 const SINGLE_HOP_LEN: usize = 44;
@@ -87,11 +87,13 @@ fn is_broken(headers: &Headers, error: GeonetError) -> bool {
     };
     let source = headers.source;
     match field {
-        Field::RemainingHopLimit => headers.remaining_hop_limit > headers.maximum_hop_limit,
-        Field::Lifetime => headers.lifetime.multiplier > 63,
-        Field::TrafficClass => headers.traffic_class.id > 63,
-        Field::Address => source.address.station_type > 31 || source.address.country_code > 1_023,
-        Field::Speed => !(-16_384..=16_383).contains(&source.speed),
+        HeaderField::RemainingHopLimit => headers.remaining_hop_limit > headers.maximum_hop_limit,
+        HeaderField::Lifetime => headers.lifetime.multiplier > 63,
+        HeaderField::TrafficClass => headers.traffic_class.id > 63,
+        HeaderField::Address => {
+            source.address.station_type > 31 || source.address.country_code > 1_023
+        }
+        HeaderField::Speed => !(-16_384..=16_383).contains(&source.speed),
         _ => false,
     }
 }

@@ -12,12 +12,12 @@ use crate::asn1::cpm::{
 };
 use crate::asn1::{self, cdd};
 use crate::core::cdd::ItsPduHeader;
-use crate::error::{DecodeError, EncodeError};
+use crate::error::{BrokenRule, DecodeError, EncodeError};
 use crate::identifiers::{Dictionary, Identifiers};
 use crate::message::sealed::Sealed;
 use crate::message::{Pdu, Received};
 use crate::size::MESSAGE_LEN_MAX;
-use crate::{rules, uper};
+use crate::uper;
 
 /// A collective perception message.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -68,6 +68,40 @@ impl CPM {
                 _ => None,
             })
     }
+
+    /// Checks the limits that its encoding does not show: its containers come at most once each, one of
+    /// them at most says what the sender is (TS 103 324, `ConstraintWrappedCpmContainers`), and one that
+    /// no standard had defined has octets.
+    fn check(&self) -> Result<(), BrokenRule> {
+        let (mut seen, mut originators) = (0_u32, 0);
+        for container in &self.cpm_containers {
+            let id = match container {
+                CpmContainer::OriginatingVehicleContainer(_)
+                | CpmContainer::OriginatingRsuContainer(_) => {
+                    originators += 1;
+                    1
+                }
+                CpmContainer::SensorInformationContainer(_) => 3,
+                CpmContainer::PerceptionRegionContainer(_) => 4,
+                CpmContainer::PerceivedObjectContainer(_)
+                | CpmContainer::PerceivedObjectContainer211(_) => 5,
+                CpmContainer::Unknown { id, .. } if id.0 < 6 => {
+                    return Err(BrokenRule::KnownContainer(id.0));
+                }
+                CpmContainer::Unknown { data, .. } if data.0.is_empty() => {
+                    return Err(BrokenRule::NoOctets {
+                        field: "cpmContainers",
+                    });
+                }
+                CpmContainer::Unknown { .. } => continue,
+            };
+            if originators > 1 || seen & 1 << id != 0 {
+                return Err(BrokenRule::ContainerTwice(id));
+            }
+            seen |= 1 << id;
+        }
+        Ok(())
+    }
 }
 
 impl CpmContainer {
@@ -115,7 +149,7 @@ impl CpmContainer {
 
 impl Sealed for CPM {
     fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
-        rules::check_cpm(self)?;
+        self.check()?;
         let containers: Result<Vec<_>, _> =
             self.cpm_containers.iter().map(CpmContainer::wrap).collect();
         let payload = CpmPayload::new(
@@ -143,7 +177,7 @@ impl Sealed for CPM {
             management_container: payload.management_container,
             cpm_containers,
         };
-        rules::check_cpm(&message)?;
+        message.check()?;
         Ok(Received { message, extended })
     }
 }

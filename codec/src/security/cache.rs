@@ -3,8 +3,9 @@
 
 use std::collections::{HashMap, VecDeque};
 
-use super::certificate::{Certificate, HashedId8};
+use super::certificate::Certificate;
 use super::crypto::Digest;
+use super::hashed_id::HashedId8;
 use super::rejected::Rejected;
 use super::time::Time64;
 

@@ -1,9 +1,8 @@
 //! Certificates (IEEE 1609.2, clause 6.4; TS 103 097, clauses 6 and 7.2).
 
-use std::fmt;
-
-use super::coer::Reader;
+use super::coer::OerReader;
 use super::crypto::{self, Digest, PublicKey, Signature};
+use super::hashed_id::HashedId8;
 use super::permissions::{IssuePermission, Permission, Ssp, SspRange, Subjects};
 use super::region::{Place, Region};
 use super::rejected::{Malformed, Rejected};
@@ -13,35 +12,6 @@ use super::time::{Duration, Unit, Validity};
 pub const CERTIFICATE_LEN_MAX: usize = 1_024;
 /// How many permissions, regions and the like a certificate may list.
 const LIST_MAX: u32 = 32;
-
-/// The last 8 octets of a certificate's SHA-256, by which it is called.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct HashedId8(pub [u8; 8]);
-
-/// The last 3 octets of a certificate's SHA-256, by which it is asked for.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct HashedId3(pub [u8; 3]);
-
-impl HashedId8 {
-    /// The short form.
-    #[must_use]
-    pub const fn short(self) -> HashedId3 {
-        let [.., a, b, c] = self.0;
-        HashedId3([a, b, c])
-    }
-}
-
-impl fmt::Display for HashedId8 {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.iter().try_for_each(|octet| write!(f, "{octet:02x}"))
-    }
-}
-
-impl fmt::Debug for HashedId8 {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "HashedId8({self})")
-    }
-}
 
 /// Who issued a certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -87,13 +57,13 @@ impl Certificate {
     /// # Errors
     /// Why they are not one, or one that the kit does not support.
     pub fn decode(octets: &[u8]) -> Result<Self, Rejected> {
-        let mut reader = Reader::new(octets);
+        let mut reader = OerReader::new(octets);
         let certificate = Self::read(&mut reader)?;
         reader.finish("certificate")?;
         Ok(certificate)
     }
 
-    pub(super) fn read(reader: &mut Reader) -> Result<Self, Rejected> {
+    pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         let all = reader.rest();
         // A signature is present, version 3, type explicit.
         reader.expect(0x80, "certificate")?;
@@ -152,11 +122,11 @@ impl Certificate {
 }
 
 /// What `reader` has read since `before` was yet to be read.
-pub(super) fn consumed<'a>(before: &'a [u8], reader: &Reader<'a>) -> &'a [u8] {
+pub(super) fn consumed<'a>(before: &'a [u8], reader: &OerReader<'a>) -> &'a [u8] {
     &before[..before.len() - reader.rest().len()]
 }
 
-fn read_issuer(reader: &mut Reader) -> Result<Issuer, Rejected> {
+fn read_issuer(reader: &mut OerReader) -> Result<Issuer, Rejected> {
     let field = "certificate.issuer";
     match reader.octet(field)? {
         0x80 => Ok(Issuer::Certificate(HashedId8(reader.array(field)?))),
@@ -182,7 +152,7 @@ mod present {
 }
 
 impl Content {
-    fn read(reader: &mut Reader, issuer: Issuer) -> Result<Self, Rejected> {
+    fn read(reader: &mut OerReader, issuer: Issuer) -> Result<Self, Rejected> {
         let preamble = reader.octet("toBeSigned")?;
         let has = |bit| preamble & bit != 0;
         if has(present::REQUEST | present::ROLLOVER) {
@@ -225,7 +195,7 @@ impl Content {
     }
 }
 
-impl Reader<'_> {
+impl OerReader<'_> {
     fn expect_zeros(&mut self, length: usize, field: &'static str) -> Result<(), Malformed> {
         match self.take(length, field)?.iter().find(|octet| **octet != 0) {
             Some(&found) => Err(Malformed::Value { field, found }),
@@ -237,8 +207,8 @@ impl Reader<'_> {
 /// A SEQUENCE OF, empty if it is absent, but not if it is present.
 fn list<T>(
     is_present: bool,
-    reader: &mut Reader,
-    mut read: impl FnMut(&mut Reader) -> Result<T, Rejected>,
+    reader: &mut OerReader,
+    mut read: impl FnMut(&mut OerReader) -> Result<T, Rejected>,
 ) -> Result<Vec<T>, Rejected> {
     if !is_present {
         return Ok(Vec::new());
@@ -247,7 +217,7 @@ fn list<T>(
     (0..quantity).map(|_| read(reader)).collect()
 }
 
-fn read_name(reader: &mut Reader) -> Result<Option<String>, Rejected> {
+fn read_name(reader: &mut OerReader) -> Result<Option<String>, Rejected> {
     let field = "toBeSigned.id";
     match reader.octet(field)? {
         0x81 => {
@@ -263,7 +233,7 @@ fn read_name(reader: &mut Reader) -> Result<Option<String>, Rejected> {
     }
 }
 
-fn read_validity(reader: &mut Reader) -> Result<Validity, Malformed> {
+fn read_validity(reader: &mut OerReader) -> Result<Validity, Malformed> {
     let field = "validityPeriod";
     let start = reader.u32(field)?;
     let tag = reader.octet(field)?;
@@ -278,14 +248,14 @@ fn read_validity(reader: &mut Reader) -> Result<Validity, Malformed> {
     Ok(Validity { start, duration })
 }
 
-fn read_place(reader: &mut Reader) -> Result<Place, Malformed> {
+fn read_place(reader: &mut OerReader) -> Result<Place, Malformed> {
     Ok(Place {
         latitude: reader.i32("latitude")?,
         longitude: reader.i32("longitude")?,
     })
 }
 
-fn read_region(reader: &mut Reader) -> Result<Region, Rejected> {
+fn read_region(reader: &mut OerReader) -> Result<Region, Rejected> {
     let field = "region";
     match reader.octet(field)? {
         0x80 => Ok(Region::Circle {
@@ -293,7 +263,7 @@ fn read_region(reader: &mut Reader) -> Result<Region, Rejected> {
             radius: reader.u16(field)?,
         }),
         0x81 => {
-            let corners = |reader: &mut Reader| Ok((read_place(reader)?, read_place(reader)?));
+            let corners = |reader: &mut OerReader| Ok((read_place(reader)?, read_place(reader)?));
             Ok(Region::Rectangles(list(true, reader, corners)?))
         }
         0x82 | 0x83 => Err(Rejected::Unsupported("a region but circles and rectangles")),
@@ -302,14 +272,14 @@ fn read_region(reader: &mut Reader) -> Result<Region, Rejected> {
 }
 
 /// A preamble of which only the first bits are in use.
-fn preamble(reader: &mut Reader, used: u8, field: &'static str) -> Result<u8, Malformed> {
+fn preamble(reader: &mut OerReader, used: u8, field: &'static str) -> Result<u8, Malformed> {
     match reader.octet(field)? {
         found if found & !used == 0 => Ok(found),
         found => Err(Malformed::Value { field, found }),
     }
 }
 
-fn read_permission(reader: &mut Reader) -> Result<Permission, Rejected> {
+fn read_permission(reader: &mut OerReader) -> Result<Permission, Rejected> {
     let field = "appPermissions";
     let has_ssp = preamble(reader, 0x80, field)? != 0;
     let its_aid = reader.unsigned("psid")?;
@@ -317,7 +287,7 @@ fn read_permission(reader: &mut Reader) -> Result<Permission, Rejected> {
         None => Ssp::Default,
         Some(0x80) => Ssp::Opaque(reader.opaque("ssp")?.to_vec()),
         Some(0x81) => {
-            let mut inner = Reader::new(reader.opaque("ssp")?);
+            let mut inner = OerReader::new(reader.opaque("ssp")?);
             let bits = inner.opaque("bitmapSsp")?.to_vec();
             inner.finish("bitmapSsp")?;
             Ssp::Bitmap(bits)
@@ -327,7 +297,7 @@ fn read_permission(reader: &mut Reader) -> Result<Permission, Rejected> {
     Ok(Permission { its_aid, ssp })
 }
 
-fn read_issue_permission(reader: &mut Reader) -> Result<IssuePermission, Rejected> {
+fn read_issue_permission(reader: &mut OerReader) -> Result<IssuePermission, Rejected> {
     let field = "certIssuePermissions";
     let given = preamble(reader, 0xe0, field)?;
     let subjects = match reader.octet("subjectPermissions")? {
@@ -355,18 +325,18 @@ fn read_issue_permission(reader: &mut Reader) -> Result<IssuePermission, Rejecte
     })
 }
 
-fn read_range(reader: &mut Reader) -> Result<(u32, SspRange), Rejected> {
+fn read_range(reader: &mut OerReader) -> Result<(u32, SspRange), Rejected> {
     let field = "sspRange";
     let has_range = preamble(reader, 0x80, field)? != 0;
     let its_aid = reader.unsigned("psid")?;
     let range = match has_range.then(|| reader.octet(field)).transpose()? {
         None | Some(0x81) => SspRange::All,
         Some(0x80) => {
-            let one = |reader: &mut Reader| Ok(reader.opaque(field)?.to_vec());
+            let one = |reader: &mut OerReader| Ok(reader.opaque(field)?.to_vec());
             SspRange::Opaque(list(true, reader, one)?)
         }
         Some(0x82) => {
-            let mut inner = Reader::new(reader.opaque(field)?);
+            let mut inner = OerReader::new(reader.opaque(field)?);
             let value = inner.opaque("sspValue")?.to_vec();
             let mask = inner.opaque("sspBitmask")?.to_vec();
             inner.finish("bitmapSspRange")?;
@@ -381,7 +351,7 @@ fn read_range(reader: &mut Reader) -> Result<(u32, SspRange), Rejected> {
 }
 
 /// The kit does not encrypt; a key for it is passed over.
-fn skip_encryption_key(reader: &mut Reader) -> Result<(), Rejected> {
+fn skip_encryption_key(reader: &mut OerReader) -> Result<(), Rejected> {
     let field = "encryptionKey";
     reader.octet(field)?;
     match reader.octet(field)? {
@@ -397,7 +367,7 @@ fn skip_encryption_key(reader: &mut Reader) -> Result<(), Rejected> {
     Ok(())
 }
 
-fn read_verification_key(reader: &mut Reader) -> Result<PublicKey, Rejected> {
+fn read_verification_key(reader: &mut OerReader) -> Result<PublicKey, Rejected> {
     let field = "verifyKeyIndicator";
     match reader.octet(field)? {
         0x80 => {}

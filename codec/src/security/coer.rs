@@ -7,11 +7,11 @@ use super::rejected::Malformed;
 
 /// Octets that are yet to be read.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reader<'a>(&'a [u8]);
+pub(super) struct OerReader<'a>(&'a [u8]);
 
 type Read<T> = Result<T, Malformed>;
 
-impl<'a> Reader<'a> {
+impl<'a> OerReader<'a> {
     pub(super) const fn new(octets: &'a [u8]) -> Self {
         Self(octets)
     }
@@ -188,7 +188,7 @@ mod tests {
         for length in [0, 1, 0x7f, 0x80, 0xff, 0x100, 1_500] {
             let mut octets = Vec::new();
             put_length(length, &mut octets);
-            assert_eq!(Reader::new(&octets).length("l"), Ok(length));
+            assert_eq!(OerReader::new(&octets).length("l"), Ok(length));
         }
         for value in [
             0,
@@ -203,14 +203,14 @@ mod tests {
         ] {
             let mut octets = Vec::new();
             put_unsigned(value, &mut octets);
-            assert_eq!(Reader::new(&octets).unsigned("i"), Ok(value));
+            assert_eq!(OerReader::new(&octets).unsigned("i"), Ok(value));
         }
         let not_canonical = Err(Malformed::NotCanonical { field: "l" });
         for octets in [&[0x81, 0x7f][..], &[0x82, 0, 0xff]] {
-            assert_eq!(Reader::new(octets).length("l"), not_canonical);
+            assert_eq!(OerReader::new(octets).length("l"), not_canonical);
         }
         for octets in [&[0][..], &[2, 0, 36]] {
-            assert!(Reader::new(octets).unsigned("i").is_err());
+            assert!(OerReader::new(octets).unsigned("i").is_err());
         }
     }
 
@@ -218,11 +218,11 @@ mod tests {
     fn what_is_announced_is_not_believed() {
         let huge = [8, 0x7f, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff];
         assert_eq!(
-            Reader::new(&huge).quantity(8, "q"),
+            OerReader::new(&huge).quantity(8, "q"),
             Err(Malformed::TooMany { field: "q" })
         );
         assert_eq!(
-            Reader::new(&[0x84, 0xff, 0xff, 0xff, 0xff]).opaque("o"),
+            OerReader::new(&[0x84, 0xff, 0xff, 0xff, 0xff]).opaque("o"),
             Err(Malformed::TooMany { field: "o" })
         );
     }
@@ -234,7 +234,7 @@ mod tests {
             [2, 6, 0x80, 5, 1, 1, 0xaa, 0xbb, 0xcc],
             [2, 4, 0x80, 5, 1, 1, 0xaa, 0xbb, 0xcc],
         ] {
-            let mut reader = Reader::new(&octets);
+            let mut reader = OerReader::new(&octets);
             let [first, second] = reader.additions("a").unwrap();
             assert_eq!(first, Some(&octets[4..]));
             assert_eq!(second, None);
@@ -242,7 +242,7 @@ mod tests {
         }
         let beyond = [2, 6, 0x20, 1, 0];
         assert_eq!(
-            Reader::new(&beyond).additions::<2>("a"),
+            OerReader::new(&beyond).additions::<2>("a"),
             Err(Malformed::NotCanonical { field: "a" })
         );
     }

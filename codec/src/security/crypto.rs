@@ -8,7 +8,7 @@ use p256::elliptic_curve::Generate;
 use p256::elliptic_curve::sec1::ToSec1Point as _;
 use p256::pkcs8::{DecodePrivateKey, EncodePrivateKey, LineEnding};
 
-use super::coer::Reader;
+use super::coer::OerReader;
 use super::rejected::{Malformed, Rejected};
 
 /// A SHA-256 digest.
@@ -113,7 +113,7 @@ impl PrivateKey {
 
 impl PublicKey {
     /// Reads an `EccP256CurvePoint` in compressed form, the canonical one.
-    pub(super) fn read(reader: &mut Reader, field: &'static str) -> Result<Self, Rejected> {
+    pub(super) fn read(reader: &mut OerReader, field: &'static str) -> Result<Self, Rejected> {
         let parity = match reader.octet(field)? {
             COMPRESSED_Y_0 => 2,
             COMPRESSED_Y_1 => 3,
@@ -141,7 +141,7 @@ impl PublicKey {
 
 impl Signature {
     /// Reads a `Signature`. Of `rSig` only the form x-only is taken, the canonical one.
-    pub(super) fn read(reader: &mut Reader) -> Result<Self, Rejected> {
+    pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         match reader.octet("signature")? {
             NIST_P256 => {}
             0x81..=0x84 => return Err(Rejected::Unsupported("a curve other than NIST P-256")),
@@ -216,14 +216,14 @@ mod tests {
         let mut point = [COMPRESSED_Y_0; 33];
         let found = (0..=255).filter(|x| {
             point[1..].fill(*x);
-            PublicKey::read(&mut Reader::new(&point), "key").is_ok()
+            PublicKey::read(&mut OerReader::new(&point), "key").is_ok()
         });
         let found = found.count();
         assert!((64..192).contains(&found), "{found} of 256");
         for number in [0, 0xff] {
             let mut octets = [number; SIGNATURE_LEN];
             octets[..2].fill(0x80);
-            let signature = Signature::read(&mut Reader::new(&octets));
+            let signature = Signature::read(&mut OerReader::new(&octets));
             let field = "signature";
             assert_eq!(signature, Err(Malformed::NotOnCurve { field }.into()));
         }

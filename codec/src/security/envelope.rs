@@ -6,9 +6,10 @@
 //!           └── what is signed: tbsData ───────┘ digest, or certificate
 //! ```
 
-use super::certificate::{Certificate, HashedId3, HashedId8, consumed};
-use super::coer::{self, Reader};
+use super::certificate::{Certificate, consumed};
+use super::coer::{self, OerReader};
 use super::crypto::{self, Digest, Signature};
+use super::hashed_id::{HashedId3, HashedId8};
 use super::region::Place;
 use super::rejected::{Malformed, Rejected};
 use super::time::Time64;
@@ -30,7 +31,7 @@ pub struct SignedMessage<'a> {
     /// What is said of it.
     pub header: Header<'a>,
     /// Who signed it.
-    pub signer: Signer,
+    pub signer: SignerIdentifier,
     to_be_signed: Digest,
     signature: Signature,
 }
@@ -54,7 +55,7 @@ pub struct Header<'a> {
 
 /// Who signed a message.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Signer {
+pub enum SignerIdentifier {
     /// The holder of this certificate.
     Digest(HashedId8),
     /// The holder of the certificate that comes with it.
@@ -69,7 +70,7 @@ impl Header<'_> {
     }
 }
 
-impl Signer {
+impl SignerIdentifier {
     /// What the signer's certificate is called.
     #[must_use]
     pub fn id(&self) -> HashedId8 {
@@ -86,7 +87,7 @@ impl<'a> SignedMessage<'a> {
     /// # Errors
     /// Why they are not one, or one that is not taken.
     pub fn decode(octets: &'a [u8]) -> Result<Self, Rejected> {
-        let mut reader = Reader::new(octets);
+        let mut reader = OerReader::new(octets);
         let reader = &mut reader;
         reader.expect(3, "protocolVersion")?;
         match reader.octet("content")? {
@@ -124,7 +125,7 @@ impl<'a> SignedMessage<'a> {
             CAM | DENM if header.expiry_time.is_some() => "expiryTime",
             CAM if header.generation_location.is_some() => "generationLocation",
             DENM if header.generation_location.is_none() => "no generationLocation",
-            DENM if matches!(self.signer, Signer::Digest(_)) => "a digest as signer",
+            DENM if matches!(self.signer, SignerIdentifier::Digest(_)) => "a digest as signer",
             _ => return Ok(()),
         };
         Err(Rejected::AgainstProfile(against))
@@ -142,7 +143,7 @@ impl<'a> SignedMessage<'a> {
     }
 }
 
-fn read_payload<'a>(reader: &mut Reader<'a>) -> Result<&'a [u8], Rejected> {
+fn read_payload<'a>(reader: &mut OerReader<'a>) -> Result<&'a [u8], Rejected> {
     match reader.octet("payload")? {
         0x40 => {}
         _ => return Err(Rejected::Unsupported("a payload that is only hashed")),
@@ -168,7 +169,7 @@ mod present {
 }
 
 impl<'a> Header<'a> {
-    fn read(reader: &mut Reader<'a>) -> Result<Self, Rejected> {
+    fn read(reader: &mut OerReader<'a>) -> Result<Self, Rejected> {
         let preamble = reader.octet("headerInfo")?;
         let has = |bit| preamble & bit != 0;
         if has(present::UNUSED) {
@@ -241,7 +242,7 @@ impl<'a> Header<'a> {
     }
 }
 
-fn read_location(reader: &mut Reader) -> Result<Place, Malformed> {
+fn read_location(reader: &mut OerReader) -> Result<Place, Malformed> {
     let latitude = reader.i32("generationLocation")?;
     let longitude = reader.i32("generationLocation")?;
     reader.take(2, "elevation")?;
@@ -254,19 +255,21 @@ fn read_location(reader: &mut Reader) -> Result<Place, Malformed> {
 /// The octets of the ids that are asked for.
 fn read_requests(content: &[u8]) -> Result<&[u8], Malformed> {
     let field = "inlineP2pcdRequest";
-    let mut reader = Reader::new(content);
+    let mut reader = OerReader::new(content);
     let quantity = reader.quantity(REQUESTS_TAKEN_MAX, field)?;
     let ids = reader.take(quantity as usize * 3, field)?;
     reader.finish(field)?;
     Ok(ids)
 }
 
-fn read_signer(reader: &mut Reader) -> Result<Signer, Rejected> {
+fn read_signer(reader: &mut OerReader) -> Result<SignerIdentifier, Rejected> {
     let field = "signer";
     match reader.octet(field)? {
-        0x80 => Ok(Signer::Digest(HashedId8(reader.array(field)?))),
+        0x80 => Ok(SignerIdentifier::Digest(HashedId8(reader.array(field)?))),
         0x81 => match reader.quantity(u32::MAX, field)? {
-            1 => Ok(Signer::Certificate(Box::new(Certificate::read(reader)?))),
+            1 => Ok(SignerIdentifier::Certificate(Box::new(Certificate::read(
+                reader,
+            )?))),
             _ => Err(Rejected::AgainstProfile("not exactly one certificate")),
         },
         0x82 => Err(Rejected::AgainstProfile("self as signer")),

@@ -1,6 +1,6 @@
 //! Why a secured packet is not relied on.
 
-use super::HashedId8;
+use super::hashed_id::HashedId8;
 
 /// Octets that are not the canonical encoding of an envelope or certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]

@@ -1,8 +1,9 @@
 //! Signing messages under a pseudonym.
 
-use super::certificate::{Certificate, HashedId3, HashedId8};
+use super::certificate::Certificate;
 use super::crypto::{self, PrivateKey};
 use super::envelope::{self, Header};
+use super::hashed_id::{HashedId3, HashedId8};
 use super::time::Time64;
 
 /// How long the certificate may be left out: a second (TS 103 097, clause 7.1.1).

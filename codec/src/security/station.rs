@@ -1,7 +1,7 @@
 //! One station's security: its pseudonyms, and the authorities that it trusts.
 
-use super::certificate::HashedId8;
 use super::envelope::SignedMessage;
+use super::hashed_id::HashedId8;
 use super::region::Place;
 use super::rejected::Rejected;
 use super::signer::{Sealer, Ticket, Unsigned};

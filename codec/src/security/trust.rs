@@ -1,6 +1,7 @@
 //! What a station trusts: roots, and the authorities that they vouch for.
 
-use super::certificate::{Certificate, HashedId3, HashedId8, Issuer};
+use super::certificate::{Certificate, Issuer};
+use super::hashed_id::{HashedId3, HashedId8};
 use super::permissions::{not_to_be_delegated, not_to_be_given};
 use super::region::Place;
 use super::rejected::Rejected;

@@ -4,8 +4,9 @@
 //! one. Time and place are inputs.
 
 use super::cache::Cache;
-use super::certificate::{Certificate, HashedId3, HashedId8};
-use super::envelope::{REQUESTS_MAX, SignedMessage, Signer};
+use super::certificate::Certificate;
+use super::envelope::{REQUESTS_MAX, SignedMessage, SignerIdentifier};
+use super::hashed_id::{HashedId3, HashedId8};
 use super::permissions::Ssp;
 use super::region::Place;
 use super::rejected::Rejected;
@@ -104,8 +105,8 @@ impl Verifier {
         let is_new = known.is_none();
         let ticket = match (known, &message.signer) {
             (Some(ticket), _) => ticket,
-            (None, Signer::Certificate(certificate)) => (**certificate).clone(),
-            (None, Signer::Digest(id)) => {
+            (None, SignerIdentifier::Certificate(certificate)) => (**certificate).clone(),
+            (None, SignerIdentifier::Digest(id)) => {
                 self.want(id.short());
                 return Err(Rejected::UnknownSigner(*id));
             }

@@ -8,14 +8,15 @@ use rasn::types::constraints::{Bounded, Extensible, Size};
 use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
 use rasn::{Codec, Decode};
 
-use super::source::{Additions, Rejected, Source};
+use super::source::{Additions, BitSource, RasnError};
+use super::width;
 use crate::core::Fault;
 
-type Result<T> = std::result::Result<T, Rejected>;
+type Result<T> = std::result::Result<T, RasnError>;
 
 /// Decoder of one type; the components of a SEQUENCE have one for them all.
 pub(super) struct Decoder<'s, 'a> {
-    source: &'s Source<'a>,
+    source: &'s BitSource<'a>,
     /// Presence bits of the OPTIONAL and DEFAULT components, the last one lowest.
     presence: u64,
     /// How many of them are yet to come.
@@ -26,16 +27,8 @@ pub(super) struct Decoder<'s, 'a> {
     additions: Option<Additions>,
 }
 
-/// How many bits a number of this many values has.
-const fn width(values: u64) -> u32 {
-    match values {
-        0 | 1 => 0,
-        _ => (values - 1).ilog2() + 1,
-    }
-}
-
 impl<'s, 'a> Decoder<'s, 'a> {
-    pub(super) fn new(source: &'s Source<'a>) -> Self {
+    pub(super) fn new(source: &'s BitSource<'a>) -> Self {
         Self {
             source,
             presence: 0,
@@ -112,7 +105,7 @@ macro_rules! unsupported {
 
 impl rasn::Decoder for Decoder<'_, '_> {
     type Ok = ();
-    type Error = Rejected;
+    type Error = RasnError;
     type AnyDecoder<const R: usize, const E: usize> = Self;
 
     fn codec(&self) -> Codec {

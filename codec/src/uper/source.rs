@@ -5,12 +5,12 @@ use std::cell::{Cell, RefCell};
 use crate::core::Fault;
 
 /// Error of the rasn traits. It carries the field; what is wrong is kept in the source.
-pub(super) type Rejected = rasn::error::DecodeError;
+pub(super) type RasnError = rasn::error::DecodeError;
 
 /// The octets of a message and how far they have been read.
 ///
 /// The decoders of nested types share one source, so it is read through a shared reference.
-pub(super) struct Source<'a> {
+pub(super) struct BitSource<'a> {
     octets: &'a [u8],
     /// The next bit.
     position: Cell<usize>,
@@ -63,7 +63,7 @@ impl Additions {
     }
 }
 
-impl<'a> Source<'a> {
+impl<'a> BitSource<'a> {
     pub(super) fn new(octets: &'a [u8]) -> Self {
         Self {
             octets,
@@ -86,9 +86,9 @@ impl<'a> Source<'a> {
     }
 
     /// Notes what is wrong with the bits from `bit` on.
-    pub(super) fn reject_at(&self, bit: usize, fault: Fault) -> Rejected {
+    pub(super) fn reject_at(&self, bit: usize, fault: Fault) -> RasnError {
         self.fault.set(Some((bit, fault)));
-        <Rejected as rasn::de::Error>::custom("malformed", rasn::Codec::Uper)
+        <RasnError as rasn::de::Error>::custom("malformed", rasn::Codec::Uper)
     }
 
     /// What was noted last.
@@ -97,7 +97,7 @@ impl<'a> Source<'a> {
     }
 
     /// Skips `count` bits.
-    pub(super) fn skip(&self, count: usize) -> Result<(), Rejected> {
+    pub(super) fn skip(&self, count: usize) -> Result<(), RasnError> {
         if count > self.left() {
             return Err(self.reject_at(self.end.get(), Fault::Truncated));
         }
@@ -106,19 +106,19 @@ impl<'a> Source<'a> {
     }
 
     /// The next `count` bits as a number, at most 64.
-    pub(super) fn bits(&self, count: u32) -> Result<u64, Rejected> {
+    pub(super) fn bits(&self, count: u32) -> Result<u64, RasnError> {
         let first = self.position.get();
         self.skip(count as usize)?;
         let bits = first..first + count as usize;
         Ok(bits.fold(0, |number, bit| number << 1 | u64::from(self.bit_at(bit))))
     }
 
-    pub(super) fn bit(&self) -> Result<bool, Rejected> {
+    pub(super) fn bit(&self) -> Result<bool, RasnError> {
         self.bits(1).map(|bit| bit == 1)
     }
 
     /// The next octets, which need not begin at an octet.
-    pub(super) fn octets(&self, count: usize) -> Result<Vec<u8>, Rejected> {
+    pub(super) fn octets(&self, count: usize) -> Result<Vec<u8>, RasnError> {
         if count * 8 > self.left() {
             return Err(self.reject_at(self.end.get(), Fault::Truncated));
         }
@@ -135,7 +135,7 @@ impl<'a> Source<'a> {
 
     /// A length determinant in octets (X.691 clause 11.9), which no message can exceed in its
     /// two shorter forms.
-    pub(super) fn length(&self) -> Result<usize, Rejected> {
+    pub(super) fn length(&self) -> Result<usize, RasnError> {
         let start = self.position();
         let mut length = self.bits(8)?;
         if length >= 0x80 {
@@ -158,8 +158,8 @@ impl<'a> Source<'a> {
     /// Reads an open type with `read`, which must use all of it but the padding.
     pub(super) fn open_type<T>(
         &self,
-        read: impl FnOnce() -> Result<T, Rejected>,
-    ) -> Result<T, Rejected> {
+        read: impl FnOnce() -> Result<T, RasnError>,
+    ) -> Result<T, RasnError> {
         let length = self.length()?;
         if length * 8 > self.left() {
             return Err(self.reject_at(self.end.get(), Fault::Truncated));
@@ -177,14 +177,14 @@ impl<'a> Source<'a> {
     }
 
     /// Skips an open type.
-    fn skip_open_type(&self) -> Result<(), Rejected> {
+    fn skip_open_type(&self) -> Result<(), RasnError> {
         let length = self.length()?;
         self.skip(length * 8)
     }
 
     /// Reads the zero bits that fill the last octet of an encoding that began at bit `start`. An
     /// encoding without bits has one octet all the same (X.691 clause 11.1).
-    pub(super) fn padding(&self, start: usize) -> Result<(), Rejected> {
+    pub(super) fn padding(&self, start: usize) -> Result<(), RasnError> {
         let bit = self.position();
         let used = bit - start;
         #[expect(clippy::cast_possible_truncation, reason = "at most 8")]
@@ -196,7 +196,7 @@ impl<'a> Source<'a> {
     }
 
     /// A normally small number below 64 (X.691 clause 11.6); `None` for a larger one.
-    pub(super) fn small_number(&self) -> Result<Option<usize>, Rejected> {
+    pub(super) fn small_number(&self) -> Result<Option<usize>, RasnError> {
         if self.bit()? {
             return Ok(None);
         }
@@ -204,7 +204,7 @@ impl<'a> Source<'a> {
     }
 
     /// Which extension additions a SEQUENCE has (X.691 clause 19.7 and 19.8).
-    pub(super) fn additions(&self) -> Result<Additions, Rejected> {
+    pub(super) fn additions(&self) -> Result<Additions, RasnError> {
         let start = self.position();
         let Some(last) = self.small_number()? else {
             return Err(self.reject_at(start, Fault::TooManyAdditions));
@@ -231,7 +231,7 @@ impl<'a> Source<'a> {
         marker: usize,
         known: usize,
         additions: Additions,
-    ) -> Result<(), Rejected> {
+    ) -> Result<(), RasnError> {
         let start = self.position();
         let unknown = (known..additions.count).filter(|&index| additions.is_present(index));
         let unknown = unknown.count();

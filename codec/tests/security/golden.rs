@@ -3,7 +3,7 @@
 
 use crossguard_codec::security::{
     Certificate, Duration, HashedId3, HashedId8, IssuePermission, Issuer, Permission, PrivateKey,
-    SignedMessage, Signer, Ssp, SspRange, Station, Subjects, Ticket, Time64, Tolerances,
+    SignedMessage, SignerIdentifier, Ssp, SspRange, Station, Subjects, Ticket, Time64, Tolerances,
     TrustStore, Validity, issue, issue::Terms,
 };
 
@@ -125,7 +125,7 @@ fn the_messages_are_believed() {
     assert_eq!(requests, [HashedId3([0xaa, 0xbb, 0xcc])]);
     assert_eq!(
         message.signer,
-        Signer::Digest(HashedId8(octets("6d07c063fbbf5525").try_into().unwrap()))
+        SignerIdentifier::Digest(HashedId8(octets("6d07c063fbbf5525").try_into().unwrap()))
     );
     assert!(receiver.verify(GENERATED, None, &message).is_ok());
 }

@@ -1,7 +1,7 @@
 //! Changing the pseudonym.
 
 use crossguard_codec::security::{
-    Duration, SignedMessage, Signer, Station, Tolerances, Unsigned, issue::Terms,
+    Duration, SignedMessage, SignerIdentifier, Station, Tolerances, Unsigned, issue::Terms,
 };
 
 use crate::pki::{NOW, NOW_S, PAYLOAD, Pki, RAM, after_ms, hear, ticket_terms, validity};
@@ -17,7 +17,7 @@ fn messages_go_on_under_the_next_pseudonym_with_its_certificate() {
         let now = after_ms(round * 10);
         let envelope = sender.seal(now, RAM, PAYLOAD).unwrap();
         let message = SignedMessage::decode(&envelope).unwrap();
-        assert!(matches!(message.signer, Signer::Certificate(_)) || round == 0);
+        assert!(matches!(message.signer, SignerIdentifier::Certificate(_)) || round == 0);
         let verified = hear(&mut receiver, now, &envelope).unwrap();
         assert_eq!(verified.signer, sender.pseudonym());
         pseudonyms.push(verified.signer);

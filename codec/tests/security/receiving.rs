@@ -2,8 +2,8 @@
 
 use crossguard_codec::security::{
     Certificate, Duration, HashedId8, Issuer, Permission, Place, Region, Rejected, SignedMessage,
-    Signer, Ssp, Station, TICKETS_MAX, Ticket, Tolerances, TrustStore, Unsigned, Untrusted, issue,
-    issue::Terms,
+    SignerIdentifier, Ssp, Station, TICKETS_MAX, Ticket, Tolerances, TrustStore, Unsigned,
+    Untrusted, issue, issue::Terms,
 };
 
 use crate::pki::{
@@ -13,7 +13,7 @@ use crate::pki::{
 
 fn is_in_full(envelope: &[u8]) -> bool {
     let message = SignedMessage::decode(envelope).unwrap();
-    matches!(message.signer, Signer::Certificate(_))
+    matches!(message.signer, SignerIdentifier::Certificate(_))
 }
 
 #[test]

@@ -281,11 +281,16 @@ impl rasn::Decoder for Imagination {
         self.unused()
     }
 
-    fn decode_octet_string<'b, T>(&'b mut self, _: Tag, _: &Constraints) -> Result<T>
+    fn decode_octet_string<'b, T>(&'b mut self, _: Tag, constraints: &Constraints) -> Result<T>
     where
         T: From<&'b [u8]> + From<Vec<u8>>,
     {
-        self.unused()
+        let size = match constraints.size() {
+            Some(_) => self.size(constraints),
+            None => 1 + self.below(200),
+        };
+        let octets: Vec<u8> = (0..size).map(|_| self.next().to_be_bytes()[0]).collect();
+        Ok(T::from(octets))
     }
 
     fn decode_set_of<D: Decode + Eq + std::hash::Hash>(
@@ -313,18 +318,26 @@ impl rasn::Decoder for Imagination {
 
     fn decode_extension_addition_with_explicit_tag_and_constraints<D: Decode>(
         &mut self,
-        _: Tag,
-        _: &Constraints,
+        tag: Tag,
+        constraints: &Constraints,
     ) -> Result<Option<D>> {
-        self.unused()
+        self.decode_extension_addition_with_tag_and_constraints(tag, constraints)
     }
 
     fn decode_extension_addition_with_tag_and_constraints<D: Decode>(
         &mut self,
         _: Tag,
-        _: &Constraints,
+        constraints: &Constraints,
     ) -> Result<Option<D>> {
-        self.unused()
+        if self.flip() {
+            return Ok(None);
+        }
+        // rasn gives no constraints for those that the type of the addition has itself.
+        if constraints.size().is_none() && constraints.value().is_none() {
+            D::decode(self).map(Some)
+        } else {
+            D::decode_with_constraints(self, constraints).map(Some)
+        }
     }
 
     fn decode_extension_addition_group<const RC: usize, const EC: usize, D>(

@@ -1,4 +1,4 @@
-//! What the tests of the core share: a random source of values, and a list of all its types.
+//! What the tests of the core share: a random source of values.
 
 use crossguard_codec::core::{Source, Uper, encode};
 
@@ -52,48 +52,4 @@ pub fn mutate(mut octets: Vec<u8>, random: &mut Random) -> Vec<u8> {
         _ => {}
     }
     octets
-}
-
-/// Calls a macro with the modules of the core and their types that the reference has by the same name.
-#[macro_export]
-macro_rules! for_all_types {
-    ($callback:ident) => {
-        $callback! {
-            cdd: ItsPduHeader MessageId StationId TrafficParticipantType GenerationDeltaTime
-                DeltaTimeTenthOfSecond DeltaTimeSecond DeltaTimeTenSeconds OrdinalNumber1B
-                CardinalNumber1B Identifier1B Identifier2B StandardLength9b StandardLength12b
-                BasicContainer ReferencePositionWithConfidence GeoPosition Latitude Longitude
-                PositionConfidenceEllipse PosConfidenceEllipse SemiAxisLength Altitude
-                AltitudeValue AltitudeConfidence DeltaReferencePosition DeltaLatitude
-                DeltaLongitude DeltaAltitude CartesianPosition3d CartesianCoordinate Wgs84Angle
-                Wgs84AngleValue Wgs84AngleConfidence HeadingValue CartesianAngleValue Speed
-                SpeedValue SpeedConfidence DriveDirection AccelerationComponent
-                AccelerationValue AccelerationConfidence Curvature CurvatureValue
-                CurvatureConfidence YawRate YawRateValue YawRateConfidence
-                ObjectDimensionValue ExteriorLights LanePosition MapReference
-                RoadSegmentReferenceId IntersectionReferenceId Shape RectangularShape
-                CircularShape PolygonalShape VruClusterInformation VruClusterProfiles
-                PathHistory PathPoint PathDeltaTime PathPredicted PathPointPredicted
-                PathDeltaTimeChoice SequenceOfSafeDistanceIndication SafeDistanceIndication
-                SafeDistanceIndicator SequenceOfTrajectoryInterceptionIndication
-                TrajectoryInterceptionIndication TrajectoryInterceptionProbability
-                TrajectoryInterceptionConfidence AccelerationChangeIndication
-                AccelerationChange HeadingChangeIndication TurningDirection
-                StabilityChangeIndication StabilityLossProbability;
-            common: CoordinationSession SessionNumber OfferNumber RequestId TaskType TaskSet
-                TaskProgression UnavailabilityReason;
-            vam: VruClusterInformationContainer VruMotionPredictionContainer;
-            ram: RAM RobotAwareness RamParameters RobotHighFrequencyContainer RobotDimensions
-                RobotLowFrequencyContainer RobotCapabilities SignalsShown PublicSignal
-                SignalMeans RobotStatusContainer RobotCategory OperationalJobRole BatteryStatus
-                StateOfCharge ControlMode HelpStatus RobotLeaderFollowerOperationContainer
-                SessionRole RequesterRole RequestUrgency CrossingReference HelperRole
-                SafetyTimeout LeaderRole Heartbeat ConfirmedFollower FollowerRole CommandReport
-                CommandProgress FailureReason SessionFarewell EndedSession SessionEnding
-                LeftSession;
-            rmcm: RMCM RobotManeuverCoordination RmcmParameters ManeuverContainer
-                LeaderManeuverContainer ManeuverCommand ManeuverTarget ManeuverConstraints
-                ManeuverDuration FollowerManeuverContainer ManeuverResponse RejectionReason;
-        }
-    };
 }

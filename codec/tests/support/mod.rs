@@ -9,6 +9,7 @@ pub mod arbitrary;
 pub mod core;
 pub mod reference;
 pub mod samples;
+pub mod types;
 pub mod views;
 
 use crossguard_codec::its::ItsMessage;

@@ -1,13 +1,11 @@
-//! Limits of CAM, VAM and CPM that their encoding does not show, for senders and receivers alike.
+//! Limits of CAM and VAM that their encoding does not show, for senders and receivers alike.
 //! Those of RAM and RMCM are in the types of the [core](crate::core); the encoding of a DENM shows all of
 //! its own.
 //!
 //! - Sizes and values behind an extension marker are not used: a list of the common data dictionary
 //!   has no more items than its root allows, so a message has a largest size. The decoder refuses
 //!   them at the bit where they begin; here they are refused before they are encoded.
-//! - An extension container that a CAM says to have has octets, and so has one of a CPM.
-//! - The containers of a CPM come at most once each, and one of them at most says what the sender is
-//!   (TS 103 324, `ConstraintWrappedCpmContainers`).
+//! - An extension container that a CAM says to have has octets.
 //! - The bounding box of a cluster is a rectangle, a circle or a polygon (TS 102 894-2,
 //!   `VruClusterInformation`; an inner subtype constraint, which PER does not see).
 
@@ -18,9 +16,8 @@ use crate::asn1::cdd::{PathHistory, PathPoint, Shape, VruClusterInformation};
 use crate::asn1::cdd211::VAM211;
 use crate::asn1::vam::{VAM, VruMotionPredictionContainer};
 use crate::error::BrokenRule;
-use crate::its::{CPM, CpmContainer};
 
-type Checked = Result<(), BrokenRule>;
+pub(super) type Checked = Result<(), BrokenRule>;
 
 fn at_most(field: &'static str, found: usize, max: usize) -> Checked {
     if found > max {
@@ -30,7 +27,7 @@ fn at_most(field: &'static str, found: usize, max: usize) -> Checked {
 }
 
 /// Checks a CAM.
-pub(crate) fn check_cam(cam: &CAM) -> Checked {
+pub(super) fn check_cam(cam: &CAM) -> Checked {
     let Some(containers) = &cam.cam.cam_parameters.extension_containers else {
         return Ok(());
     };
@@ -47,40 +44,8 @@ pub(crate) fn check_cam(cam: &CAM) -> Checked {
     Ok(())
 }
 
-/// Checks a CPM.
-pub(crate) fn check_cpm(cpm: &CPM) -> Checked {
-    let (mut seen, mut originators) = (0_u32, 0);
-    for container in &cpm.cpm_containers {
-        let id = match container {
-            CpmContainer::OriginatingVehicleContainer(_)
-            | CpmContainer::OriginatingRsuContainer(_) => {
-                originators += 1;
-                1
-            }
-            CpmContainer::SensorInformationContainer(_) => 3,
-            CpmContainer::PerceptionRegionContainer(_) => 4,
-            CpmContainer::PerceivedObjectContainer(_)
-            | CpmContainer::PerceivedObjectContainer211(_) => 5,
-            CpmContainer::Unknown { id, .. } if id.0 < 6 => {
-                return Err(BrokenRule::KnownContainer(id.0));
-            }
-            CpmContainer::Unknown { data, .. } if data.0.is_empty() => {
-                return Err(BrokenRule::NoOctets {
-                    field: "cpmContainers",
-                });
-            }
-            CpmContainer::Unknown { .. } => continue,
-        };
-        if originators > 1 || seen & 1 << id != 0 {
-            return Err(BrokenRule::ContainerTwice(id));
-        }
-        seen |= 1 << id;
-    }
-    Ok(())
-}
-
 /// Checks a VAM on the dictionary v2.1.1.
-pub(crate) fn check_vam211(vam: &VAM211) -> Checked {
+pub(super) fn check_vam211(vam: &VAM211) -> Checked {
     match &vam.vam.vam_parameters.vru_cluster_information_container {
         Some(cluster) => check_cluster(&cluster.vru_cluster_information),
         None => Ok(()),
@@ -88,7 +53,7 @@ pub(crate) fn check_vam211(vam: &VAM211) -> Checked {
 }
 
 /// Checks a VAM.
-pub(crate) fn check_vam(vam: &VAM) -> Checked {
+pub(super) fn check_vam(vam: &VAM) -> Checked {
     let parameters = &vam.vam.vam_parameters;
     if let Some(lane) = &parameters.vru_high_frequency_container.vru_lane_position {
         let information = &lane.confidence;
