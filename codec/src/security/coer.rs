@@ -9,7 +9,7 @@ use super::rejected::Malformed;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OerReader<'a>(&'a [u8]);
 
-type Read<T> = Result<T, Malformed>;
+type OerRead<T> = Result<T, Malformed>;
 
 impl<'a> OerReader<'a> {
     pub(super) const fn new(octets: &'a [u8]) -> Self {
@@ -22,7 +22,7 @@ impl<'a> OerReader<'a> {
     }
 
     /// The next octets.
-    pub(super) fn take(&mut self, length: usize, field: &'static str) -> Read<&'a [u8]> {
+    pub(super) fn take(&mut self, length: usize, field: &'static str) -> OerRead<&'a [u8]> {
         let (taken, rest) = self
             .0
             .split_at_checked(length)
@@ -32,7 +32,7 @@ impl<'a> OerReader<'a> {
     }
 
     /// The next octets, as many as the caller says.
-    pub(super) fn array<const N: usize>(&mut self, field: &'static str) -> Read<[u8; N]> {
+    pub(super) fn array<const N: usize>(&mut self, field: &'static str) -> OerRead<[u8; N]> {
         let (first, rest) = self
             .0
             .split_first_chunk()
@@ -42,28 +42,28 @@ impl<'a> OerReader<'a> {
     }
 
     /// One octet: a preamble, tag, enumerated value or `Uint8`.
-    pub(super) fn octet(&mut self, field: &'static str) -> Read<u8> {
+    pub(super) fn octet(&mut self, field: &'static str) -> OerRead<u8> {
         self.array(field).map(u8::from_be_bytes)
     }
 
-    pub(super) fn u16(&mut self, field: &'static str) -> Read<u16> {
+    pub(super) fn u16(&mut self, field: &'static str) -> OerRead<u16> {
         self.array(field).map(u16::from_be_bytes)
     }
 
-    pub(super) fn u32(&mut self, field: &'static str) -> Read<u32> {
+    pub(super) fn u32(&mut self, field: &'static str) -> OerRead<u32> {
         self.array(field).map(u32::from_be_bytes)
     }
 
-    pub(super) fn i32(&mut self, field: &'static str) -> Read<i32> {
+    pub(super) fn i32(&mut self, field: &'static str) -> OerRead<i32> {
         self.array(field).map(i32::from_be_bytes)
     }
 
-    pub(super) fn u64(&mut self, field: &'static str) -> Read<u64> {
+    pub(super) fn u64(&mut self, field: &'static str) -> OerRead<u64> {
         self.array(field).map(u64::from_be_bytes)
     }
 
     /// An octet that has one value.
-    pub(super) fn expect(&mut self, value: u8, field: &'static str) -> Read<()> {
+    pub(super) fn expect(&mut self, value: u8, field: &'static str) -> OerRead<()> {
         match self.octet(field)? {
             found if found == value => Ok(()),
             found => Err(Malformed::Value { field, found }),
@@ -71,7 +71,7 @@ impl<'a> OerReader<'a> {
     }
 
     /// A length determinant, in its shortest form.
-    pub(super) fn length(&mut self, field: &'static str) -> Read<usize> {
+    pub(super) fn length(&mut self, field: &'static str) -> OerRead<usize> {
         let first = self.octet(field)?;
         if first < 0x80 {
             return Ok(usize::from(first));
@@ -90,13 +90,13 @@ impl<'a> OerReader<'a> {
     }
 
     /// A length and as many octets: an OCTET STRING, a `UTF8String`, an open type.
-    pub(super) fn opaque(&mut self, field: &'static str) -> Read<&'a [u8]> {
+    pub(super) fn opaque(&mut self, field: &'static str) -> OerRead<&'a [u8]> {
         let length = self.length(field)?;
         self.take(length, field)
     }
 
     /// `INTEGER (0..MAX)` that fits in 32 bits, as every ITS-AID does.
-    pub(super) fn unsigned(&mut self, field: &'static str) -> Read<u32> {
+    pub(super) fn unsigned(&mut self, field: &'static str) -> OerRead<u32> {
         let octets = self.opaque(field)?;
         match octets {
             [] | [0, _, ..] => Err(Malformed::NotCanonical { field }),
@@ -106,7 +106,7 @@ impl<'a> OerReader<'a> {
     }
 
     /// `INTEGER` without bounds that fits in 8 bits, as chain lengths do.
-    pub(super) fn small_integer(&mut self, field: &'static str) -> Read<i8> {
+    pub(super) fn small_integer(&mut self, field: &'static str) -> OerRead<i8> {
         match self.opaque(field)? {
             [octet] => Ok(i8::from_be_bytes([*octet])),
             [] => Err(Malformed::NotCanonical { field }),
@@ -115,7 +115,7 @@ impl<'a> OerReader<'a> {
     }
 
     /// How many elements a SEQUENCE OF has.
-    pub(super) fn quantity(&mut self, max: u32, field: &'static str) -> Read<u32> {
+    pub(super) fn quantity(&mut self, max: u32, field: &'static str) -> OerRead<u32> {
         match self.unsigned(field)? {
             quantity if quantity <= max => Ok(quantity),
             _ => Err(Malformed::TooMany { field }),
@@ -129,7 +129,7 @@ impl<'a> OerReader<'a> {
     pub(super) fn additions<const N: usize>(
         &mut self,
         field: &'static str,
-    ) -> Read<[Option<&'a [u8]>; N]> {
+    ) -> OerRead<[Option<&'a [u8]>; N]> {
         let bitmap = self.opaque(field)?;
         let (unused, bits) = match bitmap {
             [unused, bits @ ..] if *unused < 8 && (1..=8).contains(&bits.len()) => (*unused, bits),
@@ -153,7 +153,7 @@ impl<'a> OerReader<'a> {
     }
 
     /// Nothing may be left.
-    pub(super) const fn finish(self, field: &'static str) -> Read<()> {
+    pub(super) const fn finish(self, field: &'static str) -> OerRead<()> {
         if self.0.is_empty() {
             Ok(())
         } else {

@@ -12,7 +12,7 @@ use super::source::{Additions, BitSource, RasnError};
 use super::width;
 use crate::core::Fault;
 
-type Result<T> = std::result::Result<T, RasnError>;
+type DecodeResult<T> = Result<T, RasnError>;
 
 /// Decoder of one type; the components of a SEQUENCE have one for them all.
 pub(super) struct Decoder<'s, 'a> {
@@ -39,7 +39,7 @@ impl<'s, 'a> Decoder<'s, 'a> {
     }
 
     /// An index below `count`, in as few bits as that takes.
-    fn index(&self, count: usize) -> Result<usize> {
+    fn index(&self, count: usize) -> DecodeResult<usize> {
         let start = self.source.position();
         let index = self.source.bits(width(count as u64))?;
         match usize::try_from(index) {
@@ -49,7 +49,7 @@ impl<'s, 'a> Decoder<'s, 'a> {
     }
 
     /// The length of a list or string whose size is limited by `size`.
-    fn size(&self, size: Option<&Extensible<Size>>) -> Result<usize> {
+    fn size(&self, size: Option<&Extensible<Size>>) -> DecodeResult<usize> {
         let start = self.source.position();
         let unsupported = || self.source.reject_at(start, Fault::Unsupported);
         let size = size.ok_or_else(unsupported)?;
@@ -70,7 +70,7 @@ impl<'s, 'a> Decoder<'s, 'a> {
     }
 
     /// Whether the next OPTIONAL or DEFAULT component is present.
-    fn is_present(&mut self) -> Result<bool> {
+    fn is_present(&mut self) -> DecodeResult<bool> {
         match self.optional_left.checked_sub(1) {
             Some(left) => {
                 self.optional_left = left;
@@ -81,13 +81,13 @@ impl<'s, 'a> Decoder<'s, 'a> {
     }
 
     /// The characters of a string, each a number of so many bits (X.691 clause 30).
-    fn characters(&self, constraints: &Constraints, bits: u32) -> Result<Vec<u8>> {
+    fn characters(&self, constraints: &Constraints, bits: u32) -> DecodeResult<Vec<u8>> {
         let length = self.size(constraints.size())?;
         let character = |_| self.source.bits(bits).map(|bits| bits.to_be_bytes()[7]);
         (0..length).map(character).collect()
     }
 
-    fn unsupported<T>(&self) -> Result<T> {
+    fn unsupported<T>(&self) -> DecodeResult<T> {
         Err(self
             .source
             .reject_at(self.source.position(), Fault::Unsupported))
@@ -97,7 +97,7 @@ impl<'s, 'a> Decoder<'s, 'a> {
 /// Methods for types that the modules do not use.
 macro_rules! unsupported {
     ($($method:ident($($argument:ty),*) -> $type:ty;)*) => {$(
-        fn $method(&mut self, _: Tag, $(_: $argument),*) -> Result<$type> {
+        fn $method(&mut self, _: Tag, $(_: $argument),*) -> DecodeResult<$type> {
             self.unsupported()
         }
     )*};
@@ -112,11 +112,11 @@ impl rasn::Decoder for Decoder<'_, '_> {
         Codec::Uper
     }
 
-    fn decode_null(&mut self, _: Tag) -> Result<()> {
+    fn decode_null(&mut self, _: Tag) -> DecodeResult<()> {
         Ok(())
     }
 
-    fn decode_bool(&mut self, _: Tag) -> Result<bool> {
+    fn decode_bool(&mut self, _: Tag) -> DecodeResult<bool> {
         self.source.bit()
     }
 
@@ -125,7 +125,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         _: Tag,
         constraints: &Constraints,
-    ) -> Result<I> {
+    ) -> DecodeResult<I> {
         let start = self.source.position();
         let Some(value) = constraints.value() else {
             return self.unsupported();
@@ -157,7 +157,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
     }
 
     /// X.691 clause 14.
-    fn decode_enumerated<E: Enumerated>(&mut self, _: Tag) -> Result<E> {
+    fn decode_enumerated<E: Enumerated>(&mut self, _: Tag) -> DecodeResult<E> {
         let start = self.source.position();
         let is_addition = E::EXTENDED_VARIANTS.is_some() && self.source.bit()?;
         let value = if is_addition {
@@ -171,7 +171,11 @@ impl rasn::Decoder for Decoder<'_, '_> {
     }
 
     /// X.691 clause 16.
-    fn decode_bit_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::BitString> {
+    fn decode_bit_string(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> DecodeResult<types::BitString> {
         let length = self.size(constraints.size())?;
         (0..length).map(|_| self.source.bit()).collect()
     }
@@ -182,11 +186,11 @@ impl rasn::Decoder for Decoder<'_, '_> {
         _: Tag,
         _: Option<DF>,
         decode_fn: F,
-    ) -> Result<D>
+    ) -> DecodeResult<D>
     where
         D: Constructed<RC, EC>,
         DF: FnOnce() -> D,
-        F: FnOnce(&mut Self) -> Result<D>,
+        F: FnOnce(&mut Self) -> DecodeResult<D>,
     {
         const {
             assert!(D::FIELDS.number_of_optional_and_default_fields() <= 64);
@@ -219,7 +223,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         _: Tag,
         constraints: &Constraints,
-    ) -> Result<Vec<D>> {
+    ) -> DecodeResult<Vec<D>> {
         let length = self.size(constraints.size())?;
         let mut list = Vec::with_capacity(length);
         for _ in 0..length {
@@ -229,7 +233,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
     }
 
     /// X.691 clause 23.
-    fn decode_choice<D: DecodeChoice>(&mut self, constraints: &Constraints) -> Result<D> {
+    fn decode_choice<D: DecodeChoice>(&mut self, constraints: &Constraints) -> DecodeResult<D> {
         let start = self.source.position();
         let unknown = || self.source.reject_at(start, Fault::UnknownAlternative);
         let is_addition = constraints.extensible() && self.source.bit()?;
@@ -255,7 +259,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         }
     }
 
-    fn decode_explicit_prefix<D: Decode>(&mut self, tag: Tag) -> Result<D> {
+    fn decode_explicit_prefix<D: Decode>(&mut self, tag: Tag) -> DecodeResult<D> {
         if D::IS_CHOICE {
             D::decode(self)
         } else {
@@ -263,15 +267,18 @@ impl rasn::Decoder for Decoder<'_, '_> {
         }
     }
 
-    fn decode_optional_with_explicit_prefix<D: Decode>(&mut self, tag: Tag) -> Result<Option<D>> {
+    fn decode_optional_with_explicit_prefix<D: Decode>(
+        &mut self,
+        tag: Tag,
+    ) -> DecodeResult<Option<D>> {
         self.decode_optional_with_tag(tag)
     }
 
-    fn decode_optional<D: Decode>(&mut self) -> Result<Option<D>> {
+    fn decode_optional<D: Decode>(&mut self) -> DecodeResult<Option<D>> {
         self.decode_optional_with_tag(D::TAG)
     }
 
-    fn decode_optional_with_tag<D: Decode>(&mut self, tag: Tag) -> Result<Option<D>> {
+    fn decode_optional_with_tag<D: Decode>(&mut self, tag: Tag) -> DecodeResult<Option<D>> {
         let is_present = self.is_present()?;
         is_present
             .then(|| D::decode_with_tag(self, tag))
@@ -281,7 +288,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
     fn decode_optional_with_constraints<D: Decode>(
         &mut self,
         constraints: &Constraints,
-    ) -> Result<Option<D>> {
+    ) -> DecodeResult<Option<D>> {
         self.decode_optional_with_tag_and_constraints(D::TAG, constraints)
     }
 
@@ -289,7 +296,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         tag: Tag,
         constraints: &Constraints,
-    ) -> Result<Option<D>> {
+    ) -> DecodeResult<Option<D>> {
         let is_present = self.is_present()?;
         is_present
             .then(|| D::decode_with_tag_and_constraints(self, tag, constraints))
@@ -310,12 +317,16 @@ impl rasn::Decoder for Decoder<'_, '_> {
         decode_date() -> types::Date;
     }
 
-    fn decode_real<R: types::RealType>(&mut self, _: Tag, _: &Constraints) -> Result<R> {
+    fn decode_real<R: types::RealType>(&mut self, _: Tag, _: &Constraints) -> DecodeResult<R> {
         self.unsupported()
     }
 
     /// X.691 clause 17.
-    fn decode_octet_string<'b, T>(&'b mut self, _: Tag, constraints: &Constraints) -> Result<T>
+    fn decode_octet_string<'b, T>(
+        &'b mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> DecodeResult<T>
     where
         T: From<&'b [u8]> + From<Vec<u8>>,
     {
@@ -326,7 +337,11 @@ impl rasn::Decoder for Decoder<'_, '_> {
         self.source.octets(length).map(T::from)
     }
 
-    fn decode_ia5_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::Ia5String> {
+    fn decode_ia5_string(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> DecodeResult<types::Ia5String> {
         let start = self.source.position();
         let characters = self.characters(constraints, 7)?;
         types::Ia5String::from_iso646_bytes(&characters)
@@ -338,7 +353,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         _: Tag,
         constraints: &Constraints,
-    ) -> Result<types::NumericString> {
+    ) -> DecodeResult<types::NumericString> {
         let start = self.source.position();
         let indices = self.characters(constraints, 4)?;
         let characters = indices.into_iter();
@@ -354,7 +369,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         _: Tag,
         constraints: &Constraints,
-    ) -> Result<types::Utf8String> {
+    ) -> DecodeResult<types::Utf8String> {
         let start = self.source.position();
         let reject = |fault| self.source.reject_at(start, fault);
         let octets = self.source.octets(self.source.length()?)?;
@@ -373,7 +388,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         _: Tag,
         _: &Constraints,
-    ) -> Result<types::SetOf<D>> {
+    ) -> DecodeResult<types::SetOf<D>> {
         self.unsupported()
     }
 
@@ -382,12 +397,12 @@ impl rasn::Decoder for Decoder<'_, '_> {
         _: Tag,
         _: D,
         _: F,
-    ) -> Result<SET>
+    ) -> DecodeResult<SET>
     where
         SET: Decode + Constructed<RC, EC>,
         FIELDS: Decode,
-        D: Fn(&mut Self, usize, Tag) -> Result<FIELDS>,
-        F: FnOnce(Vec<FIELDS>) -> Result<SET>,
+        D: Fn(&mut Self, usize, Tag) -> DecodeResult<FIELDS>,
+        F: FnOnce(Vec<FIELDS>) -> DecodeResult<SET>,
     {
         self.unsupported()
     }
@@ -396,7 +411,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         tag: Tag,
         constraints: &Constraints,
-    ) -> Result<Option<D>> {
+    ) -> DecodeResult<Option<D>> {
         self.decode_extension_addition_with_tag_and_constraints(tag, constraints)
     }
 
@@ -405,7 +420,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         &mut self,
         _: Tag,
         constraints: &Constraints,
-    ) -> Result<Option<D>> {
+    ) -> DecodeResult<Option<D>> {
         if !self.is_extended {
             return Ok(None);
         }
@@ -432,7 +447,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
 
     fn decode_extension_addition_group<const RC: usize, const EC: usize, D>(
         &mut self,
-    ) -> Result<Option<D>>
+    ) -> DecodeResult<Option<D>>
     where
         D: Decode + Constructed<RC, EC>,
     {

@@ -11,7 +11,7 @@ use rasn::{Codec, Encode};
 
 use super::width;
 
-type Result<T> = std::result::Result<T, EncodeError>;
+type EncodeResult<T> = Result<T, EncodeError>;
 
 /// Bits in their order.
 #[derive(Default)]
@@ -58,7 +58,7 @@ impl Bits {
     }
 
     /// A length without a bound (X.691 clause 11.9). A message has no parts of 16384 items.
-    fn length(&mut self, length: usize) -> Result<()> {
+    fn length(&mut self, length: usize) -> EncodeResult<()> {
         match length {
             0..0x80 => self.number(length as u64, 8),
             0x80..0x4000 => self.number(0x8000 | length as u64, 16),
@@ -68,7 +68,7 @@ impl Bits {
     }
 
     /// A small number, below 64 (X.691 clause 11.6).
-    fn small_number(&mut self, number: usize) -> Result<()> {
+    fn small_number(&mut self, number: usize) -> EncodeResult<()> {
         if number >= 64 {
             return unsupported();
         }
@@ -77,14 +77,14 @@ impl Bits {
     }
 
     /// An open type: octets with their number (X.691 clause 11.2).
-    fn open_type(&mut self, octets: &[u8]) -> Result<()> {
+    fn open_type(&mut self, octets: &[u8]) -> EncodeResult<()> {
         self.length(octets.len())?;
         self.octets(octets);
         Ok(())
     }
 
     /// X.691 clause 13.
-    fn integer(&mut self, number: i128, range: &Extensible<Value>) -> Result<()> {
+    fn integer(&mut self, number: i128, range: &Extensible<Value>) -> EncodeResult<()> {
         let bounds: &Bounded<i128> = &range.constraint;
         let (Some(&min), Some(&max)) = bounds.start_and_end() else {
             return unsupported();
@@ -108,7 +108,7 @@ impl Bits {
     }
 
     /// An integer without bounds, in as few octets as it takes (X.691 clause 13.2.4).
-    fn unbounded(&mut self, number: i128) -> Result<()> {
+    fn unbounded(&mut self, number: i128) -> EncodeResult<()> {
         let octets = number.to_be_bytes();
         let significant = 129 - number.unsigned_abs().leading_zeros() as usize;
         let is_exact = number < 0 && number.unsigned_abs().is_power_of_two();
@@ -117,7 +117,7 @@ impl Bits {
     }
 
     /// The length of a list or string (X.691 clauses 16, 17, 20).
-    fn size(&mut self, length: usize, size: Option<&Extensible<Size>>) -> Result<()> {
+    fn size(&mut self, length: usize, size: Option<&Extensible<Size>>) -> EncodeResult<()> {
         let Some(size) = size else {
             return self.length(length);
         };
@@ -140,7 +140,7 @@ impl Bits {
     }
 
     /// Marks the SEQUENCE at `marker` as extended, and writes its additions (X.691 clause 19.7).
-    fn additions(&mut self, marker: usize, additions: &[Option<Vec<u8>>]) -> Result<()> {
+    fn additions(&mut self, marker: usize, additions: &[Option<Vec<u8>>]) -> EncodeResult<()> {
         self.set(marker);
         self.small_number(additions.len() - 1)?;
         for addition in additions {
@@ -154,7 +154,7 @@ impl Bits {
 }
 
 /// Something that the modules do not use.
-fn unsupported<T>() -> Result<T> {
+fn unsupported<T>() -> EncodeResult<T> {
     let error = rasn::enc::Error::custom("no module uses such a type", Codec::Uper);
     Err(error)
 }
@@ -193,7 +193,7 @@ impl<'w> Encoder<'w> {
         numbers: impl ExactSizeIterator<Item = u64>,
         constraints: &Constraints,
         bits: u32,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         self.bits.size(numbers.len(), constraints.size())?;
         numbers.for_each(|number| self.bits.number(number, bits));
         Ok(())
@@ -203,7 +203,7 @@ impl<'w> Encoder<'w> {
 /// Methods for types that the modules do not use.
 macro_rules! unsupported {
     ($($method:ident($($argument:ty),*);)*) => {$(
-        fn $method(&mut self, _: Tag, $(_: $argument,)* _: Identifier) -> Result<()> {
+        fn $method(&mut self, _: Tag, $(_: $argument,)* _: Identifier) -> EncodeResult<()> {
             unsupported()
         }
     )*};
@@ -218,11 +218,11 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         Codec::Uper
     }
 
-    fn encode_null(&mut self, _: Tag, _: Identifier) -> Result<()> {
+    fn encode_null(&mut self, _: Tag, _: Identifier) -> EncodeResult<()> {
         Ok(())
     }
 
-    fn encode_bool(&mut self, _: Tag, value: bool, _: Identifier) -> Result<()> {
+    fn encode_bool(&mut self, _: Tag, value: bool, _: Identifier) -> EncodeResult<()> {
         self.bits.bit(value);
         Ok(())
     }
@@ -233,7 +233,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         constraints: &Constraints,
         value: &I,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         match (value.to_i128(), constraints.value()) {
             (Some(number), Some(range)) => self.bits.integer(number, range),
             _ => unsupported(),
@@ -241,7 +241,12 @@ impl rasn::Encoder<'_> for Encoder<'_> {
     }
 
     /// X.691 clause 14.
-    fn encode_enumerated<E: Enumerated>(&mut self, _: Tag, value: &E, _: Identifier) -> Result<()> {
+    fn encode_enumerated<E: Enumerated>(
+        &mut self,
+        _: Tag,
+        value: &E,
+        _: Identifier,
+    ) -> EncodeResult<()> {
         let index = value.enumeration_index();
         let is_addition = value.is_extended_variant();
         if E::EXTENDED_VARIANTS.is_some() {
@@ -260,7 +265,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         constraints: &Constraints,
         value: &types::BitStr,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         self.bits.size(value.len(), constraints.size())?;
         value.iter().by_vals().for_each(|bit| self.bits.bit(bit));
         Ok(())
@@ -272,7 +277,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         constraints: &Constraints,
         value: &[u8],
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         self.bits.size(value.len(), constraints.size())?;
         self.bits.octets(value);
         Ok(())
@@ -284,7 +289,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         constraints: &Constraints,
         value: &types::Ia5String,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         let characters = value.as_iso646_bytes().iter();
         self.characters(characters.map(|octet| (*octet).into()), constraints, 7)
     }
@@ -295,7 +300,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         constraints: &Constraints,
         value: &types::NumericString,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         // A space is the first of the eleven characters.
         let index = |octet: &u8| u64::from(octet.checked_sub(b'0').map_or(0, |digit| digit + 1));
         self.characters(value.as_bytes().iter().map(index), constraints, 4)
@@ -308,7 +313,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         _: &Constraints,
         value: &str,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         self.bits.open_type(value.as_bytes())
     }
 
@@ -318,10 +323,10 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         _: Tag,
         encoder_scope: F,
         _: Identifier,
-    ) -> Result<()>
+    ) -> EncodeResult<()>
     where
         C: Constructed<RC, EC>,
-        F: FnOnce(&mut Encoder<'b>) -> Result<()>,
+        F: FnOnce(&mut Encoder<'b>) -> EncodeResult<()>,
     {
         let marker = self.bits.count;
         if C::IS_EXTENSIBLE {
@@ -346,7 +351,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         value: &[E],
         constraints: &Constraints,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         self.bits.size(value.len(), constraints.size())?;
         let mut items = Encoder::new(self.bits);
         value.iter().try_for_each(|item| item.encode(&mut items))
@@ -357,9 +362,9 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         &mut self,
         constraints: &Constraints,
         tag: Tag,
-        encode_fn: impl FnOnce(&mut Self) -> Result<Tag>,
+        encode_fn: impl FnOnce(&mut Self) -> EncodeResult<Tag>,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         let index = |alternatives: &[TagTree]| {
             let mut alternatives = alternatives.iter();
             alternatives.position(|one| matches!(one, TagTree::Leaf(leaf) if *leaf == tag))
@@ -389,7 +394,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         tag: Tag,
         value: &V,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         if V::IS_CHOICE {
             value.encode(self)
         } else {
@@ -397,7 +402,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         }
     }
 
-    fn encode_some<E: Encode>(&mut self, value: &E, _: Identifier) -> Result<()> {
+    fn encode_some<E: Encode>(&mut self, value: &E, _: Identifier) -> EncodeResult<()> {
         self.present(true);
         value.encode(self)
     }
@@ -408,17 +413,17 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         constraints: &Constraints,
         value: &E,
         identifier: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         self.present(true);
         value.encode_with_tag_and_constraints(self, tag, constraints, identifier)
     }
 
-    fn encode_none<E: Encode>(&mut self, _: Identifier) -> Result<()> {
+    fn encode_none<E: Encode>(&mut self, _: Identifier) -> EncodeResult<()> {
         self.present(false);
         Ok(())
     }
 
-    fn encode_none_with_tag(&mut self, _: Tag, _: Identifier) -> Result<()> {
+    fn encode_none_with_tag(&mut self, _: Tag, _: Identifier) -> EncodeResult<()> {
         self.present(false);
         Ok(())
     }
@@ -430,7 +435,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         constraints: &Constraints,
         value: E,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         if !value.is_present() {
             self.additions.push(None);
             return Ok(());
@@ -467,7 +472,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         _: &Constraints,
         _: &R,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         unsupported()
     }
 
@@ -476,10 +481,10 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         _: Tag,
         _: F,
         _: Identifier,
-    ) -> Result<()>
+    ) -> EncodeResult<()>
     where
         C: Constructed<RC, EC>,
-        F: FnOnce(&mut Encoder<'b>) -> Result<()>,
+        F: FnOnce(&mut Encoder<'b>) -> EncodeResult<()>,
     {
         unsupported()
     }
@@ -490,7 +495,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         _: &types::SetOf<E>,
         _: &Constraints,
         _: Identifier,
-    ) -> Result<()> {
+    ) -> EncodeResult<()> {
         unsupported()
     }
 
@@ -498,7 +503,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         &mut self,
         _: Option<&E>,
         _: Identifier,
-    ) -> Result<()>
+    ) -> EncodeResult<()>
     where
         E: Encode + Constructed<RC, EC>,
     {
