@@ -15,6 +15,10 @@ use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Input, Notice, Output, Outputs, State};
 use tracing::{debug, info, trace, warn};
 use tracing_appender::non_blocking::WorkerGuard;
+use tracing_subscriber::Layer as _;
+use tracing_subscriber::filter::Targets;
+use tracing_subscriber::layer::SubscriberExt as _;
+use tracing_subscriber::util::SubscriberInitExt as _;
 
 use crate::trace::Entry;
 
@@ -40,14 +44,18 @@ pub fn to_standard_error(verbose: u8, crates: &[&str]) -> WorkerGuard {
             .collect();
         levels.join(",")
     });
+    let filter: Targets = filter.parse().unwrap_or_else(|error| {
+        eprintln!("RUST_LOG: {error}; wanted are crates and levels: crossguard_robot=debug");
+        Targets::new()
+    });
     let (stderr, guard) = tracing_appender::non_blocking(std::io::stderr());
-    let subscriber = tracing_subscriber::fmt()
-        .with_env_filter(tracing_subscriber::EnvFilter::new(filter))
+    let lines = tracing_subscriber::fmt::layer()
         .with_writer(stderr)
         .with_target(false)
-        .with_ansi(std::io::stderr().is_terminal());
+        .with_ansi(std::io::stderr().is_terminal())
+        .with_filter(filter);
     // It can only fail when there is a subscriber already.
-    let _ = subscriber.try_init();
+    let _ = tracing_subscriber::registry().with(lines).try_init();
     guard
 }
 
