@@ -53,7 +53,7 @@ pub(crate) fn offset(from: &Position, to: &Position) -> Option<(f64, f64)> {
     ))
 }
 
-/// The position so many metres east and north of another one; for distances of a street.
+/// The position this many metres east and north of another one; for distances of a street.
 #[cfg(feature = "std")]
 pub(crate) fn moved(from: &Position, east: f64, north: f64) -> Position {
     let latitude = from.latitude.map(|south| {

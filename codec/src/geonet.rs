@@ -95,7 +95,7 @@ pub struct Headers {
     pub source: LongPositionVector,
     /// Its destination.
     pub transport: Transport,
-    /// BTP-B destination port; see TS 103 248 for those that are assigned.
+    /// BTP-B destination port; see TS 103 248 for assigned ports.
     pub port: u16,
     /// BTP-B destination port info, 0 unless the port defines it.
     pub port_info: u16,
@@ -249,7 +249,7 @@ impl TrafficClass {
 }
 
 impl Lifetime {
-    /// The smallest lifetime that is not shorter than so many milliseconds; saturates at 6300 s.
+    /// The smallest lifetime that is not shorter than this many milliseconds; saturates at 6300 s.
     #[must_use]
     pub const fn of_milliseconds(milliseconds: u32) -> Self {
         let (base, unit) = match milliseconds {

@@ -1,4 +1,4 @@
-//! Extension additions of newer senders are skipped; those that are not well-formed are refused.
+//! Extension additions of newer senders are skipped; additions that are not well-formed are refused.
 
 mod support;
 

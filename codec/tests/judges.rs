@@ -1,5 +1,5 @@
 //! What other encoders make of the messages of this kit, both ways: thousands of them are decoded and
-//! encoded again by `judges/judge.py`, and those that it makes of their parts by the kit.
+//! encoded again by `judges/judge.py`, and messages that it makes of their parts by the kit.
 
 mod support;
 
@@ -15,7 +15,7 @@ use crossguard_codec::{Dictionary, Identifiers, encode};
 use support::reference::Reference;
 use support::{arbitrary, from_hex, to_hex};
 
-/// How many RAM, how many RMCM, and of how many DENM those that fit.
+/// How many RAM, how many RMCM, and of how many DENM the ones that fit.
 const MESSAGES: u64 = 2_000;
 
 fn on(dictionary: Dictionary) -> Identifiers {

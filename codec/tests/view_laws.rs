@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use support::core::Random;
 use support::views;
 
-/// Random numbers for the protocol's values, mostly those that make a whole of them.
+/// Random numbers for the protocol's values, mostly values that make a whole of them.
 struct Hinted(Random);
 
 impl crossguard_protocol::laws::Source for Hinted {

@@ -127,7 +127,7 @@ def same(topic, found, expected):
 
 
 def changes(values):
-    """Those that differ from the one before."""
+    """The items that differ from the one before."""
     return [it for i, it in enumerate(values) if i == 0 or values[i - 1][1] != it[1]]
 
 

@@ -285,7 +285,7 @@ def judge_log(path, status, corridor, event):
 
 
 def changes(values):
-    """Those that differ from the one before."""
+    """The items that differ from the one before."""
     return [it for i, it in enumerate(values) if i == 0 or values[i - 1] != it]
 
 

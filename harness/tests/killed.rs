@@ -83,7 +83,7 @@ fn kill(victim: usize, after_ms: u64) {
 }
 
 #[test]
-fn whoever_is_killed_at_whatever_moment_the_other_comes_to_rest_and_both_cross_again() {
+fn the_other_robot_comes_to_rest_whenever_one_is_killed_and_both_cross_again() {
     // Other moments in every run; the case is in the message of a failure.
     let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
     let jitter_ms = u64::from(now.subsec_millis()) % (CROSSING_MS / MOMENTS);

@@ -62,7 +62,7 @@ fn links(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The anchors of a page: those that GitHub gives its headings.
+/// The anchors of a page: the ones that GitHub gives its headings.
 fn anchors(text: &str) -> BTreeSet<String> {
     let headings = lines(text, false).filter(|line| line.starts_with('#'));
     let slug = |heading: &str| {

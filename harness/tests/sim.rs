@@ -1,4 +1,4 @@
-//! Simulated robots: runs that repeat exactly, and times that stay within those that the timed model
+//! Simulated robots: runs that repeat exactly, and times that stay within the times that the timed model
 //! computes.
 
 use crossguard_judge::sim::{

@@ -220,7 +220,7 @@ fn sumo() -> Option<String> {
     std::env::var("SUMO_BIN").ok()
 }
 
-/// The traces that come along are those that `record` makes.
+/// The traces that come along are the ones that `record` makes.
 #[test]
 fn sumo_records_the_traces_that_come_along() {
     let Some(sumo) = sumo() else {

@@ -132,7 +132,7 @@ fn is_heard_later(line: &Value) -> bool {
     is(line, "heard") && arrived_us.is_some_and(|arrived_us| arrived_us > 100_000)
 }
 
-/// The message arrived so many ms earlier, and was told so many earlier.
+/// The message arrived this many ms earlier, and was told this many earlier.
 fn shift_reception(line: &mut Value, arrived_ms: u64, told_ms: u64) {
     for (name, ms) in [("arrivedUs", arrived_ms), ("toldUs", told_ms)] {
         let time = &mut line["reception"][name];

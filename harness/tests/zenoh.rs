@@ -173,7 +173,7 @@ fn what_finds_no_place_is_counted() {
 }
 
 #[test]
-fn whoever_goes_by_another_name_is_heard_and_what_is_too_long_is_cut() {
+fn a_peer_by_another_name_is_heard_and_what_is_too_long_is_cut() {
     use zenoh::Wait;
 
     let part = &peers(&["test/v2x"])[0];

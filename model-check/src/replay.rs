@@ -18,7 +18,7 @@ pub struct Replay {
     pub property: String,
     /// What happens, in order.
     pub steps: Vec<ChartStep>,
-    /// How many steps come before those that are repeated for ever, where the run is without end.
+    /// How many steps come before the steps that are repeated for ever, where the run is without end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub repeats_after: Option<usize>,
 }

@@ -78,7 +78,7 @@ pub struct PropertyReport {
     /// A run that breaks the property.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub counterexample: Vec<ChartStep>,
-    /// Where the run is one without end: how many of its steps come before those that are repeated
+    /// Where the run is one without end: how many of its steps come before the steps that are repeated
     /// for ever. With none left to repeat, nothing happens any more.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repeats_after: Option<usize>,

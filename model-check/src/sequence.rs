@@ -74,7 +74,7 @@ pub struct Chart<'a> {
     pub robots: &'a [String],
     /// What happens, in order.
     pub steps: &'a [ChartStep],
-    /// How many steps come before those that are repeated for ever, where the run is without end.
+    /// How many steps come before the steps that are repeated for ever, where the run is without end.
     pub repeats_after: Option<usize>,
 }
 

@@ -24,7 +24,7 @@ use crossguard_protocol::{
 /// Distinct states of the Promela model; a change of it is to be looked at, like that of a scenario.
 const STATES: usize = 1_733_587;
 
-/// What the Promela model speaks about. It has no totality (I13), as it has no inputs but those that its
+/// What the Promela model speaks about. It has no totality (I13), as it has no inputs but the ones that its
 /// channel carries, and no liveness under fairness.
 const EXPRESSED: [PropertyId; 17] = [
     I1, I2, I3, I4, I5, I6, I7, I8, I9, I11, I12, I14, I16, L7, W1, W2, W4,

@@ -36,7 +36,7 @@ struct Entry {
     time: String,
 }
 
-/// One entry of those that are not proved.
+/// One entry of the harnesses that are not proved.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Unproved {

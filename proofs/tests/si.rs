@@ -131,7 +131,7 @@ fn every_quantity_of_32_bits_has_its_latitude() {
     sweep_quantities(&si::LATITUDE);
 }
 
-/// Every `f64`, the odd ones more often than chance has it, and those that once were wrong.
+/// Every `f64`, the odd ones more often than chance has it, and values that once were wrong.
 fn any_quantity() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => -1e3..1e3,

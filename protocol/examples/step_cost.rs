@@ -14,7 +14,7 @@ use crossguard_protocol::{
 };
 
 const ROBOTS: usize = 5;
-/// Inputs of the walk, and repetitions by which each step is timed: the best of so many batches.
+/// Inputs of the walk, and repetitions by which each step is timed: the best of this many batches.
 const INPUTS: usize = 300_000;
 const BATCHES: usize = 5;
 const BATCH: u32 = 8;

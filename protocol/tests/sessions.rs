@@ -167,7 +167,7 @@ fn an_answer_of_another_session_changes_nothing() {
 }
 
 #[test]
-fn whoever_follows_in_a_session_that_is_over_is_told_so() {
+fn a_robot_that_follows_in_a_session_that_is_over_is_told_so() {
     let mut street = Street::executing(TaskType::MOVE);
     let session = street.session_of(GO2);
     street.reboot(ARI);
@@ -205,7 +205,7 @@ fn a_session_that_somebody_named_before_it_was_opened_is_not_named_as_over() {
 }
 
 #[test]
-fn whoever_offers_to_a_session_that_is_over_is_told_so() {
+fn a_robot_that_offers_to_a_session_that_is_over_is_told_so() {
     let mut street = Street::new(&[ARI, GO2]);
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
     street.reboot(ARI);
@@ -214,7 +214,7 @@ fn whoever_offers_to_a_session_that_is_over_is_told_so() {
 }
 
 #[test]
-fn whoever_claims_a_part_that_nobody_gave_it_does_not_end_the_session() {
+fn a_robot_that_claims_a_part_that_nobody_gave_it_does_not_end_the_session() {
     let mut street = Street::new(&[ARI]);
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
     let session = street.session_of(ARI);

@@ -147,7 +147,7 @@ pub fn padding_is_zero<T: Uper, const N: usize>(value: &T, bit: usize) {
 }
 
 /// `count` bits are read as they were written, behind `before` bits and in front of others, and these
-/// are what they were. Both counts are taken modulo 33, and so many bits of the numbers.
+/// are what they were. Both counts are taken modulo 33, and this many bits of the numbers.
 pub fn bits_are_read_as_written(before: (u32, u32), number: (u32, u32), after: (u32, u32)) {
     let parts = [before, number, after].map(|(number, count)| {
         let count = count % 33;
@@ -198,7 +198,7 @@ pub fn reading_stops_at_the_end(octets: &[u8], position: usize, count: u32) {
 }
 
 /// What is read depends on the bits ahead alone, not on where they are: `count` bits, modulo 33, behind
-/// `before` bits are those that stand first when everything is moved up by so many. Tells whether so many
+/// `before` bits are those that stand first when everything is moved up by this many. Tells whether this many
 /// bits are there.
 pub fn what_is_ahead_decides<const N: usize>(octets: &[u8; N], before: usize, count: u32) -> bool {
     let count = count % 33;

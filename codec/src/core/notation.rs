@@ -137,7 +137,7 @@ macro_rules! asn1 {
         impl $name {
             const MASK: $rust = $rust::MAX >> ($rust::BITS - $size);
 
-            /// The string of these bits. Those that the string has no place for are left out.
+            /// The string of these bits. Bits that the string has no place for are left out.
             #[must_use]
             pub const fn new(bits: $rust) -> Self {
                 Self(bits & Self::MASK)

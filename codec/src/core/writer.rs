@@ -58,7 +58,7 @@ impl<'a> Writer<'a> {
         self
     }
 
-    /// Writes a window of octets, highest first. Those that are not begun yet become zero.
+    /// Writes a window of octets, highest first. Octets that are not begun yet become zero.
     #[inline]
     fn put(&mut self, first: usize, window: u64) {
         let window = window.to_be_bytes();

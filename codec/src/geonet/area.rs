@@ -56,7 +56,7 @@ mod tests {
         }
     }
 
-    /// Whether the place so many steps north and east of the centre is in the area.
+    /// Whether the place this many steps north and east of the centre is in the area.
     fn holds(area: &Area, north: i32, east: i32) -> bool {
         area.contains(area.latitude + north * STEP, area.longitude + east * STEP)
     }

@@ -33,7 +33,7 @@ impl Secured {
         &self.station
     }
 
-    /// Changes the pseudonym if that `is_due`, or if its ticket is over within so many milliseconds, to
+    /// Changes the pseudonym if that `is_due`, or if its ticket is over within this many milliseconds, to
     /// one that is valid for longer; its name, if there is one. The address and the station id must
     /// change with it, and all of that only while the identity is not locked.
     pub fn renew_pseudonym(

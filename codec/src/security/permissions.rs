@@ -50,7 +50,7 @@ pub enum SspRange {
     All,
     /// These.
     Opaque(Vec<Vec<u8>>),
-    /// Those that have `value` in all bits that are set in `mask`. Both have the same length.
+    /// Permissions that have `value` in all bits that are set in `mask`. Both have the same length.
     Bitmap {
         /// The bits.
         value: Vec<u8>,

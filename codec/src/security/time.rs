@@ -75,7 +75,7 @@ impl Unit {
 }
 
 impl Duration {
-    /// So many hours.
+    /// This many hours.
     #[must_use]
     pub const fn hours(number: u16) -> Self {
         Self {
@@ -84,7 +84,7 @@ impl Duration {
         }
     }
 
-    /// So many years.
+    /// This many years.
     #[must_use]
     pub const fn years(number: u16) -> Self {
         Self {

@@ -80,7 +80,7 @@ impl<'s, 'a> Decoder<'s, 'a> {
         }
     }
 
-    /// The characters of a string, each a number of so many bits (X.691 clause 30).
+    /// The characters of a string, each a number of this many bits (X.691 clause 30).
     fn characters(&self, constraints: &Constraints, bits: u32) -> DecodeResult<Vec<u8>> {
         let length = self.size(constraints.size())?;
         let character = |_| self.source.bits(bits).map(|bits| bits.to_be_bytes()[7]);
@@ -435,7 +435,7 @@ impl rasn::Decoder for Decoder<'_, '_> {
         }
         let mut addition = Decoder::new(self.source);
         let read = || {
-            // rasn gives no constraints for those that the type of the addition has itself.
+            // rasn does not give the constraints that the type of the addition has itself.
             if constraints.size().is_none() && constraints.value().is_none() {
                 D::decode(&mut addition)
             } else {

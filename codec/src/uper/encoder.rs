@@ -187,7 +187,7 @@ impl<'w> Encoder<'w> {
         }
     }
 
-    /// The characters of a string, each a number of so many bits (X.691 clause 30).
+    /// The characters of a string, each a number of this many bits (X.691 clause 30).
     fn characters(
         &mut self,
         numbers: impl ExactSizeIterator<Item = u64>,
@@ -442,7 +442,7 @@ impl rasn::Encoder<'_> for Encoder<'_> {
         }
         let mut bits = Bits::default();
         let mut addition = Encoder::new(&mut bits);
-        // rasn gives no constraints for those that the type of the addition has itself.
+        // rasn does not give the constraints that the type of the addition has itself.
         if constraints.size().is_none() && constraints.value().is_none() {
             value.encode(&mut addition)?;
         } else {

@@ -224,7 +224,7 @@ impl<'a> BitSource<'a> {
         })
     }
 
-    /// Skips the extension additions of a SEQUENCE behind those that are known and have been read.
+    /// Skips the extension additions of a SEQUENCE behind the additions that are known and have been read.
     /// `marker` is its extension bit.
     pub(super) fn skip_additions(
         &self,

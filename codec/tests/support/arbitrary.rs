@@ -332,7 +332,7 @@ impl rasn::Decoder for Imagination {
         if self.flip() {
             return Ok(None);
         }
-        // rasn gives no constraints for those that the type of the addition has itself.
+        // rasn does not give the constraints that the type of the addition has itself.
         if constraints.size().is_none() && constraints.value().is_none() {
             D::decode(self).map(Some)
         } else {

@@ -89,7 +89,7 @@ fn check<T>(pointer: *const T) -> Result<(), CrossguardStatus> {
 /// The octets behind a pointer. Of no octets there need be no pointer.
 ///
 /// # Safety
-/// If it is not null, so many octets there may be read, and nobody writes to them meanwhile.
+/// If it is not null, this many octets there may be read, and nobody writes to them meanwhile.
 unsafe fn octets<'a>(pointer: *const u8, length: usize) -> Result<&'a [u8], CrossguardStatus> {
     if length == 0 {
         return Ok(&[]);
@@ -107,7 +107,7 @@ unsafe fn octets<'a>(pointer: *const u8, length: usize) -> Result<&'a [u8], Cros
 /// The room behind a pointer.
 ///
 /// # Safety
-/// If it is not null, so many octets there may be written to, and nobody else reads them.
+/// If it is not null, this many octets there may be written to, and nobody else reads them.
 unsafe fn room<'a>(pointer: *mut u8, length: usize) -> Result<&'a mut [u8], CrossguardStatus> {
     if pointer.is_null() {
         return Err(CrossguardStatus::Null);

@@ -152,7 +152,7 @@ impl<P: StateMachine> Endpoint<P> {
         self
     }
 
-    /// Congestion control says that two RAM outside of a session are at least so many ms apart.
+    /// Congestion control says that two RAM outside of a session are at least this many ms apart.
     pub const fn hold_back(&mut self, congestion_ms: u64) {
         self.congestion_ms = congestion_ms;
     }

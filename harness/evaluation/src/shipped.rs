@@ -33,7 +33,7 @@ pub const fn file(preset: Preset, pedestrians: usize) -> Option<&'static [u8]> {
     })
 }
 
-/// The traces of a preset with so many people; `None` when none come along.
+/// The traces of a preset with this many people; `None` when none come along.
 ///
 /// # Errors
 /// When the program is damaged.

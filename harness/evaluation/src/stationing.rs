@@ -65,7 +65,7 @@ impl Stationing {
     }
 
     /// Where `count` robots are in a run: the first ones at the middle intersection, the others at those
-    /// around it. Those that walk have a sample every `sample_ms` for `duration_ms`.
+    /// around it. Robots that walk have a sample every `sample_ms` for `duration_ms`.
     #[must_use]
     pub fn robots(
         &self,

@@ -96,7 +96,7 @@ impl Chart {
 
     /// A chart of the robots that turn up in the records, and of the stations that they hear.
     #[must_use]
-    pub fn of_whoever_comes() -> Self {
+    pub fn growing() -> Self {
         Self {
             spacing: SPACING,
             grows: true,

@@ -166,7 +166,7 @@ pub struct Observer {
 impl Default for Observer {
     fn default() -> Self {
         Self {
-            chart: Chart::of_whoever_comes(),
+            chart: Chart::growing(),
             robots: Vec::new(),
             areas: Areas::default(),
         }

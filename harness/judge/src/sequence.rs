@@ -29,8 +29,8 @@ impl Sequence {
 
     /// Of the robots that turn up in the records, and of the stations that they hear.
     #[must_use]
-    pub fn of_whoever_comes() -> Self {
-        Self::with(Chart::of_whoever_comes())
+    pub fn growing() -> Self {
+        Self::with(Chart::growing())
     }
 
     const fn with(chart: Chart) -> Self {

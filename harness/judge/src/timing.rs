@@ -163,7 +163,7 @@ impl Timing {
         self.maneuvers.entry(key(follower, id)).or_default()
     }
 
-    /// The times by kind of maneuver, of those that were completed. The robots' own time passes
+    /// The times by kind of maneuver, of completed ones. The robots' own time passes
     /// `time_scale` times as fast as ours.
     #[must_use]
     pub fn summaries(&self, time_scale: f64) -> Vec<Summary> {

@@ -259,7 +259,7 @@ impl Default for LoggedRobots {
 }
 
 impl LoggedRobots {
-    /// The log whose next record is taken: the earliest of those that need not wait for another, and
+    /// The log whose next record is taken: the earliest of the logs that need not wait for another, and
     /// if all do, the earliest of all. `None` when all are at their ends.
     fn choose(&self, cursors: &[Cursor]) -> Option<usize> {
         let with_head = || (0..cursors.len()).filter(|&i| cursors[i].head.is_some());

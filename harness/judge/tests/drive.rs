@@ -17,7 +17,7 @@ fn model(name: &str) -> Model {
 }
 
 /// A run through a model that chooses at random, but mostly lets a message arrive at once. It goes on until
-/// nothing can happen any more, or for so many steps.
+/// nothing can happen any more, or for this many steps.
 fn walk(model: &Model, seed: u64, steps: usize) -> Vec<Action> {
     let mut state = model.initial();
     let mut random = ChaCha8Rng::seed_from_u64(seed);

@@ -240,7 +240,7 @@ impl Pki {
         Ok(trust)
     }
 
-    /// What a robot with so many pseudonyms for a day needs.
+    /// What a robot with this many pseudonyms for a day needs.
     ///
     /// # Errors
     /// None that is to be expected.

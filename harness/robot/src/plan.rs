@@ -211,7 +211,7 @@ impl Plan {
         }
     }
 
-    /// How long the pedestrian is on the road, in microseconds, where robots move so many times as fast as real.
+    /// How long the pedestrian is on the road, in microseconds, where robots move this many times as fast as real.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,

@@ -15,7 +15,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The place so many metres east and north of the origin.
+    /// The place this many metres east and north of the origin.
     #[must_use]
     pub const fn new(east: f64, north: f64) -> Self {
         Self { east, north }

@@ -133,6 +133,6 @@ pub enum Arrival {
         /// What it held.
         octets: Vec<u8>,
     },
-    /// So many datagrams, at least one, found no place in the transport's own queue.
+    /// This many datagrams, at least one, found no place in the transport's own queue.
     Overflow(u64),
 }

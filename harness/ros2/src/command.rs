@@ -24,7 +24,7 @@ pub enum Refused {
     /// There is no such command.
     #[error("kind {0} is no command")]
     Kind(u8),
-    /// So many followers cannot be had.
+    /// This many followers cannot be had.
     #[error("{0} followers: 1 to {MAX_FOLLOWERS} are possible")]
     Followers(u8),
     /// There is no such urgency.

@@ -43,7 +43,7 @@ pub struct Constant {
 pub enum Base {
     /// One of [`PRIMITIVES`], by its name.
     Primitive(&'static str),
-    /// A string of so many characters at most; 0 is any number.
+    /// A string of this many characters at most; 0 is any number.
     String(u32),
     /// Another message, by its full name.
     Nested(String),
@@ -54,9 +54,9 @@ pub enum Base {
 pub enum Array {
     /// One.
     One,
-    /// So many.
+    /// This many.
     Fixed(u32),
-    /// Up to so many.
+    /// Up to this many.
     Bounded(u32),
     /// Any number.
     Unbounded,
@@ -84,7 +84,7 @@ pub const PRIMITIVES: [(&str, u8); 14] = [
 /// Why a definition means nothing.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum IdlError {
-    /// A line is none of those that are understood.
+    /// A line is not understood.
     #[error("{name}: '{line}' is not a field or a constant that is understood here")]
     Line {
         /// The message.

@@ -139,7 +139,7 @@ impl Active {
         self.clock.now_us()
     }
 
-    /// How long ago it was so many µs on the robot's clock.
+    /// How long ago it was this many µs on the robot's clock.
     pub(crate) fn age(&self, at_us: u64) -> Duration {
         Duration::from_micros(self.now_us().saturating_sub(at_us))
     }

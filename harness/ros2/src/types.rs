@@ -62,7 +62,7 @@ pub struct Types(BTreeMap<String, Definition>);
 pub static TYPES: LazyLock<Types> = LazyLock::new(|| Types::shipped().expect("a test parses them"));
 
 impl Types {
-    /// Those that come along: our own, and the standard ones.
+    /// Types that come along: our own, and the standard ones.
     ///
     /// # Errors
     /// The first that means nothing.

@@ -36,7 +36,7 @@ pub(super) struct Arguments {
     /// 'paper-literal' is the paper's text word for word, which must fail.
     #[arg(value_name = "SCENARIO|FILE")]
     scenarios: Vec<String>,
-    /// Check all shipped scenarios, also those that take minutes.
+    /// Check all shipped scenarios, also the long ones, which take minutes.
     #[arg(long, conflicts_with = "scenarios")]
     all: bool,
     /// List the shipped scenarios and check nothing.

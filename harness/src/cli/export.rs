@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.svg.is_none() && arguments.mermaid.is_none() {
         return Ok(());
     }
-    let mut sequence = Sequence::of_whoever_comes();
+    let mut sequence = Sequence::growing();
     let mut steps = Vec::new();
     let mut logs = merged(&arguments.logs)?;
     while let Some((_, record)) = logs.take().map_err(Failure::input)? {

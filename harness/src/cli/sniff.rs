@@ -42,10 +42,10 @@ pub(super) struct Arguments {
     ethernet: Option<String>,
     #[command(flatten)]
     zenoh: super::zenoh::ZenohArguments,
-    /// Stop after so many packets.
+    /// Stop after this many packets.
     #[arg(long, value_name = "N")]
     count: Option<u64>,
-    /// Stop after so many seconds.
+    /// Stop after this many seconds.
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
     /// Write what is heard to this file, for Wireshark.

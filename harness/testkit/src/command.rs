@@ -62,7 +62,7 @@ pub fn two_free_ports() -> u16 {
     free_ports(2)
 }
 
-/// The first of so many UDP ports on 127.0.0.1 that are free.
+/// The first of this many UDP ports on 127.0.0.1 that are free.
 pub fn free_ports(ports: u16) -> u16 {
     loop {
         let first = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -74,7 +74,7 @@ pub fn free_ports(ports: u16) -> u16 {
     }
 }
 
-/// The first of so many TCP ports on 127.0.0.1 that are free.
+/// The first of this many TCP ports on 127.0.0.1 that are free.
 pub fn free_tcp_ports(ports: u16) -> u16 {
     loop {
         let first = TcpListener::bind("127.0.0.1:0").unwrap();

@@ -34,7 +34,7 @@ fn assert_found_with(faults: &str, rules: &'static dyn Rules, properties: &[&str
     judge(&fuzz.run_with(rules, &|_| true), properties);
 }
 
-/// Asserts that the first property found broken under these rules is one of those that it must be.
+/// Asserts that the first property found broken under these rules is one of the expected ones.
 fn assert_found(rules: &'static dyn Rules, properties: &[&str]) {
     judge(&run(rules, SEEDS), properties);
 }

@@ -61,7 +61,7 @@ struct Run {
     /// Judge the survivors of earlier runs again, and nothing else.
     #[arg(long)]
     survivors: bool,
-    /// Ask the judges of so many stages only: those of each take longer than those before.
+    /// Ask the judges of this many stages only: those of each take longer than those before.
     #[arg(long, default_value_t = usize::MAX)]
     stages: usize,
     /// Use what was built last, which must be of the same sources.

@@ -25,7 +25,7 @@ pub(super) const ON_ROAD: &str = "W";
 pub(super) struct Cast {
     /// Names; the station id of a robot is its place, counted from 1.
     pub(super) names: &'static [&'static str],
-    /// The first so many robots may detect the pedestrian.
+    /// The first this many robots may detect the pedestrian.
     pub(super) detecting: usize,
     /// How often a pedestrian is detected, by any of them.
     pub(super) detections: u8,

@@ -6,7 +6,7 @@
 //!
 //! - RAM on the links that are *silent*: to hear one there, before or after the step, would have made
 //!   it another story;
-//! - the messages that are *held*: those that are under way in the story.
+//! - the messages that are *held*: the messages that are under way in the story.
 
 use serde::{Deserialize, Serialize};
 

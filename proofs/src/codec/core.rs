@@ -94,7 +94,7 @@ where
     panic!("an extension bit was written")
 }
 
-/// In the place of [`Reader::bits`]: any number of so many bits, whatever the octets are.
+/// In the place of [`Reader::bits`]: any number of this many bits, whatever the octets are.
 #[cfg(all(kani, not(feature = "stand-in")))]
 fn any_bits<'a, F: Faults>(reader: Reader<'a, F>, count: u32) -> Read<'a, u32, F>
 where

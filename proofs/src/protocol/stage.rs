@@ -13,7 +13,7 @@ pub(super) fn any_config() -> Config {
     config.unwrap_or_default()
 }
 
-/// Any valid state in `stage`, with so many offers or followers.
+/// Any valid state in `stage`, with this many offers or followers.
 pub(super) fn any_valid(config: &Config, stage: Stage, peers: (usize, usize)) -> Robot {
     let robot = arbitrary::valid_robot(&mut Symbolic, config, stage, peers);
     kani::assume(robot.is_valid(config));

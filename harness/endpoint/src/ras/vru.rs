@@ -60,7 +60,7 @@ pub const STANDING_MPS: f64 = 0.3;
 pub enum VamRule {
     /// By motion, and at the latest after 5 s (clause 6.2).
     Etsi,
-    /// Every so many milliseconds, whatever happens.
+    /// Every this many milliseconds, whatever happens.
     Periodic(u64),
 }
 

@@ -43,7 +43,7 @@ const OPEN: Color = color(0.0, 0.62, 0.451, 0.5);
 const CLOSED: Color = color(0.5, 0.5, 0.5, 0.35);
 const TEXT: Color = color(1.0, 1.0, 1.0, 1.0);
 
-/// A turn about the vertical axis by so many degrees clockwise from north, of something that looks to
+/// A turn about the vertical axis by this many degrees clockwise from north, of something that looks to
 /// the east.
 fn turned(heading: f64) -> Quaternion {
     let half = (90.0 - heading).to_radians() / 2.0;

@@ -75,7 +75,7 @@ impl Run {
             from_us: u64::MAX,
             to_us: 0,
             timing: Timing::default(),
-            sequence: Sequence::of_whoever_comes(),
+            sequence: Sequence::growing(),
             steps: Vec::new(),
             areas: Vec::new(),
         };

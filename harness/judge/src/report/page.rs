@@ -218,7 +218,7 @@ fn properties(report: &Report) -> Option<Markup> {
                 }
             }
         }
-        p.faint { "Those that had nothing to say in this run are left out." }
+        p.faint { "Properties that had nothing to say in this run are left out." }
     })
 }
 

@@ -1,6 +1,6 @@
 //! A robot's clock in virtual time: it runs a little fast or slow, and never goes back.
 
-/// A clock whose rate is off by so many parts per million.
+/// A clock whose rate is off by this many parts per million.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Drifting {
     ppm: i64,

@@ -22,7 +22,7 @@ pub struct Fuzz<'a> {
     pub seeds: u64,
     /// How many robots at most.
     pub robots: usize,
-    /// The faults of every way, in place of those that are drawn.
+    /// The faults of every way, in place of drawn ones.
     pub faults: Option<&'a Faults>,
     /// How many threads work.
     pub threads: usize,

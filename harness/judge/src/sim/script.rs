@@ -38,6 +38,6 @@ pub enum Deed {
     TaskCompleted,
     /// It changes its pseudonym, if it may.
     ChangeIdentity,
-    /// Its process hangs for so many milliseconds. What arrives waits for it.
+    /// Its process hangs for this many milliseconds. What arrives waits for it.
     Hang(u32),
 }

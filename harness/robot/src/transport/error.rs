@@ -44,7 +44,7 @@ pub enum LinkError {
     NoInterface {
         /// The name.
         name: String,
-        /// The names of those that there are.
+        /// The names of the interfaces that exist.
         known: String,
     },
     /// The port of an [`Air`](super::Air) is open already.

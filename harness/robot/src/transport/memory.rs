@@ -32,7 +32,7 @@ pub struct Port {
 }
 
 impl Air {
-    /// A channel for so many robots.
+    /// A channel for this many robots.
     #[must_use]
     pub fn new(ports: usize) -> Self {
         let seat = || {
@@ -48,7 +48,7 @@ impl Air {
     /// The access with this number, from 0.
     ///
     /// # Panics
-    /// When there are not so many.
+    /// When there are fewer.
     #[must_use]
     pub fn port(&self, number: usize) -> Port {
         assert!(number < self.0.len(), "{number} of {} ports", self.0.len());

@@ -157,7 +157,7 @@ fn complain(what: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "crossguard: {what}");
 }
 
-/// Lines for people on standard output. Those that do not get through are counted, and that is said
+/// Lines for people on standard output. Lines that do not get through are counted, and that is said
 /// when lines get through again.
 pub(super) struct Lines {
     queue: SyncSender<String>,

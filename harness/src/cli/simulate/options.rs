@@ -65,7 +65,7 @@ impl Streets {
 pub(super) struct Matrix {
     #[command(flatten)]
     streets: Streets,
-    /// Use these trace files instead of those that come along.
+    /// Use these trace files instead of the shipped ones.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sumo", "pedestrians"], num_args = 1..)]
     traces: Vec<PathBuf>,
     /// Numbers of robots: the first one at the middle intersection, the others around it.
@@ -102,7 +102,7 @@ pub(super) struct Matrix {
     /// Robots walk around their intersection, over its corners, so fast; they stand by default.
     #[arg(long, value_name = "M/S")]
     patrol: Option<f64>,
-    /// Seeds to take the mean over, at most; with --sumo, so many fresh runs.
+    /// Seeds to take the mean over, at most; with --sumo, this many fresh runs.
     #[arg(long, default_value_t = 10, value_name = "N")]
     pub(super) seeds: usize,
     /// The first seed of fresh runs, for --sumo.
@@ -148,7 +148,7 @@ impl Matrix {
         }
     }
 
-    /// The traces: files, fresh ones, or those that come along.
+    /// The traces: files, fresh ones, or the shipped ones.
     pub(super) fn traces(&self, is_json: bool) -> Result<Vec<Traces>, Failure> {
         self.check()?;
         let traces = if !self.traces.is_empty() {
@@ -303,7 +303,7 @@ enum Devices {
 /// What goes over the air. The paper states none of it.
 #[derive(clap::Args)]
 pub(super) struct Air {
-    /// When devices send VAM: 'etsi', or so many per second (0.2 to 10).
+    /// When devices send VAM: 'etsi', or a number per second (0.2 to 10).
     #[arg(
         long,
         default_value = "10",
@@ -311,7 +311,7 @@ pub(super) struct Air {
         help_heading = "Air"
     )]
     vam: String,
-    /// When robots send RAM: 'rules', which is once a second for a robot that stands, or so many per
+    /// When robots send RAM: 'rules', which is once a second for a robot that stands, or a number per
     /// second (1 to 10).
     #[arg(
         long,
@@ -320,7 +320,7 @@ pub(super) struct Air {
         help_heading = "Air"
     )]
     ram: String,
-    /// When vehicles send CAM: 'rules', or so many per second (1 to 10).
+    /// When vehicles send CAM: 'rules', or a number per second (1 to 10).
     #[arg(
         long,
         default_value = "rules",
@@ -337,7 +337,7 @@ pub(super) struct Air {
     /// Share of people with a device.
     #[arg(long, default_value_t = 1.0, value_name = "0..1", help_heading = "Air")]
     v2x_share: f64,
-    /// Vehicles are gone after so many seconds, as when trips end; they stay by default.
+    /// Vehicles are gone after this many seconds, as when trips end; they stay by default.
     #[arg(long, value_name = "SECONDS", help_heading = "Air")]
     vehicles_leave: Option<f64>,
     /// No contention and no collisions.

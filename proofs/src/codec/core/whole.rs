@@ -4,7 +4,7 @@
 //! depends on the bits ahead alone ([`what_is_ahead_decides`](super::bits::what_is_ahead_decides)), and
 //! a message reads nothing but its containers, one behind the other. The harnesses here prove of the
 //! second step that it stays inside the octets, whatever the bits are: in the place of
-//! [`Reader::bits`](crossguard_codec::core::Reader::bits) stands any number of so many bits.
+//! [`Reader::bits`](crossguard_codec::core::Reader::bits) stands any number of this many bits.
 
 use crossguard_codec::core::ram::{
     RobotHighFrequencyContainer, RobotLeaderFollowerOperationContainer, RobotLowFrequencyContainer,

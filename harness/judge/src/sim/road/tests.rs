@@ -48,7 +48,7 @@ const HUNG: Sight = Sight {
     ..GONE
 };
 
-/// The sign of 0 shows go from 1 s on, for so many milliseconds, with its guard in place.
+/// The sign of 0 shows go from 1 s on, for this many milliseconds, with its guard in place.
 fn open(ms: u64) -> Road {
     let mut road = road();
     road.see(900 * MS, 2, guard(0)).unwrap();
