@@ -145,7 +145,8 @@ class Endpoint:
     @property
     def counters(self) -> dict[str, dict[str, int]]:
         """How often each cause occurred, by layer and cause, as in logs: `{"packet": {"duplicate": 3}}`."""
-        return json.loads(self._native.counters())
+        counters: dict[str, dict[str, int]] = json.loads(self._native.counters())
+        return counters
 
     def _effects(self, effects: str) -> list[Effect]:
         self._write_log()
