@@ -104,7 +104,7 @@ impl<P: StateMachine> Exchange<P> {
             Event::CommandManeuver { follower, task } => {
                 self.command(host, moment, follower, task, TaskParameters::default())
             }
-            // Only geo-broadcasts are numbered, and none is sent without security.
+            // Only geo-broadcasts are numbered, and robots send none.
             Event::IdentityChanged(station) => self.change_identity(host, moment, station, 0),
             event => self.step(host, moment, Input::Local(event), None),
         }
@@ -232,13 +232,12 @@ impl<P: StateMachine> Exchange<P> {
     /// Sends a RAM outside of a session, where the protocol does not say when, if the generation rules do.
     pub fn generate<H: Host>(&mut self, host: &mut H, moment: Moment, limits: Limits) {
         if self.robot().next_ram().is_none() {
-            let state = self.state(host);
-            let status = self.status(&state);
+            let (state, status) = self.said(host);
             let trigger = self
                 .generation
                 .trigger(moment.now_ms, limits, &state, &status);
             if let Some(trigger) = trigger {
-                self.send_ram(host, moment, trigger);
+                self.send_ram(host, moment, trigger, &state, status);
             }
         }
     }
@@ -246,7 +245,8 @@ impl<P: StateMachine> Exchange<P> {
     /// Sends a RAM outside of a session now.
     pub fn announce<H: Host>(&mut self, host: &mut H, moment: Moment) {
         if self.robot().next_ram().is_none() {
-            self.send_ram(host, moment, Trigger::Interval);
+            let (state, status) = self.said(host);
+            self.send_ram(host, moment, Trigger::Interval, &state, status);
         }
     }
 
@@ -264,9 +264,10 @@ impl<P: StateMachine> Exchange<P> {
         for output in outputs.iter() {
             match output {
                 Output::SendRam => {
-                    let status = self.status(&self.state(host));
+                    let (state, status) = self.said(host);
                     let event = self.generation.event(&status);
-                    self.send_ram(host, moment, event.unwrap_or(Trigger::Heartbeat));
+                    let trigger = event.unwrap_or(Trigger::Heartbeat);
+                    self.send_ram(host, moment, trigger, &state, status);
                 }
                 Output::SendRmcm(rmcm) => self.send_rmcm(host, moment, rmcm),
                 output => {
@@ -280,20 +281,25 @@ impl<P: StateMachine> Exchange<P> {
         outputs
     }
 
-    fn send_ram<H: Host>(&mut self, host: &mut H, moment: Moment, trigger: Trigger) {
+    fn send_ram<H: Host>(
+        &mut self,
+        host: &mut H,
+        moment: Moment,
+        trigger: Trigger,
+        state: &RobotState,
+        status: Status,
+    ) {
         let now_ms = moment.now_ms;
-        let state = self.state(host);
-        let status = self.status(&state);
         let low_frequency = self.generation.low_frequency_due(now_ms);
         let time = generation_delta_time(moment.timestamp_its);
         let (ids, availability) = (&self.identifiers, status.availability);
-        let ram = ram_from(ids, &state, &status.view, availability, time, low_frequency);
+        let ram = ram_from(ids, state, &status.view, availability, time, low_frequency);
         let ram = ram.map(|mut ram| {
             host.complete(&mut ram);
             ram
         });
         self.generation
-            .sent(now_ms, trigger, &state, status, low_frequency);
+            .sent(now_ms, trigger, state, status, low_frequency);
         self.send::<_, _, RAM_LEN_MAX>(host, moment, (Service::Ram, trigger), ram);
     }
 
@@ -366,12 +372,14 @@ impl<P: StateMachine> Exchange<P> {
         state
     }
 
-    /// What a RAM says now that events are about.
-    fn status(&self, state: &RobotState) -> Status {
-        Status {
+    /// What a RAM says now: the state, and what events are about.
+    fn said<H: Host>(&self, host: &H) -> (RobotState, Status) {
+        let state = self.state(host);
+        let status = Status {
             view: self.robot().ram(),
             availability: self.robot().availability(),
             progression: state.task_progression,
-        }
+        };
+        (state, status)
     }
 }
