@@ -11,97 +11,46 @@ use crate::steps::{Step, run};
 /// A file, a folder, or a part of a file, and the command that writes it.
 struct Generated {
     path: &'static str,
-    by: &'static [&'static str],
+    by: &'static str,
 }
 
 /// Sources first: what follows from other files comes after them.
 const GENERATED: [Generated; 9] = [
     Generated {
         path: "protocol/src/task.rs: the named tasks, in other languages",
-        by: &[
-            "cargo",
-            "test",
-            "-p",
-            "crossguard-testkit",
-            "--test",
-            "named_tasks",
-        ],
+        by: "cargo test -p crossguard-testkit --test named_tasks",
     },
     Generated {
         path: "codec/src/asn1/generated.rs",
-        by: &[
-            "cargo",
-            "test",
-            "-p",
-            "crossguard-codec",
-            "--test",
-            "generated",
-        ],
+        by: "cargo test -p crossguard-codec --test generated",
     },
     Generated {
         path: "codec/tests/golden/messages.json",
-        by: &[
-            "cargo",
-            "test",
-            "-p",
-            "crossguard-codec",
-            "--test",
-            "golden_messages",
-        ],
+        by: "cargo test -p crossguard-codec --test golden_messages",
     },
     Generated {
         path: "codec/wireshark/crossguard.lua: the types",
-        by: &["codec/judges/run"],
+        by: "codec/judges/run",
     },
     Generated {
         path: "harness/c/include/crossguard.h",
-        by: &["cargo", "test", "-p", "crossguard-c", "--test", "header"],
+        by: "cargo test -p crossguard-c --test header",
     },
     Generated {
         path: "model-check/doc/paper-literal.md",
-        by: &[
-            "cargo",
-            "test",
-            "-p",
-            "crossguard-model-check",
-            "--test",
-            "paper_literal",
-        ],
+        by: "cargo test -p crossguard-model-check --test paper_literal",
     },
     Generated {
         path: "model-check/stories/",
-        by: &[
-            "cargo",
-            "test",
-            "-p",
-            "crossguard-model-check",
-            "--test",
-            "paper_literal",
-        ],
+        by: "cargo test -p crossguard-model-check --test paper_literal",
     },
     Generated {
         path: "protocol/doc/protocol.md: the state diagram",
-        by: &[
-            "cargo",
-            "test",
-            "-p",
-            "crossguard-harness",
-            "--test",
-            "pages",
-            "state_diagram",
-        ],
+        by: "cargo test -p crossguard-harness --test pages state_diagram",
     },
     Generated {
         path: "README.md: the sum of states",
-        by: &[
-            "cargo",
-            "test",
-            "-p",
-            "crossguard-harness",
-            "--test",
-            "pages",
-            "sum_of_states",
-        ],
+        by: "cargo test -p crossguard-harness --test pages sum_of_states",
     },
 ];
 
@@ -114,7 +63,7 @@ pub(crate) fn is_generated(file: &Path) -> bool {
 /// Writes the files whose names contain the text; all of them without one.
 pub(crate) fn bless(root: &Path, part: Option<&str>) -> Result<bool, Error> {
     let is_wanted = |it: &&Generated| part.is_none_or(|part| it.path.contains(part));
-    let mut done: Vec<&[&str]> = Vec::new();
+    let mut done = Vec::new();
     let mut is_ok = true;
     for generated in GENERATED.iter().filter(is_wanted) {
         if !done.contains(&generated.by) {

@@ -6,15 +6,15 @@ use std::time::Instant;
 
 use crate::error::Error;
 
-/// A program to run from the root of the workspace.
+/// A program to run from the root of the workspace, with its arguments, by single spaces.
 pub(crate) struct Step<'a> {
     name: &'a str,
-    command: &'a [&'a str],
+    command: &'a str,
     environment: Vec<(&'a str, &'a str)>,
 }
 
 impl<'a> Step<'a> {
-    pub(crate) fn new(name: &'a str, command: &'a [&'a str]) -> Self {
+    pub(crate) fn new(name: &'a str, command: &'a str) -> Self {
         Self {
             name,
             command,
@@ -31,16 +31,15 @@ impl<'a> Step<'a> {
 
 /// Whether the program succeeds.
 pub(crate) fn run(root: &Path, step: &Step) -> Result<bool, Error> {
-    let [program, arguments @ ..] = step.command else {
-        return Ok(true);
-    };
-    println!("== {}: {}", step.name, step.command.join(" "));
+    println!("== {}: {}", step.name, step.command);
+    let mut words = step.command.split(' ');
+    let program = words.next().unwrap_or_default();
     let began = Instant::now();
     let mut command = Command::new(program);
-    command.args(arguments).current_dir(root);
+    command.args(words).current_dir(root);
     command.envs(step.environment.iter().copied());
     let status = command.status().map_err(|cause| Error::Start {
-        program: (*program).to_owned(),
+        program: program.to_owned(),
         cause,
     })?;
     let verdict = if status.success() { "passed" } else { "FAILED" };
@@ -65,8 +64,7 @@ pub(crate) fn quick(root: &Path) -> Result<bool, Error> {
     ];
     let mut is_ok = crate::sources_are_in_order(root)?;
     for (name, command) in steps {
-        let command: Vec<_> = command.split(' ').collect();
-        is_ok &= run(root, &Step::new(name, &command))?;
+        is_ok &= run(root, &Step::new(name, command))?;
     }
     let verdict = if is_ok { "passed" } else { "FAILED" };
     println!("quick: {verdict}, {} s", began.elapsed().as_secs());
@@ -75,5 +73,5 @@ pub(crate) fn quick(root: &Path) -> Result<bool, Error> {
 
 /// Checks everything.
 pub(crate) fn full(root: &Path) -> Result<bool, Error> {
-    run(root, &Step::new("full", &[".ci/run"]))
+    run(root, &Step::new("full", ".ci/run"))
 }
