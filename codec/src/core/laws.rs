@@ -197,9 +197,9 @@ pub fn reading_stops_at_the_end(octets: &[u8], position: usize, count: u32) {
     }
 }
 
-/// What is read depends on the bits ahead alone, not on where they are: `count` bits, modulo 33, behind
-/// `before` bits are those that stand first when everything is moved up by this many. Tells whether this many
-/// bits are there.
+/// What is read depends on the bits ahead alone, not on their place: the reader returns the same `count` bits,
+/// modulo 33, behind `before` bits as at the front of the octets shifted by `before` bits. Returns whether the
+/// octets have that many bits.
 pub fn what_is_ahead_decides<const N: usize>(octets: &[u8; N], before: usize, count: u32) -> bool {
     let count = count % 33;
     if before + count as usize > N * 8 {

@@ -9,6 +9,7 @@ use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
+use crossguard_testkit::rules::StartsRepeatedCommands;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -76,29 +77,6 @@ fn random_runs_of_every_scenario_are_those_of_endpoints() {
         assert!(datagrams > 1_000, "{name}: {datagrams}");
         let commands = model.scenario().bounds.commands;
         assert!(starts > 0 || commands == 0, "{name}: {starts}");
-    }
-}
-
-/// A repeated command is started like a new one.
-struct StartsRepeatedCommands;
-
-impl Rules for StartsRepeatedCommands {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let job = match robot.phase() {
-            Phase::Following(following) => following.job,
-            _ => None,
-        };
-        let outputs = robot.step(config, input);
-        let (Input::Rmcm(Rmcm::Command(command)), Some(job)) = (input, job) else {
-            return outputs;
-        };
-        if job.request != command.request || outputs.ignored().is_some() {
-            return outputs;
-        }
-        let (session, request, task) = (command.session, command.request, command.task);
-        let id = ManeuverId { session, request };
-        let start = Output::StartManeuver(Maneuver { id, task });
-        outputs.iter().copied().chain([start]).collect()
     }
 }
 

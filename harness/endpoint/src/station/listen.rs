@@ -48,7 +48,7 @@ impl From<&Unobserved> for Cause {
 }
 
 /// The headers of a packet and the message in it, for any receiver; also of one with a security
-/// envelope, whose content is not verified then. For those who listen in.
+/// envelope, whose content is not verified then. For listeners.
 ///
 /// # Errors
 /// Why it has none.

@@ -2,7 +2,7 @@
 //!
 //! - [`LocalDynamicMap`] is who is around, as heard lately, by robots and by other stations.
 //! - [`Security`] is whether a robot signs and verifies, and under which pseudonyms.
-//! - [`listen`] is for those who listen in: packets and messages for any receiver.
+//! - [`listen`] reads packets and messages that are meant for any receiver, for sniffers and charts.
 
 pub mod listen;
 mod map;

@@ -15,6 +15,7 @@ use crossguard_ros2::node::{Options, Running, start};
 use crossguard_ros2::qos::Qos;
 use crossguard_ros2::robot::{BodyKind, Robot};
 use crossguard_ros2::standard::{ChangeState, ChangeStateRequest, Empty, GetState, Transition};
+use crossguard_testkit::command::robot_file;
 
 pub const PATIENCE: Duration = Duration::from_secs(30);
 
@@ -32,18 +33,7 @@ pub fn free_endpoint() -> String {
 
 /// A robot, with its configuration in a file. The first leads by itself once somebody is detected.
 pub fn robot(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> Robot {
-    let build = if station == 1 {
-        "humanoid"
-    } else {
-        "quadruped"
-    };
-    let text = format!(
-        "name = \"{name}\"\nstation = {station}\nbuild = \"{build}\"\n\
-         boot_file = \"{name}.boot\"\nspeed = 40.0\nautopilot = true\n\n[link]\n\
-         address = \"127.0.0.1:{port}\"\npeers = [\"127.0.0.1:{peer}\"]\n"
-    );
-    let config = folder.join(format!("{name}.toml"));
-    std::fs::write(&config, text).unwrap();
+    let config = robot_file(folder, name, station, port, peer).into();
     Robot {
         config,
         log: Some(folder.join(format!("{name}.jsonl"))),
