@@ -1,13 +1,18 @@
 //! The paper's timing: negotiation, execution, and both together.
 //!
-//! `T_TMCT = (t_rx - t_tx) + T_exec` (paper, section on the proof of concept): from the leader's
-//! command going out to its acknowledgement coming in, plus the time that the follower takes. A `block`
-//! takes as long as it is held.
+//! `T_TMCT = (t_rx - t_tx) + T_exec` (paper, section III-A, stage 5): `t_tx` is when the leader sends the command,
+//! `t_rx` when the follower takes it in. So the negotiation is one way; how long the leader waits for the
+//! acknowledgement is a time of its own here, the round trip. A command that is repeated counts from its first
+//! transmission to its first reception. A `block` takes as long as it is held.
+//!
+//! Both times of the negotiation are taken from the clocks of two robots. Between logs of different machines it
+//! contains the difference of their clocks, and can be negative; the round trip does not.
 
 use std::collections::BTreeMap;
 
 use crossguard_protocol::{
-    Event, Input, ManeuverId, Notice, Output, ReleaseReason, Rmcm, StationId, StopReason, TaskType,
+    Command, Event, Input, ManeuverId, Notice, Output, ReleaseReason, Rmcm, StationId, StopReason,
+    TaskType,
 };
 use serde::Serialize;
 
@@ -30,11 +35,19 @@ fn key(follower: StationId, id: ManeuverId) -> Key {
     (session.leader.0, number, follower.0, id.request.0)
 }
 
+const fn id_of(command: &Command) -> ManeuverId {
+    ManeuverId {
+        session: command.session,
+        request: command.request,
+    }
+}
+
 /// When what happened in one maneuver, in microseconds.
 #[derive(Clone, Copy, Debug, Default)]
 struct ManeuverTimes {
     task: Option<TaskType>,
     commanded: Option<u64>,
+    received: Option<u64>,
     acknowledged: Option<u64>,
     started: Option<u64>,
     completed: Option<u64>,
@@ -47,14 +60,17 @@ pub struct Summary {
     pub task: String,
     /// How many were completed.
     pub trials: usize,
-    /// Negotiation, in seconds.
+    /// Negotiation, in seconds: from the leader's first transmission of the command to the follower's first
+    /// reception.
     pub t_neg_s: Statistic,
+    /// From that transmission to the acknowledgement at the leader, in seconds by the leader's clock.
+    pub round_trip_s: Statistic,
     /// Execution, in seconds of the robots' own time.
     pub t_exec_s: Statistic,
     /// Total maneuver coordination time, in seconds.
     pub t_tmct_s: Statistic,
-    /// What the paper measured.
-    pub paper: Paper,
+    /// What the paper measured, if it did.
+    pub paper: Option<Paper>,
 }
 
 /// Mean and standard deviation of a sample.
@@ -66,33 +82,35 @@ pub struct Statistic {
     pub sd: f64,
 }
 
-/// The paper's figures for one kind of maneuver, as far as they are known here.
-#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
+/// The paper's figures for one kind of maneuver (section III-A): mean and standard deviation over its trials, with
+/// robots on IEEE 802.11p.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct Paper {
-    /// Negotiation over IEEE 802.11p, in seconds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t_neg_s: Option<Statistic>,
-    /// Execution, in seconds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t_exec_s: Option<f64>,
+    /// How many trials.
+    pub trials: usize,
+    /// Negotiation, in seconds.
+    pub t_neg_s: Statistic,
+    /// Execution, in seconds; the paper gives no deviation.
+    pub t_exec_s: f64,
+    /// Total maneuver coordination time, in seconds.
+    pub t_tmct_s: Statistic,
 }
 
 impl Paper {
     /// The paper's figures for `task`.
     #[must_use]
-    pub fn of(task: TaskType) -> Self {
-        let statistic = |mean, sd| Some(Statistic { mean, sd });
-        match task {
-            TaskType::INITIAL_POS => Self {
-                t_neg_s: statistic(0.074, 0.015),
-                t_exec_s: None,
-            },
-            TaskType::MOVE => Self {
-                t_neg_s: statistic(0.129, 0.102),
-                t_exec_s: Some(21.6),
-            },
-            _ => Self::default(),
-        }
+    pub const fn of(task: TaskType) -> Option<Self> {
+        let (neg, exec, tmct, sd) = match task {
+            TaskType::INITIAL_POS => (0.074, 0.50, 0.574, 0.015),
+            TaskType::MOVE => (0.129, 21.60, 21.729, 0.102),
+            _ => return None,
+        };
+        Some(Self {
+            trials: 5,
+            t_neg_s: Statistic { mean: neg, sd },
+            t_exec_s: exec,
+            t_tmct_s: Statistic { mean: tmct, sd },
+        })
     }
 }
 
@@ -116,8 +134,8 @@ impl Statistic {
 }
 
 impl Timing {
-    /// Takes note of a record.
-    pub fn record(&mut self, record: &Record) {
+    /// Takes note of a record, at a time on a clock that all records share, in µs.
+    pub fn record(&mut self, at_us: u64, record: &Record) {
         let Entry::Step {
             input,
             outputs,
@@ -126,20 +144,22 @@ impl Timing {
         else {
             return;
         };
-        let (at, own) = (Some(record.at_us), state.station());
+        let (at, own) = (Some(at_us), state.station());
         if let Input::Local(Event::ManeuverCompleted(id)) = input
             && outputs.ignored().is_none()
         {
             self.times(own, *id).completed = at;
         }
+        if let Input::Rmcm(Rmcm::Command(command)) = input
+            && command.to == own
+        {
+            let times = self.times(own, id_of(command));
+            times.received = times.received.or(at);
+        }
         for output in outputs.iter() {
             match *output {
                 Output::SendRmcm(Rmcm::Command(command)) => {
-                    let id = ManeuverId {
-                        session: command.session,
-                        request: command.request,
-                    };
-                    let times = self.times(command.to, id);
+                    let times = self.times(command.to, id_of(&command));
                     times.task = Some(command.task);
                     // A repeated command began with its first transmission.
                     times.commanded = times.commanded.or(at);
@@ -167,13 +187,10 @@ impl Timing {
     /// `time_scale` times as fast as ours.
     #[must_use]
     pub fn summaries(&self, time_scale: f64) -> Vec<Summary> {
-        let mut samples: BTreeMap<TaskType, Vec<(f64, f64)>> = BTreeMap::new();
+        let mut samples: BTreeMap<TaskType, Vec<Sample>> = BTreeMap::new();
         for times in self.maneuvers.values() {
-            if let Some((task, negotiation, execution)) = times.complete() {
-                samples
-                    .entry(task)
-                    .or_default()
-                    .push((negotiation, execution * time_scale));
+            if let Some((task, sample)) = times.complete(time_scale) {
+                samples.entry(task).or_default().push(sample);
             }
         }
         samples
@@ -183,26 +200,37 @@ impl Timing {
     }
 }
 
+/// The times of one maneuver, in seconds.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Sample {
+    negotiation: f64,
+    round_trip: f64,
+    execution: f64,
+}
+
 impl ManeuverTimes {
-    fn complete(self) -> Option<(TaskType, f64, f64)> {
+    fn complete(self, time_scale: f64) -> Option<(TaskType, Sample)> {
         #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-        let seconds = |from: u64, to: u64| to.saturating_sub(from) as f64 / 1e6;
-        let negotiation = seconds(self.commanded?, self.acknowledged?);
-        let execution = seconds(self.started?, self.completed?);
-        Some((self.task?, negotiation, execution))
+        let seconds = |from: u64, to: u64| (to as f64 - from as f64) / 1e6;
+        let sample = Sample {
+            negotiation: seconds(self.commanded?, self.received?),
+            round_trip: seconds(self.commanded?, self.acknowledged?),
+            execution: seconds(self.started?, self.completed?) * time_scale,
+        };
+        Some((self.task?, sample))
     }
 }
 
-fn summarize(task: TaskType, samples: &[(f64, f64)]) -> Summary {
-    let statistic = |value: fn(&(f64, f64)) -> f64| {
-        Statistic::of(&samples.iter().map(value).collect::<Vec<_>>())
-    };
+fn summarize(task: TaskType, samples: &[Sample]) -> Summary {
+    let statistic =
+        |value: fn(&Sample) -> f64| Statistic::of(&samples.iter().map(value).collect::<Vec<_>>());
     Summary {
         task: task.to_string(),
         trials: samples.len(),
-        t_neg_s: statistic(|(negotiation, _)| *negotiation),
-        t_exec_s: statistic(|(_, execution)| *execution),
-        t_tmct_s: statistic(|(negotiation, execution)| negotiation + execution),
+        t_neg_s: statistic(|it| it.negotiation),
+        round_trip_s: statistic(|it| it.round_trip),
+        t_exec_s: statistic(|it| it.execution),
+        t_tmct_s: statistic(|it| it.negotiation + it.execution),
         paper: Paper::of(task),
     }
 }

@@ -222,9 +222,10 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
     print("")?;
     print(table(&outcome.maneuvers))?;
     print(
-        "T_neg: from the leader's command to its acknowledgement, on loopback; the paper's went over \
-         IEEE 802.11p.\nT_exec: simulated motion, in the robots' own time; of a block, how long it was held. \
-         T_TMCT = T_neg + T_exec.\nMean ± standard deviation.\nWhere the paper's column is empty its figure is not known here.\n",
+        "T_neg: from the leader's first transmission of the command to its reception at the follower, one way, here on \
+         loopback;\nthe paper's went over IEEE 802.11p. Round trip: from that transmission to the acknowledgement. \
+         T_exec: simulated motion,\nin the robots' own time; of a block, how long it was held. T_TMCT = T_neg + T_exec. \
+         Mean ± standard deviation;\nthe paper's are of 5 trials.\n",
     )?;
     print(format_args!(
         "{} of {} crossings {}{}; in the end {}.",
@@ -276,24 +277,29 @@ fn table(summaries: &[Summary]) -> Table {
         "maneuver",
         "completed",
         "T_neg [s]",
+        "round trip [s]",
         "T_exec [s]",
         "T_TMCT [s]",
-        "paper T_neg [s]",
-        "paper T_exec [s]",
     ]);
     for summary in summaries {
-        let paper = &summary.paper;
         table.add_row([
             summary.task.clone(),
             summary.trials.to_string(),
             statistic(summary.t_neg_s, 4),
+            statistic(summary.round_trip_s, 4),
             statistic(summary.t_exec_s, 2),
-            statistic(summary.t_tmct_s, 2),
-            paper.t_neg_s.map_or_else(String::new, |t| statistic(t, 3)),
-            paper
-                .t_exec_s
-                .map_or_else(String::new, |t| format!("{t:.1}")),
+            statistic(summary.t_tmct_s, 3),
         ]);
+        if let Some(paper) = &summary.paper {
+            table.add_row([
+                "  in the paper".to_owned(),
+                paper.trials.to_string(),
+                statistic(paper.t_neg_s, 3),
+                String::new(),
+                format!("{:.2}", paper.t_exec_s),
+                statistic(paper.t_tmct_s, 3),
+            ]);
+        }
     }
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);

@@ -85,7 +85,7 @@ impl Run {
         while let Some((at_us, record)) = logs.take()? {
             run.from_us = run.from_us.min(at_us);
             run.to_us = run.to_us.max(at_us);
-            run.timing.record(&record);
+            run.timing.record(at_us, &record);
             run.robot(&record).records += 1;
             for fact in observer.take(&record) {
                 run.take(at_us, &record.robot, fact);

@@ -127,14 +127,15 @@ fn times(report: &Report, run: &Run) -> Markup {
             table {
                 thead { tr {
                     th scope="col" { "maneuver" } th.n scope="col" { "completed" } th.n scope="col" { "T_neg [s]" }
-                    th.n scope="col" { "T_exec [s]" } th.n scope="col" { "T_TMCT [s]" }
-                    th.n scope="col" { "paper T_neg [s]" } th.n scope="col" { "paper T_exec [s]" }
+                    th.n scope="col" { "round trip [s]" } th.n scope="col" { "T_exec [s]" } th.n scope="col" { "T_TMCT [s]" }
                 } }
                 tbody { @for summary in &summaries { (time_row(summary)) } }
             }
         }
         p.faint {
-            "T_neg: from the leader's command to its acknowledgement. T_exec: from its start at the follower to its "
+            "T_neg: from the leader's first transmission of the command to its reception at the follower, one way; between "
+            "logs of different machines it contains the difference of their clocks. Round trip: from that transmission "
+            "to the acknowledgement. T_exec: from its start at the follower to its "
             "end, in the robots' own time" @if report.time_scale > 1.0 { ", which passes " (report.time_scale) " times as fast" }
             ". T_TMCT = T_neg + T_exec. Mean ± standard deviation."
         }
@@ -149,10 +150,19 @@ fn time_row(summary: &Summary) -> Markup {
             th scope="row" { (summary.task) }
             td.n { (summary.trials) }
             td.n { (statistic(summary.t_neg_s, 4)) }
+            td.n { (statistic(summary.round_trip_s, 4)) }
             td.n { (statistic(summary.t_exec_s, 2)) }
-            td.n { (statistic(summary.t_tmct_s, 2)) }
-            td.n { @if let Some(paper) = summary.paper.t_neg_s { (statistic(paper, 3)) } }
-            td.n { @if let Some(paper) = summary.paper.t_exec_s { (format!("{paper:.1}")) } }
+            td.n { (statistic(summary.t_tmct_s, 3)) }
+        }
+        @if let Some(paper) = &summary.paper {
+            tr.faint {
+                th scope="row" { (summary.task) " in the paper" }
+                td.n { (paper.trials) }
+                td.n { (statistic(paper.t_neg_s, 3)) }
+                td.n {}
+                td.n { (format!("{:.2}", paper.t_exec_s)) }
+                td.n { (statistic(paper.t_tmct_s, 3)) }
+            }
         }
     }
 }
