@@ -12,12 +12,14 @@ mod fsm;
 mod fuzz;
 mod interrupts;
 mod pki;
+mod ranges;
 mod records;
 mod report;
 mod run;
 mod security;
 mod simulate;
 mod sniff;
+mod timing;
 mod validate;
 mod watch;
 mod zenoh;
@@ -67,6 +69,8 @@ enum Command {
     Validate(validate::Arguments),
     /// Write a page about a run: states, map, times, verdicts, sequence chart.
     Report(report::Arguments),
+    /// Take the paper's times from logs: negotiation, execution, and both together.
+    Timing(timing::Arguments),
     /// Convert logs to what other tools open: MCAP, sequence charts.
     Export(export::Arguments),
     /// Print the state diagram of the protocol, drawn from what the transition function does.
@@ -128,6 +132,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Timing(arguments) => timing::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),

@@ -347,7 +347,7 @@ impl Demo<'_> {
     }
 
     fn take(&mut self, record: &Record) {
-        self.timing.record(record.at_us, record);
+        self.timing.record(0, record.at_us, record);
         trace::write(&mut self.log, record).expect("writing to memory does not fail");
         match &record.entry {
             Entry::Step { outputs, state, .. } if !self.is_dead(&record.robot) => {

@@ -37,11 +37,18 @@ fn the_results_have_the_papers_times_for_each_maneuver() {
             "no two walks are alike"
         );
         assert!(mean("t_neg_s") > 0.0);
+        assert!(mean("t_neg_s") < mean("round_trip_s"), "T_neg is one way");
         assert!((mean("t_tmct_s") - mean("t_neg_s") - mean("t_exec_s")).abs() < 1e-9);
     }
-    // The escort is planned to take as long as the paper's, give or take the gait.
-    let escort = maneuvers[1]["t_exec_s"]["mean"].as_f64().unwrap();
+    // Both are planned to take as long as the paper's, give or take the gait and the ticks of the body.
+    let exec = |it: &Value| it["t_exec_s"]["mean"].as_f64().unwrap();
+    let (position, escort) = (exec(&maneuvers[0]), exec(&maneuvers[1]));
+    assert!((0.3..3.0).contains(&position), "{position}");
     assert!((20.0..25.0).contains(&escort), "{escort}");
+    let paper = |maneuver: &Value, time: &str| maneuver["paper"][time]["mean"].as_f64();
+    let of_paper = |maneuver| (paper(maneuver, "t_neg_s"), paper(maneuver, "t_tmct_s"));
+    assert_eq!(of_paper(&maneuvers[0]), (Some(0.074), Some(0.574)));
+    assert_eq!(of_paper(&maneuvers[1]), (Some(0.129), Some(21.729)));
 }
 
 #[test]
@@ -59,6 +66,10 @@ fn a_person_sees_the_chart_the_table_and_the_verdict_on_the_log() {
         "corridor opened",
         "corridor closed",
         "T_TMCT [s]",
+        "round trip [s]",
+        "in the paper",
+        "0.074 ± 0.015",
+        "0.129 ± 0.102",
         "1 of 1 crossings completed; in the end ARI is Idle, Go2 is Idle.",
         "every step was one",
     ] {

@@ -25,7 +25,7 @@ use std::io::{Seek, Write};
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::State as Stage;
 use crossguard_robot::site::Site;
-use crossguard_robot::trace::{LogError, Merged, Record};
+use crossguard_robot::trace::{LogError, Merged, Record, Timed};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{McapError, WriteOptions, Writer};
 use schemas::{Counter, Kind, Time};
@@ -53,7 +53,7 @@ pub type Written = BTreeMap<String, u64>;
 pub fn write(mut logs: Merged, file: impl Write + Seek) -> Result<Written, ExportError> {
     let mut recording = Recording::new(file)?;
     let mut observer = Observer::default();
-    while let Some((at_us, record)) = logs.take()? {
+    while let Some(Timed { at_us, record, .. }) = logs.take()? {
         let facts = observer.take(&record);
         let robot = recording.robot(&record);
         for fact in facts {

@@ -5,8 +5,13 @@
 //! acknowledgement is a time of its own here, the round trip. A command that is repeated counts from its first
 //! transmission to its first reception. A `block` takes as long as it is held.
 //!
-//! Both times of the negotiation are taken from the clocks of two robots. Between logs of different machines it
-//! contains the difference of their clocks, and can be negative; the round trip does not.
+//! Both times of the negotiation are taken from the clocks of two robots. Those of robots that share a log are one;
+//! between logs the difference is [estimated](Offset) from the messages that went both ways, taken off, and stated
+//! with its bound. The round trip needs no other clock.
+
+mod clocks;
+
+pub use clocks::{NoOffset, Offset};
 
 use std::collections::BTreeMap;
 
@@ -16,6 +21,7 @@ use crossguard_protocol::{
 };
 use serde::Serialize;
 
+use clocks::Clocks;
 use crossguard_robot::trace::{Entry, Record};
 
 /// Gathers times from the records of a run.
@@ -23,6 +29,7 @@ use crossguard_robot::trace::{Entry, Record};
 pub struct Timing {
     /// By maneuver: what is known so far.
     maneuvers: BTreeMap<Key, ManeuverTimes>,
+    clocks: Clocks,
 }
 
 /// A maneuver in an order that has no meaning but is one. A leader counts its requests for each follower
@@ -134,8 +141,9 @@ impl Statistic {
 }
 
 impl Timing {
-    /// Takes note of a record, at a time on a clock that all records share, in µs.
-    pub fn record(&mut self, at_us: u64, record: &Record) {
+    /// Takes note of a record of a log, at a time on the log's clock in µs.
+    pub fn record(&mut self, log: usize, at_us: u64, record: &Record) {
+        self.clocks.record(log, at_us, record);
         let Entry::Step {
             input,
             outputs,
@@ -183,13 +191,16 @@ impl Timing {
         self.maneuvers.entry(key(follower, id)).or_default()
     }
 
-    /// The times by kind of maneuver, of completed ones. The robots' own time passes
-    /// `time_scale` times as fast as ours.
+    /// The times by kind of maneuver, of completed ones between robots whose clocks can be compared. The robots'
+    /// own time passes `time_scale` times as fast as ours.
     #[must_use]
     pub fn summaries(&self, time_scale: f64) -> Vec<Summary> {
         let mut samples: BTreeMap<TaskType, Vec<Sample>> = BTreeMap::new();
-        for times in self.maneuvers.values() {
-            if let Some((task, sample)) = times.complete(time_scale) {
+        for (&key, times) in &self.maneuvers {
+            let offset = self.logs(key).map(|logs| self.clocks.offset(logs));
+            if let Some(Ok(offset)) = offset
+                && let Some((task, sample)) = times.complete(offset, time_scale)
+            {
                 samples.entry(task).or_default().push(sample);
             }
         }
@@ -197,6 +208,22 @@ impl Timing {
             .into_iter()
             .map(|(task, samples)| summarize(task, &samples))
             .collect()
+    }
+
+    /// By the logs of leader and follower of completed maneuvers, where these are two: by how much the clock of
+    /// the follower's is ahead.
+    #[must_use]
+    pub fn offsets(&self) -> BTreeMap<(usize, usize), Result<Offset, NoOffset>> {
+        let completed = self.maneuvers.iter().filter(|(_, it)| it.is_complete());
+        let logs = completed.filter_map(|(&key, _)| self.logs(key));
+        logs.filter(|(leader, follower)| leader != follower)
+            .map(|logs| (logs, self.clocks.offset(logs)))
+            .collect()
+    }
+
+    /// The logs of the leader and the follower of a maneuver.
+    fn logs(&self, (leader, _, follower, _): Key) -> Option<(usize, usize)> {
+        self.clocks.logs((StationId(leader), StationId(follower)))
     }
 }
 
@@ -209,16 +236,48 @@ struct Sample {
 }
 
 impl ManeuverTimes {
-    fn complete(self, time_scale: f64) -> Option<(TaskType, Sample)> {
+    fn is_complete(&self) -> bool {
+        self.complete(Offset::default(), 1.0).is_some()
+    }
+
+    fn complete(&self, offset: Offset, time_scale: f64) -> Option<(TaskType, Sample)> {
         #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
         let seconds = |from: u64, to: u64| (to as f64 - from as f64) / 1e6;
+        #[expect(clippy::cast_precision_loss, reason = "clocks are not so far apart")]
+        let ahead = offset.offset_us as f64 / 1e6;
         let sample = Sample {
-            negotiation: seconds(self.commanded?, self.received?),
+            negotiation: seconds(self.commanded?, self.received?) - ahead,
             round_trip: seconds(self.commanded?, self.acknowledged?),
             execution: seconds(self.started?, self.completed?) * time_scale,
         };
         Some((self.task?, sample))
     }
+}
+
+/// What [`Timing::offsets`] says of logs with these names, a line for each pair.
+#[must_use]
+pub fn offsets_in_words(timing: &Timing, logs: &[String]) -> Vec<String> {
+    let name = |log: usize| logs.get(log).map_or("?", String::as_str);
+    let line = |((leader, follower), offset): ((usize, usize), Result<Offset, NoOffset>)| {
+        let (leader, follower) = (name(leader), name(follower));
+        match offset {
+            Ok(offset) => format!(
+                "The clock of {follower} is {} ms ± {} ms ahead of that of {leader}, by {} messages there and {} back; \
+                 T_neg is without it, and as uncertain",
+                milliseconds(offset.offset_us),
+                milliseconds(offset.bound_us),
+                offset.there,
+                offset.back,
+            ),
+            Err(why) => format!("Maneuvers of {leader} and {follower} are left out: {why}"),
+        }
+    };
+    timing.offsets().into_iter().map(line).collect()
+}
+
+#[expect(clippy::cast_precision_loss, reason = "for people to read")]
+fn milliseconds(us: i64) -> String {
+    format!("{:.3}", us as f64 / 1e3)
 }
 
 fn summarize(task: TaskType, samples: &[Sample]) -> Summary {

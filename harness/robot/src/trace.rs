@@ -6,7 +6,7 @@
 
 mod reader;
 
-pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Unreadable};
+pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Timed, Unreadable};
 
 use std::io::Write;
 

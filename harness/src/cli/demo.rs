@@ -2,18 +2,16 @@
 
 use std::path::PathBuf;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use crossguard_codec::Identifiers;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::Mode;
 use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_judge::chart::Chart;
-use crossguard_judge::timing::{Statistic, Summary};
 use crossguard_robot::transport::Faults;
 
-use super::{Failure, print, print_json};
+use super::ranges::{in_range, speed};
+use super::{Failure, print, print_json, timing};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -66,15 +64,6 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
-fn speed(text: &str) -> Result<f64, String> {
-    in_range(
-        text,
-        1.0,
-        100.0,
-        "slower than real time, a maneuver would exceed its limit",
-    )
-}
-
 fn loss(text: &str) -> Result<f64, String> {
     in_range(
         text,
@@ -82,13 +71,6 @@ fn loss(text: &str) -> Result<f64, String> {
         0.9,
         "with more, robots cannot hear of each other in time",
     )
-}
-
-fn in_range(text: &str, min: f64, max: f64, why: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (min..=max).contains(&value) => Ok(value),
-        _ => Err(format!("a number from {min} to {max} is wanted ({why})")),
-    }
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -220,13 +202,11 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
 
 fn report(outcome: &Outcome) -> Result<(), Failure> {
     print("")?;
-    print(table(&outcome.maneuvers))?;
-    print(
-        "T_neg: from the leader's first transmission of the command to its reception at the follower, one way, here on \
-         loopback;\nthe paper's went over IEEE 802.11p. Round trip: from that transmission to the acknowledgement. \
-         T_exec: simulated motion,\nin the robots' own time; of a block, how long it was held. T_TMCT = T_neg + T_exec. \
-         Mean ± standard deviation;\nthe paper's are of 5 trials.\n",
-    )?;
+    print(timing::table(&outcome.maneuvers))?;
+    print(format_args!(
+        "{} Here they go over loopback.\n",
+        timing::LEGEND
+    ))?;
     print(format_args!(
         "{} of {} crossings {}{}; in the end {}.",
         outcome.crossings,
@@ -269,44 +249,4 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
             error.as_deref().unwrap_or_default()
         )),
     }
-}
-
-fn table(summaries: &[Summary]) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header([
-        "maneuver",
-        "completed",
-        "T_neg [s]",
-        "round trip [s]",
-        "T_exec [s]",
-        "T_TMCT [s]",
-    ]);
-    for summary in summaries {
-        table.add_row([
-            summary.task.clone(),
-            summary.trials.to_string(),
-            statistic(summary.t_neg_s, 4),
-            statistic(summary.round_trip_s, 4),
-            statistic(summary.t_exec_s, 2),
-            statistic(summary.t_tmct_s, 3),
-        ]);
-        if let Some(paper) = &summary.paper {
-            table.add_row([
-                "  in the paper".to_owned(),
-                paper.trials.to_string(),
-                statistic(paper.t_neg_s, 3),
-                String::new(),
-                format!("{:.2}", paper.t_exec_s),
-                statistic(paper.t_tmct_s, 3),
-            ]);
-        }
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
-}
-
-fn statistic(statistic: Statistic, digits: usize) -> String {
-    format!("{:.digits$} ± {:.digits$}", statistic.mean, statistic.sd)
 }

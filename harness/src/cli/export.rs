@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crossguard_judge::mcap_file;
 use crossguard_judge::sequence::Sequence;
-use crossguard_robot::trace::Merged;
+use crossguard_robot::trace::{Merged, Timed};
 
 use super::{Failure, open_logs, print};
 
@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut sequence = Sequence::growing();
     let mut steps = Vec::new();
     let mut logs = merged(&arguments.logs)?;
-    while let Some((_, record)) = logs.take().map_err(Failure::input)? {
+    while let Some(Timed { record, .. }) = logs.take().map_err(Failure::input)? {
         steps.extend(sequence.steps(&record));
     }
     sequence.end(&mut steps);

@@ -22,7 +22,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "TEXT", default_value = "Crossguard run")]
     title: String,
     /// How many times as fast as real the robots' bodies moved, for the table of times.
-    #[arg(long, value_name = "N", default_value_t = 1.0)]
+    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = super::ranges::speed)]
     speed: f64,
 }
 

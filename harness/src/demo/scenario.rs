@@ -50,6 +50,10 @@ pub(super) enum End {
     Released(ReleaseReason),
 }
 
+/// Where the dog waits: 11 cm from the place from which it escorts, since the paper's `initialPos` took about 0.50 s
+/// (section III-A).
+const AT_LEAD_POSITION: Place = Place::new(1.0, -1.11);
+
 const ARI: StationId = StationId(1);
 const GO2: StationId = StationId(2);
 const SECOND: StationId = StationId(3);
@@ -91,7 +95,7 @@ impl Scenario {
         let (ari, go2) = (("ARI", ARI), ("Go2", GO2));
         let (second, third) = (("ARI-2", SECOND), ("ARI-3", THIRD));
         let corner = Place::new(0.0, -1.5);
-        let dog = robot(go2, Build::Quadruped, Place::new(-2.0, -2.5));
+        let dog = robot(go2, Build::Quadruped, AT_LEAD_POSITION);
         let crossing = || Plan::crossing(site);
         // Each waits on the pavement beside the lane that it is going to block.
         let at_near_lane = Place::new(plan::NEAR_LANE.east, -0.8);

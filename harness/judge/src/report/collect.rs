@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use crossguard_endpoint::counters::CauseName;
 use crossguard_model_check::sequence::{ChartPlace, ChartStep};
 use crossguard_protocol::StationId;
-use crossguard_robot::trace::{LogError, Merged, Record};
+use crossguard_robot::trace::{LogError, Merged, Record, Timed};
 
 use crate::facts::{Area, Direction, Fact, Observer, Placed, View};
 use crate::sequence::Sequence;
@@ -82,10 +82,10 @@ impl Run {
         let mut observer = Observer::default();
         let mut tail = VecDeque::new();
         let mut left_out = 0_u64;
-        while let Some((at_us, record)) = logs.take()? {
+        while let Some(Timed { log, at_us, record }) = logs.take()? {
             run.from_us = run.from_us.min(at_us);
             run.to_us = run.to_us.max(at_us);
-            run.timing.record(at_us, &record);
+            run.timing.record(log, at_us, &record);
             run.robot(&record).records += 1;
             for fact in observer.take(&record) {
                 run.take(at_us, &record.robot, fact);

@@ -8,7 +8,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::collect::Run;
 use super::{Report, Validity, street, timeline};
-use crate::timing::{Statistic, Summary};
+use crate::timing::{Statistic, Summary, offsets_in_words};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -133,12 +133,12 @@ fn times(report: &Report, run: &Run) -> Markup {
             }
         }
         p.faint {
-            "T_neg: from the leader's first transmission of the command to its reception at the follower, one way; between "
-            "logs of different machines it contains the difference of their clocks. Round trip: from that transmission "
-            "to the acknowledgement. T_exec: from its start at the follower to its "
+            "T_neg: from the leader's first transmission of the command to its reception at the follower, one way. "
+            "Round trip: from that transmission to the acknowledgement. T_exec: from its start at the follower to its "
             "end, in the robots' own time" @if report.time_scale > 1.0 { ", which passes " (report.time_scale) " times as fast" }
             ". T_TMCT = T_neg + T_exec. Mean ± standard deviation."
         }
+        @for line in offsets_in_words(&run.timing, report.logs) { p.faint { (line) "." } }
     }
 }
 

@@ -138,10 +138,21 @@ impl<'a> Records<'a> {
 /// for that each is held back for a second of the logs' time.
 pub struct Merged<'a> {
     sources: Vec<OpenLog<'a>>,
-    /// What is held back, by time, and by the order in which it was read.
-    held: BTreeMap<(u64, u64), Record>,
+    /// What is held back, by time, and by the order in which it was read; with the log that it is from.
+    held: BTreeMap<(u64, u64), (usize, Record)>,
     read: u64,
     newest_us: u64,
+}
+
+/// A record of one of several logs.
+#[derive(Debug)]
+pub struct Timed {
+    /// Which log, in the order in which they were given.
+    pub log: usize,
+    /// When, in microseconds since 1970 by the clock of the robot's machine.
+    pub at_us: u64,
+    /// The record.
+    pub record: Record,
 }
 
 struct OpenLog<'a> {
@@ -186,38 +197,40 @@ impl<'a> Merged<'a> {
         })
     }
 
-    /// Takes the next record and its time, in microseconds since 1970; `None` at the end of all.
+    /// Takes the next record; `None` at the end of all.
     ///
     /// # Errors
     /// Which log cannot be read on, in which line, and why.
-    pub fn take(&mut self) -> Result<Option<(u64, Record)>, LogError> {
-        while let Some((at_us, record)) = self.read()? {
+    pub fn take(&mut self) -> Result<Option<Timed>, LogError> {
+        while let Some(Timed { log, at_us, record }) = self.read()? {
             self.newest_us = self.newest_us.max(at_us);
-            self.held.insert((at_us, self.read), record);
+            self.held.insert((at_us, self.read), (log, record));
             self.read += 1;
-            let first = self.held.first_entry();
-            let due = first.filter(|first| first.key().0.saturating_add(HELD_US) <= self.newest_us);
-            if let Some(due) = due {
-                return Ok(Some((due.key().0, due.remove())));
+            let is_due = |at_us: u64| at_us.saturating_add(HELD_US) <= self.newest_us;
+            if self
+                .held
+                .first_key_value()
+                .is_some_and(|(key, _)| is_due(key.0))
+            {
+                break;
             }
         }
         let first = self.held.pop_first();
-        Ok(first.map(|((at_us, _), record)| (at_us, record)))
+        Ok(first.map(|((at_us, _), (log, record))| Timed { log, at_us, record }))
     }
 
     /// Reads the next record of the log whose next is the earliest.
-    fn read(&mut self) -> Result<Option<(u64, Record)>, LogError> {
-        let with_head = self
-            .sources
-            .iter_mut()
-            .filter(|source| source.head.is_some());
-        let earliest = with_head.min_by_key(|source| source.head.as_ref().map(|(at_us, _)| *at_us));
-        let Some(source) = earliest else {
+    fn read(&mut self) -> Result<Option<Timed>, LogError> {
+        let heads = self.sources.iter_mut().enumerate();
+        let with_head = heads.filter(|(_, source)| source.head.is_some());
+        let earliest =
+            with_head.min_by_key(|(_, source)| source.head.as_ref().map(|(at_us, _)| *at_us));
+        let Some((log, source)) = earliest else {
             return Ok(None);
         };
         let taken = source.head.take();
         source.advance()?;
-        Ok(taken)
+        Ok(taken.map(|(at_us, record)| Timed { log, at_us, record }))
     }
 }
 
@@ -265,7 +278,7 @@ mod tests {
     fn times(logs: Vec<Log<'static>>) -> Vec<(u64, String)> {
         let mut merged = Merged::new(logs).unwrap();
         std::iter::from_fn(|| merged.take().unwrap())
-            .map(|(at_us, record)| (at_us, record.robot))
+            .map(|it| (it.at_us, it.record.robot))
             .collect()
     }
 
