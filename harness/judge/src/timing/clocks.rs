@@ -28,14 +28,14 @@ pub(super) struct Clocks {
     /// Which log each station is in.
     homes: BTreeMap<StationId, usize>,
     /// By the digest of its octets: what is known of a message.
-    messages: HashMap<u64, Message>,
+    messages: HashMap<u64, PassedMessage>,
     /// By the logs of sender and receiver: the least that a message took, and how many did.
     ways: BTreeMap<(usize, usize), Way>,
 }
 
 /// A message: its first transmission, and its receptions before that is known, each by log and time.
 #[derive(Debug, Default)]
-struct Message {
+struct PassedMessage {
     sent: Option<(usize, u64)>,
     heard: Vec<(usize, u64)>,
 }
@@ -115,7 +115,7 @@ impl Clocks {
         }
     }
 
-    fn message(&mut self, octets: &[u8]) -> Option<&mut Message> {
+    fn message(&mut self, octets: &[u8]) -> Option<&mut PassedMessage> {
         let mut hasher = DefaultHasher::new();
         octets.hash(&mut hasher);
         let digest = hasher.finish();
