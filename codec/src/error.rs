@@ -252,6 +252,9 @@ pub enum ViewError {
     /// A number of followers that cannot be asked for.
     #[error("{0} followers are asked for, and 1 to {MAX_FOLLOWERS} can be")]
     FollowerCount(u8),
+    /// A leader has more followers than this robot has room for.
+    #[error("a leader names {0} followers, and there is room for {MAX_FOLLOWERS}")]
+    MemberCount(usize),
     /// A `t_safety` that no offer can tell.
     #[error("an offer tells a safety timeout of {0}, and from 1 ms to one day can be told")]
     SafetyTimeout(Millis),
@@ -297,6 +300,7 @@ impl ViewError {
             Self::NamedTwice(_) | Self::OwnFollower(_) => "impossible followers",
             Self::FarewellToPresent(_) => "farewell to the present session",
             Self::UnknownCrossing => "crossing 0:0",
+            Self::MemberCount(_) | Self::CommandCount(_) => "too many followers",
             _ => "other",
         }
     }

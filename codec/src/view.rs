@@ -20,7 +20,7 @@ mod rmcm;
 mod role;
 mod task;
 
-use crossguard_protocol::StationId;
+use crossguard_protocol::{List, StationId};
 
 use crate::error::ViewError;
 
@@ -46,4 +46,13 @@ fn check_followers(
         }
     }
     Ok(())
+}
+
+/// The list of all these items, if there are not more than it can hold.
+fn all_of<T: Copy, const N: usize>(items: impl Iterator<Item = T>) -> Option<List<T, N>> {
+    let mut list = List::EMPTY;
+    for item in items {
+        list.push(item).ok()?;
+    }
+    Some(list)
 }

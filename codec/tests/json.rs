@@ -155,12 +155,12 @@ fn a_number_that_is_not_one_of_its_type_is_refused() {
 #[test]
 fn a_list_whose_size_is_not_one_of_its_type_is_refused() {
     let follower = json!({ "stationID": 1, "offerNumber": 1 });
-    for (length, is_read) in [(0, false), (1, true), (4, true), (5, false)] {
+    for (length, is_read) in [(0, false), (1, true), (16, true), (17, false)] {
         let followers = json!(vec![follower.clone(); length]);
         let read = serde_json::from_value::<ConfirmedFollowers>(followers);
         assert_eq!(read.is_ok(), is_read);
         if let Err(error) = read {
-            let size = format!("invalid length {length}, expected a list of 1 to 4 items");
+            let size = format!("invalid length {length}, expected a list of 1 to 16 items");
             assert_eq!(error.to_string(), size);
         }
     }

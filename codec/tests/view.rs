@@ -331,7 +331,7 @@ fn a_leader_with_more_followers_than_a_session_has_is_refused() {
     role.followers.push(role.followers[0].clone());
     let error = forged.to_message().unwrap_err();
     assert!(
-        matches!(error, EncodeError::Size { size: 5, .. }),
+        matches!(error, EncodeError::Size { size: 17, .. }),
         "{error}"
     );
 }
@@ -364,10 +364,10 @@ fn nobody_says_farewell_to_the_session_that_it_takes_part_in() {
 }
 
 #[test]
-fn a_request_is_for_1_to_4_followers() {
+fn a_request_is_for_1_to_16_followers() {
     let request = crossguard_protocol::HelpRequest {
         urgency: crossguard_protocol::Urgency::High,
-        followers: 5,
+        followers: 17,
         tasks: crossguard_protocol::TaskSet(7),
         place: Place::UNKNOWN,
     };
@@ -378,7 +378,7 @@ fn a_request_is_for_1_to_4_followers() {
     };
     assert_eq!(
         ram(&says(samples::LEADER, coordination)),
-        Err(ViewError::FollowerCount(5))
+        Err(ViewError::FollowerCount(17))
     );
 }
 
@@ -481,8 +481,8 @@ fn the_commands_of_a_message_belong_together() {
     };
     assert_eq!(rmcm(&[(first, parameters), (other(2), parameters)]), Ok(()));
     assert_eq!(rmcm(&[]), Err(ViewError::CommandCount(0)));
-    let five = [1, 2, 3, 4, 5].map(|to| (other(to), parameters));
-    assert_eq!(rmcm(&five), Err(ViewError::CommandCount(5)));
+    let crowd: Vec<_> = (1..=17).map(|to| (other(to), parameters)).collect();
+    assert_eq!(rmcm(&crowd), Err(ViewError::CommandCount(17)));
     let twice = [(first, parameters), (first, parameters)];
     assert_eq!(rmcm(&twice), Err(ViewError::NamedTwice(first.to)));
     let own = [(other(samples::LEADER.0), parameters)];

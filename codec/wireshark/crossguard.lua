@@ -293,8 +293,8 @@ types.IntersectionReferenceId = { k = "seq", { "region", "Identifier2B", opt = t
 types.ItsPduHeader = { k = "seq", { "protocolVersion", "OrdinalNumber1B" }, { "messageId", "MessageId" }, { "stationId", "StationId" } }
 types.LanePosition = { k = "int", min = -1, max = 14, names = { [-1] = "offTheRoad", [0] = "innerHardShoulder", [14] = "outerHardShoulder" } }
 types.Latitude = { k = "int", min = -900000000, max = 900000001, names = { [900000001] = "unavailable" } }
-types.LeaderManeuverContainer = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "mapReference", "MapReference", opt = true }, { "commands", { k = "list", min = 1, max = 4, of = "ManeuverCommand" } } }
-types.LeaderRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "heartbeat", "Heartbeat" }, { "urgency", "RequestUrgency" }, { "crossing", "CrossingReference", opt = true }, { "yields", { k = "bool" } }, { "followers", { k = "list", min = 1, max = 4, of = "ConfirmedFollower" } } }
+types.LeaderManeuverContainer = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "mapReference", "MapReference", opt = true }, { "commands", { k = "list", min = 1, max = 16, of = "ManeuverCommand" } } }
+types.LeaderRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "heartbeat", "Heartbeat" }, { "urgency", "RequestUrgency" }, { "crossing", "CrossingReference", opt = true }, { "yields", { k = "bool" } }, { "followers", { k = "list", min = 1, max = 16, of = "ConfirmedFollower" } } }
 types.LeftSession = { k = "seq", { "session", "CoordinationSession" }, { "offerNumber", "OfferNumber" } }
 types.Longitude = { k = "int", min = -1800000000, max = 1800000001, names = { [-1800000000] = "valueNotUsed", [1800000001] = "unavailable" } }
 types.ManeuverCommand = { k = "seq", ext = true, { "requestID", "RequestId" }, { "targetFollowerStationID", "StationId" }, { "taskType", "TaskType" }, { "target", "ManeuverTarget", opt = true }, { "targetHeading", "Wgs84AngleValue", opt = true }, { "constraints", "ManeuverConstraints", opt = true }, { "validityDuration", "ManeuverDuration", opt = true } }
@@ -331,7 +331,7 @@ types.ReferencePositionWithConfidence = { k = "seq", { "latitude", "Latitude" },
 types.RejectionReason = { k = "choice", root = { { "unsupportedTask", { k = "null" } }, { "unavailable", "UnavailabilityReason" }, { "onDuty", { k = "null" } } }, ext = true, adds = {  } }
 types.RequestId = { k = "int", min = 0, max = 255 }
 types.RequestUrgency = { k = "enum", root = { "low", "medium", "high", "emergency" } }
-types.RequesterRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "heartbeat", "Heartbeat" }, { "urgency", "RequestUrgency" }, { "crossing", "CrossingReference", opt = true }, { "followerCount", { k = "int", min = 1, max = 4 } }, { "requestedTasks", "TaskSet" } }
+types.RequesterRole = { k = "seq", ext = true, { "session", "CoordinationSession" }, { "heartbeat", "Heartbeat" }, { "urgency", "RequestUrgency" }, { "crossing", "CrossingReference", opt = true }, { "followerCount", { k = "int", min = 1, max = 16 } }, { "requestedTasks", "TaskSet" } }
 types.RmcmParameters = { k = "seq", ext = true, { "basicContainer", "BasicContainer" }, { "maneuverContainer", "ManeuverContainer" } }
 types.RoadSegmentReferenceId = { k = "seq", { "region", "Identifier2B", opt = true }, { "id", "Identifier2B" } }
 types.RobotAwareness = { k = "seq", { "generationDeltaTime", "GenerationDeltaTime" }, { "ramParameters", "RamParameters" } }

@@ -23,7 +23,7 @@ use crossguard_codec::Identifiers;
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::{Mode, Security};
-use crossguard_judge::timing::{Summary, Timing};
+use crossguard_judge::timing::{Summary, TeamSummary, Timing};
 use crossguard_judge::validate::{self, Validated};
 use crossguard_robot::application::{Application, Wish};
 use crossguard_robot::body::Simulated;
@@ -51,6 +51,8 @@ const ATTEMPTS: usize = 5;
 pub struct Options {
     /// What happens.
     pub scenario: Scenario,
+    /// How many followers a team has.
+    pub followers: u8,
     /// How many crossings.
     pub trials: usize,
     /// How many times as fast as real the robots move.
@@ -82,6 +84,8 @@ pub struct Outcome {
     pub scenario: Scenario,
     /// Times by kind of maneuver.
     pub maneuvers: Vec<Summary>,
+    /// Times by size of the team.
+    pub teams: Vec<TeamSummary>,
     /// Whether the log, replayed through the transition function, is what the robots did.
     pub trace_valid: bool,
     /// What the log holds.
@@ -200,7 +204,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     let mut journal = Journal::new();
     let records = journal.reader(LOG, WhenFull::End, Cause::LogFull);
     let clock = Clock::start();
-    let participants = options.scenario.participants();
+    let participants = options.scenario.participants(options.followers);
     // All sockets are open before any robot says anything.
     let links = links::open(options, participants.len())?;
     let mut securities = options.security.iter().cloned();
@@ -405,6 +409,7 @@ impl Demo<'_> {
         let outcome = Outcome {
             scenario: self.scenario,
             maneuvers: self.timing.summaries(options.time_scale),
+            teams: self.timing.teams(),
             trace_valid: validated.is_ok(),
             trace: validated.as_ref().ok().cloned(),
             trace_error: validated.err(),

@@ -196,7 +196,8 @@ fn request(words: &[&str], site: &Site) -> Result<HelpRequest, Misunderstood> {
             && let Ok(followers) = word.parse()
         {
             if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
-                return Err(wrong(word, "a number of followers from 1 to 4"));
+                let wanted = format!("a number of followers from 1 to {MAX_FOLLOWERS}");
+                return Err(wrong(word, wanted));
             }
             request.followers = followers;
         } else if let Some(urgency) = urgency(word) {
@@ -365,7 +366,10 @@ mod tests {
                 "unavailable bored",
                 "'bored' is not a reason to be unavailable; see 'help'",
             ),
-            ("detect 5", "'5' is not a number of followers from 1 to 4"),
+            (
+                "detect 17",
+                "'17' is not a number of followers from 1 to 16",
+            ),
             (
                 "detect soon",
                 format!("'soon' is not a task: {TaskNames}").as_str(),

@@ -105,6 +105,29 @@ fn a_team_of_four_takes_commands_of_one_leader_also_when_messages_get_lost() {
 }
 
 #[test]
+fn sixteen_followers_take_commands_of_one_leader_and_the_pedestrian_crosses() {
+    let (result, log) = scenario("team", &["--followers", "16", "--speed", "20"]);
+    let states = result["final_states"].as_object().unwrap();
+    assert_eq!(states.len(), 17);
+    assert!(states.values().all(|state| state == "Idle"), "{states:?}");
+    assert_eq!(at(&log, "corridorOpened"), ["ARI"]);
+    let started = started(&log);
+    let blocks = started.iter().filter(|(_, task)| *task == BLOCK).count();
+    assert_eq!(blocks, 15, "{started:?}");
+    let team = &result["teams"][0];
+    assert_eq!(team["followers"], 16, "{team}");
+    for time in ["formed_s", "all_acknowledged_s"] {
+        assert!(team[time]["mean"].as_f64() > Some(0.0), "{team}");
+    }
+    assert_refused(
+        &run(&["demo", "--scenario", "team", "--followers", "17"]),
+        "17 is not in 1..=16",
+    );
+    let crossing = run(&["demo", "--followers", "2"]);
+    assert_refused(&crossing, "--followers: only of --scenario team");
+}
+
+#[test]
 fn when_the_follower_dies_the_corridor_closes_and_the_leader_gives_up() {
     let (result, log) = scenario("follower-dies", &["--speed", "5"]);
     assert_eq!(result["final_states"]["Go2"], "without power");

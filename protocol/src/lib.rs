@@ -114,14 +114,32 @@ pub use task::{
 };
 pub use time::{Countdown, Millis};
 
-/// How many followers a leader can have.
-pub const MAX_FOLLOWERS: usize = 4;
+/// How many followers a leader can have: 16, as many as a RAM has room for, or what the environment variable
+/// `CROSSGUARD_MAX_FOLLOWERS` says when this crate is compiled, from 1 to 16. Robots of different capacity understand
+/// each other; one with a smaller capacity takes no message that names more followers. The proofs are for 4.
+pub const MAX_FOLLOWERS: usize = if cfg!(kani) {
+    4
+} else {
+    capacity(option_env!("CROSSGUARD_MAX_FOLLOWERS"))
+};
+
+/// The capacity that a text says.
+const fn capacity(text: Option<&str>) -> usize {
+    let Some(text) = text else {
+        return 16;
+    };
+    match u8::from_str_radix(text, 10) {
+        Ok(number @ 1..=16) => number as usize,
+        _ => panic!("CROSSGUARD_MAX_FOLLOWERS is no number from 1 to 16"),
+    }
+}
 
 /// How many timers a robot can have armed at once.
 pub const MAX_TIMERS: usize = 3 * MAX_FOLLOWERS + 3;
 
-/// How many outputs one step can have.
-pub const MAX_OUTPUTS: usize = 24;
+/// How many outputs one step can have: one for each timer and each follower, a RAM, and four with which a part in a
+/// session ends and the step settles.
+pub const MAX_OUTPUTS: usize = MAX_TIMERS + MAX_FOLLOWERS + 5;
 
 /// The Rust in the README compiles.
 #[cfg(doctest)]

@@ -5835,7 +5835,7 @@ pub mod crossguard_ram {
         pub urgency: RequestUrgency,
         pub crossing: Option<CrossingReference>,
         pub yields: bool,
-        #[rasn(size("1..=4"))]
+        #[rasn(size("1..=16"))]
         pub followers: SequenceOf<ConfirmedFollower>,
     }
     impl LeaderRole {
@@ -5997,7 +5997,7 @@ pub mod crossguard_ram {
         pub heartbeat: Heartbeat,
         pub urgency: RequestUrgency,
         pub crossing: Option<CrossingReference>,
-        #[rasn(value("1..=4"), identifier = "followerCount")]
+        #[rasn(value("1..=16"), identifier = "followerCount")]
         #[serde(rename = "followerCount")]
         pub follower_count: u8,
         #[rasn(identifier = "requestedTasks")]
@@ -6406,7 +6406,7 @@ pub mod crossguard_rmcm {
         #[rasn(identifier = "mapReference")]
         #[serde(rename = "mapReference")]
         pub map_reference: Option<MapReference>,
-        #[rasn(size("1..=4"))]
+        #[rasn(size("1..=16"))]
         pub commands: SequenceOf<ManeuverCommand>,
     }
     impl LeaderManeuverContainer {

@@ -198,7 +198,7 @@ asn1! {
 
 asn1! {
     /// How many followers are asked for.
-    RequestedFollowers ::= INTEGER (1..4) as u8
+    RequestedFollowers ::= INTEGER (1..16) as u8
 }
 
 asn1! {
@@ -258,7 +258,7 @@ asn1! {
 
 asn1! {
     /// The followers of a session.
-    ConfirmedFollowers ::= SEQUENCE (SIZE(1..4)) OF ConfirmedFollower
+    ConfirmedFollowers ::= SEQUENCE (SIZE(1..16)) OF ConfirmedFollower
 }
 
 asn1! {

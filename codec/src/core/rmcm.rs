@@ -50,7 +50,7 @@ asn1! {
 
 asn1! {
     /// Commands, each to another follower.
-    ManeuverCommands ::= SEQUENCE (SIZE(1..4)) OF ManeuverCommand
+    ManeuverCommands ::= SEQUENCE (SIZE(1..16)) OF ManeuverCommand
 }
 
 asn1! {

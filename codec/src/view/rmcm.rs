@@ -4,8 +4,8 @@ use crossguard_protocol::{
     Answer, Command, List, MAX_FOLLOWERS, Millis, Rejection, RequestId, Rmcm, StationId, Verdict,
 };
 
-use super::check_followers;
 use super::task::{ExecutionStatus, MapPlace, TaskParameters, duration};
+use super::{all_of, check_followers};
 use crate::containers::basic_container;
 use crate::core::Uper;
 use crate::core::cdd::GenerationDeltaTime;
@@ -23,7 +23,7 @@ use crate::wire::{
     reason, reason_of, session, session_of, station, station_of, task_type, task_type_of,
 };
 
-const _: () = assert!(ManeuverCommands::CAPACITY == MAX_FOLLOWERS);
+const _: () = assert!(ManeuverCommands::CAPACITY >= MAX_FOLLOWERS);
 
 /// The RMCM of a leader at `position` that gives these commands, 1 to [`MAX_FOLLOWERS`] of one
 /// session to different followers. `place` is where the maneuvers take place.
@@ -226,7 +226,8 @@ fn commands_of(
             task: task_type_of(command.task_type),
         })
     };
-    Ok(container.commands.iter().map(view).collect())
+    let commands = container.commands.iter().map(view);
+    all_of(commands).ok_or(ViewError::CommandCount(container.commands.len()))
 }
 
 fn answer_of(container: &FollowerManeuverContainer, sender: StationId) -> Answer {

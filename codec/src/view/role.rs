@@ -6,6 +6,7 @@ use crossguard_protocol::{
     UniqueNumber, Urgency,
 };
 
+use super::all_of;
 use crate::core::common;
 use crate::core::ram::{
     self, CommandProgress, CommandReport, ConfirmedFollower, ConfirmedFollowers, CrossingNumber,
@@ -19,8 +20,8 @@ use crate::wire::{
     task_set, tasks_of,
 };
 
-const _: () = assert!(ConfirmedFollowers::CAPACITY == MAX_FOLLOWERS);
-const _: () = assert!(RequestedFollowers::MAX as usize == MAX_FOLLOWERS);
+const _: () = assert!(ConfirmedFollowers::CAPACITY >= MAX_FOLLOWERS);
+const _: () = assert!(RequestedFollowers::MAX as usize >= MAX_FOLLOWERS);
 const _: () = assert!(SafetyTimeout::MAX == Millis::MAX_TIMER.0);
 
 /// The part in a session that `view` tells.
@@ -119,12 +120,8 @@ pub(super) fn role_of(role: &SessionRole, sender: StationId) -> Result<Coordinat
         SessionRole::Leader(leader) => Coordination::Leader {
             number: own(leader.session)?,
             heartbeat: Heartbeat(leader.heartbeat.0),
-            followers: leader
-                .followers
-                .iter()
-                .copied()
-                .map(confirmation_of)
-                .collect(),
+            followers: all_of(leader.followers.iter().copied().map(confirmation_of))
+                .ok_or(ViewError::MemberCount(leader.followers.len()))?,
             urgency: urgency_of(leader.urgency),
             place: place_of(leader.crossing)?,
             yields: leader.yields,

@@ -235,7 +235,7 @@ pub fn largest_ram(identifiers: &Identifiers) -> RAM {
     let coordination = Coordination::Leader {
         number: session().number,
         heartbeat: Heartbeat(u16::MAX),
-        followers: [1, 2, 3, u32::MAX].into_iter().map(follower).collect(),
+        followers: (1..16).chain([u32::MAX]).map(follower).collect(),
         urgency: Urgency::Emergency,
         place: Place(u32::MAX),
         yields: true,
@@ -387,7 +387,7 @@ pub fn largest_rmcm(identifiers: &Identifiers) -> RMCM {
             parameters,
         )
     };
-    let commands = [1, 2, 3, 4].map(follower);
+    let commands: Vec<_> = (1..=16).map(follower).collect();
     let place = Some(MapPlace::Intersection {
         region: Some(65_535),
         id: 65_535,

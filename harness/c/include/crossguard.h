@@ -15,16 +15,16 @@
 #include <stdint.h>
 
 // The version of this interface. It grows with every change that a program must be compiled for.
-#define CROSSGUARD_ABI_VERSION 2
+#define CROSSGUARD_ABI_VERSION 3
 
 // Eight-octet words in a `CrossguardRobot`.
-#define CROSSGUARD_ROBOT_WORDS 1280
+#define CROSSGUARD_ROBOT_WORDS 2560
 
 // How many outputs one call can have.
-#define CROSSGUARD_OUTPUTS_MAX 32
+#define CROSSGUARD_OUTPUTS_MAX 96
 
 // How many followers a leader can have.
-#define CROSSGUARD_FOLLOWERS_MAX 4
+#define CROSSGUARD_FOLLOWERS_MAX 16
 
 // How many task types there are.
 #define CROSSGUARD_TASKS 16
@@ -36,7 +36,7 @@
 #define CROSSGUARD_CAUSE_LEN 64
 
 // Octets that the packets of every call fit into; a call with less room is refused.
-#define CROSSGUARD_PACKETS_LEN 8192
+#define CROSSGUARD_PACKETS_LEN 32768
 
 // Octets that the log lines of nearly every call fit into. A line that does not fit is left out as a
 // whole, and counted.
@@ -1116,7 +1116,7 @@ CrossguardStatus crossguard_log_stop(struct CrossguardRobot *robot, struct Cross
 #else
 #define CROSSGUARD_ASSERT_LEN(type, length) _Static_assert(sizeof(type) == (length), #type)
 #endif
-CROSSGUARD_ASSERT_LEN(CrossguardRobot, 10240);
+CROSSGUARD_ASSERT_LEN(CrossguardRobot, 20480);
 CROSSGUARD_ASSERT_LEN(CrossguardSession, 8);
 CROSSGUARD_ASSERT_LEN(CrossguardSettings, 140);
 CROSSGUARD_ASSERT_LEN(CrossguardConfig, 196);
@@ -1126,7 +1126,7 @@ CROSSGUARD_ASSERT_LEN(CrossguardEvent, 88);
 CROSSGUARD_ASSERT_LEN(CrossguardOutput, 104);
 CROSSGUARD_ASSERT_LEN(CrossguardHeard, 48);
 CROSSGUARD_ASSERT_LEN(CrossguardFollower, 12);
-CROSSGUARD_ASSERT_LEN(CrossguardView, 104);
+CROSSGUARD_ASSERT_LEN(CrossguardView, 248);
 #if UINTPTR_MAX == UINT64_MAX
-CROSSGUARD_ASSERT_LEN(CrossguardTurn, 3632);
+CROSSGUARD_ASSERT_LEN(CrossguardTurn, 10288);
 #endif

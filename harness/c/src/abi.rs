@@ -9,13 +9,13 @@ use core::ffi::c_char;
 pub use crate::codes::*;
 
 /// The version of this interface. It grows with every change that a program must be compiled for.
-pub const CROSSGUARD_ABI_VERSION: u32 = 2;
+pub const CROSSGUARD_ABI_VERSION: u32 = 3;
 /// Eight-octet words in a `CrossguardRobot`.
-pub const CROSSGUARD_ROBOT_WORDS: usize = 1_280;
+pub const CROSSGUARD_ROBOT_WORDS: usize = 2_560;
 /// How many outputs one call can have.
-pub const CROSSGUARD_OUTPUTS_MAX: usize = 32;
+pub const CROSSGUARD_OUTPUTS_MAX: usize = 96;
 /// How many followers a leader can have.
-pub const CROSSGUARD_FOLLOWERS_MAX: usize = 4;
+pub const CROSSGUARD_FOLLOWERS_MAX: usize = 16;
 /// How many task types there are.
 pub const CROSSGUARD_TASKS: usize = 16;
 /// Octets of a robot's name, with the NUL at its end.
@@ -23,7 +23,7 @@ pub const CROSSGUARD_NAME_LEN: usize = 32;
 /// Octets of the name of a cause, with the NUL at its end.
 pub const CROSSGUARD_CAUSE_LEN: usize = 64;
 /// Octets that the packets of every call fit into; a call with less room is refused.
-pub const CROSSGUARD_PACKETS_LEN: usize = 8_192;
+pub const CROSSGUARD_PACKETS_LEN: usize = 32_768;
 /// Octets that the log lines of nearly every call fit into. A line that does not fit is left out as a
 /// whole, and counted.
 pub const CROSSGUARD_LOG_LEN: usize = 32_768;

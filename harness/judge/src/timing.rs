@@ -10,8 +10,10 @@
 //! with its bound. The round trip needs no other clock.
 
 mod clocks;
+mod team;
 
 pub use clocks::{NoOffset, Offset};
+pub use team::TeamSummary;
 
 use std::collections::BTreeMap;
 
@@ -23,6 +25,7 @@ use serde::Serialize;
 
 use clocks::Clocks;
 use crossguard_robot::trace::{Entry, Record};
+use team::Teams;
 
 /// Gathers times from the records of a run.
 #[derive(Debug, Default)]
@@ -30,6 +33,7 @@ pub struct Timing {
     /// By maneuver: what is known so far.
     maneuvers: BTreeMap<Key, ManeuverTimes>,
     clocks: Clocks,
+    teams: Teams,
 }
 
 /// A maneuver in an order that has no meaning but is one. A leader counts its requests for each follower
@@ -153,6 +157,7 @@ impl Timing {
             return;
         };
         let (at, own) = (Some(at_us), state.station());
+        self.teams.step(at_us, state);
         if let Input::Local(Event::ManeuverCompleted(id)) = input
             && outputs.ignored().is_none()
         {
@@ -208,6 +213,17 @@ impl Timing {
             .into_iter()
             .map(|(task, samples)| summarize(task, &samples))
             .collect()
+    }
+
+    /// The times by size of the team, smallest first.
+    #[must_use]
+    pub fn teams(&self) -> Vec<TeamSummary> {
+        let answered = self.maneuvers.iter().filter_map(|(&key, times)| {
+            let (leader, number, ..) = key;
+            let asked = (times.commanded?, times.acknowledged);
+            Some(((leader, number), times.task?, asked))
+        });
+        self.teams.summaries(answered)
     }
 
     /// By the logs of leader and follower of completed maneuvers, where these are two: by how much the clock of

@@ -437,7 +437,7 @@ mod tests {
         };
         for (command, answer) in [
             (of(0), "kind 0 is no command"),
-            (of(Command::DETECT), "0 followers: 1 to 4 are possible"),
+            (of(Command::DETECT), "0 followers: 1 to 16 are possible"),
             (
                 Command {
                     followers: 1,

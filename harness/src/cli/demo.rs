@@ -18,6 +18,9 @@ pub(super) struct Arguments {
     /// What happens.
     #[arg(long, value_enum, value_name = "NAME", default_value_t)]
     scenario: Scenario,
+    /// How many followers the team of --scenario team has, 1 to 16.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MAX_FOLLOWERS))]
+    followers: Option<u8>,
     /// How many crossings.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1_000))]
     trials: u16,
@@ -64,6 +67,16 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
+/// How many followers a team has unless it is said.
+const FOLLOWERS: u8 = 3;
+
+/// How many it can have.
+#[expect(clippy::cast_possible_wrap, reason = "it is at most 16")]
+const MAX_FOLLOWERS: i64 = crossguard_protocol::MAX_FOLLOWERS as i64;
+
+/// With more robots the chart is wider than a screen.
+const CHARTED: usize = 6;
+
 fn loss(text: &str) -> Result<f64, String> {
     in_range(
         text,
@@ -81,10 +94,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             arguments.trials
         )));
     }
-    let participants = scenario.participants();
+    if arguments.followers.is_some() && scenario != Scenario::Team {
+        let why = "--followers: only of --scenario team can the number be chosen";
+        return Err(Failure::Input(why.to_owned()));
+    }
+    let followers = arguments.followers.unwrap_or(FOLLOWERS);
+    let participants = scenario.participants(followers);
     let names: Vec<_> = participants.iter().map(|one| one.name).collect();
     let options = Options {
         scenario,
+        followers,
         trials: usize::from(arguments.trials),
         time_scale: arguments.speed,
         faults: Faults {
@@ -111,15 +130,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => Some(create(path)?),
         None => None,
     };
-    let shows_chart = !arguments.json && !arguments.quiet;
+    let is_told = !arguments.json && !arguments.quiet;
+    let shows_chart = is_told && names.len() <= CHARTED;
     let columns: Vec<_> = participants
         .iter()
         .map(|one| (one.name, one.station))
         .collect();
     let mut chart = Chart::new(&columns, Identifiers::default());
-    if shows_chart {
+    if is_told {
         introduce(&options, names.len(), arguments.security.is_throw_away())?;
+    }
+    if shows_chart {
         print(chart.header())?;
+    } else if is_told {
+        print("The chart of this many robots is wider than a screen; --report FILE has it.")?;
     }
     // If nobody reads the chart any more, the crossing goes on, and the log is complete.
     let mut reads = true;
@@ -207,6 +231,9 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
         "{} Here they go over loopback.\n",
         timing::LEGEND
     ))?;
+    for team in &outcome.teams {
+        print(format_args!("{team}."))?;
+    }
     print(format_args!(
         "{} of {} crossings {}{}; in the end {}.",
         outcome.crossings,

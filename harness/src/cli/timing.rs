@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use crossguard_judge::timing::{NoOffset, Offset, Statistic, Summary, Timing, offsets_in_words};
+use crossguard_judge::timing::{
+    NoOffset, Offset, Statistic, Summary, TeamSummary, Timing, offsets_in_words,
+};
 use crossguard_robot::trace::{Merged, Timed};
 use serde::Serialize;
 
@@ -36,6 +38,7 @@ clocks of their robots cannot be compared.";
 #[derive(Serialize)]
 struct TimingReport {
     maneuvers: Vec<Summary>,
+    teams: Vec<TeamSummary>,
     clocks: Vec<ClockReport>,
 }
 
@@ -64,12 +67,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let maneuvers = timing.summaries(arguments.speed);
     if arguments.json {
         let clocks = clocks(&timing, &names);
-        print_json(&TimingReport { maneuvers, clocks })?;
+        let teams = timing.teams();
+        print_json(&TimingReport {
+            maneuvers,
+            teams,
+            clocks,
+        })?;
     } else if maneuvers.is_empty() && timing.offsets().is_empty() {
         print("No maneuver was completed between robots whose logs are here.")?;
     } else {
         print(table(&maneuvers))?;
         print(LEGEND)?;
+        for team in timing.teams() {
+            print(format_args!("{team}."))?;
+        }
         for line in offsets_in_words(&timing, &names) {
             print(format_args!("{line}."))?;
         }

@@ -18,7 +18,7 @@ pub enum Scenario {
     Bilateral,
     /// A humanoid leads and blocks a lane, a second one blocks the other, and a dog escorts.
     Trio,
-    /// A humanoid leads three others: two humanoids that block a lane each, and a dog that escorts.
+    /// A humanoid leads --followers others: humanoids that block the lanes, and a dog that escorts.
     Team,
     /// The dog loses power while it escorts the pedestrian.
     FollowerDies,
@@ -57,7 +57,37 @@ const AT_LEAD_POSITION: Place = Place::new(1.0, -1.11);
 const ARI: StationId = StationId(1);
 const GO2: StationId = StationId(2);
 const SECOND: StationId = StationId(3);
-const THIRD: StationId = StationId(4);
+
+/// The humanoids besides the first.
+const OTHERS: [(&str, StationId); 15] = [
+    ("ARI-2", SECOND),
+    ("ARI-3", StationId(4)),
+    ("ARI-4", StationId(5)),
+    ("ARI-5", StationId(6)),
+    ("ARI-6", StationId(7)),
+    ("ARI-7", StationId(8)),
+    ("ARI-8", StationId(9)),
+    ("ARI-9", StationId(10)),
+    ("ARI-10", StationId(11)),
+    ("ARI-11", StationId(12)),
+    ("ARI-12", StationId(13)),
+    ("ARI-13", StationId(14)),
+    ("ARI-14", StationId(15)),
+    ("ARI-15", StationId(16)),
+    ("ARI-16", StationId(17)),
+];
+
+/// Where the guard of this number blocks, and where it waits on the pavement beside: by turns in the far and in the
+/// near lane, each 1.5 m farther from the crossing than the one before it in its lane.
+fn guard(number: u8) -> (Place, Place) {
+    let farther = 1.5 * f64::from(number / 2);
+    let (lane, away, pavement) = match number % 2 {
+        0 => (plan::FAR_LANE, farther, 8.2),
+        _ => (plan::NEAR_LANE, -farther, -0.8),
+    };
+    let east = lane.east + away;
+    (Place::new(east, lane.north), Place::new(east, pavement))
+}
 
 impl Scenario {
     /// What happens, in a sentence.
@@ -76,9 +106,9 @@ impl Scenario {
         }
     }
 
-    /// The robots, from left to right.
+    /// The robots, from left to right. A [`Team`](Self::Team) has this many followers, 1 to 16.
     #[must_use]
-    pub fn participants(self) -> Vec<Participant> {
+    pub fn participants(self, followers: u8) -> Vec<Participant> {
         let site = Site::default();
         let robot = |(name, station), build, place| Participant {
             name,
@@ -93,7 +123,7 @@ impl Scenario {
             ..humanoid(id, place)
         };
         let (ari, go2) = (("ARI", ARI), ("Go2", GO2));
-        let (second, third) = (("ARI-2", SECOND), ("ARI-3", THIRD));
+        let second = OTHERS[0];
         let corner = Place::new(0.0, -1.5);
         let dog = robot(go2, Build::Quadruped, AT_LEAD_POSITION);
         let crossing = || Plan::crossing(site);
@@ -113,10 +143,18 @@ impl Scenario {
                 vec![leads(ari, at_near_lane, plan), at_far_lane, dog]
             }
             Self::Team => {
-                let blockers = [(SECOND, plan::FAR_LANE), (THIRD, plan::NEAR_LANE)];
-                let plan = Plan::team(site, &blockers, GO2);
-                let near = humanoid(third, at_near_lane);
-                vec![leads(ari, corner, plan), at_far_lane, near, dog]
+                let blockers = usize::from(followers).saturating_sub(1);
+                let blockers: Vec<_> = (0..).map(guard).zip(OTHERS).take(blockers).collect();
+                let places: Vec<_> = blockers
+                    .iter()
+                    .map(|&((place, _), (_, station))| (station, place))
+                    .collect();
+                let plan = Plan::team(site, &places, GO2);
+                let mut robots = vec![leads(ari, corner, plan)];
+                let waiting = blockers.iter();
+                robots.extend(waiting.map(|&((_, waits_at), id)| humanoid(id, waits_at)));
+                robots.push(dog);
+                robots
             }
             Self::TwoDetect => {
                 let rival = leads(second, Place::new(3.0, -1.5), crossing());
