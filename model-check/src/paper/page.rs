@@ -21,7 +21,7 @@ checks a small model of that text (`model-check/src/paper`), and the check must 
 run below was found by stateright, is the shortest of its kind, and is the reason for a
 rule that the protocol of this kit adds. The stories of P1 to P14, with the same losses, delays and crashes,
 are told to real endpoints by `harness/testkit/tests/paper_literal.rs`, which survive them; the stories are
-the files in `model-check/stories`.
+the files in `model-check/stories`. [The paper, paragraph by paragraph](paper.md) says where all the rest of it is.
 
 A hazard is one of three kinds, and names the paragraph that it comes from:
 
@@ -30,8 +30,18 @@ A hazard is one of three kinds, and names the paragraph that it comes from:
 - **Ambiguous**: the text can be read in more than one way. The model takes the reading that says least. The other one
   is checked too, and the section says whether the hazard is found in it.
 
-The readings are listed in the documentation of the module (`model-check/src/paper/mod.rs`). A hazard is a statement
-about the text, not about the authors' robots, which may well do more than the text says.
+A hazard is a statement about the text, not about the authors' robots, which may well do more than the text says. Where
+the text does not say enough, the model does no more than it says:
+
+- The container of a robot that joins has no field that the requester compares; it takes the first answer that it hears.
+- `helpStatus` stays `needHelp` and `offerHelp` until the release: the text sets it at no other moment.
+- The helper stays in Idle until the roles are established: only the requester's transition is told.
+- RMCM are sent once. A leader counts requestIDs from 0 in each association, and reissues a command with its number.
+- Completion needs all three that the text lists: the follower stands, where the task ends, and says `completed`.
+- A leader that hears of the safe idle position is in RoleEstablished again, since commands are issued there.
+- An execution timeout is that of the robot that executes, and leads to the same fallback.
+- A follower that asks for leave is bound until its leader releases it.
+- HelpRequested, an offer and a leader's patience have no time limit; no timeout has a value.
 
 This page is generated from what the checker finds; a test fails when the two differ. To write it
 anew: `cargo xtask bless paper-literal`.
