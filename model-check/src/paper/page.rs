@@ -54,9 +54,9 @@ const CLOSED: &str = "
 A lost command is waited for by its leader, and the text knows no repetition of RMCM. Yet the follower, which misses a
 command for its safety timeout, goes to its safe idle position and says so in RAM, and the leader may reissue. The
 checker explores every run of the pair and finds none in which a leader waits for ever for a follower that is there and
-follows it: P10 holds, as long as the leader's application reissues what it may. An earlier version of this page, made
-from a summary of the paper, counted this as a hazard. The kit repeats the command after T_ack, at most N_ack times, and
-then treats the follower as lost (I16, L2), so that a lost command costs less than a safety timeout.
+follows it: P10 holds, as long as the leader's application reissues what it may. The kit repeats the command after
+T_ack, at most N_ack times, and then treats the follower as lost (I16, L2), so that a lost command costs less than a
+safety timeout.
 ";
 
 const ON_ROAD: &str = "
