@@ -152,7 +152,7 @@ fn each_hazard_names_a_property_of_the_kit_that_closes_it() {
         let ids: Vec<_> = ids.trim_end_matches(").").split(", ").collect();
         assert!(!ids.is_empty());
         for id in ids {
-            let id: PropertyId = id.parse().unwrap_or_else(|_| panic!("{}: {id}", text.id));
+            let id: PropertyId = id.parse().unwrap_or_else(|()| panic!("{}: {id}", text.id));
             assert!(
                 claimed.contains(&id),
                 "{}: no scenario claims {id}",

@@ -246,10 +246,14 @@ fn p14_old_acknowledgement_of_a_reissued_command() {
 }
 
 #[test]
-fn each_hazard_has_its_story() {
+fn each_hazard_has_its_story_and_its_story_is_told() {
+    let tests = include_str!("paper_literal.rs");
     for hazard in Hazard::ALL {
         let text = hazard.text();
-        assert_eq!(story(&text.id.to_lowercase()).property, text.id);
+        let id = text.id.to_lowercase();
+        assert_eq!(story(&id).property, text.id);
+        let is_told = tests.contains(&format!("let street = told(\"{id}\", "));
+        assert!(is_told, "{id}");
     }
 }
 

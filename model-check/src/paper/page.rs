@@ -28,7 +28,7 @@ A hazard is one of three kinds, and names the paragraph that it comes from:
 - **Stated**: the text has the rule from which it follows;
 - **Silent**: the text has no rule for the case;
 - **Ambiguous**: the text can be read in more than one way. The model takes the reading that says least. The other one
-  is checked too, and the section says whether the hazard is found in it.
+  is checked too, within the bounds that the check reports, and the section says whether the hazard is found in it.
 
 A hazard is a statement about the text, not about the authors' robots, which may well do more than the text says. Where
 the text does not say enough, the model does no more than it says:

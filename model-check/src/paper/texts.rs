@@ -238,79 +238,91 @@ const TEXTS: [Text; Hazard::ALL.len()] = [
 
 const W1_STATEMENT: &str = "who steps on the road finds the guards there, or a guard has fallen back, finished or lost power and its leader has not been told";
 
+const W1_ESCORTED: Text = Text {
+    id: "W1",
+    title: "led onto the road although the leader is gone",
+    kind: Stated,
+    passage: passage("III-A", "stage 3", "to follow RoboDog"),
+    statement: W1_STATEMENT,
+    explanation: "The leader has told the pedestrian to follow the robot dog before any maneuver is commanded, and turns to the traffic. It commands the `Move`, and breaks down before the pedestrian has begun. The dog moves, and the pedestrian follows it.",
+    person: "The pedestrian walks onto a road on which nobody stops the traffic: the word to go was given once, and nothing takes it back.",
+    closed_by: "The pedestrian goes by the leader's sign, which is a lease: the corridor opens when every guard is engaged, and shows go only as long as the leader renews it (I11, W1, W5).",
+    other_reading: None,
+};
+
+const W1_BLOCKED: Text = Text {
+    id: "W1",
+    title: "let across while the guard is still on its way",
+    kind: Silent,
+    passage: passage(
+        "III-A",
+        "the paragraph on two humanoids, extending FSM control",
+        "forming a bidirectional safety corridor",
+    ),
+    statement: W1_STATEMENT,
+    explanation: "`initialPos` has brought the guard to its place, and a command that comes late has let it go to its safe idle position. It acknowledges the `block` and starts back. The text does not say when the corridor that the two commands form is there: an acknowledgement says that a robot will go to its place, not that it is there.",
+    person: "The pedestrian steps in front of the traffic that the guard has not reached yet.",
+    closed_by: "Progress has a value *in position*; a task that guards from a place opens no corridor before it, and an acknowledgement alone opens nothing (I8, I11, W1).",
+    other_reading: None,
+};
+
+const W2: Text = Text {
+    id: "W2",
+    title: "left alone in the middle of the road",
+    kind: Stated,
+    passage: passage("III-A", RELIABILITY, "transitions to a safe idle position"),
+    statement: "while somebody is on the road, no guard that is able to stays away",
+    explanation: "The pedestrian is half-way across beside the escort when its safety timeout runs out, because no command came for a while. The escort goes to a safe idle position. The position is safe for the robot; the text does not say what becomes of the person. The leader is there, and every message has arrived.",
+    person: "The pedestrian stands alone in the middle of the road.",
+    closed_by: "Newer heartbeats hold the safety timeout off, and every end but a completed crossing carries out the task's policy: an escort brings its person to the nearer kerb, a blocker holds until the road is clear (W2).",
+    other_reading: None,
+};
+
+const W3: Text = Text {
+    id: "W3",
+    title: "two leaders that let people cross at one crossing",
+    kind: Silent,
+    passage: passage("II-D", COORDINATION, "Nearby robots"),
+    statement: "at one place one sign shows go, once the leader that goes behind has heard the other one twice",
+    explanation: "Two robots detect a pedestrian at the same crossing, and each finds a helper of its own. Each lets people cross beside its own guard, and each has heard the other one as a leader twice. A request names no place, and the text gives a leader nothing to do about another one.",
+    person: "Two leaders at one crossing stop and release the same traffic without regard to each other.",
+    closed_by: "Requests and sessions name their place. Of two leaders at one place the one behind shows stop at once and ends when its road is clear (W3).",
+    other_reading: None,
+};
+
+const W4: Text = Text {
+    id: "W4",
+    title: "something new before the last duty is over",
+    kind: Silent,
+    passage: passage("III-A", "stage 5", "remaining available for future tasks"),
+    statement: "a robot begins nothing new before its fallback is finished",
+    explanation: "A robot that is still on its way to its safe idle position is released, here by a late RAM with `none`. It is Idle, and answers a request at once. The text does not say when a fallback is over, and asks nobody whether the road is clear.",
+    person: "A pedestrian beside whom the robot fell back is left to themselves while it turns to the next.",
+    closed_by: "A duty outlives its session: the robot asks and offers again only when its application says that the road is clear (W4).",
+    other_reading: None,
+};
+
+const W7: Text = Text {
+    id: "W7",
+    title: "waiting at the kerb for ever",
+    kind: Silent,
+    passage: passage("III-A", "stage 2", "transitions to the HelpRequested state"),
+    statement: "once messages arrive, and a helper is there, a request leads to a finished crossing",
+    explanation: "Two robots see the pedestrian at the same time, and each waits for the other one's offer (P5).",
+    person: "The pedestrian waits at the kerb, two able robots beside them, and nothing will ever happen again.",
+    closed_by: "Of two requests the one behind is withdrawn, every stage has its time limit, and the application is told how a session ended so that it can ask again (L1, L6, W7).",
+    other_reading: None,
+};
+
 /// What there is to say about a run that breaks a property of the road, beside an escort or a blocker.
 pub(super) const fn on_road(property: RoadProperty, is_escorted: bool) -> Text {
     match (property, is_escorted) {
-        (RoadProperty::W1, true) => Text {
-            id: "W1",
-            title: "led onto the road although the leader is gone",
-            kind: Stated,
-            passage: passage("III-A", "stage 3", "to follow RoboDog"),
-            statement: W1_STATEMENT,
-            explanation: "The leader has told the pedestrian to follow the robot dog before any maneuver is commanded, and turns to the traffic. It commands the `Move`, and breaks down before the pedestrian has begun. The dog moves, and the pedestrian follows it.",
-            person: "The pedestrian walks onto a road on which nobody stops the traffic: the word to go was given once, and nothing takes it back.",
-            closed_by: "The pedestrian goes by the leader's sign, which is a lease: the corridor opens when every guard is engaged, and shows go only as long as the leader renews it (I11, W1, W5).",
-            other_reading: None,
-        },
-        (RoadProperty::W1, false) => Text {
-            id: "W1",
-            title: "let across while the guard is still on its way",
-            kind: Silent,
-            passage: passage(
-                "III-A",
-                "the paragraph on two humanoids, extending FSM control",
-                "forming a bidirectional safety corridor",
-            ),
-            statement: W1_STATEMENT,
-            explanation: "`initialPos` has brought the guard to its place, and a command that comes late has let it go to its safe idle position. It acknowledges the `block` and starts back. The text does not say when the corridor that the two commands form is there: an acknowledgement says that a robot will go to its place, not that it is there.",
-            person: "The pedestrian steps in front of the traffic that the guard has not reached yet.",
-            closed_by: "Progress has a value *in position*; a task that guards from a place opens no corridor before it, and an acknowledgement alone opens nothing (I8, I11, W1).",
-            other_reading: None,
-        },
-        (RoadProperty::W2, _) => Text {
-            id: "W2",
-            title: "left alone in the middle of the road",
-            kind: Stated,
-            passage: passage("III-A", RELIABILITY, "transitions to a safe idle position"),
-            statement: "while somebody is on the road, no guard that is able to stays away",
-            explanation: "The pedestrian is half-way across beside the escort when its safety timeout runs out, because no command came for a while. The escort goes to a safe idle position. The position is safe for the robot; the text does not say what becomes of the person. The leader is there, and every message has arrived.",
-            person: "The pedestrian stands alone in the middle of the road.",
-            closed_by: "Newer heartbeats hold the safety timeout off, and every end but a completed crossing carries out the task's policy: an escort brings its person to the nearer kerb, a blocker holds until the road is clear (W2).",
-            other_reading: None,
-        },
-        (RoadProperty::W3, _) => Text {
-            id: "W3",
-            title: "two leaders that let people cross at one crossing",
-            kind: Silent,
-            passage: passage("II-D", COORDINATION, "Nearby robots"),
-            statement: "at one place one sign shows go, once the leader that goes behind has heard the other one twice",
-            explanation: "Two robots detect a pedestrian at the same crossing, and each finds a helper of its own. Each lets people cross beside its own guard, and each has heard the other one as a leader twice. A request names no place, and the text gives a leader nothing to do about another one.",
-            person: "Two leaders at one crossing stop and release the same traffic without regard to each other.",
-            closed_by: "Requests and sessions name their place. Of two leaders at one place the one behind shows stop at once and ends when its road is clear (W3).",
-            other_reading: None,
-        },
-        (RoadProperty::W4, _) => Text {
-            id: "W4",
-            title: "something new before the last duty is over",
-            kind: Silent,
-            passage: passage("III-A", "stage 5", "remaining available for future tasks"),
-            statement: "a robot begins nothing new before its fallback is finished",
-            explanation: "A robot that is still on its way to its safe idle position is released, here by a late RAM with `none`. It is Idle, and answers a request at once. The text does not say when a fallback is over, and asks nobody whether the road is clear.",
-            person: "A pedestrian beside whom the robot fell back is left to themselves while it turns to the next.",
-            closed_by: "A duty outlives its session: the robot asks and offers again only when its application says that the road is clear (W4).",
-            other_reading: None,
-        },
-        (RoadProperty::W7, _) => Text {
-            id: "W7",
-            title: "waiting at the kerb for ever",
-            kind: Silent,
-            passage: passage("III-A", "stage 2", "transitions to the HelpRequested state"),
-            statement: "once messages arrive, and a helper is there, a request leads to a finished crossing",
-            explanation: "Two robots see the pedestrian at the same time, and each waits for the other one's offer (P5).",
-            person: "The pedestrian waits at the kerb, two able robots beside them, and nothing will ever happen again.",
-            closed_by: "Of two requests the one behind is withdrawn, every stage has its time limit, and the application is told how a session ended so that it can ask again (L1, L6, W7).",
-            other_reading: None,
-        },
+        (RoadProperty::W1, true) => W1_ESCORTED,
+        (RoadProperty::W1, false) => W1_BLOCKED,
+        (RoadProperty::W2, _) => W2,
+        (RoadProperty::W3, _) => W3,
+        (RoadProperty::W4, _) => W4,
+        (RoadProperty::W7, _) => W7,
     }
 }
 
@@ -332,15 +344,5 @@ impl Hazard {
 /// What there is to say about each run that breaks a property of the road, in the order of the page.
 #[must_use]
 pub fn on_the_road() -> Vec<Text> {
-    use RoadProperty::{W1, W2, W3, W4, W7};
-    let runs = [
-        (W1, true),
-        (W1, false),
-        (W2, true),
-        (W3, false),
-        (W4, true),
-        (W7, true),
-    ];
-    runs.map(|(property, is_escorted)| on_road(property, is_escorted))
-        .to_vec()
+    vec![W1_ESCORTED, W1_BLOCKED, W2, W3, W4, W7]
 }
