@@ -266,10 +266,10 @@ fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
     let text = stdout(&output);
     assert_eq!(
         text.matches("violated, as it must be").count(),
-        17,
+        18,
         "{text}"
     );
-    for id in ["P12", "W1", "W7"] {
+    for id in ["P12", "P14", "W1", "W7"] {
         assert!(text.contains(&format!("{id} is broken by:")), "{text}");
     }
     assert!(

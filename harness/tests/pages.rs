@@ -232,6 +232,97 @@ fn the_commands_that_pages_tell_to_type_can_be_typed() {
     assert!(typed > 40, "{typed}");
 }
 
+/// What `cargo test -p` on a page asks for: the package, and the file and the test in it, if it names them.
+fn asked_tests(text: &str) -> Vec<Vec<String>> {
+    let code: Vec<_> = lines(text, true).map(str::to_owned).collect();
+    let all = code.into_iter().chain(quoted(text));
+    let asked = all.filter_map(|line| words(line.trim().strip_prefix("cargo test -p ")?));
+    asked.collect()
+}
+
+/// The folder of a package of this repository.
+fn package(name: &str) -> PathBuf {
+    let mut manifests = Vec::new();
+    files(&repository(), "toml", &mut manifests);
+    let line = format!("name = \"{name}\"\n");
+    let is_it = |path: &&PathBuf| {
+        path.ends_with("Cargo.toml") && std::fs::read_to_string(path).unwrap().contains(&line)
+    };
+    let manifest = manifests.iter().find(is_it);
+    let manifest = manifest.unwrap_or_else(|| panic!("no package {name}"));
+    manifest.parent().unwrap().to_owned()
+}
+
+#[test]
+fn the_tests_that_pages_tell_to_run_exist() {
+    let mut asked = 0;
+    for (page, text) in pages() {
+        for words in asked_tests(&text) {
+            asked += 1;
+            let folder = package(&words[0]);
+            let Some(at) = words.iter().position(|word| word == "--test") else {
+                continue;
+            };
+            let file = folder.join("tests").join(&words[at + 1]);
+            let (file, parts) = (file.with_extension("rs"), file.join("main.rs"));
+            let file = if file.is_file() { file } else { parts };
+            let read = std::fs::read_to_string(&file);
+            let (page, name) = (page.display(), file.display());
+            let test = read.unwrap_or_else(|_| panic!("{page}: no {name}"));
+            if let Some(filter) = words.get(at + 2).filter(|word| !word.starts_with('-')) {
+                assert!(test.contains(filter), "{page}: no {filter} in {name}");
+            }
+        }
+    }
+    assert!(asked > 20, "{asked}");
+}
+
+/// The paragraphs of the paper, in its order, as its page names them.
+const PARAGRAPHS: &str = "\
+Abstract / I.1 / I.2 / I.3 / I.4 / I.5 / I.6 / I.7 / I.8 / II.1 / II-A.1 / II-A.2 / II-A.3 / II-A.4 / II-B.1 / R1 / \
+R2 / R3 / R4 / R5 / R6 / R7 / II-C.1 / CAM / VAM / CPM / MCM / II-C.2 / II-D.1 / II-D.2 / RAM.1 / RAM.2 / RAM.3 / \
+RAM.4 / coordination.1 / coordination.2 / coordination.3 / clustering.1 / clustering.2 / clustering.3 / RMCM.1 / \
+RMCM.2 / III.1 / III.2 / III-A.1 / III-A.2 / III-A.3 / III-A.4 / stage 1 / stage 2 / stage 3 / stage 4.1 / \
+stage 4.2 / stage 5 / timing / reliability / extending.1 / extending.2 / III-B.1 / setup.1 / setup.2 / setup.3 / \
+case 1.1 / case 1, metric / case 1, results.1 / case 1, results.2 / case 2.1 / case 2, load / case 2, metric / \
+case 2, results / case 2, trade-off / IV.1 / IV.2 / IV.3 / IV.4";
+
+/// Each has a row with what it says, a place in the repository, a command, and what differs.
+#[test]
+fn the_papers_page_goes_through_every_paragraph() {
+    let (path, page) = read("model-check/doc/paper.md");
+    let rows = page.lines().filter(|line| line.starts_with("| "));
+    let rows = rows.map(|row| row.trim_matches('|').split(" | ").map(str::trim));
+    let rows: Vec<Vec<_>> = rows.map(Iterator::collect).collect();
+    let rows: Vec<_> = rows.iter().filter(|row| row[0] != "paragraph").collect();
+    let named: Vec<_> = rows.iter().map(|row| row[0]).collect();
+    assert_eq!(named.join(" / "), PARAGRAPHS);
+    // Paragraphs that only lead on to others.
+    let leads_on = ["I.8", "II-A.4", "II-B.1", "III.2"];
+    for row in rows {
+        let [paragraph, says, here, see, differs] = row[..] else {
+            panic!("another number of columns: {row:?}");
+        };
+        assert!(!says.is_empty() && !differs.is_empty(), "{paragraph}");
+        let is_path = |name: &String| path.ancestors().any(|from| from.join(name).exists());
+        let is_command = |name: &String| {
+            ["cargo ", "crossguard "]
+                .iter()
+                .any(|start| name.starts_with(start))
+        };
+        let (places, commands) = (quoted(here), quoted(see));
+        let is_told = places.iter().any(is_path) && commands.iter().any(is_command);
+        // What is in the module of the row before has its command.
+        let refers = here.starts_with("the same") || here.starts_with("all four");
+        let is_only_led = leads_on.contains(&paragraph) && see == "–";
+        let has_command = commands.iter().any(is_command);
+        assert!(
+            is_told || refers && has_command || is_only_led,
+            "{paragraph}"
+        );
+    }
+}
+
 /// The Rust in the README is that of a page which is compiled.
 #[test]
 fn the_readmes_example_is_the_one_of_the_state_machines_crate() {

@@ -36,7 +36,7 @@
 //!   states to other tools.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
 //!   robot against everything, and the diagram of that.
-//! - [`paper`] is the paper's text word for word, which fails.
+//! - [`paper`] is the paper's text as it stands, which fails.
 //!
 //! There are no features.
 //!

@@ -13,7 +13,7 @@ use crate::timed;
 pub enum Subject {
     /// A scenario.
     Scenario(Box<Scenario>),
-    /// The paper's text word for word, which must fail.
+    /// The paper's text as it stands, which must fail.
     PaperLiteral,
 }
 

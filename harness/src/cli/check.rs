@@ -33,7 +33,7 @@ use super::{Failure, print, print_json, shows_progress};
 )]
 pub(super) struct Arguments {
     /// Shipped scenarios by name, or files; the quick ones of the shipped if none is named.
-    /// 'paper-literal' is the paper's text word for word, which must fail.
+    /// 'paper-literal' is the paper's text as it stands, which must fail.
     #[arg(value_name = "SCENARIO|FILE")]
     scenarios: Vec<String>,
     /// Check all shipped scenarios, also the long ones, which take minutes.

@@ -120,7 +120,8 @@ impl Street {
                 let ram = self.actors[&link.from].newest_ram.clone();
                 self.kept.insert(StoryMessage::Ram(link), vec![ram]);
             }
-            Happening::Command(link) => self.order(link),
+            // The protocol knows no reissue: what is commanded anew is a new command.
+            Happening::Command(link) | Happening::Reissue(link) => self.order(link),
             Happening::Arrive(message) | Happening::ArriveAgain(message) => {
                 let kept = self.kept.remove(&message).unwrap_or_default();
                 assert!(
@@ -147,7 +148,9 @@ impl Street {
                 self.tell(station, Event::ManeuverCompleted(maneuver.id));
             }
             Happening::CompleteTask(station) => self.tell(station, Event::TaskCompleted),
-            Happening::SafetyTimeout(_) => {}
+            Happening::AskForLeave(station) => self.tell(station, Event::LeaveRequested),
+            // In the protocol a follower that leaves asks nobody.
+            Happening::SafetyTimeout(_) | Happening::GrantLeave(_) => {}
             Happening::Crash(station) => {
                 let now_ms = self.now_ms;
                 let actor = self.actor(station);

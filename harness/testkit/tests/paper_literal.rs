@@ -1,4 +1,4 @@
-//! Each counterexample that the checker finds in the paper's wording, told to real endpoints: they
+//! Each counterexample that the checker finds in the paper's text, told to real endpoints: they
 //! survive it.
 //!
 //! The stories are `model-check/stories/*.json`; a test there keeps them what the checker finds.
@@ -8,7 +8,8 @@ use std::path::Path;
 use crossguard_endpoint::Act;
 use crossguard_model_check::paper::{Hazard, Story};
 use crossguard_protocol::{
-    Corridor, EndReason, Ignored, Notice, Progress, ReleaseReason, Role, State, StationId,
+    Corridor, EndReason, Ignored, Notice, Progress, Rejection, ReleaseReason, Role, State,
+    StationId,
 };
 use crossguard_testkit::story::Street;
 
@@ -168,18 +169,7 @@ fn p9_offer_without_end() {
 }
 
 #[test]
-fn p10_lost_command_that_is_waited_for_for_ever() {
-    let street = told("p10", |street| {
-        assert_eq!(street.runs(GO2), Some(0), "the command was repeated");
-        assert_eq!(progress(street), Some(Progress::Executing));
-    });
-    then(street, 2_000, |street| {
-        assert_eq!(street.started(GO2).len(), 1);
-    });
-}
-
-#[test]
-fn p11_acknowledgement_of_an_earlier_session() {
+fn p11_acknowledgement_of_an_earlier_association() {
     let street = told("p11", |street| {
         assert!(
             street.ignored(ARI, Ignored::OtherSession) > 0,
@@ -218,10 +208,52 @@ fn p12_follower_that_broke_down_and_is_counted_on_for_ever() {
 }
 
 #[test]
-fn each_hazard_has_its_story() {
+fn p13_follower_that_asks_a_lost_leader_for_leave() {
+    let street = told("p13", |street| {
+        assert!(street.did(GO2, |act| matches!(act, Act::Notice(Notice::Released(..)))));
+    });
+    then(street, 2_000, |street| {
+        assert_eq!(
+            street.robot(GO2).state(),
+            State::Idle,
+            "nobody had to answer"
+        );
+    });
+}
+
+#[test]
+fn p14_old_acknowledgement_of_a_reissued_command() {
+    let street = told("p14", |street| {
+        assert!(street.did(GO2, |act| matches!(act, Act::FallBack(..))));
+        assert!(
+            street.ignored(ARI, Ignored::NotOutstanding) > 0,
+            "the old answer arrived"
+        );
+        assert_eq!(street.started(GO2).len(), 1, "the new command did not");
+        assert_ne!(street.leading(ARI).unwrap().corridor, Corridor::Open);
+    });
+    then(street, 2_000, |street| {
+        let is_rejected = |act: &Act| {
+            let Act::Notice(Notice::CommandRejected(_, id, why)) = act else {
+                return false;
+            };
+            (id.request.0, *why) == (1, Rejection::OnDuty)
+        };
+        let rejected = street.did(ARI, is_rejected);
+        assert!(rejected, "it is another command, and the road is not clear");
+        assert_eq!(street.started(GO2).len(), 1);
+    });
+}
+
+#[test]
+fn each_hazard_has_its_story_and_its_story_is_told() {
+    let tests = include_str!("paper_literal.rs");
     for hazard in Hazard::ALL {
         let text = hazard.text();
-        assert_eq!(story(&text.id.to_lowercase()).property, text.id);
+        let id = text.id.to_lowercase();
+        assert_eq!(story(&id).property, text.id);
+        let is_told = tests.contains(&format!("let street = told(\"{id}\", "));
+        assert!(is_told, "{id}");
     }
 }
 

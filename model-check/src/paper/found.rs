@@ -22,19 +22,21 @@ impl Hazard {
                 .any(|(place, _)| leaders_of(world, place) > 1),
             Self::P8 => world.is_stuck() && asking(world) == 1,
             Self::P9 => {
-                world.is_stuck()
-                    && asking(world) == 0
-                    && world
-                        .robots()
-                        .any(|(_, r)| r.status == HelpStatus::OfferHelp)
+                let offers = |(_, r): (RobotIndex, &PaperRobot)| {
+                    matches!(r.status, HelpStatus::OfferHelp { .. })
+                };
+                world.is_stuck() && asking(world) == 0 && world.robots().any(offers)
             }
-            Self::P10 => {
-                waits_forever(world, Stage::RoleEstablished, |follower| follower.is_some())
-            }
-            Self::P12 => waits_forever(world, Stage::ManeuverExecuting, |follower| {
+            Self::P12 => waits_forever(world, Stage::ManeuverExecuting, |_, follower| {
                 follower.is_none()
             }),
-            Self::P1 | Self::P2 | Self::P3 | Self::P4 | Self::P6 | Self::P11 => {
+            Self::P13 => {
+                let is_orphan = |(_, robot): (RobotIndex, &PaperRobot)| {
+                    robot.leader().is_some_and(|it| world.robot(it).is_none())
+                };
+                world.is_stuck() && world.robots().any(is_orphan)
+            }
+            Self::P1 | Self::P2 | Self::P3 | Self::P4 | Self::P6 | Self::P11 | Self::P14 => {
                 world.memory.brought_about & self.bit() != 0
             }
         }
@@ -55,12 +57,22 @@ impl RoadProperty {
     }
 }
 
-/// A robot leads, none invites, nothing goes on, and no robot has broken down.
+/// A robot asks or leads, nothing goes on, and no robot has broken down.
 fn waits_for_ever(world: &PaperWorld) -> bool {
     let all_are_up = world.robots().count() == world.robots.len();
     let is_led = world.robots().any(|(_, robot)| robot.follower().is_some());
-    let somebody_invites = world.inviting().next().is_some();
-    all_are_up && is_led && !somebody_invites && world.is_stuck()
+    all_are_up && (is_led || asking(world) > 0) && world.is_stuck()
+}
+
+/// P10: no leader waits for ever for a follower that is still there and follows it.
+pub(super) fn is_closed(world: &PaperWorld) -> bool {
+    let follows = |leader, follower: Option<&PaperRobot>| {
+        follower.is_some_and(|robot| robot.leader() == Some(leader))
+    };
+    let stages = [Stage::RoleEstablished, Stage::ManeuverExecuting];
+    !stages
+        .iter()
+        .any(|stage| waits_forever(world, *stage, follows))
 }
 
 /// Two maneuvers were finished, nothing went wrong, and everybody is idle again.
@@ -88,14 +100,14 @@ fn leaders_of(world: &PaperWorld, follower: RobotIndex) -> usize {
 fn waits_forever(
     world: &PaperWorld,
     stage: Stage,
-    follower_is: fn(Option<&PaperRobot>) -> bool,
+    follower_is: fn(RobotIndex, Option<&PaperRobot>) -> bool,
 ) -> bool {
     world.is_stuck()
-        && world.robots().any(|(_, robot)| {
+        && world.robots().any(|(place, robot)| {
             let follower = robot.follower();
             robot.state == stage
                 && robot.command.is_some()
-                && follower.is_some_and(|follower| follower_is(world.robot(follower)))
+                && follower.is_some_and(|follower| follower_is(place, world.robot(follower)))
         })
 }
 
@@ -148,17 +160,23 @@ fn is_given(
     command.serial < before.memory.given && follower.leader() == Some(from)
 }
 
-/// The leader takes an answer that is for another command, or from a follower that has fallen back.
+/// The leader takes an answer to another command, to this one as it was sent before, or from a follower that has
+/// said that it fell back.
 fn is_acknowledged_in_vain(
     before: &PaperWorld,
     leader: &PaperRobot,
     answered: PaperCommand,
 ) -> Option<Hazard> {
     if leader.command != Some(answered) {
-        return Some(Hazard::P11);
+        let is_reissued = leader.command.map(|command| command.original) == Some(answered.original);
+        return Some(if is_reissued {
+            Hazard::P14
+        } else {
+            Hazard::P11
+        });
     }
     let has_fallen_back = before.memory.fallen_back & 1 << answered.serial != 0;
-    has_fallen_back.then_some(Hazard::P1)
+    (has_fallen_back && leader.is_told_idle).then_some(Hazard::P1)
 }
 
 /// A RAM with `none` stopped a maneuver that the leader, who did not mean it, counts on.
@@ -185,5 +203,5 @@ fn is_completed_too_early(
     after: &PaperRobot,
 ) -> Option<Hazard> {
     let command = leader.command.filter(|_| after.command.is_none())?;
-    (before.memory.finished & 1 << command.serial == 0).then_some(Hazard::P2)
+    (before.memory.finished & 1 << command.original == 0).then_some(Hazard::P2)
 }

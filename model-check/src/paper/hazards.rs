@@ -1,7 +1,8 @@
-//! What the paper's wording lets happen, P1 to P12, each with the rule that closes it; and P0, which
-//! holds, so that nobody takes the model for one in which anything can happen.
+//! What the paper's text lets happen, P1 to P9 and P11 to P14, each with where it comes from and the rule that
+//! closes it; P10, which the text closes itself; and P0, which holds, so that the model is not taken for one
+//! in which anything can happen.
 
-/// A property of the paper's wording.
+/// A property that the paper's text does not keep.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[allow(missing_docs, reason = "the ids are those of the table in `text`")]
 pub enum Hazard {
@@ -14,14 +15,49 @@ pub enum Hazard {
     P7,
     P8,
     P9,
-    P10,
     P11,
     P12,
+    P13,
+    P14,
+}
+
+/// What the text says about a hazard.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum HazardKind {
+    /// The text states the rule from which it follows.
+    Stated,
+    /// The text has no rule for the case.
+    Silent,
+    /// The text can be read in more than one way.
+    Ambiguous,
+}
+
+/// Where in the paper a hazard comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Passage {
+    /// The section: `III-A`.
+    pub section: &'static str,
+    /// The paragraph in it.
+    pub paragraph: &'static str,
+    /// A few words of it, to find it by.
+    pub words: &'static str,
+}
+
+impl HazardKind {
+    /// In one word, as pages have it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stated => "Stated",
+            Self::Silent => "Silent",
+            Self::Ambiguous => "Ambiguous",
+        }
+    }
 }
 
 impl Hazard {
     /// All hazards, in order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::P1,
         Self::P2,
         Self::P3,
@@ -31,14 +67,15 @@ impl Hazard {
         Self::P7,
         Self::P8,
         Self::P9,
-        Self::P10,
         Self::P11,
         Self::P12,
+        Self::P13,
+        Self::P14,
     ];
 
     /// Whether it is that somebody waits for ever, and nothing happens any more.
     pub(super) const fn is_without_end(self) -> bool {
-        matches!(self, Self::P5 | Self::P8 | Self::P9 | Self::P10 | Self::P12)
+        matches!(self, Self::P5 | Self::P8 | Self::P9 | Self::P12 | Self::P13)
     }
 
     /// One bit for each.

@@ -1,38 +1,45 @@
-//! The paper's text taken word for word, and why it is not enough.
+//! The paper's text as it stands, and why it is not enough.
 //!
-//! This is a model of the wording of *Multi-Robot Coordination in V2X Environments* (Arockiasamy,
-//! Vinel; arXiv 2605.06662), not of the protocol that robots run: four states, `helpStatus` in RAM
-//! without a session, `requestID` and `jobAdviceID` in RMCM, completion read from RAM, fallback to
-//! Idle on a safety timeout, release by a RAM with `none`. It must fail, and [`check`] shows where.
+//! This is a model of the text of *Multi-Robot Coordination in V2X Environments* (Arockiasamy,
+//! Vinel; arXiv 2605.06662), not of the protocol that robots run. It must fail, and [`check`] shows where. Each
+//! [`Hazard`] says whether the text states it, is silent, or can be read in two ways, and in which paragraph.
 //!
 //! ```text
 //!   robot ──► world ──► model ──► stateright ──► counterexamples ──┬──► report
 //!     └─► road ─┘         ▲                           ▲            ├──► page (doc/paper-literal.md)
-//!                       found: P0 to P12, W1 to W4, W7 texts       └──► story (stories/*.json)
+//!                       found: P0 to P14, W1 to W4, W7 texts       └──► story (stories/*.json)
 //! ```
 //!
-//! With the road around it, bodies, a sign and a pedestrian, the same model shows what the wording means for
-//! a person: the road properties that it breaks.
+//! What the text says, and the model does:
 //!
-//! Where the text leaves something open, the model takes the most literal reading:
+//! - a request is answered by a RAM with `offerHelp` whose leader-follower container joins (II-D, III-A stage 2);
+//!   the requester takes the role of leader and confirms by a RAM (stage 3);
+//! - each RMCM addressed to a follower is acknowledged, then executed (stage 4);
+//! - a leader reads completion from position, motion state and progression in its follower's RAM (stage 4): the
+//!   follower stands where the task ends and says `completed`;
+//! - without a *command* for the safety timeout, the follower goes to a safe idle position, keeps its relation and
+//!   says so in RAM; the leader may reissue its command, or the follower asks for leave (III-A, reliability);
+//! - the release is a RAM with `helpStatus = None` (stage 5).
 //!
-//! - an `offerHelp` names nobody, and a requester takes the first that it hears;
-//! - a leader's RAM names its follower, a follower takes commands of the leader that named it, and
-//!   each RMCM addressed to it is acknowledged and executed;
-//! - an RMCM is sent once; nothing is said of repetition;
-//! - an acknowledgement is for the outstanding command if the `jobAdviceID` is its `requestID`, and a
-//!   leader counts `requestID`s from 0 in each task;
-//! - the safety timeout of a follower is held off by RMCM, takes it to Idle, and stops its maneuver;
-//! - a leader in `ManeuverExecuting` that hears `completed` from its follower takes its command as
-//!   completed; nothing else in a follower's RAM changes a leader;
-//! - on the road, a leader invites the pedestrian as long as it is in `ManeuverExecuting`, and a follower guards
-//!   by what it executes, either at the pedestrian's side or from a place that it has to reach first;
-//! - only a robot in Idle answers a `needHelp`; no time limit is given for any state.
+//! Where the text is silent or can be read in two ways, the model does no more than the text says:
+//!
+//! - the container that joins has no field that the requester compares; it takes the first answer that it hears;
+//! - `helpStatus` stays `needHelp` and `offerHelp` until the release, since the text sets it at no other moment;
+//! - the helper stays in `Idle` until the roles are established: only the requester's transition is told;
+//! - RMCM are sent once; a leader counts `requestID`s from 0 in each association, and reissues a command with the
+//!   one that it had;
+//! - a leader that hears of the safe idle position is in `RoleEstablished` again, since commands are issued there;
+//! - an execution timeout is that of the robot that executes, and leads to the same fallback;
+//! - a follower that asks for leave is bound until its leader releases it;
+//! - no time limit is given for `HelpRequested`, for an offer, or for a leader's patience.
+//!
+//! A [`Reading`] that says more in one of these points is checked too, and the page tells what it changes.
 
 mod found;
 mod hazards;
 mod model;
 mod page;
+mod readings;
 mod road;
 mod robot;
 mod story;
@@ -43,16 +50,18 @@ use std::time::Instant;
 
 use stateright::{Checker, Model as _};
 
-pub use hazards::Hazard;
+pub use hazards::{Hazard, HazardKind, Passage};
 pub use page::page;
+pub use readings::{OtherReading, Reading};
 pub use story::{Happening, Link, Party, Story, StoryMessage, StoryStep, stories};
-pub use texts::Text;
+pub use texts::{Text, on_the_road};
 
 use crate::cost::Meter;
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::transitions::Transitions;
-use model::{Cast, PaperAction, Question};
-use road::{Inquiry, Task};
+use model::{Cast, Inquiry, PaperAction, Question};
+use road::RoadProperty;
+use robot::PaperTask;
 use world::PaperWorld;
 
 /// The name of the report.
@@ -60,16 +69,38 @@ pub const NAME: &str = "paper-literal";
 
 /// What it is about, in one line.
 pub const SUMMARY: &str =
-    "the paper's text word for word; it must fail, and shows why each rule is there";
+    "the paper's text as it stands; it must fail, and shows why each rule is there";
 
-/// A humanoid and a robot dog: everything that two robots can do.
+/// The proof of concept: into the lead position, then along with the pedestrian.
+const ESCORT: &[PaperTask] = &[PaperTask::InitialPos, PaperTask::Move];
+/// The two-humanoid deployment: into the place, then block.
+const BLOCK: &[PaperTask] = &[PaperTask::InitialPos, PaperTask::Block];
+
+/// A humanoid and a robot dog: everything that two robots can do in one association.
 const PAIR: Cast = Cast {
     names: &["ARI", "Go2"],
-    detecting: 2,
-    detections: 2,
+    detecting: 1,
+    detections: 1,
+    plan: BLOCK,
     commands: 2,
     crashes: 1,
+    faults: true,
     delay: true,
+};
+
+/// The same two, with two requests and tasks of one maneuver.
+const SHORT: Cast = Cast {
+    detecting: 2,
+    detections: 2,
+    plan: &[PaperTask::Move],
+    crashes: 0,
+    ..PAIR
+};
+
+/// The same, with RAM that are current.
+const CURRENT: Cast = Cast {
+    delay: false,
+    ..SHORT
 };
 
 /// A second humanoid comes along; up to the roles.
@@ -77,21 +108,29 @@ const TRIO: Cast = Cast {
     names: &["ARI", "Go2", "NAO"],
     detecting: 2,
     detections: 2,
+    plan: ESCORT,
     commands: 0,
     crashes: 0,
+    faults: true,
     delay: false,
 };
 
-/// What it takes to let somebody cross, and everything that can happen meanwhile.
-const CROSSING: Cast = Cast {
-    commands: 1,
+/// Somebody is escorted across.
+const ESCORTED: Cast = Cast {
+    plan: ESCORT,
     ..PAIR
 };
 
-/// The same three, with a command each: two leaders of one helper.
-const RIVALS: Cast = Cast {
+/// Two teams of two at one crossing, on a good day.
+const TEAMS: Cast = Cast {
+    names: &["ARI", "Go2", "NAO", "Spot"],
+    detecting: 2,
+    detections: 2,
+    plan: &[PaperTask::Block],
     commands: 2,
-    ..TRIO
+    crashes: 0,
+    faults: false,
+    delay: false,
 };
 
 /// A run that brings a hazard about, or breaks a property of the road.
@@ -116,6 +155,7 @@ struct Exploration {
     transitions: usize,
     depth: usize,
     is_p0_broken: bool,
+    is_wait_endless: bool,
     is_crossing_found: bool,
 }
 
@@ -125,17 +165,13 @@ struct Exploration {
 #[must_use]
 pub fn check() -> ScenarioReport {
     let (start, meter) = (Instant::now(), Meter::start());
-    let explored = [
-        explore(PAIR, None),
-        explore(TRIO, None),
-        explore(CROSSING, Some(Task::Move)),
-        explore(CROSSING, Some(Task::Block)),
-    ];
+    let explored = [explore(PAIR), explore(CURRENT), explore(TRIO)];
     let (found, on_road) = (counterexamples(), broken_on_road());
     let is_p0_broken = explored.iter().any(|e| e.is_p0_broken);
+    let is_wait_endless = explored.iter().any(|e| e.is_wait_endless);
     let sum = |count: fn(&Exploration) -> usize| explored.iter().map(count).sum();
     let is_crossing_found = explored.iter().any(|e| e.is_crossing_found);
-    let mut properties = what_holds(is_p0_broken, is_crossing_found);
+    let mut properties = what_holds(is_p0_broken, is_wait_endless, is_crossing_found);
     properties.extend(Hazard::ALL.map(|hazard| {
         let kind = if hazard.is_without_end() { "L" } else { "S" };
         must_fail_report(hazard.text(), kind, &found)
@@ -147,15 +183,16 @@ pub fn check() -> ScenarioReport {
     ScenarioReport {
         name: NAME.to_owned(),
         summary: SUMMARY.to_owned(),
-        robots: TRIO.names.iter().map(|&name| name.to_owned()).collect(),
+        // Every cast is a beginning of this one.
+        robots: TEAMS.names.iter().map(|&name| name.to_owned()).collect(),
         unique_states: sum(|e| e.unique_states),
         transitions: sum(|e| e.transitions),
         depth: explored.iter().map(|e| e.depth).max().unwrap_or(0),
         seconds: start.elapsed().as_secs_f64(),
         cost: meter.read(sum(|e| e.unique_states)),
-        exhaustive: !is_p0_broken,
+        exhaustive: !is_p0_broken && !is_wait_endless,
         // stateright stops when it has found all there is to be found.
-        cut_off: is_p0_broken.then_some(CutOff::FoundBroken),
+        cut_off: (is_p0_broken || is_wait_endless).then_some(CutOff::FoundBroken),
         size_as_expected: None,
         properties,
         figures: Vec::new(),
@@ -171,20 +208,25 @@ pub fn made(report: &ScenarioReport) -> bool {
     report.verdict(model::HOLDS).is_some()
 }
 
-/// Whether exactly P1 to P12 and the properties of the road are violated in a report of [`check`], as they
+/// Whether exactly the hazards and the properties of the road are violated in a report of [`check`], as they
 /// must be.
 #[must_use]
 pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
-    let fine = [model::HOLDS, model::PREMISE].map(|id| report.verdict(id))
-        == [Some(CheckVerdict::Holds), Some(CheckVerdict::Reachable)];
+    let verdicts = [model::HOLDS, model::CLOSED, model::PREMISE].map(|id| report.verdict(id));
+    let holds = Some(CheckVerdict::Holds);
+    let fine = verdicts == [holds, holds, Some(CheckVerdict::Reachable)];
     let hazards = Hazard::ALL.map(|hazard| hazard.text().id);
     let on_road = road::RoadProperty::ALL.map(|property| property.text().id);
     let must_fail = hazards.into_iter().chain(on_road);
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
 
-/// P0 and its premise: the model is not one in which anything can happen, or nothing.
-fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport> {
+/// P0 and its premise, since the model is not one in which anything can happen, or nothing; and P10.
+fn what_holds(
+    is_p0_broken: bool,
+    is_wait_endless: bool,
+    is_crossing_found: bool,
+) -> Vec<PropertyReport> {
     let report = |id: &str, kind: &str, verdict, statement: &str| PropertyReport {
         id: id.to_owned(),
         kind: kind.to_owned(),
@@ -206,6 +248,12 @@ fn what_holds(is_p0_broken: bool, is_crossing_found: bool) -> Vec<PropertyReport
             CheckVerdict::of_premise(is_crossing_found, None),
             "a crossing of two maneuvers goes well, and all robots are idle again",
         ),
+        report(
+            model::CLOSED,
+            "L",
+            CheckVerdict::of_property(is_wait_endless, None),
+            texts::CLOSED_STATEMENT,
+        ),
     ]
 }
 
@@ -223,23 +271,27 @@ fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> Propert
 
 fn assumptions() -> Vec<String> {
     let mut assumptions = vec![
-        "P1 to P12, W1 to W4 and W7 must be violated: each is why the protocol has a rule that the paper's text lacks"
+        "P1 to P9, P11 to P14, W1 to W4 and W7 must be violated: each is why the protocol has a rule that the paper's text lacks"
             .to_owned(),
-        "the paper's text as the kit's design retells it; what that leaves open is read literally"
-            .to_owned(),
-        "on the road: a leader invites the pedestrian as long as it is in ManeuverExecuting".to_owned(),
+        "P10 holds: the text closes it, if the leader's application reissues what it may".to_owned(),
+        "where the text is silent or ambiguous, the model does no more than it says".to_owned(),
+        "on the road: a pedestrian goes with an escort that moves, or while a leader executes a `block`".to_owned(),
         "untimed: the safety timeout of a follower may run out at any moment".to_owned(),
     ];
     let casts = [
         ("", PAIR),
+        ("", SHORT),
+        ("", CURRENT),
         ("", TRIO),
-        ("on the road, ", CROSSING),
-        ("on the road, ", RIVALS),
+        ("on the road, ", ESCORTED),
+        ("on the road, ", TEAMS),
     ];
     for (place, cast) in casts {
+        let plan: Vec<_> = cast.plan.iter().map(PaperTask::to_string).collect();
         assumptions.push(format!(
-            "{place}{}: at most {} detections, {} commands, {} breakdowns; {} RAM delayed at a time",
+            "{place}{}, {}: at most {} detections, {} commands, {} breakdowns; {} RAM delayed at a time",
             cast.names.join(", "),
+            plan.join(" and "),
             cast.detections,
             cast.commands,
             cast.crashes,
@@ -249,15 +301,11 @@ fn assumptions() -> Vec<String> {
     assumptions
 }
 
-fn explore(cast: Cast, guards: Option<Task>) -> Exploration {
-    let road = guards.map(|task| Inquiry {
-        task,
-        property: None,
-    });
+fn explore(cast: Cast) -> Exploration {
     let question = Question {
         cast,
-        hazard: None,
-        road,
+        reading: Reading::Literal,
+        about: Inquiry::Rest,
     };
     let checker = question.checker().spawn_bfs().join();
     Exploration {
@@ -266,24 +314,29 @@ fn explore(cast: Cast, guards: Option<Task>) -> Exploration {
         transitions: checker.state_count() - 1,
         depth: checker.max_depth(),
         is_p0_broken: checker.discovery(model::HOLDS).is_some(),
+        is_wait_endless: checker.discovery(model::CLOSED).is_some(),
         is_crossing_found: checker.discovery(model::PREMISE).is_some(),
     }
 }
 
 /// The shortest counterexample of each hazard that can be brought about, in order.
 fn counterexamples() -> Vec<Counterexample> {
-    Hazard::ALL.into_iter().filter_map(find).collect()
+    let literal = |hazard| find(hazard, Reading::Literal);
+    Hazard::ALL.into_iter().filter_map(literal).collect()
 }
 
-fn find(hazard: Hazard) -> Option<Counterexample> {
+/// The shortest run that brings a hazard about in a reading.
+fn find(hazard: Hazard, reading: Reading) -> Option<Counterexample> {
     let cast = match hazard {
         Hazard::P7 => TRIO,
+        Hazard::P11 => CURRENT,
+        Hazard::P3 | Hazard::P4 | Hazard::P5 | Hazard::P6 => SHORT,
         _ => PAIR,
     };
     let question = Question {
         cast,
-        hazard: Some(hazard),
-        road: None,
+        reading,
+        about: Inquiry::Hazard(hazard),
     };
     let text = hazard.text();
     Some(Counterexample {
@@ -294,36 +347,42 @@ fn find(hazard: Hazard) -> Option<Counterexample> {
     })
 }
 
+/// Whether the checker finds a hazard in a reading of the text.
+#[must_use]
+pub fn is_found_in(hazard: Hazard, reading: Reading) -> bool {
+    find(hazard, reading).is_some()
+}
+
 /// The shortest run that breaks each property of the road, in order; W1 by either kind of guard.
 fn broken_on_road() -> Vec<Counterexample> {
-    use road::RoadProperty::{W1, W2, W3, W4, W7};
-    let inquiries = [
-        (W1, Task::Block),
-        (W1, Task::Move),
-        (W2, Task::Move),
-        (W3, Task::Move),
-        (W4, Task::Move),
-        (W7, Task::Move),
+    use RoadProperty::{W1, W2, W3, W4, W7};
+    let twice = Cast {
+        detecting: 2,
+        detections: 2,
+        crashes: 0,
+        ..ESCORTED
+    };
+    let casts = [
+        (W1, ESCORTED),
+        (W1, PAIR),
+        (W2, ESCORTED),
+        (W3, TEAMS),
+        (W4, twice),
+        (W7, twice),
     ];
-    let found = inquiries.map(|(property, task)| find_on_road(property, task));
+    let found = casts.map(|(property, cast)| find_on_road(property, cast));
     found.into_iter().flatten().collect()
 }
 
-fn find_on_road(property: road::RoadProperty, task: Task) -> Option<Counterexample> {
-    let cast = match property {
-        road::RoadProperty::W3 => RIVALS,
-        _ => CROSSING,
-    };
+fn find_on_road(property: RoadProperty, cast: Cast) -> Option<Counterexample> {
     let question = Question {
         cast,
-        hazard: None,
-        road: Some(Inquiry {
-            task,
-            property: Some(property),
-        }),
+        reading: Reading::Literal,
+        about: Inquiry::Road(property),
     };
+    let is_escorted = cast.plan.contains(&PaperTask::Move);
     Some(Counterexample {
-        text: texts::on_road(property, task),
+        text: texts::on_road(property, is_escorted),
         is_without_end: property.is_without_end(),
         cast,
         steps: shortest(question, model::ON_ROAD)?,

@@ -1,22 +1,25 @@
 //! Robots of the paper's wording, their radio channel and their applications, for stateright.
 //!
 //! RAM are periodic, so a robot may hear another one's *current* RAM at any moment, or not for a
-//! while; one RAM at a time may be delayed. An RMCM is sent once; it arrives after any time, also
-//! repeatedly, or gets lost. At most one of a kind is under way on each link.
+//! while; one RAM at a time may be delayed. An RMCM arrives after any time, also repeatedly, or gets
+//! lost. At most one of a kind is under way on each link.
 
 use crossguard_protocol::State as Stage;
 use stateright::Property;
 
-use super::found::{self, HOLDS_BIT, is_crossed};
+use super::found::{self, HOLDS_BIT, is_closed, is_crossed};
 use super::hazards::Hazard;
-use super::road::{Inquiry, Move, Road};
-use super::robot::{PaperCommand, PaperInput, PaperRmcm, PaperRobot, RobotIndex};
+use super::readings::Reading;
+use super::road::{Move, Road, RoadProperty};
+use super::robot::{PaperCommand, PaperInput, PaperRmcm, PaperRobot, PaperTask, RobotIndex};
 use super::world::{Content, FlightKind, Memory, PaperFlight, PaperWorld};
 
 /// P0: what holds.
 pub(super) const HOLDS: &str = "P0";
 /// The premise of P0.
 pub(super) const PREMISE: &str = "P0-premise";
+/// P10: what the text closes itself.
+pub(super) const CLOSED: &str = "P10";
 /// What is asked about the road.
 pub(super) const ON_ROAD: &str = "W";
 
@@ -29,9 +32,14 @@ pub(super) struct Cast {
     pub(super) detecting: usize,
     /// How often a pedestrian is detected, by any of them.
     pub(super) detections: u8,
+    /// The maneuvers of a task, in order.
+    pub(super) plan: &'static [PaperTask],
+    /// How often a command is sent, by anybody.
     pub(super) commands: u8,
     /// How many robots break down for good.
     pub(super) crashes: u8,
+    /// Whether an RMCM gets lost or repeated, and timeouts run out.
+    pub(super) faults: bool,
     /// Whether a RAM may be delayed.
     pub(super) delay: bool,
 }
@@ -40,10 +48,19 @@ pub(super) struct Cast {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Question {
     pub(super) cast: Cast,
-    /// The hazard to find, or what holds.
-    pub(super) hazard: Option<Hazard>,
-    /// What to ask about the road; without, there is none.
-    pub(super) road: Option<Inquiry>,
+    pub(super) reading: Reading,
+    pub(super) about: Inquiry,
+}
+
+/// What a question is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Inquiry {
+    /// What holds.
+    Rest,
+    /// The hazard to find.
+    Hazard(Hazard),
+    /// The property of the road to break.
+    Road(RoadProperty),
 }
 
 /// What happens.
@@ -56,6 +73,8 @@ pub(super) enum PaperAction {
         to: RobotIndex,
     },
     Command(RobotIndex),
+    /// The leader sends its pending command again.
+    Reissue(RobotIndex),
     /// A message under way arrives; `again` if a copy of it stays under way.
     Arrive {
         flight: PaperFlight,
@@ -64,6 +83,9 @@ pub(super) enum PaperAction {
     Finish(RobotIndex),
     CompleteTask(RobotIndex),
     SafetyTimeout(RobotIndex),
+    LeaderTimeout(RobotIndex),
+    AskForLeave(RobotIndex),
+    GrantLeave(RobotIndex),
     /// The current, periodic RAM is delayed.
     Delay {
         from: RobotIndex,
@@ -80,7 +102,7 @@ impl PaperWorld {
     fn step(&mut self, place: RobotIndex, input: PaperInput) -> Option<()> {
         let before = self.clone();
         let robot = self.robots[place].as_mut()?;
-        let sent = robot.step(place, input);
+        let sent = robot.step(self.reading, place, input);
         let after = *robot;
         let partner = match sent {
             Some(PaperRmcm::Command(_)) => after.follower(),
@@ -109,7 +131,10 @@ impl PaperWorld {
         let executed = before.robot(place).and_then(PaperRobot::executing);
         match (input, sent) {
             (PaperInput::SafetyTimeout, _) => self.memory.fallen_back |= bit(executed),
-            (PaperInput::Finished, _) => self.memory.finished |= bit(executed),
+            (PaperInput::Finished, _) => {
+                let original = executed.map(|command| 1 << command.original);
+                self.memory.finished |= original.unwrap_or(0);
+            }
             (_, Some(PaperRmcm::Command(_))) => self.memory.given += 1,
             (_, Some(PaperRmcm::Acknowledgement(command))) => {
                 self.memory.started |= bit(Some(command));
@@ -123,25 +148,30 @@ impl Cast {
     fn local_actions(&self, world: &PaperWorld, actions: &mut Vec<PaperAction>) {
         // Applications are truthful: while somebody is on the road nothing is finished.
         let is_road_free = world.road.as_ref().is_none_or(Road::is_free);
+        let may_send = world.memory.given < self.commands;
         for (place, robot) in world.robots() {
-            if robot.state == Stage::Idle
-                && place < self.detecting
-                && world.detections < self.detections
-            {
-                actions.push(PaperAction::Detect(place));
-            }
-            if robot.may_command() && world.memory.given < self.commands {
-                actions.push(PaperAction::Command(place));
-            }
-            if robot.executing().is_some() && is_road_free {
-                actions.push(PaperAction::Finish(place));
-            }
-            if robot.may_complete_task() && is_road_free {
-                actions.push(PaperAction::CompleteTask(place));
-            }
-            if robot.leader().is_some() {
-                actions.push(PaperAction::SafetyTimeout(place));
-            }
+            let may_detect = place < self.detecting && world.detections < self.detections;
+            let is_planned = usize::from(robot.commanded) < self.plan.len();
+            let waits = robot.waits_for_nothing();
+            let mut may =
+                |is_so: bool, action: PaperAction| actions.extend(is_so.then_some(action));
+            may(
+                robot.state == Stage::Idle && may_detect,
+                PaperAction::Detect(place),
+            );
+            may(waits && is_planned && may_send, PaperAction::Command(place));
+            may(robot.may_reissue() && may_send, PaperAction::Reissue(place));
+            let finishes = robot.executing().is_some();
+            may(finishes && is_road_free, PaperAction::Finish(place));
+            let is_done = waits && !is_planned;
+            may(is_done && is_road_free, PaperAction::CompleteTask(place));
+            let times_out = robot.may_time_out() && self.faults;
+            may(times_out, PaperAction::SafetyTimeout(place));
+            let leader_does = world.may_time_out_as_leader(robot);
+            may(leader_does, PaperAction::LeaderTimeout(place));
+            may(robot.may_ask_for_leave(), PaperAction::AskForLeave(place));
+            let grants = robot.is_asked_for_leave && is_road_free;
+            may(grants, PaperAction::GrantLeave(place));
         }
     }
 
@@ -161,11 +191,13 @@ impl Cast {
         for &(flight, _) in &world.flying {
             if world.robot(flight.to).is_some() {
                 let arrive = |again| PaperAction::Arrive { flight, again };
-                actions.extend([arrive(false), arrive(true)]);
+                actions.push(arrive(false));
+                actions.extend(self.faults.then(|| arrive(true)));
             }
         }
-        for &(flight, _) in &world.flying {
-            actions.push(PaperAction::Lose(flight));
+        if self.faults {
+            let lose = |(flight, _): &(PaperFlight, Content)| PaperAction::Lose(*flight);
+            actions.extend(world.flying.iter().map(lose));
         }
         let is_delayed = |(flight, _): &(PaperFlight, Content)| flight.kind == FlightKind::Ram;
         if self.delay && !world.flying.iter().any(is_delayed) {
@@ -177,7 +209,7 @@ impl Cast {
     }
 }
 
-fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
+fn successor(cast: &Cast, world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
     let mut next = world.clone();
     next.memory.brought_about = 0;
     if let Some(road) = &mut next.road {
@@ -190,10 +222,18 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
         }
         PaperAction::Hear { from, to } => {
             let ram = world.robot(from)?.ram();
+            if world.reading == Reading::OlderRamIgnored {
+                let kind = FlightKind::Ram;
+                next.land(PaperFlight { from, to, kind });
+            }
             next.step(to, PaperInput::Ram(from, ram))?;
         }
         PaperAction::Command(place) => {
-            next.step(place, PaperInput::Commanded(world.memory.given))?;
+            let task = cast.plan[usize::from(world.robot(place)?.commanded)];
+            next.step(place, PaperInput::Commanded(task, world.memory.given))?;
+        }
+        PaperAction::Reissue(place) => {
+            next.step(place, PaperInput::Reissued(world.memory.given))?;
         }
         PaperAction::Arrive { flight, again } => {
             if !again {
@@ -204,6 +244,9 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
         PaperAction::Finish(place) => next.step(place, PaperInput::Finished)?,
         PaperAction::CompleteTask(place) => next.step(place, PaperInput::TaskCompleted)?,
         PaperAction::SafetyTimeout(place) => next.step(place, PaperInput::SafetyTimeout)?,
+        PaperAction::LeaderTimeout(place) => next.step(place, PaperInput::LeaderTimeout)?,
+        PaperAction::AskForLeave(place) => next.step(place, PaperInput::LeaveAsked)?,
+        PaperAction::GrantLeave(place) => next.step(place, PaperInput::LeaveGranted)?,
         PaperAction::Delay { from, to } => {
             let ram = world.robot(from)?.ram();
             next.send(from, to, Content::Ram(ram))?;
@@ -216,7 +259,7 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
                 road.end(place);
             }
         }
-        PaperAction::Road(what) => next.road.as_mut()?.happen(what),
+        PaperAction::Road(what) => next.road.as_mut()?.happen(what, &world.robots),
     }
     Some(next)
 }
@@ -226,32 +269,37 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
 /// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
 /// keeps the last.
 fn properties(question: &Question) -> Vec<Property<Question>> {
-    let mut properties = vec![match question.hazard {
-        Some(hazard) => Property::always(
-            hazard.text().id,
-            |question: &Question, world: &PaperWorld| {
-                question.hazard.is_none_or(|hazard| !hazard.is_in(world))
-            },
-        ),
-        None => Property::always(HOLDS, |_, world: &PaperWorld| {
-            world.memory.brought_about & HOLDS_BIT == 0
-        }),
-    }];
-    if question.road.is_some_and(|road| road.property.is_some()) {
-        let holds = |question: &Question, world: &PaperWorld| !is_found(question, world);
-        properties = vec![Property::always(ON_ROAD, holds)];
+    let holds = Property::always(HOLDS, |_, world: &PaperWorld| {
+        world.memory.brought_about & HOLDS_BIT == 0
+    });
+    match question.about {
+        Inquiry::Hazard(hazard) => {
+            let is_absent = |question: &Question, world: &PaperWorld| !is_found(question, world);
+            vec![Property::always(hazard.text().id, is_absent)]
+        }
+        Inquiry::Road(_) => {
+            let is_kept = |question: &Question, world: &PaperWorld| !is_found(question, world);
+            vec![Property::always(ON_ROAD, is_kept)]
+        }
+        Inquiry::Rest => {
+            let is_closed = |_: &Question, world: &PaperWorld| is_closed(world);
+            let is_crossed = |_: &Question, world: &PaperWorld| is_crossed(world);
+            vec![
+                holds,
+                Property::always(CLOSED, is_closed),
+                Property::sometimes(PREMISE, is_crossed),
+            ]
+        }
     }
-    if question.hazard.is_none() && question.road.is_none() && question.cast.commands > 1 {
-        let is_met = |_: &Question, world: &PaperWorld| is_crossed(world);
-        properties.push(Property::sometimes(PREMISE, is_met));
-    }
-    properties
 }
 
-/// Whether a question about the road has found what it asks for.
+/// Whether this is what a question asks for.
 fn is_found(question: &Question, world: &PaperWorld) -> bool {
-    let asked = question.road.and_then(|inquiry| inquiry.property);
-    asked.is_some_and(|property| property.is_broken(world))
+    match question.about {
+        Inquiry::Hazard(hazard) => hazard.is_in(world),
+        Inquiry::Road(property) => property.is_broken(world),
+        Inquiry::Rest => false,
+    }
 }
 
 impl stateright::Model for Question {
@@ -259,13 +307,14 @@ impl stateright::Model for Question {
     type Action = PaperAction;
 
     fn init_states(&self) -> Vec<PaperWorld> {
+        let has_road = matches!(self.about, Inquiry::Road(_));
+        let guard = self.cast.plan.last().filter(|_| has_road);
         vec![PaperWorld {
+            reading: self.reading,
             robots: vec![Some(PaperRobot::IDLE); self.cast.names.len()],
             flying: Vec::new(),
             memory: Memory::default(),
-            road: self
-                .road
-                .map(|inquiry| Road::new(self.cast.names.len(), inquiry.task)),
+            road: guard.map(|guard| Road::new(self.cast.names.len(), *guard)),
             detections: 0,
             crashes: 0,
         }]
@@ -286,7 +335,7 @@ impl stateright::Model for Question {
     }
 
     fn next_state(&self, world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
-        successor(world, action)
+        successor(&self.cast, world, action)
     }
 
     fn properties(&self) -> Vec<Property<Self>> {

@@ -1,75 +1,134 @@
 //! Counterexamples in words, and the documentation page.
 
+use std::fmt::Write as _;
+
 use crossguard_protocol::State as Stage;
 
+use super::hazards::Passage;
 use super::model::PaperAction;
 use super::road::Move;
-use super::robot::{self, HelpStatus, PaperRmcm, PaperRobot};
+use super::robot::{self, HelpStatus, PaperRmcm, PaperRobot, PaperTask, Progression};
 use super::world::{Content, FlightKind, PaperFlight, PaperWorld};
 use super::{Counterexample, Transition, broken_on_road, counterexamples};
 use crate::sequence::{Chart, ChartPlace, ChartStep, Fate};
 
 const INTRODUCTION: &str = "\
-# The paper's text taken word for word
+# The paper's text as it stands
 
 The paper *Multi-Robot Coordination in V2X Environments* (Arockiasamy, Vinel; arXiv 2605.06662)
 describes four states, two messages and what robots do with them. `crossguard check paper-literal`
-checks a small model of exactly that wording (`model-check/src/paper`), and the check must fail. Each
-counterexample below was found by stateright, is the shortest of its kind, and is the reason for a
-rule that the protocol of this kit adds. The same stories, with the same losses, delays and crashes,
+checks a small model of that text (`model-check/src/paper`), and the check must fail. Each
+run below was found by stateright, is the shortest of its kind, and is the reason for a
+rule that the protocol of this kit adds. The stories of P1 to P14, with the same losses, delays and crashes,
 are told to real endpoints by `harness/testkit/tests/paper_literal.rs`, which survive them; the stories are
-the files in `model-check/stories`.
+the files in `model-check/stories`. [The paper, paragraph by paragraph](paper.md) says where all the rest of it is.
 
-The paper itself was not at hand when this was written, only the summary in the kit's design. Where
-that leaves something open, the model takes the most literal reading; the documentation of the module
-`paper` lists these readings. A hazard below is a statement about this reading.
+A hazard is one of three kinds, and names the paragraph that it comes from:
+
+- **Stated**: the text has the rule from which it follows;
+- **Silent**: the text has no rule for the case;
+- **Ambiguous**: the text can be read in more than one way. The model takes the reading that says least. The other one
+  is checked too, within the bounds that the check reports, and the section says whether the hazard is found in it.
+
+A hazard is a statement about the text, not about the authors' robots, which may well do more than the text says. Where
+the text does not say enough, the model does no more than it says:
+
+- The container of a robot that joins has no field that the requester compares; it takes the first answer that it hears.
+- `helpStatus` stays `needHelp` and `offerHelp` until the release: the text sets it at no other moment.
+- The helper stays in Idle until the roles are established: only the requester's transition is told.
+- RMCM are sent once. A leader counts requestIDs from 0 in each association, and reissues a command with its number.
+- Completion needs all three that the text lists: the follower stands, where the task ends, and says `completed`.
+- A leader that hears of the safe idle position is in RoleEstablished again, since commands are issued there.
+- An execution timeout is that of the robot that executes, and leads to the same fallback.
+- A follower that asks for leave is bound until its leader releases it.
+- HelpRequested, an offer and a leader's patience have no time limit; no timeout has a value.
 
 This page is generated from what the checker finds; a test fails when the two differ. To write it
 anew: `cargo xtask bless paper-literal`.
+
+";
+
+const CLOSED: &str = "
+## P10: what the text closes itself
+
+A lost command is waited for by its leader, and the text knows no repetition of RMCM. Yet the follower, which misses a
+command for its safety timeout, goes to its safe idle position and says so in RAM, and the leader may reissue. The
+checker explores every run of the pair and finds none in which a leader waits for ever for a follower that is there and
+follows it: P10 holds, as long as the leader's application reissues what it may. The kit repeats the command after
+T_ack, at most N_ack times, and then treats the follower as lost (I16, L2), so that a lost command costs less than a
+safety timeout.
 ";
 
 const ON_ROAD: &str = "
 ## What it means for a person on the road
 
-The same model, with a road around it: a body of each follower, a sign, and one pedestrian, judged by the road
+The same model, with a road around it: a body of each follower and one pedestrian, judged by the road
 properties that the kit's own scenarios keep ([what has been verified](verification.md)). W5, W6 and W8 take time, which
 this model does not have.
 
-What is assumed, for the wording has neither a sign nor a corridor: a leader invites the pedestrian as long as it is in
-ManeuverExecuting, which means that its follower has acknowledged a command and has not yet reported it completed. This
-is a favourable reading; in the paper's proof of concept the leader tells the pedestrian to follow already in
-RoleEstablished. The pedestrian steps on the road at any moment while somebody invites, and is off it at any time later.
-A follower that escorts guards from the start of its maneuver on; one that blocks guards once it is in its place; one
-that has run into its safety timeout falls back for some time. Applications are truthful: no maneuver is finished and no
-task is done while somebody is on the road. W1 has the exemption that it has for the kit without time: a guard that has
-fallen back, finished or lost power, as long as no message has told its leader so. There is one
-crossing, so that W3 is about every two leaders.
+The text has neither a sign nor a corridor with an end. It says when people go. Beside an escort: the leader tells the
+pedestrian to follow the robot dog once the roles are established (III-A, stage 3), so the pedestrian steps on the road
+with the dog's `Move` while the leader stops the traffic; before the dog moves, nobody is taken to go. Where a follower
+blocks: the two commands form the corridor (III-A, extending FSM control), so the leader lets people cross while it is
+in ManeuverExecuting with an acknowledged `block`. The pedestrian is off the road at any time later. An escort guards
+from the start of its `Move` on, a blocker where it stands in its place. Applications are truthful: no maneuver is
+finished, no leave granted and no task done while somebody is on the road. W1 has the exemption that it has for the kit
+without time: a guard that has fallen back, finished or lost power, as long as no message has told its leader so. There
+is one crossing, so that W3 is about every two leaders.
 
-Four of the six runs have no lost and no late message. They are not told to real endpoints: the kit's own model has the
-same road (`model-check/src/road.rs`).
+These runs are not told to real endpoints: the kit's own model has the same road (`model-check/src/road.rs`).
 ";
 
-/// The documentation page: each counterexample as a sequence chart, what it means, what closes it.
+/// The documentation page: each counterexample as a sequence chart, where it comes from, what it means, what closes
+/// it.
 #[must_use]
 pub fn page() -> String {
+    let (found, on_road) = (counterexamples(), broken_on_road());
     let mut page = INTRODUCTION.to_owned();
-    for found in counterexamples() {
-        page.push_str(&section("##", &found, "Closed by"));
+    page.push_str("| hazard | kind | section | paragraph |\n|---|---|---|---|\n");
+    for text in found.iter().chain(&on_road).map(|found| found.text) {
+        let Passage {
+            section, paragraph, ..
+        } = text.passage;
+        let (id, title, kind) = (text.id, text.title, text.kind.name());
+        let _ = writeln!(page, "| {id}: {title} | {kind} | {section} | {paragraph} |");
     }
+    for found in &found {
+        page.push_str(&section("##", found, "Closed by"));
+    }
+    page.push_str(CLOSED);
     page.push_str(ON_ROAD);
-    for found in broken_on_road() {
-        page.push_str(&section("###", &found, "Kept by"));
+    for found in &on_road {
+        page.push_str(&section("###", found, "Kept by"));
     }
     page
 }
 
 fn section(heading: &str, found: &Counterexample, how_the_kit_answers: &str) -> String {
     let text = found.text;
+    let Passage {
+        section,
+        paragraph,
+        words,
+    } = text.passage;
+    let other = text.other_reading.map_or_else(String::new, |other| {
+        let found = if other.remains {
+            "it is found there too"
+        } else {
+            "it is not found there"
+        };
+        format!(
+            "In another reading: {}. By the checker, {found}.\n\n",
+            other.says
+        )
+    });
     format!(
-        "\n{heading} {}: {}\n\n{}\n\nBroken property: {}.\n\n```mermaid\n{}```\n\n{how_the_kit_answers}: {}\n",
+        "\n{heading} {}: {}\n\n**{}**: section {section}, {paragraph} (\"{words}\").\n\n{}\n\nFor a person: {}\n\n{other}Broken property: {}.\n\n```mermaid\n{}```\n\n{how_the_kit_answers}: {}\n",
         text.id,
         text.title,
+        text.kind.name(),
         text.explanation,
+        text.person,
         text.statement,
         found.mermaid(),
         text.closed_by,
@@ -138,15 +197,22 @@ impl Counterexample {
             }
             PaperAction::Detect(robot) => at(robot, "pedestrian detected"),
             PaperAction::Command(robot) => at(robot, "gives a command"),
+            PaperAction::Reissue(robot) => at(robot, "reissues its command"),
             PaperAction::Finish(robot) => at(robot, "maneuver finished"),
             PaperAction::CompleteTask(robot) => at(robot, "task completed"),
             PaperAction::SafetyTimeout(robot) => at(robot, "safety timeout"),
+            PaperAction::LeaderTimeout(robot) => at(robot, "execution timeout"),
+            PaperAction::AskForLeave(robot) => at(robot, "wants to leave"),
+            PaperAction::GrantLeave(robot) => at(robot, "grants the leave"),
             PaperAction::Crash(robot) => at(robot, "breaks down"),
-            PaperAction::Road(Move::StepOn(robot)) => {
-                at(robot, "invites, and the pedestrian steps on the road")
+            PaperAction::Road(Move::StepOn(_)) if self.cast.plan.contains(&PaperTask::Move) => {
+                at(0, "the pedestrian steps on the road beside the escort")
             }
+            PaperAction::Road(Move::StepOn(robot)) => at(
+                robot,
+                "lets people cross, and the pedestrian steps on the road",
+            ),
             PaperAction::Road(Move::Across) => at(0, "the pedestrian is across"),
-            PaperAction::Road(Move::Reach(robot)) => at(robot, "is in its place"),
             PaperAction::Road(Move::EndFallback(robot)) => at(robot, "has finished its fallback"),
         }
     }
@@ -177,27 +243,58 @@ fn consequences(step: &Transition) -> Vec<String> {
 }
 
 fn change(before: &PaperRobot, after: &PaperRobot) -> Vec<String> {
-    let starts = after
-        .executing()
-        .filter(|_| before.executing() != after.executing());
-    let command = match (starts, after.command, before.command) {
-        (Some(command), ..) => Some(format!("acknowledges and starts {}", command.request)),
-        (None, Some(command), None) if after.follower().is_some() => {
-            Some(format!("sends {}", PaperRmcm::Command(command)))
-        }
-        (None, None, Some(command)) if after.follower().is_some() => {
-            Some(format!("counts {} as completed", command.request))
-        }
-        _ => None,
+    let mut said = vec![commanded(before, after), stopped(before, after)];
+    let has_become = |is: fn(&HelpStatus) -> bool| is(&after.status) && !is(&before.status);
+    let offers = has_become(|it| matches!(it, HelpStatus::OfferHelp { .. }));
+    said.push(offers.then(|| "offers help".to_owned()));
+    let leaving = |it: &HelpStatus| {
+        let HelpStatus::Follower { is_leaving, .. } = *it else {
+            return false;
+        };
+        is_leaving
     };
-    let stops = before.executing().is_some() && after.state == Stage::Idle;
-    let stage = (before.state != after.state).then(|| match after.status {
+    said.push(has_become(leaving).then(|| "asks for leave".to_owned()));
+    let may_reissue = after.is_told_idle && !before.is_told_idle;
+    said.push(may_reissue.then(|| "may reissue its command".to_owned()));
+    said.push((before.state != after.state).then(|| match after.status {
         HelpStatus::Leader { .. } => format!("{:?} (leader)", after.state),
         HelpStatus::Follower { .. } => format!("{:?} (follower)", after.state),
         _ => format!("{:?}", after.state),
-    });
-    let stops = stops.then(|| "stops the maneuver".to_owned());
-    [command, stops, stage].into_iter().flatten().collect()
+    }));
+    said.into_iter().flatten().collect()
+}
+
+/// What becomes of a command.
+fn commanded(before: &PaperRobot, after: &PaperRobot) -> Option<String> {
+    let starts = after
+        .executing()
+        .filter(|_| before.executing() != after.executing());
+    let leads = after.follower().is_some();
+    match (starts, before.command, after.command) {
+        (Some(command), ..) => Some(format!(
+            "acknowledges and starts {} ({})",
+            command.request, command.task
+        )),
+        (None, old, Some(command)) if leads && old != Some(command) => {
+            Some(format!("sends {}", PaperRmcm::Command(command)))
+        }
+        (None, Some(command), None) if leads => {
+            Some(format!("counts {} as completed", command.request))
+        }
+        _ => None,
+    }
+}
+
+/// What ends a follower's maneuver, or its wait.
+fn stopped(before: &PaperRobot, after: &PaperRobot) -> Option<String> {
+    let falls_back =
+        after.progression == Progression::SafeIdle && before.progression != Progression::SafeIdle;
+    let stops = before.executing().is_some() && after.state == Stage::Idle;
+    match (falls_back, stops) {
+        (true, _) => Some("goes to its safe idle position".to_owned()),
+        (_, true) => Some("stops the maneuver".to_owned()),
+        _ => None,
+    }
 }
 
 /// Whether a command is started that was started before.

@@ -1,36 +1,22 @@
-//! What the paper's wording means on the road: bodies, a sign and a pedestrian around its robots, and the
-//! road properties W1 to W4 and W7 of them.
+//! What the paper's text means on the road: bodies, a sign and a pedestrian around its robots, and the road
+//! properties W1 to W4 and W7 of them.
 //!
-//! Nothing here is a rule of a robot. The bodies do as their robots tell them, the pedestrian looks at signs
-//! and at nothing else, and applications are truthful: a guard finishes and a task is done only when nobody
-//! is on the road. The properties are those of [`road`](crate::road), said again for robots that have no
-//! sessions.
+//! Nothing here is a rule of a robot. The bodies do as their robots tell them, and applications are truthful: a
+//! guard finishes, a leave is granted and a task is done only when nobody is on the road. The properties are
+//! those of [`road`](crate::road), said again for robots that have no sessions.
 //!
-//! The wording has neither a sign nor a corridor. The reading is that a leader invites the pedestrian as
-//! long as it is in `ManeuverExecuting`.
+//! The text has neither a sign nor a corridor. It says when the pedestrian is told to go:
+//!
+//! - an escort: the leader tells the pedestrian to follow the robot dog once the roles are established (stage 3),
+//!   so the pedestrian steps on the road with the dog's `Move`, while the leader stops the traffic;
+//! - a blocked direction: the leader lets people cross while it is in `ManeuverExecuting` with a `block`.
 
 use crossguard_protocol::State as Stage;
 
 use super::robot::{
-    HelpStatus, PaperInput, PaperRam, PaperRmcm, PaperRobot, Progression, RobotIndex,
+    HelpStatus, PaperInput, PaperRam, PaperRmcm, PaperRobot, PaperTask, Progression, RobotIndex,
+    Whereabouts,
 };
-
-/// How a follower guards.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Task {
-    /// At the pedestrian's side.
-    Move,
-    /// From a place that it has to reach first.
-    Block,
-}
-
-/// What is asked about the road.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Inquiry {
-    pub(super) task: Task,
-    /// The property to break; without one, everything is explored.
-    pub(super) property: Option<RoadProperty>,
-}
 
 /// A property of the road.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -47,8 +33,8 @@ pub(super) enum RoadProperty {
 pub(super) enum PaperBody {
     Parked,
     UnderWay(Charge),
-    InPlace(Charge),
-    /// The safety timeout has sent it to a safe place.
+    Guarding(Charge),
+    /// A timeout has sent it to a safe place.
     FallingBack(Charge),
     /// It has finished, has finished its fallback, or has lost power.
     Ended(Charge),
@@ -65,7 +51,7 @@ pub(super) struct Charge {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperPedestrian {
     Waiting,
-    /// Since this leader invited.
+    /// At the word of this leader.
     OnRoad(RobotIndex),
     Across,
 }
@@ -73,12 +59,10 @@ pub(super) enum PaperPedestrian {
 /// What happens on the road by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Move {
-    /// The pedestrian steps on the road at this leader's invitation.
+    /// The pedestrian steps on the road at this leader's word.
     StepOn(RobotIndex),
     /// The pedestrian is off the road.
     Across,
-    /// A body reaches its place.
-    Reach(RobotIndex),
     /// A body has finished its fallback.
     EndFallback(RobotIndex),
 }
@@ -86,7 +70,8 @@ pub(super) enum Move {
 /// The road.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Road {
-    task: Task,
+    /// The task by which followers guard.
+    guard: PaperTask,
     bodies: Vec<PaperBody>,
     pedestrian: PaperPedestrian,
     /// Commands of which the leader has heard, by a RAM, that they are executed no more; bits by serial.
@@ -111,15 +96,18 @@ impl RoadProperty {
     }
 }
 
-/// Whether the robot at this place invites the pedestrian.
+/// Whether the robot lets people cross the road that its follower blocks.
 pub(super) fn invites(robot: &PaperRobot) -> bool {
-    robot.state == Stage::ManeuverExecuting && robot.follower().is_some()
+    let task = robot.command.map(|command| command.task);
+    robot.state == Stage::ManeuverExecuting
+        && robot.follower().is_some()
+        && task == Some(PaperTask::Block)
 }
 
 impl Road {
-    pub(super) fn new(robots: usize, task: Task) -> Self {
+    pub(super) fn new(robots: usize, guard: PaperTask) -> Self {
         Self {
-            task,
+            guard,
             bodies: vec![PaperBody::Parked; robots],
             pedestrian: PaperPedestrian::Waiting,
             told: 0,
@@ -133,75 +121,72 @@ impl Road {
         !matches!(self.pedestrian, PaperPedestrian::OnRoad(_))
     }
 
-    /// What may happen on the road by itself, where these robots invite.
+    /// What may happen on the road by itself, where these robots let people cross.
     pub(super) fn moves(&self, inviting: impl Iterator<Item = RobotIndex>, moves: &mut Vec<Move>) {
         match self.pedestrian {
+            PaperPedestrian::Waiting if self.guard == PaperTask::Move => {
+                let escorts = self.bodies.iter().filter_map(|body| match body {
+                    PaperBody::Guarding(charge) => Some(Move::StepOn(charge.leader)),
+                    _ => None,
+                });
+                moves.extend(escorts);
+            }
             PaperPedestrian::Waiting => moves.extend(inviting.map(Move::StepOn)),
             PaperPedestrian::OnRoad(_) => moves.push(Move::Across),
             PaperPedestrian::Across => {}
         }
         for (place, body) in self.bodies.iter().enumerate() {
-            match body {
-                PaperBody::UnderWay(_) if self.task == Task::Block => {
-                    moves.push(Move::Reach(place));
-                }
-                PaperBody::FallingBack(_) if self.is_free() => moves.push(Move::EndFallback(place)),
-                _ => {}
+            if matches!(body, PaperBody::FallingBack(_)) && self.is_free() {
+                moves.push(Move::EndFallback(place));
             }
         }
     }
 
-    /// Something happens on the road by itself.
-    pub(super) fn happen(&mut self, what: Move) {
+    /// Something happens on the road by itself, among these robots.
+    pub(super) fn happen(&mut self, what: Move, robots: &[Option<PaperRobot>]) {
         match what {
             Move::StepOn(leader) => {
-                let is_there = |body: &PaperBody| self.accounts_for(*body, leader);
-                if !self.bodies.iter().any(is_there) {
+                let is_guarded = self
+                    .bodies
+                    .iter()
+                    .any(|body| self.accounts_for(*body, leader));
+                // Beside an escort, the leader itself stops the traffic.
+                let stops_traffic = self.guard != PaperTask::Move
+                    || robots[leader].is_some_and(|robot| robot.follower().is_some());
+                if !is_guarded || !stops_traffic {
                     self.broken |= RoadProperty::W1.bit();
                 }
                 self.pedestrian = PaperPedestrian::OnRoad(leader);
             }
             Move::Across => self.pedestrian = PaperPedestrian::Across,
-            Move::Reach(place) => {
-                if let PaperBody::UnderWay(charge) = self.bodies[place] {
-                    self.bodies[place] = PaperBody::InPlace(charge);
-                }
-            }
             Move::EndFallback(place) => self.end(place),
         }
     }
 
-    /// Whether a body guards the people that this leader invites, or is gone and the leader has not been told.
+    /// Whether a body guards the people that this leader sends, or is gone and the leader has not been told.
     fn accounts_for(&self, body: PaperBody, leader: RobotIndex) -> bool {
         let is_told = |charge: Charge| self.told & 1 << charge.serial != 0;
         match body {
             PaperBody::FallingBack(charge) | PaperBody::Ended(charge) => {
                 charge.leader == leader && !is_told(charge)
             }
-            _ => self
-                .guarded_by(body)
-                .is_some_and(|charge| charge.leader == leader),
-        }
-    }
-
-    fn guarded_by(&self, body: PaperBody) -> Option<Charge> {
-        match body {
-            PaperBody::UnderWay(charge) if self.task == Task::Move => Some(charge),
-            PaperBody::InPlace(charge) => Some(charge),
-            _ => None,
+            PaperBody::Guarding(charge) => charge.leader == leader,
+            PaperBody::Parked | PaperBody::UnderWay(_) => false,
         }
     }
 
     /// Whether this body guards somebody who is on the road.
     fn needs(&self, body: PaperBody) -> bool {
-        let guarded_by = self.guarded_by(body);
-        guarded_by.is_some_and(|charge| self.pedestrian == PaperPedestrian::OnRoad(charge.leader))
+        let PaperBody::Guarding(charge) = body else {
+            return false;
+        };
+        self.pedestrian == PaperPedestrian::OnRoad(charge.leader)
     }
 
     /// A body does nothing any more.
     pub(super) fn end(&mut self, place: RobotIndex) {
         if let PaperBody::UnderWay(charge)
-        | PaperBody::InPlace(charge)
+        | PaperBody::Guarding(charge)
         | PaperBody::FallingBack(charge) = self.bodies[place]
         {
             self.bodies[place] = PaperBody::Ended(charge);
@@ -233,10 +218,8 @@ impl Road {
     ) {
         let body = self.bodies[place];
         let falls_back = matches!(body, PaperBody::FallingBack(_));
-        let asks_or_offers = |robot: &PaperRobot| {
-            matches!(robot.status, HelpStatus::NeedHelp | HelpStatus::OfferHelp)
-        };
-        if falls_back && asks_or_offers(after) && !asks_or_offers(before) {
+        let takes_part = |robot: &PaperRobot| robot.status != HelpStatus::None;
+        if falls_back && takes_part(after) && !takes_part(before) {
             self.broken |= RoadProperty::W4.bit();
         }
         match (input, before.executing(), after.executing()) {
@@ -245,13 +228,16 @@ impl Road {
             {
                 self.leave(body);
                 let serial = command.serial;
-                self.bodies[place] = PaperBody::UnderWay(Charge { serial, leader });
+                self.bodies[place] = self.begun(executed.task, after, Charge { serial, leader });
             }
             (PaperInput::SafetyTimeout, Some(_), None) => {
                 self.leave(body);
-                if let PaperBody::UnderWay(charge) | PaperBody::InPlace(charge) = body {
+                if let PaperBody::UnderWay(charge) | PaperBody::Guarding(charge) = body {
                     self.bodies[place] = PaperBody::FallingBack(charge);
                 }
+            }
+            (PaperInput::Finished, Some(finished), None) if finished.task != self.guard => {
+                self.bodies[place] = PaperBody::Parked;
             }
             (PaperInput::Finished, Some(_), None) => self.end(place),
             (_, Some(_), None) => {
@@ -262,6 +248,16 @@ impl Road {
         }
         if let PaperInput::Ram(from, ram) = input {
             self.hear(place, after, from, ram);
+        }
+    }
+
+    /// An escort guards from the start of its maneuver on, a blocker from its place.
+    fn begun(&self, task: PaperTask, robot: &PaperRobot, charge: Charge) -> PaperBody {
+        let is_there = task == PaperTask::Move || robot.at == Whereabouts::Lead;
+        if task == self.guard && is_there {
+            PaperBody::Guarding(charge)
+        } else {
+            PaperBody::UnderWay(charge)
         }
     }
 
@@ -279,10 +275,8 @@ impl Road {
         {
             self.told |= 1 << charge.serial;
         }
-        if !matches!(robot.status, HelpStatus::Leader { .. }) {
-            return;
-        }
-        if matches!(ram.status, HelpStatus::Leader { .. }) && from < place {
+        let leads = |status| matches!(status, HelpStatus::Leader { .. });
+        if leads(robot.status) && leads(ram.status) && from < place {
             self.heard = (self.heard + 1).min(2);
         }
     }

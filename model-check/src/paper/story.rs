@@ -65,6 +65,8 @@ pub enum Happening {
     Delay(Link),
     /// The application of one robot wants the other one to move along with the pedestrian.
     Command(Link),
+    /// The application of one robot gives the other one its command anew.
+    Reissue(Link),
     /// What is held arrives.
     Arrive(StoryMessage),
     /// What is held arrives, and a copy of it stays under way.
@@ -77,6 +79,10 @@ pub enum Happening {
     CompleteTask(u32),
     /// As much time passes as its safety timer runs.
     SafetyTimeout(u32),
+    /// Its application asks for leave.
+    AskForLeave(u32),
+    /// Its application grants it.
+    GrantLeave(u32),
     /// It breaks down for good.
     Crash(u32),
 }
@@ -188,17 +194,25 @@ fn happening(before: &PaperWorld, action: PaperAction) -> Happening {
         PaperAction::Detect(place) => Happening::Detect(station(place)),
         PaperAction::Hear { from, to } => Happening::Hear(link(from, to)),
         PaperAction::Delay { from, to } => Happening::Delay(link(from, to)),
-        PaperAction::Command(place) => {
-            let follower = before.robot(place).and_then(PaperRobot::follower);
-            Happening::Command(link(place, follower.expect("only a leader commands")))
-        }
+        PaperAction::Command(place) => Happening::Command(led(before, place)),
+        PaperAction::Reissue(place) => Happening::Reissue(led(before, place)),
         PaperAction::Arrive { flight, again } if again => Happening::ArriveAgain(message(flight)),
         PaperAction::Arrive { flight, .. } => Happening::Arrive(message(flight)),
         PaperAction::Lose(flight) => Happening::Lose(message(flight)),
         PaperAction::Finish(place) => Happening::Finish(station(place)),
         PaperAction::CompleteTask(place) => Happening::CompleteTask(station(place)),
         PaperAction::SafetyTimeout(place) => Happening::SafetyTimeout(station(place)),
+        PaperAction::AskForLeave(place) => Happening::AskForLeave(station(place)),
+        PaperAction::GrantLeave(place) => Happening::GrantLeave(station(place)),
         PaperAction::Crash(place) => Happening::Crash(station(place)),
-        PaperAction::Road(_) => unreachable!("stories are told of runs without a road"),
+        PaperAction::LeaderTimeout(_) | PaperAction::Road(_) => {
+            unreachable!("stories are of the literal reading, without a road")
+        }
     }
+}
+
+/// From a leader to its follower.
+fn led(world: &PaperWorld, leader: RobotIndex) -> Link {
+    let follower = world.robot(leader).and_then(PaperRobot::follower);
+    link(leader, follower.expect("only a leader commands"))
 }

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use crossguard_protocol::State as Stage;
+
+use super::readings::Reading;
 use super::road::{Road, invites};
 use super::robot::{PaperInput, PaperRam, PaperRmcm, PaperRobot, RobotIndex};
 
@@ -31,6 +34,8 @@ pub(super) enum Content {
 /// Robots, messages under way, and what the properties remember.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct PaperWorld {
+    /// It never changes in a run.
+    pub(super) reading: Reading,
     /// `None` where a robot has broken down.
     pub(super) robots: Vec<Option<PaperRobot>>,
     /// In order, at most one for each flight.
@@ -74,10 +79,23 @@ impl PaperWorld {
     /// Whether nothing goes on by itself: nothing is under way, no timeout and no maneuver runs, no
     /// application has anything to say, and no RAM tells anybody anything new.
     pub(super) fn is_stuck(&self) -> bool {
-        let acts = |robot: &PaperRobot| robot.leader().is_some() || robot.may_command();
         self.flying.is_empty()
-            && !self.robots().any(|(_, robot)| acts(robot))
+            && !self.robots().any(|(_, robot)| self.acts(robot))
             && self.telling_links().next().is_none()
+    }
+
+    /// Whether a robot goes on by itself.
+    fn acts(&self, robot: &PaperRobot) -> bool {
+        let follows_on = robot.may_time_out() || robot.may_ask_for_leave();
+        let leads_on = robot.waits_for_nothing() || robot.may_reissue() || robot.is_asked_for_leave;
+        follows_on || leads_on || self.may_time_out_as_leader(robot)
+    }
+
+    /// Whether the execution timeout of a leader may run out.
+    pub(super) fn may_time_out_as_leader(&self, robot: &PaperRobot) -> bool {
+        self.reading == Reading::LeaderTimesOut
+            && robot.follower().is_some()
+            && robot.state == Stage::ManeuverExecuting
     }
 
     /// The links on which the sender's current RAM would change the receiver.
@@ -97,7 +115,8 @@ impl PaperWorld {
     /// The robot at `to` if it heard the current RAM of the robot at `from`.
     pub(super) fn told(&self, from: RobotIndex, to: RobotIndex) -> Option<PaperRobot> {
         let mut robot = self.robots[to]?;
-        robot.step(to, PaperInput::Ram(from, self.robots[from]?.ram()));
+        let heard = PaperInput::Ram(from, self.robots[from]?.ram());
+        robot.step(self.reading, to, heard);
         Some(robot)
     }
 
@@ -118,7 +137,7 @@ impl PaperWorld {
         self.flying.retain(|(other, _)| *other != flight);
     }
 
-    /// The robots that invite the pedestrian.
+    /// The robots that let people cross a road that their followers block.
     pub(super) fn inviting(&self) -> impl Iterator<Item = RobotIndex> {
         let invites = |(_, robot): &(RobotIndex, &PaperRobot)| invites(robot);
         self.robots().filter(invites).map(|(place, _)| place)

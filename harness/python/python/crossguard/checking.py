@@ -144,7 +144,7 @@ class Report:
 
 def scenarios() -> list[str]:
     """The names of the scenarios that come along, quick ones first, with `paper-literal` at the end: the
-    paper's text word for word, which must fail."""
+    paper's text as it stands, which must fail."""
     return _crossguard.scenarios()
 
 
