@@ -27,6 +27,7 @@ shipped! {
     long plain trio_delayed "trio-delayed";
     long plain team_of_four "team-of-four";
     long plain team_symmetric "team-symmetric";
+    long plain team_of_six "team-of-six";
     long timed timed_in_use "timed-in-use";
     long timed timed_trio_drift "timed-trio-drift";
     long timed timed_trio_delay "timed-trio-delay";

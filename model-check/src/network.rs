@@ -32,7 +32,7 @@ pub use crate::transmission::Transmission;
 pub const MAX_DELAYED: usize = 4;
 
 /// How many messages may be on air at a time.
-const MAX_ON_AIR: usize = 12;
+const MAX_ON_AIR: usize = 30;
 
 /// A message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

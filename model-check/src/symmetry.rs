@@ -43,8 +43,10 @@ use crate::scenario::{MAX_ROBOTS, Scenario};
 /// How many symmetric robots a scenario may have: one robot at least detects.
 const MAX_SYMMETRIC: usize = MAX_ROBOTS - 1;
 
-/// In how many ways they can be exchanged.
-pub(crate) const MAX_EXCHANGES: usize = 6;
+/// In how many ways they can be exchanged: the orders of [`MAX_SYMMETRIC`] robots.
+pub(crate) const MAX_EXCHANGES: usize = 120;
+
+const _: () = assert!(MAX_SYMMETRIC == 5);
 
 /// One way to exchange the symmetric robots.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -119,7 +121,7 @@ fn exchanges(scenario: &Scenario) -> Vec<Exchange> {
     }
     let exchange = |order: Vec<u8>| {
         let mut exchange = Exchange {
-            places: [0, 1, 2, 3],
+            places: std::array::from_fn(|place| u8::try_from(place).expect("at most MAX_ROBOTS")),
             stations: SmallVec::new(),
         };
         for (&from, &to) in places.iter().zip(&order) {
@@ -173,7 +175,7 @@ impl Symmetry {
         if let Some(images) = known.0.get(&part) {
             return *images;
         }
-        let mut images = Images::default();
+        let mut images: Images = [0; MAX_EXCHANGES];
         for (slot, exchange) in images.iter_mut().zip(&self.exchanges) {
             *slot = image(exchange);
         }

@@ -1,8 +1,6 @@
 //! The state that stands for all states that differ in names, or in which of the symmetric robots is
 //! which.
 
-use smallvec::SmallVec;
-
 use super::{Action, Draft, Model, ModelState, Shared};
 use crate::canonical::{NameSets, Renamable};
 use crate::network::Network;
@@ -76,7 +74,7 @@ impl Model {
         }
         let images = self.node_images(&draft.state);
         let exchanges = symmetry.exchanges.iter().enumerate();
-        let nodes: SmallVec<[[u32; MAX_ROBOTS]; MAX_EXCHANGES]> = exchanges
+        let nodes: Vec<[u32; MAX_ROBOTS]> = exchanges
             .map(|(i, exchange)| exchanged(&draft.state.nodes, &images, i, exchange))
             .collect();
         // Robots in equal states leave it to the rest to tell which is which.
@@ -96,7 +94,7 @@ impl Model {
             symmetry,
             ..
         } = &*self.0;
-        let mut images = [Images::default(); MAX_ROBOTS];
+        let mut images = [[0; MAX_EXCHANGES]; MAX_ROBOTS];
         let places = images.iter_mut().zip(state.nodes);
         for (images, node) in places.take(scenario.robots.len()) {
             *images = symmetry.images(&symmetry.nodes, node, |mut exchange| {

@@ -7,7 +7,7 @@ use crossguard_protocol::{Availability, Event, StationId, Urgency};
 use serde::{Deserialize, Serialize};
 
 /// How many robots a scenario may have.
-pub const MAX_ROBOTS: usize = 4;
+pub const MAX_ROBOTS: usize = 6;
 
 /// By how much a robot's station id grows when it changes its pseudonym.
 pub(crate) const PSEUDONYM_STEP: u32 = 100;
