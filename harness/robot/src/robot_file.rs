@@ -1,5 +1,7 @@
 //! The configuration of one robot: a TOML file for `crossguard run`.
 
+mod zone;
+
 use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 
@@ -18,8 +20,12 @@ use crate::journal::Journal;
 use crate::plan::Plan;
 use crate::runtime::{Clock, Setup};
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
-use crate::street::{Road, Street, Watched, Zone};
+use crate::street::{Road, Street};
 use crate::transport::{Halves, Link, Zenoh};
+use crate::zone::{Watched, Zone};
+
+pub use self::zone::NoZone;
+use self::zone::ZoneTable;
 
 /// A robot's configuration, checked.
 #[derive(Clone, Debug)]
@@ -38,11 +44,13 @@ pub struct RobotFile {
     pub site: Site,
     /// How many times as fast as real its simulated body moves.
     pub speed: f64,
-    /// Whether it leads the crossing by itself once a pedestrian is detected. The pedestrian is simulated
-    /// then.
+    /// Whether it leads the crossing by itself once a pedestrian is detected. Without a zone, the pedestrian is
+    /// simulated then.
     pub autopilot: bool,
-    /// The part of the road on which people cross, if its sensors have everybody there.
+    /// Where its sensors have everybody who waits to cross or crosses, if they do.
     pub zone: Option<Zone>,
+    /// The kerbs between which it has people escorted, where they are not those of the simulated street.
+    pub kerbs: Option<[Place; 2]>,
     /// Its link.
     pub link: Link,
     /// The protocol's configuration.
@@ -67,7 +75,7 @@ struct RobotTable {
     #[serde(default)]
     autopilot: bool,
     crossing: Option<String>,
-    zone_m: Option<[f64; 4]>,
+    zone: Option<ZoneTable>,
     #[serde(default)]
     site: Option<SiteTable>,
     link: LinkTable,
@@ -163,11 +171,9 @@ pub enum Impossibility {
     /// The crossing has no such name.
     #[error("crossing: {0}")]
     Crossing(#[from] NoCrossing),
-    /// The zone has no area.
-    #[error(
-        "zone_m is {0:?}: west, south, east and north in metres are wanted, west < east and south < north"
-    )]
-    Zone([f64; 4]),
+    /// There is no such zone.
+    #[error("[zone] {0}")]
+    Zone(#[from] NoZone),
     /// A site that is not on earth.
     #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
     Site(f64, f64),
@@ -213,11 +219,20 @@ impl RobotFile {
     /// simulates a crossing.
     #[must_use]
     pub fn road(&self) -> Road {
-        match self.zone {
-            _ if self.autopilot => Road::Own(Street::default()),
-            Some(zone) => Road::Watched(Watched::new(zone)),
+        match &self.zone {
+            Some(zone) => Road::Watched(Watched::new(zone.clone())),
+            None if self.autopilot => Road::Own(Street::default()),
             None => Road::Unknown,
         }
+    }
+
+    /// What it does when it leads, if it leads by itself.
+    #[must_use]
+    pub fn plan(&self) -> Option<Plan> {
+        self.autopilot.then(|| match self.kerbs {
+            Some([from, to]) => Plan::escort(self.site, from, to),
+            None => Plan::crossing(self.site),
+        })
     }
 
     /// The robot with this boot counter and body, on a clock that begins now.
@@ -230,7 +245,7 @@ impl RobotFile {
         link: Halves,
         journal: Journal,
     ) -> Setup {
-        let plan = self.autopilot.then(|| Plan::crossing(self.site));
+        let application = Application::new(body, self.plan());
         Setup {
             name: self.name.clone(),
             station: self.station,
@@ -239,7 +254,7 @@ impl RobotFile {
             identifiers: self.identifiers,
             security,
             awareness: self.awareness,
-            application: Application::new(body, plan).on(self.road()),
+            application: application.at(self.site).on(self.road()),
             link,
             journal,
             clock: Clock::start(),
@@ -263,12 +278,16 @@ impl RobotTable {
             crossing: crossing.map_or(protocol::Place::UNKNOWN, |CrossingReference(place)| place),
             ..site
         };
-        let zone = self.zone_m.map(zone).transpose()?;
         if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
             return Err(Impossibility::Site(site.latitude, site.longitude));
         }
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
+        let confidence_min = self.people.confidence_min;
+        let zone = self
+            .zone
+            .map(|zone| zone.check(confidence_min, self.autopilot));
+        let (zone, kerbs) = zone.transpose()?.unzip();
         Ok(RobotFile {
             name: self.name,
             station: StationId(self.station),
@@ -279,6 +298,7 @@ impl RobotTable {
             speed: self.speed,
             autopilot: self.autopilot,
             zone,
+            kerbs: kerbs.flatten(),
             link: self.link.check(folder)?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,
@@ -287,18 +307,6 @@ impl RobotTable {
                 cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
             },
         })
-    }
-}
-
-fn zone(metres: [f64; 4]) -> Result<Zone, Impossibility> {
-    let [west, south, east, north] = metres;
-    if west < east && south < north {
-        Ok(Zone {
-            south_west: Place::new(west, south),
-            north_east: Place::new(east, north),
-        })
-    } else {
-        Err(Impossibility::Zone(metres))
     }
 }
 

@@ -287,6 +287,9 @@ impl Loop {
             },
         );
         self.put(started);
+        if let Some(outline) = self.machine.application().zone() {
+            self.log(Entry::Zone(outline));
+        }
         while !self.is_done() {
             match inbox.recv_timeout(self.patience()) {
                 Ok(Delivery::Order(order)) => self.obey(order),
@@ -423,6 +426,9 @@ impl Loop {
         let now_s = shown as f64 / 1e6;
         for effect in self.machine.handle(moment, now_s, stimulus) {
             self.carry_out(effect);
+        }
+        if let Some(sight) = self.machine.application_mut().next_sight() {
+            self.log(Entry::People(sight));
         }
     }
 

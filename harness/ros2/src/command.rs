@@ -48,7 +48,7 @@ pub enum Refused {
     #[error("{0} is no speed: m/s, or 0 for the follower's own limit, are wanted")]
     Speed(f64),
     /// There is no such kind of people.
-    #[error("kind {0} of people: 0 to 3 are possible")]
+    #[error("kind {0} of people: 0 to 5 are possible")]
     People(u8),
     /// Nobody can be like that.
     #[error(transparent)]
@@ -251,6 +251,8 @@ pub fn person(person: &Person) -> Result<Order, Refused> {
         Person::BICYCLIST => VruClass::Bicyclist,
         Person::MOTORCYCLIST => VruClass::Motorcyclist,
         Person::ANIMAL => VruClass::Animal,
+        Person::WHEELCHAIR_USER => VruClass::WheelchairUser,
+        Person::VEHICLE => VruClass::Vehicle,
         other => return Err(Refused::People(other)),
     };
     let vru = PerceivedVru {
