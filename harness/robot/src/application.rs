@@ -1,11 +1,12 @@
 //! The application of a robot: what moves its body, and what it does when it leads.
 
 mod detection;
+mod traits;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::fmt;
 
-use crossguard_codec::{RobotState, TaskParameters};
+use crossguard_codec::TaskParameters;
 use crossguard_endpoint::Act;
 use crossguard_protocol::{
     Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Notice, Phase, Robot,
@@ -13,6 +14,7 @@ use crossguard_protocol::{
 };
 
 use self::detection::Detection;
+pub use self::traits::Traits;
 use crate::body::{Body, BodyAct, Fallback, Pose, Report};
 use crate::plan::{Leg, Plan};
 use crate::sight::Outline;
@@ -64,6 +66,10 @@ pub struct Application {
     road: Road,
     site: Site,
     detection: Detection,
+    traits: Traits,
+    availability: Availability,
+    /// Whether it is unavailable because its battery was found to be low.
+    was_low: bool,
     /// What its robot still has to do on the road.
     obligation: Option<Obligation>,
     /// What the body was told to do last, until that is over.
@@ -152,6 +158,9 @@ impl Application {
             road: Road::default(),
             site: Site::default(),
             detection: Detection::default(),
+            traits: Traits::default(),
+            availability: Availability::Available,
+            was_low: false,
             obligation: None,
             maneuver: None,
             waits_for_people: None,
@@ -219,6 +228,7 @@ impl Application {
             street.look(shown, self.sign.shows_go(shown));
         }
         self.watch_road();
+        self.watch_battery();
         self.watch_zone();
         self.lead_on();
     }
@@ -242,6 +252,7 @@ impl Application {
     /// Takes in what the protocol knows after a step.
     pub fn learn(&mut self, robot: &Robot, config: &Config) {
         self.rules = Rules::of(config);
+        self.learn_availability(robot);
         self.detection.learn(self.at_s, robot);
         self.corridor = match robot.phase() {
             Phase::Leading(leading) => leading.corridor,
@@ -309,12 +320,6 @@ impl Application {
         if is_free && is_clear {
             self.wish(Wish::Tell(Event::RoadClear));
         }
-    }
-
-    /// What the sensors say.
-    #[must_use]
-    pub fn state(&self) -> RobotState {
-        self.body.state()
     }
 
     /// The body.

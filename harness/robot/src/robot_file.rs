@@ -1,5 +1,6 @@
 //! The configuration of one robot: a TOML file for `crossguard run`.
 
+mod traits;
 mod zone;
 
 use std::net::{SocketAddr, SocketAddrV4};
@@ -13,7 +14,7 @@ use crossguard_endpoint::station::Security;
 use crossguard_protocol::{self as protocol, BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
-use crate::application::Application;
+use crate::application::{Application, Traits};
 use crate::body::{Body, Build, Driver, External, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
@@ -24,6 +25,8 @@ use crate::street::{Road, Street};
 use crate::transport::{Halves, Link, Zenoh};
 use crate::zone::{Watched, Zone};
 
+pub use self::traits::NoTraits;
+use self::traits::{BatteryTable, JobName};
 pub use self::zone::NoZone;
 use self::zone::ZoneTable;
 
@@ -36,6 +39,8 @@ pub struct RobotFile {
     pub station: StationId,
     /// What kind of robot it is.
     pub build: Build,
+    /// What it says of itself besides.
+    pub traits: Traits,
     /// Where its boot counter is kept.
     pub boot_file: PathBuf,
     /// Where it stands.
@@ -67,6 +72,10 @@ struct RobotTable {
     name: String,
     station: u32,
     build: Build,
+    job: Option<JobName>,
+    dimensions_m: Option<[f64; 3]>,
+    #[serde(default)]
+    battery: BatteryTable,
     boot_file: PathBuf,
     #[serde(default)]
     place: [f64; 2],
@@ -171,6 +180,9 @@ pub enum Impossibility {
     /// The crossing has no such name.
     #[error("crossing: {0}")]
     Crossing(#[from] NoCrossing),
+    /// No robot is like that.
+    #[error(transparent)]
+    Traits(#[from] NoTraits),
     /// There is no such zone.
     #[error("[zone] {0}")]
     Zone(#[from] NoZone),
@@ -254,7 +266,10 @@ impl RobotFile {
             identifiers: self.identifiers,
             security,
             awareness: self.awareness,
-            application: application.at(self.site).on(self.road()),
+            application: application
+                .at(self.site)
+                .on(self.road())
+                .with_traits(self.traits),
             link,
             journal,
             clock: Clock::start(),
@@ -283,6 +298,7 @@ impl RobotTable {
         }
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
+        let traits = traits::check(self.job, self.dimensions_m, self.battery)?;
         let confidence_min = self.people.confidence_min;
         let zone = self
             .zone
@@ -292,6 +308,7 @@ impl RobotTable {
             name: self.name,
             station: StationId(self.station),
             build: self.build,
+            traits,
             boot_file: folder.join(self.boot_file),
             place: Place::new(self.place[0], self.place[1]),
             site,
