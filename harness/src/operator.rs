@@ -45,8 +45,8 @@ pub enum Tell {
     Finish(bool),
     /// The road is clear.
     Clear,
-    /// Its sensors have this person, at this place on the site.
-    Perceived(PerceivedVru),
+    /// Its sensors have this person, at this place on the site; or they work, and have nobody.
+    Perceived(Option<PerceivedVru>),
     /// Its battery is like this now.
     Battery(Battery),
 }
@@ -423,7 +423,7 @@ mod tests {
     #[test]
     fn a_person_whom_the_sensors_have_is_a_line_of_json() {
         let line = parsed(r#" {"id": 7, "position_m": [3.0, -1.5]} "#);
-        let Ok(Line::Order(Tell::Perceived(vru))) = line else {
+        let Ok(Line::Order(Tell::Perceived(Some(vru)))) = line else {
             panic!("{line:?}")
         };
         assert_eq!((vru.id, vru.position_m), (7, [3.0, -1.5]));

@@ -93,10 +93,13 @@ fn of_kind<'a>(records: &'a [Value], kind: &str) -> Vec<&'a Value> {
     records.iter().filter(|it| it["entry"] == kind).collect()
 }
 
-#[test]
-fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
-    let folder = tempfile::tempdir().unwrap();
-    let (ari, go2) = robots(folder.path());
+/// How often robots begin anew where the machine was so slow that they lost each other: messages that waited for
+/// longer than `delay_max` are dropped, and then a session ends in order.
+const ATTEMPTS: usize = 3;
+
+/// A person comes to the kerb, waits for the sign, crosses, and walks away. The configurations of the two robots.
+fn crossing(folder: &Path) -> (String, String) {
+    let (ari, go2) = robots(folder);
     let mut dog = start(&go2);
     let (mut humanoid, mut sensors) = Sensors::of(&ari);
     sensors.walk("pedestrian", &[[1.0, -6.0], [1.0, -0.8]], 1.5);
@@ -106,9 +109,24 @@ fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
     sensors.walk("pedestrian", &[[1.0, 8.0], [9.0, 8.0]], 1.5);
     stop(&mut humanoid);
     stop(&mut dog);
+    (ari, go2)
+}
 
-    let log = log_of(&ari);
-    assert!(log.contains("\"taskCompleted\""), "{log}");
+#[test]
+fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
+    let folders: Vec<_> = (0..ATTEMPTS)
+        .map(|_| tempfile::tempdir().unwrap())
+        .collect();
+    let completed = folders.iter().find_map(|folder| {
+        let robots = crossing(folder.path());
+        let log = log_of(&robots.0);
+        let is_completed = log.contains("\"taskCompleted\"");
+        let is_late =
+            log.contains("waited too long") || log_of(&robots.1).contains("waited too long");
+        assert!(is_completed || is_late, "{log}");
+        is_completed.then_some((folder, robots, log))
+    });
+    let (folder, (ari, go2), log) = completed.expect("no crossing was completed");
     let all = records(&log);
     let detected = all.iter().filter(|record| {
         let event = &record["input"]["local"];

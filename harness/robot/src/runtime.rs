@@ -118,8 +118,8 @@ pub enum Order {
         /// Whether it was completed.
         well: bool,
     },
-    /// The sensors have this person, at this place on the site.
-    Perceived(PerceivedVru),
+    /// The sensors have this person, at this place on the site; or they work, and have nobody.
+    Perceived(Option<PerceivedVru>),
     /// The body, which others move, is here.
     Moved(Pose),
     /// The battery is like this now.
@@ -370,7 +370,11 @@ impl Loop {
                 event((!is_awaited).then_some(Event::RoadClear))
             }
             Order::Finish { well } => event(self.machine.finish(well)),
-            Order::Perceived(vru) => {
+            Order::Perceived(None) => {
+                self.machine.application_mut().perceive_nobody();
+                Stimulus::Time
+            }
+            Order::Perceived(Some(vru)) => {
                 let place = self.machine.application().body().place();
                 self.machine.application_mut().perceive(&vru);
                 seen = [seen_from(place, vru)];

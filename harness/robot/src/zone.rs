@@ -319,6 +319,11 @@ impl Watched {
         self.elapse(now_s);
     }
 
+    /// The sensors work at `now_s`, and have nobody. A person who was lost on the road stays there.
+    pub const fn perceive_nobody(&mut self, now_s: f64) {
+        self.told_s = Some(now_s);
+    }
+
     /// Lets time pass until `now_s`.
     pub fn elapse(&mut self, now_s: f64) {
         if self.is_wanted(now_s) {

@@ -107,9 +107,9 @@ A line of --perceived is one person at one time, like
 in metres on the site and seconds from the start; only id and position_m are needed. Classes are
 pedestrian, wheelchairUser, bicyclist, motorcyclist, animal and vehicle. Without at_s a line is told
 when it is read, from a pipe or typed. Who is within the radius of [people] in the configuration
-(15 m) is announced, and forgotten a second after the last line; vehicles are not announced. With a
-table [zone] in the configuration, a person who waits there to cross is detected: nobody has to type
-'detect'. Try --config harness/examples/kerb.toml --perceived harness/examples/people.jsonl.";
+(15 m) is announced, and forgotten a second after the last line; vehicles are not announced. A line
+{\"nobody\": true} says that the sensors work and have nobody. With a table [zone] in the configuration,
+a person who waits there to cross is detected: nobody has to type 'detect'. Try --config harness/examples/kerb.toml --perceived harness/examples/people.jsonl.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !(0.0..=1.0).contains(&arguments.loss) {

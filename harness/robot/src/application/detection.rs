@@ -98,6 +98,13 @@ impl Application {
         }
     }
 
+    /// The sensors work, and have nobody.
+    pub fn perceive_nobody(&mut self) {
+        if let Road::Watched(watched) = &mut self.road {
+            watched.perceive_nobody(self.at_s);
+        }
+    }
+
     /// Calls for help when somebody waits to cross, and ends the call when everybody has left before they were
     /// let across.
     pub(super) fn watch_zone(&mut self) {

@@ -276,6 +276,12 @@ fn the_road_is_clear_once_everybody_was_seen_beside_it() {
     watched.perceive(4.1, &car);
     watched.perceive(4.2, &person(1, [0.0, 7.5]));
     assert!(watched.is_clear(4.2), "a vehicle is nobody");
+    assert!(!watched.is_clear(6.0), "silence");
+    watched.perceive_nobody(6.0);
+    assert!(watched.is_clear(6.0));
+    watched.perceive(7.0, &person(4, [0.0, 3.0]));
+    watched.perceive_nobody(9.0);
+    assert!(!watched.is_clear(9.0), "4 was lost on the road");
     let without_road = Zone {
         road: None,
         ..zone()
