@@ -164,10 +164,13 @@ pub fn seen_from(place: Place, vru: PerceivedVru) -> PerceivedVru {
     }
 }
 
+/// The person of a line, or nobody; or why the line is no observation.
+type Told = Result<Option<PerceivedVru>, String>;
+
 /// A file, or a pipe, of observations that are told one after the other, each at its time.
 #[derive(Clone, Debug)]
 pub struct Feed {
-    observations: Arc<Mutex<Receiver<Result<Option<PerceivedVru>, String>>>>,
+    observations: Arc<Mutex<Receiver<Told>>>,
 }
 
 impl Feed {
@@ -222,7 +225,7 @@ fn observations(
 
 fn tell_in_time(
     observations: impl Iterator<Item = Result<Observation, String>>,
-    tell: &SyncSender<Result<Option<PerceivedVru>, String>>,
+    tell: &SyncSender<Told>,
 ) {
     let began = Instant::now();
     for observation in observations {

@@ -298,7 +298,7 @@ impl RobotTable {
         }
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
-        let traits = traits::check(self.job, self.dimensions_m, self.battery)?;
+        let traits = traits::check(self.job, self.dimensions_m, &self.battery)?;
         let confidence_min = self.people.confidence_min;
         let zone = self
             .zone

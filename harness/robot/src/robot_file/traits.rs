@@ -79,7 +79,7 @@ pub enum NoTraits {
 pub(super) fn check(
     job: Option<JobName>,
     dimensions_m: Option<[f64; 3]>,
-    battery: BatteryTable,
+    battery: &BatteryTable,
 ) -> Result<Traits, NoTraits> {
     let percent = |field, value: f64| {
         let possible = (0.0..=100.0).contains(&value);
