@@ -59,6 +59,10 @@ def expected(path):
             counters[robot][(record["layer"], record["cause"])] += 1
             if record["layer"] == "simulated":
                 topics[topic + "/message"].append((at_ns, "lost", record["octets"]))
+        elif entry == "people":
+            people = record["people"]
+            waiting = sum(it["conduct"] == "waiting" for it in people)
+            topics[topic + "/people"].append((at_ns, len(people), waiting))
         elif entry == "stopped":
             counts = record["counters"].items()
             topics[topic + "/stopped"] = {
@@ -142,6 +146,9 @@ def judge_robot(topic, found, log):
     same(topic + "/step", steps, log[topic + "/step"])
     same(topic + "/location", [(at_ns,) for at_ns, _ in found.topics[topic + "/location"]],
          log[topic + "/location"])
+    people = [(at_ns, len(value["people"]), value["waiting"])
+              for at_ns, value in found.topics[topic + "/people"]]
+    same(topic + "/people", people, log[topic + "/people"])
     roles = [(at_ns, value["role"]) for at_ns, value in found.topics[topic + "/state"]]
     same(topic + "/state", changes(roles), changes(log[topic + "/role"]))
     counted = found.topics[topic + "/counters"]

@@ -168,6 +168,7 @@ def judge_graph(port):
     expected = {
         "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
         **{f"/{robot}/crossguard/{topic}": kind for robot in ("ari", "go2") for topic, kind in {
+            "battery": "sensor_msgs/msg/BatteryState",
             "command": "crossguard_msgs/msg/Command",
             "corridor": "crossguard_msgs/msg/Corridor",
             "event": "crossguard_msgs/msg/Event",

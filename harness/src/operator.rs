@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::Duration;
 
-use crossguard_codec::TaskParameters;
+use crossguard_codec::{Battery, TaskParameters};
 use crossguard_protocol::{
     Availability, Event, HelpRequest, MAX_FOLLOWERS, State, StationId, TaskNames, TaskSet,
     TaskType, Unavailability, Urgency,
@@ -45,8 +45,10 @@ pub enum Tell {
     Finish(bool),
     /// The road is clear.
     Clear,
-    /// Its sensors have this person, at this place on the site.
-    Perceived(PerceivedVru),
+    /// Its sensors have this person, at this place on the site; or they work, and have nobody.
+    Perceived(Option<PerceivedVru>),
+    /// Its battery is like this now.
+    Battery(Battery),
 }
 
 impl From<Tell> for Order {
@@ -57,6 +59,7 @@ impl From<Tell> for Order {
             Tell::Finish(well) => Self::Finish { well },
             Tell::Clear => Self::Clear,
             Tell::Perceived(vru) => Self::Perceived(vru),
+            Tell::Battery(battery) => Self::Battery(battery),
         }
     }
 }
@@ -76,6 +79,8 @@ clear                  nobody is on the road any more: ends the duty of a robot 
 leave                  leave the session
 unavailable REASON     low-battery, teleoperated, emergency-stop, local-fault, not-safe
 available              take part again
+battery PERCENT [charging]
+                       how full the battery is; below the limit of its robot file a robot is unavailable
 status                 what the robot is doing
 wait SECONDS           before the next line
 until STATE [SECONDS]  wait for idle, help-requested, role-established or maneuver-executing
@@ -146,6 +151,7 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
             let reason = Availability::Unavailable(unavailability(reason)?);
             tell(Event::AvailabilityChanged(reason))
         }
+        ("battery", words) => battery(words),
         ("unavailable", []) => Err(Misunderstood::Missing {
             command: "unavailable",
             wanted: "a reason",
@@ -171,6 +177,27 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
         ) => Err(Misunderstood::Surplus((*last).to_owned())),
         (other, _) => Err(Misunderstood::Command(other.to_owned())),
     }
+}
+
+fn battery(words: &[&str]) -> Result<Line, Misunderstood> {
+    let (percent, charging) = match words {
+        [percent] => (percent, false),
+        [percent, "charging"] => (percent, true),
+        [_, other] => return Err(wrong(other, "'charging'")),
+        [] => {
+            return Err(Misunderstood::Missing {
+                command: "battery",
+                wanted: "a charge in percent",
+            });
+        }
+        [.., last] => return Err(Misunderstood::Surplus((*last).to_owned())),
+    };
+    let charge = number(percent).filter(|charge| (0.0..=100.0).contains(charge));
+    let charge = charge.ok_or_else(|| wrong(percent, "a charge from 0 to 100 percent"))?;
+    Ok(Line::Order(Tell::Battery(Battery {
+        state_of_charge: Some(charge),
+        charging,
+    })))
 }
 
 fn person(text: &str) -> Result<Line, Misunderstood> {
@@ -381,6 +408,9 @@ mod tests {
                 "'1' is not a place: two numbers of metres are",
             ),
             ("order 2 move 1 8 -1", "'-1' is not a speed in m/s"),
+            ("battery", "'battery' wants a charge in percent"),
+            ("battery 120", "'120' is not a charge from 0 to 100 percent"),
+            ("battery 20 full", "'full' is not 'charging'"),
             ("wait long", "'long' is not a number of seconds up to a day"),
             ("wait inf", "'inf' is not a number of seconds up to a day"),
             ("until done", "'done' is not a state; see 'help'"),
@@ -397,7 +427,7 @@ mod tests {
     #[test]
     fn a_person_whom_the_sensors_have_is_a_line_of_json() {
         let line = parsed(r#" {"id": 7, "position_m": [3.0, -1.5]} "#);
-        let Ok(Line::Order(Tell::Perceived(vru))) = line else {
+        let Ok(Line::Order(Tell::Perceived(Some(vru)))) = line else {
             panic!("{line:?}")
         };
         assert_eq!((vru.id, vru.position_m), (7, [3.0, -1.5]));
@@ -426,6 +456,7 @@ mod tests {
             "leave",
             "unavailable low-battery",
             "available",
+            "battery 64 charging",
             "status",
             "wait 1",
             "until idle 3",

@@ -168,8 +168,12 @@ fn a_configuration_that_makes_no_sense_is_refused_by_name() {
         "crossing: '276' is no crossing",
     );
     refused(
-        named("zone_m = [5.0, 0.0, -3.0, 7.0]"),
-        "west < east and south < north",
+        with("[zone]\nplace_m = [1.0, -1.5]\nradius_m = 2.0\n"),
+        "[zone] has no 'road_m': with autopilot one is wanted",
+    );
+    refused(
+        with("[zone]\npolygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]\n"),
+        "[zone] polygon_m: its sides 1 and 3 cross",
     );
     refused(good.replace("127.0.0.1", "192.0.2.1"), "192.0.2.1");
     refused(
@@ -227,7 +231,7 @@ fn two_processes_of_one_robot_are_refused() {
 
 #[test]
 fn the_shipped_configurations_do_the_crossing_together() {
-    for robot in ["ari", "go2"] {
+    for robot in ["ari", "go2", "kerb"] {
         let path = format!("{}/examples/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
         crossguard_robot::robot_file::RobotFile::read(path.as_ref()).unwrap();
     }

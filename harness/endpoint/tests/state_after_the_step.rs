@@ -1,7 +1,7 @@
 //! The RAM that a step sends says how the robot is after the step, not before it: a receiver must not take a
 //! robot that has just been stopped for one that drives itself, until the next RAM comes.
 
-use crossguard_codec::core::ram::RAM;
+use crossguard_codec::core::ram::{HelpStatus, RAM};
 use crossguard_codec::{ControlMode, Identifiers, Position, RobotState, Service, decode, state_of};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
@@ -9,8 +9,8 @@ use crossguard_protocol::{
     Unavailability, Urgency,
 };
 
-/// The control modes in the RAM that are sent when this happens.
-fn modes(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<ControlMode> {
+/// The RAM that are sent when this happens.
+fn rams(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<RAM> {
     let moment = Moment {
         now_ms,
         timestamp_its: 694_694_400_000 + now_ms,
@@ -29,20 +29,43 @@ fn modes(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<ControlMode>
         } => decode::<RAM>(&Identifiers::default(), octets).ok(),
         _ => None,
     });
-    sent.map(|ram| state_of(&ram.message).control_mode)
-        .collect()
+    sent.map(|ram| ram.message).collect()
+}
+
+/// The control modes in the RAM that are sent when this happens.
+fn modes(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<ControlMode> {
+    let rams = rams(endpoint, now_ms, event);
+    rams.iter().map(|ram| state_of(ram).control_mode).collect()
+}
+
+fn detected() -> Event {
+    Event::PedestrianDetected(HelpRequest {
+        urgency: Urgency::Medium,
+        followers: 1,
+        tasks: TaskSet::of(&[TaskType::MOVE]),
+        place: Place(7),
+    })
+}
+
+#[test]
+fn the_ram_of_a_step_has_the_help_status_after_the_step() {
+    let robot = Robot::new(StationId(1), 1);
+    let mut endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
+    let mut said = |now_ms, event| {
+        let rams = rams(&mut endpoint, now_ms, event);
+        let status = |ram: &RAM| ram.ram.ram_parameters.robot_status_container.help_status;
+        rams.iter().map(status).collect::<Vec<_>>()
+    };
+    let asked = said(10, detected());
+    assert_eq!(asked.last(), Some(&HelpStatus::NeedHelp), "{asked:?}");
+    assert_eq!(said(20, Event::LeaveRequested), [HelpStatus::None]);
 }
 
 #[test]
 fn a_robot_that_becomes_unavailable_says_at_once_who_steers_it() {
     let robot = Robot::new(StationId(1), 1);
     let mut endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
-    let detected = Event::PedestrianDetected(HelpRequest {
-        urgency: Urgency::Medium,
-        followers: 1,
-        tasks: TaskSet::of(&[TaskType::MOVE]),
-        place: Place(7),
-    });
+    let detected = detected();
     let first = modes(&mut endpoint, 10, detected);
     assert_eq!(first.last(), Some(&ControlMode::Autonomous));
     let stop = Availability::Unavailable(Unavailability::EmergencyStop);

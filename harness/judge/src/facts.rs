@@ -9,19 +9,22 @@
 //! does; both are worked out here, once, and from the log alone.
 
 mod area;
+mod cluster;
 mod view;
 
 pub use area::Area;
+pub use cluster::ClusterView;
 pub use view::{FollowerView, View};
 
 use area::Areas;
 use crossguard_codec::{
-    ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotCategory, RobotState,
+    ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotCategory, RobotState, Service,
 };
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
+use crossguard_robot::sight::{Outline, Sight};
 use crossguard_robot::trace::{Entry, Record};
 
 use crate::chart::{Chart, Mark, text_of};
@@ -68,6 +71,12 @@ pub enum Fact {
     },
     /// Places that its followers hold or go to, all of them: there are new ones, or none any more.
     Areas(Vec<Area>),
+    /// It watches this crossing zone.
+    Zone(Outline),
+    /// Its sensors have these people now, and no others.
+    People(Sight),
+    /// Its RAM announces this cluster of people, or none any more.
+    Cluster(Option<ClusterView>),
     /// One more was dropped or ignored.
     Counted {
         /// The cause that it is counted under.
@@ -152,6 +161,8 @@ struct Observed {
     view: Option<View>,
     /// Until when its sign shows go, if it does.
     go_until_us: Option<u64>,
+    /// Whether its newest RAM announces a cluster.
+    has_cluster: bool,
     counters: Counts,
 }
 
@@ -289,6 +300,8 @@ impl Observer {
                 facts.push(self.count(robot, cause.clone()));
                 facts
             }
+            Entry::Zone(outline) => vec![Fact::Zone(outline.clone())],
+            Entry::People(sight) => vec![Fact::People(sight.clone())],
             Entry::Stopped { counters } => {
                 let observed = &mut self.robots[robot];
                 let silent = counters.iter();
@@ -354,6 +367,12 @@ impl Observer {
         if let Some(placed) = heard.state.as_ref().and_then(Placed::of) {
             self.areas.place(heard.from, &placed);
             facts.push(Fact::Place(placed));
+        }
+        let cluster = ClusterView::of(&heard);
+        let observed = &mut self.robots[robot];
+        if heard.service == Service::Ram && (cluster.is_some() || observed.has_cluster) {
+            observed.has_cluster = cluster.is_some();
+            facts.push(Fact::Cluster(cluster));
         }
         let identifiers = self.robots[robot].identifiers;
         if let Some(areas) = self.areas.command(&identifiers, &heard, octets) {

@@ -12,6 +12,8 @@
 //! | `/ARI/location` | `foxglove.LocationFix` | each of its RAM |
 //! | `/ARI/corridor` | `crossguard.Corridor` | it lets the pedestrian cross, or no longer does |
 //! | `/ARI/places` | `foxglove.SceneUpdate` | its commands: where followers go, hold and escort |
+//! | `/ARI/people` | `crossguard.People` | its sensors have other people, or have them elsewhere |
+//! | `/ARI/crossing` | `foxglove.SceneUpdate` | the same, or its RAM announces a cluster: zone, people and clusters |
 //! | `/robots` | `foxglove.SceneUpdate` | each RAM: boxes with name and state |
 //! | `/tf` | `foxglove.FrameTransform` | each RAM |
 //! | `/log` | `foxglove.Log` | what a sequence chart notes |
@@ -24,13 +26,14 @@ use std::io::{Seek, Write};
 
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::State as Stage;
+use crossguard_robot::sight::{Outline, Sight};
 use crossguard_robot::site::Site;
 use crossguard_robot::trace::{LogError, Merged, Record, Timed};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{McapError, WriteOptions, Writer};
 use schemas::{Counter, Kind, Time};
 
-use crate::facts::{Area, Direction, Fact, Message, Observer, Placed, View};
+use crate::facts::{Area, ClusterView, Direction, Fact, Message, Observer, Placed, View};
 
 /// Why logs cannot be written as an MCAP file.
 #[derive(Debug, thiserror::Error)]
@@ -83,6 +86,16 @@ struct Shown {
     view: Option<View>,
     areas: Vec<Area>,
     counters: BTreeMap<CauseName, u64>,
+    crossing: Crossing,
+}
+
+/// What there is to be seen at a robot's crossing.
+#[derive(Default)]
+struct Crossing {
+    zone: Outline,
+    sight: Sight,
+    clusters: BTreeMap<u8, ClusterView>,
+    is_drawn: bool,
 }
 
 impl<W: Write + Seek> Recording<W> {
@@ -178,6 +191,26 @@ impl<W: Write + Seek> Recording<W> {
                 self.areas(at_us, robot, is_open)
             }
             Fact::Place(placed) => self.place(at_us, robot, &placed),
+            Fact::Zone(outline) => {
+                self.robots[robot].crossing.zone = outline;
+                self.crossing(at_us, robot)
+            }
+            Fact::People(sight) => {
+                let message = scene::people(timestamp, name, &sight);
+                self.robots[robot].crossing.sight = sight;
+                self.of_robot(robot, "people", at_us, &message)?;
+                self.crossing(at_us, robot)
+            }
+            Fact::Cluster(cluster) => {
+                let clusters = &mut self.robots[robot].crossing.clusters;
+                match cluster {
+                    Some(cluster) => {
+                        clusters.insert(cluster.id, cluster);
+                    }
+                    None => clusters.clear(),
+                }
+                self.crossing(at_us, robot)
+            }
             Fact::Started { .. } => {
                 // Counters begin anew with a robot; who looks must not see those of its life before.
                 if self.robots[robot].counters.is_empty() {
@@ -218,6 +251,10 @@ impl<W: Write + Seek> Recording<W> {
         self.of_robot(robot, "location", at_us, &fix)?;
         let transform = scene::transform(timestamp, &frame, &site, placed);
         self.message("/tf", at_us, &transform)?;
+        let crossing = &self.robots[robot].crossing;
+        if !crossing.is_drawn && crossing.zone != Outline::default() {
+            self.crossing(at_us, robot)?;
+        }
         seen.map_or(Ok(()), |seen| self.message("/robots", at_us, &seen))
     }
 
@@ -250,6 +287,22 @@ impl<W: Write + Seek> Recording<W> {
         let shown = &self.robots[robot];
         let seen = scene::areas(time(at_us), &site, &shown.name, &shown.areas, is_open);
         self.of_robot(robot, "places", at_us, &seen)
+    }
+
+    /// Zone, people and clusters of a robot, once it is known where the street is.
+    fn crossing(&mut self, at_us: u64, robot: usize) -> Result<(), McapError> {
+        let Some(site) = self.site else {
+            return Ok(());
+        };
+        let crossing = &mut self.robots[robot].crossing;
+        crossing.is_drawn = true;
+        let seen = scene::crossing(
+            time(at_us),
+            &site,
+            (&crossing.zone, &crossing.sight),
+            crossing.clusters.values(),
+        );
+        self.of_robot(robot, "crossing", at_us, &seen)
     }
 
     fn of_robot<M: Kind>(

@@ -5,7 +5,9 @@
 
 mod charts;
 mod collect;
+mod crowd;
 mod page;
+mod people;
 mod street;
 mod timeline;
 

@@ -1,19 +1,25 @@
 //! The application of a robot: what moves its body, and what it does when it leads.
 
+mod detection;
+mod traits;
+
 use std::collections::{BTreeMap, VecDeque};
 use std::fmt;
 
-use crossguard_codec::{RobotState, TaskParameters};
+use crossguard_codec::TaskParameters;
 use crossguard_endpoint::Act;
-use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::{
     Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Notice, Phase, Robot,
     StationId, TaskSet, TaskType, Unavailability,
 };
 
+use self::detection::Detection;
+pub use self::traits::Traits;
 use crate::body::{Body, BodyAct, Fallback, Pose, Report};
 use crate::plan::{Leg, Plan};
+use crate::sight::Outline;
 use crate::sign::Sign;
+use crate::site::Site;
 use crate::street::Road;
 
 /// What an application wants of its endpoint.
@@ -58,6 +64,12 @@ pub struct Application {
     sign: Sign,
     /// What it knows of the people on the road.
     road: Road,
+    site: Site,
+    detection: Detection,
+    traits: Traits,
+    availability: Availability,
+    /// Whether it is unavailable because its battery was found to be low.
+    was_low: bool,
     /// What its robot still has to do on the road.
     obligation: Option<Obligation>,
     /// What the body was told to do last, until that is over.
@@ -144,6 +156,11 @@ impl Application {
             body,
             sign: Sign::default(),
             road: Road::default(),
+            site: Site::default(),
+            detection: Detection::default(),
+            traits: Traits::default(),
+            availability: Availability::Available,
+            was_low: false,
             obligation: None,
             maneuver: None,
             waits_for_people: None,
@@ -163,6 +180,12 @@ impl Application {
         Self { road, ..self }
     }
 
+    /// The same, whose places are on this site.
+    #[must_use]
+    pub fn at(self, site: Site) -> Self {
+        Self { site, ..self }
+    }
+
     /// The same, which tells a listener every act.
     #[must_use]
     pub fn heard_by(self, listener: Listener) -> Self {
@@ -173,6 +196,15 @@ impl Application {
     /// What it knows of the road from now on.
     pub fn come_to(&mut self, road: Road) {
         self.road = road;
+    }
+
+    /// The outline of its crossing zone, if it has one.
+    #[must_use]
+    pub fn zone(&self) -> Option<Outline> {
+        match &self.road {
+            Road::Watched(watched) => Some(Outline::of(watched.zone(), &self.site)),
+            Road::Unknown | Road::Known(_) | Road::Own(_) => None,
+        }
     }
 
     /// Its sign.
@@ -196,6 +228,8 @@ impl Application {
             street.look(shown, self.sign.shows_go(shown));
         }
         self.watch_road();
+        self.watch_battery();
+        self.watch_zone();
         self.lead_on();
     }
 
@@ -218,6 +252,8 @@ impl Application {
     /// Takes in what the protocol knows after a step.
     pub fn learn(&mut self, robot: &Robot, config: &Config) {
         self.rules = Rules::of(config);
+        self.learn_availability(robot);
+        self.detection.learn(self.at_s, robot);
         self.corridor = match robot.phase() {
             Phase::Leading(leading) => leading.corridor,
             _ => Corridor::Clear,
@@ -246,13 +282,6 @@ impl Application {
     pub fn say_clear(&mut self) -> bool {
         let waits = self.obligation.as_mut();
         waits.map(|it| it.is_said_clear = true).is_some()
-    }
-
-    /// The sensors have somebody, at a place on the site.
-    pub fn perceive(&mut self, vru: &PerceivedVru) {
-        if let Road::Watched(watched) = &mut self.road {
-            watched.perceive(self.at_s, vru);
-        }
     }
 
     /// Says that the road is clear as soon as that is so: the body has finished its fallback, and nobody is
@@ -291,12 +320,6 @@ impl Application {
         if is_free && is_clear {
             self.wish(Wish::Tell(Event::RoadClear));
         }
-    }
-
-    /// What the sensors say.
-    #[must_use]
-    pub fn state(&self) -> RobotState {
-        self.body.state()
     }
 
     /// The body.
@@ -357,9 +380,11 @@ impl Application {
             }
             Act::Notice(notice) => self.notice(*notice),
             Act::OpenCorridor(time) | Act::ExtendCorridor(time) => {
+                self.detection.open();
                 self.sign.go(micros(self.at_s), *time);
             }
             Act::CloseCorridor(_) => self.sign.stop(),
+            Act::Ignored(Event::PedestrianDetected(_), _) => self.detection.end(self.at_s),
             Act::LockIdentity(_) | Act::RenewEpoch | Act::Ignored(..) => {}
         }
     }
@@ -446,7 +471,8 @@ impl Application {
         }
         errand.tried_s = self.at_s;
         let stands = |place| self.body.stands_at(place);
-        if self.corridor != Corridor::Open && plan.own_place.is_none_or(stands) {
+        let is_needed = self.road.needs_corridor(self.at_s);
+        if self.corridor != Corridor::Open && is_needed && plan.own_place.is_none_or(stands) {
             self.wish(Wish::Tell(Event::OpenCorridor));
         }
     }
@@ -535,7 +561,7 @@ impl Application {
         };
         let is_clear = self.corridor == Corridor::Clear;
         let lets_cross = plan.lets_cross(self.rules.guarding);
-        let is_across = self.road.everybody_is_across() || (!lets_cross && is_clear);
+        let is_across = self.road.everybody_is_across(self.at_s) || (!lets_cross && is_clear);
         // An escort that is there already is done as soon as it is commanded: it is not commanded without end.
         let may_try = self.at_s - errand.tried_s >= OPENING_PERIOD_S;
         if errand.is_done && is_across {

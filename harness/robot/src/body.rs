@@ -14,8 +14,8 @@ mod simulated;
 use std::fmt;
 
 use crossguard_codec::{
-    Battery, Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, Position,
-    RobotCategory, RobotState, SlowState, TaskParameters,
+    Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, Position, RobotCategory,
+    RobotState, SlowState, TaskParameters,
 };
 use crossguard_endpoint::Act;
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
@@ -33,6 +33,16 @@ pub enum Build {
     Humanoid,
     /// A robot dog, like Go2: 0.7 m long, 0.4 m tall.
     Quadruped,
+    /// On wheels.
+    Wheeled,
+    /// On tracks.
+    Tracked,
+    /// Flies.
+    Aerial,
+    /// Anything else.
+    Other,
+    /// Nobody says.
+    Unknown,
 }
 
 impl Build {
@@ -40,6 +50,11 @@ impl Build {
         match self {
             Self::Humanoid => RobotCategory::Humanoid,
             Self::Quadruped => RobotCategory::Quadruped,
+            Self::Wheeled => RobotCategory::Wheeled,
+            Self::Tracked => RobotCategory::Tracked,
+            Self::Aerial => RobotCategory::Aerial,
+            Self::Other => RobotCategory::Other,
+            Self::Unknown => RobotCategory::Unknown,
         }
     }
 
@@ -47,6 +62,9 @@ impl Build {
         match self {
             Self::Humanoid => JobRole::TrafficGuard,
             Self::Quadruped => JobRole::Escort,
+            Self::Wheeled | Self::Tracked | Self::Aerial | Self::Other | Self::Unknown => {
+                JobRole::None
+            }
         }
     }
 
@@ -54,6 +72,14 @@ impl Build {
         let (length, width, height) = match self {
             Self::Humanoid => (0.53, 0.75, 1.65),
             Self::Quadruped => (0.7, 0.31, 0.4),
+            // They differ too much to guess.
+            Self::Wheeled | Self::Tracked | Self::Aerial | Self::Other | Self::Unknown => {
+                return Dimensions {
+                    length: None,
+                    width: None,
+                    height: None,
+                };
+            }
         };
         Dimensions {
             length: Some(length),
@@ -65,8 +91,8 @@ impl Build {
     /// Largest speed in m/s.
     const fn speed_max(self) -> f64 {
         match self {
-            Self::Humanoid => 1.0,
             Self::Quadruped => 1.6,
+            _ => 1.0,
         }
     }
 }
@@ -195,10 +221,6 @@ fn state_of(build: Build, site: &Site, pose: Option<Pose>, acceleration_mps2: f6
         dimensions: build.dimensions(),
         category: build.category(),
         job_role: build.job(),
-        battery: Battery {
-            state_of_charge: Some(80.0),
-            charging: false,
-        },
         control_mode: ControlMode::Autonomous,
         slow: Some(SlowState {
             capabilities: Capabilities::PEDESTRIAN_DETECTION

@@ -12,8 +12,8 @@
 //!   for no reader. [`robot_file`] is its configuration.
 //! - [`transport`] has UDP to peers, UDP multicast, Ethernet, zenoh, queues within a process, and a layer of
 //!   seeded faults over any of them; [`capture`] writes packets to pcap files and reads them.
-//! - [`site`], [`street`] and [`perception`] are what the robot knows of the crossing and the people there;
-//!   [`sign`] is what people at the road see.
+//! - [`site`], [`street`], [`zone`] and [`perception`] are what the robot knows of the crossing and the people
+//!   there; [`sight`] is what its log says of them, and [`sign`] what people at the road see.
 //! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up; [`observe`] hands it to `tracing`.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
 //! - [`pki`] has the certificates and keys that it signs with, for tests.
@@ -32,9 +32,11 @@ pub mod pki;
 pub mod plan;
 pub mod robot_file;
 pub mod runtime;
+pub mod sight;
 pub mod sign;
 pub mod site;
 pub mod street;
 pub mod tally;
 pub mod trace;
 pub mod transport;
+pub mod zone;

@@ -101,6 +101,13 @@ pub fn entry(entry: &Entry, before: &mut State) {
                 warn!(%layer, cause = %reason, detail, "dropped");
             }
         }
+        Entry::Zone(_) => {}
+        Entry::People(sight) => debug!(
+            people = sight.people.len(),
+            waiting = sight.waiting(),
+            on_road = sight.on_road(),
+            "perceived"
+        ),
         Entry::Stopped { counters } => {
             info!("stopped");
             for (CauseName { layer, reason }, count) in counters.iter() {

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Places are metres to the east and to the north of the site's origin, as everywhere in the command.
-//! `velocity_mps` is zero, `class` a pedestrian and `confidence` 1 where they are left out. `at_s` is when
+//! `{"at_s": 2.0, "nobody": true}` says that the sensors work and have nobody; who was on the road is not off it by
+//! that. `velocity_mps` is zero, `class` a pedestrian and `confidence` 1 where they are left out. `at_s` is when
 //! the line is told, in seconds from the beginning; without it a line is told when it is read, so that a
 //! sensor can write into a pipe. Somebody who is not told of again is forgotten after a second.
 
@@ -30,10 +31,18 @@ const AHEAD: usize = 64;
 /// One observation of one person.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Observation {
-    /// Who, and where on the site.
-    pub vru: PerceivedVru,
+    /// Who, and where on the site; `None` where the sensors work and have nobody.
+    pub vru: Option<PerceivedVru>,
     /// When it is told, in seconds from the beginning; `None` is at once.
     pub at_s: Option<f64>,
+}
+
+/// The sensors work, and have nobody.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NobodyLine {
+    at_s: Option<f64>,
+    nobody: bool,
 }
 
 #[derive(Deserialize)]
@@ -87,8 +96,13 @@ pub enum PerceptionError {
 /// # Errors
 /// Why it is no observation.
 pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
+    let check_time = |at_s: Option<f64>| within("at_s", at_s.unwrap_or(0.0), 0.0, 1e6, "seconds");
+    if let Ok(NobodyLine { at_s, nobody: true }) = serde_json::from_str(line) {
+        check_time(at_s)?;
+        return Ok(Observation { vru: None, at_s });
+    }
     let text: ObservationLine = serde_json::from_str(line)?;
-    within("at_s", text.at_s.unwrap_or(0.0), 0.0, 1e6, "seconds")?;
+    check_time(text.at_s)?;
     let vru = PerceivedVru {
         id: text.id,
         position_m: text.position_m,
@@ -98,7 +112,7 @@ pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
     };
     check(&vru)?;
     Ok(Observation {
-        vru,
+        vru: Some(vru),
         at_s: text.at_s,
     })
 }
@@ -150,10 +164,13 @@ pub fn seen_from(place: Place, vru: PerceivedVru) -> PerceivedVru {
     }
 }
 
+/// The person of a line, or nobody; or why the line is no observation.
+type Told = Result<Option<PerceivedVru>, String>;
+
 /// A file, or a pipe, of observations that are told one after the other, each at its time.
 #[derive(Clone, Debug)]
 pub struct Feed {
-    observations: Arc<Mutex<Receiver<Result<PerceivedVru, String>>>>,
+    observations: Arc<Mutex<Receiver<Told>>>,
 }
 
 impl Feed {
@@ -183,7 +200,7 @@ impl Feed {
     ///
     /// # Errors
     /// The first line of a pipe that is none, with its place.
-    pub fn due(&self) -> Result<Vec<PerceivedVru>, String> {
+    pub fn due(&self) -> Result<Vec<Option<PerceivedVru>>, String> {
         let observations = self.observations.lock();
         let observations = observations.unwrap_or_else(PoisonError::into_inner);
         observations.try_iter().take(AHEAD).collect()
@@ -208,7 +225,7 @@ fn observations(
 
 fn tell_in_time(
     observations: impl Iterator<Item = Result<Observation, String>>,
-    tell: &SyncSender<Result<PerceivedVru, String>>,
+    tell: &SyncSender<Told>,
 ) {
     let began = Instant::now();
     for observation in observations {
@@ -248,24 +265,25 @@ mod tests {
     #[test]
     fn a_person_has_defaults_and_takes_what_is_said() {
         let short = parse(r#"{"id": 7, "position_m": [3, -1.5]}"#).unwrap();
-        assert_eq!((short.vru.id, short.vru.position_m), (7, [3.0, -1.5]));
-        assert_eq!(short.vru.class, VruClass::Pedestrian);
-        assert!((short.vru.confidence - 1.0).abs() < 1e-12 && short.at_s.is_none());
+        let vru = short.vru.unwrap();
+        assert_eq!((vru.id, vru.position_m), (7, [3.0, -1.5]));
+        assert_eq!(vru.class, VruClass::Pedestrian);
+        assert!((vru.confidence - 1.0).abs() < 1e-12 && short.at_s.is_none());
         let full = r#"{"at_s": 1.5, "id": 7, "position_m": [3, 0], "velocity_mps": [1.2, 0],
                        "class": "bicyclist", "confidence": 0.4}"#;
         let full = parse(full).unwrap();
-        assert_eq!(
-            (full.at_s, full.vru.class),
-            (Some(1.5), VruClass::Bicyclist)
-        );
-        let seen = seen_from(Place::new(1.0, 2.0), full.vru);
+        let vru = full.vru.unwrap();
+        assert_eq!((full.at_s, vru.class), (Some(1.5), VruClass::Bicyclist));
+        let seen = seen_from(Place::new(1.0, 2.0), vru);
         assert_eq!(
             seen,
             PerceivedVru {
                 position_m: [2.0, -2.0],
-                ..full.vru
+                ..vru
             }
         );
+        let nobody = parse(r#"{"at_s": 2, "nobody": true}"#).unwrap();
+        assert_eq!((nobody.vru, nobody.at_s), (None, Some(2.0)));
     }
 
     #[test]
@@ -285,6 +303,8 @@ mod tests {
                 r#"{"id": 1, "position_m": [1, 1e9]}"#,
                 "position_m is 1000000000: metres on the site is wanted",
             ),
+            (r#"{"nobody": false}"#, "unknown field `nobody`"),
+            (r#"{"nobody": true, "at_s": -1}"#, "at_s is -1"),
             (
                 r#"{"id": 1, "position_m": [1, 2], "at_s": -1}"#,
                 "at_s is -1",

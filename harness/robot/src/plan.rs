@@ -49,6 +49,8 @@ pub struct Plan {
     pub crossing_s: f64,
     /// After which time the leader gives up, in seconds.
     pub patience_s: f64,
+    /// The kerbs between which a person is escorted, where that can be done in either direction.
+    pub kerbs: Option<[Place; 2]>,
 }
 
 impl Leg {
@@ -125,6 +127,7 @@ impl Plan {
             own_place: None,
             crossing_s: 8.0,
             patience_s: 200.0,
+            kerbs: None,
         }
     }
 
@@ -140,15 +143,40 @@ impl Plan {
     /// the road. The escort is as long as the paper's, 21.6 s.
     #[must_use]
     pub fn crossing(site: Site) -> Self {
+        Self::escort(site, KERB, OTHER_SIDE)
+    }
+
+    /// The paper's crossing from one kerb to another.
+    #[must_use]
+    pub fn escort(site: Site, from: Place, to: Place) -> Self {
         let escort = Leg {
             speed_mps: ESCORT_MPS,
-            ..Leg::new(TaskType::MOVE, OTHER_SIDE)
+            ..Leg::new(TaskType::MOVE, to)
         };
         let stages = vec![
-            Stage::everybody(Leg::new(TaskType::INITIAL_POS, KERB)),
+            Stage::everybody(Leg::new(TaskType::INITIAL_POS, from)),
             Stage::everybody(escort),
         ];
-        Self::with(site, 1, stages).at_escorts_pace()
+        Self {
+            kerbs: Some([from, to]),
+            ..Self::with(site, 1, stages).at_escorts_pace()
+        }
+    }
+
+    /// Has an escort begin at the kerb that is nearer to the people who wait.
+    pub fn begin_near(&mut self, people: Place) {
+        let Some([from, to]) = self.kerbs else {
+            return;
+        };
+        if people.distance(to) < people.distance(from) {
+            *self = Self {
+                followers: self.followers,
+                urgency: self.urgency,
+                own_place: self.own_place,
+                patience_s: self.patience_s,
+                ..Self::escort(self.site, to, from)
+            };
+        }
     }
 
     /// Two humanoids block both directions: the leader the near lane, its follower the far one. The

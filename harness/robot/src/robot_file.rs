@@ -1,5 +1,8 @@
 //! The configuration of one robot: a TOML file for `crossguard run`.
 
+mod traits;
+mod zone;
+
 use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 
@@ -11,15 +14,21 @@ use crossguard_endpoint::station::Security;
 use crossguard_protocol::{self as protocol, BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
-use crate::application::Application;
+use crate::application::{Application, Traits};
 use crate::body::{Body, Build, Driver, External, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
 use crate::plan::Plan;
 use crate::runtime::{Clock, Setup};
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
-use crate::street::{Road, Street, Watched, Zone};
+use crate::street::{Road, Street};
 use crate::transport::{Halves, Link, Zenoh};
+use crate::zone::{Watched, Zone};
+
+pub use self::traits::NoTraits;
+use self::traits::{BatteryTable, JobName};
+pub use self::zone::NoZone;
+use self::zone::ZoneTable;
 
 /// A robot's configuration, checked.
 #[derive(Clone, Debug)]
@@ -30,6 +39,8 @@ pub struct RobotFile {
     pub station: StationId,
     /// What kind of robot it is.
     pub build: Build,
+    /// What it says of itself besides.
+    pub traits: Traits,
     /// Where its boot counter is kept.
     pub boot_file: PathBuf,
     /// Where it stands.
@@ -38,11 +49,13 @@ pub struct RobotFile {
     pub site: Site,
     /// How many times as fast as real its simulated body moves.
     pub speed: f64,
-    /// Whether it leads the crossing by itself once a pedestrian is detected. The pedestrian is simulated
-    /// then.
+    /// Whether it leads the crossing by itself once a pedestrian is detected. Without a zone, the pedestrian is
+    /// simulated then.
     pub autopilot: bool,
-    /// The part of the road on which people cross, if its sensors have everybody there.
+    /// Where its sensors have everybody who waits to cross or crosses, if they do.
     pub zone: Option<Zone>,
+    /// The kerbs between which it has people escorted, where they are not those of the simulated street.
+    pub kerbs: Option<[Place; 2]>,
     /// Its link.
     pub link: Link,
     /// The protocol's configuration.
@@ -59,6 +72,10 @@ struct RobotTable {
     name: String,
     station: u32,
     build: Build,
+    job: Option<JobName>,
+    dimensions_m: Option<[f64; 3]>,
+    #[serde(default)]
+    battery: BatteryTable,
     boot_file: PathBuf,
     #[serde(default)]
     place: [f64; 2],
@@ -67,7 +84,7 @@ struct RobotTable {
     #[serde(default)]
     autopilot: bool,
     crossing: Option<String>,
-    zone_m: Option<[f64; 4]>,
+    zone: Option<ZoneTable>,
     #[serde(default)]
     site: Option<SiteTable>,
     link: LinkTable,
@@ -163,11 +180,12 @@ pub enum Impossibility {
     /// The crossing has no such name.
     #[error("crossing: {0}")]
     Crossing(#[from] NoCrossing),
-    /// The zone has no area.
-    #[error(
-        "zone_m is {0:?}: west, south, east and north in metres are wanted, west < east and south < north"
-    )]
-    Zone([f64; 4]),
+    /// No robot is like that.
+    #[error(transparent)]
+    Traits(#[from] NoTraits),
+    /// There is no such zone.
+    #[error("[zone] {0}")]
+    Zone(#[from] NoZone),
     /// A site that is not on earth.
     #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
     Site(f64, f64),
@@ -213,11 +231,20 @@ impl RobotFile {
     /// simulates a crossing.
     #[must_use]
     pub fn road(&self) -> Road {
-        match self.zone {
-            _ if self.autopilot => Road::Own(Street::default()),
-            Some(zone) => Road::Watched(Watched::new(zone)),
+        match &self.zone {
+            Some(zone) => Road::Watched(Watched::new(zone.clone())),
+            None if self.autopilot => Road::Own(Street::default()),
             None => Road::Unknown,
         }
+    }
+
+    /// What it does when it leads, if it leads by itself.
+    #[must_use]
+    pub fn plan(&self) -> Option<Plan> {
+        self.autopilot.then(|| match self.kerbs {
+            Some([from, to]) => Plan::escort(self.site, from, to),
+            None => Plan::crossing(self.site),
+        })
     }
 
     /// The robot with this boot counter and body, on a clock that begins now.
@@ -230,7 +257,7 @@ impl RobotFile {
         link: Halves,
         journal: Journal,
     ) -> Setup {
-        let plan = self.autopilot.then(|| Plan::crossing(self.site));
+        let application = Application::new(body, self.plan());
         Setup {
             name: self.name.clone(),
             station: self.station,
@@ -239,7 +266,10 @@ impl RobotFile {
             identifiers: self.identifiers,
             security,
             awareness: self.awareness,
-            application: Application::new(body, plan).on(self.road()),
+            application: application
+                .at(self.site)
+                .on(self.road())
+                .with_traits(self.traits),
             link,
             journal,
             clock: Clock::start(),
@@ -263,22 +293,29 @@ impl RobotTable {
             crossing: crossing.map_or(protocol::Place::UNKNOWN, |CrossingReference(place)| place),
             ..site
         };
-        let zone = self.zone_m.map(zone).transpose()?;
         if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
             return Err(Impossibility::Site(site.latitude, site.longitude));
         }
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
+        let traits = traits::check(self.job, self.dimensions_m, &self.battery)?;
+        let confidence_min = self.people.confidence_min;
+        let zone = self
+            .zone
+            .map(|zone| zone.check(confidence_min, self.autopilot));
+        let (zone, kerbs) = zone.transpose()?.unzip();
         Ok(RobotFile {
             name: self.name,
             station: StationId(self.station),
             build: self.build,
+            traits,
             boot_file: folder.join(self.boot_file),
             place: Place::new(self.place[0], self.place[1]),
             site,
             speed: self.speed,
             autopilot: self.autopilot,
             zone,
+            kerbs: kerbs.flatten(),
             link: self.link.check(folder)?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,
@@ -287,18 +324,6 @@ impl RobotTable {
                 cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
             },
         })
-    }
-}
-
-fn zone(metres: [f64; 4]) -> Result<Zone, Impossibility> {
-    let [west, south, east, north] = metres;
-    if west < east && south < north {
-        Ok(Zone {
-            south_west: Place::new(west, south),
-            north_east: Place::new(east, north),
-        })
-    } else {
-        Err(Impossibility::Zone(metres))
     }
 }
 

@@ -27,8 +27,8 @@ use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, SyncSender, sync_chan
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crossguard_codec::Identifiers;
 use crossguard_codec::si::timestamp_its;
+use crossguard_codec::{Battery, Identifiers};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
@@ -118,10 +118,12 @@ pub enum Order {
         /// Whether it was completed.
         well: bool,
     },
-    /// The sensors have this person, at this place on the site.
-    Perceived(PerceivedVru),
+    /// The sensors have this person, at this place on the site; or they work, and have nobody.
+    Perceived(Option<PerceivedVru>),
     /// The body, which others move, is here.
     Moved(Pose),
+    /// The battery is like this now.
+    Battery(Battery),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -287,6 +289,9 @@ impl Loop {
             },
         );
         self.put(started);
+        if let Some(outline) = self.machine.application().zone() {
+            self.log(Entry::Zone(outline));
+        }
         while !self.is_done() {
             match inbox.recv_timeout(self.patience()) {
                 Ok(Delivery::Order(order)) => self.obey(order),
@@ -365,7 +370,11 @@ impl Loop {
                 event((!is_awaited).then_some(Event::RoadClear))
             }
             Order::Finish { well } => event(self.machine.finish(well)),
-            Order::Perceived(vru) => {
+            Order::Perceived(None) => {
+                self.machine.application_mut().perceive_nobody();
+                Stimulus::Time
+            }
+            Order::Perceived(Some(vru)) => {
                 let place = self.machine.application().body().place();
                 self.machine.application_mut().perceive(&vru);
                 seen = [seen_from(place, vru)];
@@ -373,6 +382,10 @@ impl Loop {
             }
             Order::Moved(pose) => {
                 self.machine.application_mut().moved(pose);
+                Stimulus::Time
+            }
+            Order::Battery(battery) => {
+                self.machine.application_mut().set_battery(battery);
                 Stimulus::Time
             }
             Order::Reset => {
@@ -423,6 +436,9 @@ impl Loop {
         let now_s = shown as f64 / 1e6;
         for effect in self.machine.handle(moment, now_s, stimulus) {
             self.carry_out(effect);
+        }
+        if let Some(sight) = self.machine.application_mut().next_sight() {
+            self.log(Entry::People(sight));
         }
     }
 

@@ -9,6 +9,7 @@ use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
 
+use crate::sight::Sight;
 use crate::trace::{Entry, Record};
 
 /// The newest known of a robot, and how often what happened, from its records as they come.
@@ -30,6 +31,8 @@ pub struct Tally {
     pub at_us: u64,
     /// Whether it has stopped.
     pub has_stopped: bool,
+    /// The people that its sensors have.
+    pub sight: Sight,
     /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
     pub go_until: Option<Instant>,
 }
@@ -85,6 +88,8 @@ impl Tally {
             Entry::Dropped { cause, .. } => {
                 self.causes.add(cause, 1);
             }
+            Entry::Zone(_) => {}
+            Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Stopped { counters } => {
                 self.causes.clone_from(counters);
                 self.has_stopped = true;
@@ -188,6 +193,14 @@ impl Tally {
         }
         if let Some(duty) = state.duty() {
             let _ = write!(line, ", on duty: {duty}");
+        }
+        if !self.sight.people.is_empty() {
+            let (people, waiting) = (self.sight.people.len(), self.sight.waiting());
+            let on_road = self.sight.on_road();
+            let _ = write!(
+                line,
+                ", sees {people}: {waiting} waiting, {on_road} on the road"
+            );
         }
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());

@@ -14,6 +14,7 @@ use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::{Input, Outputs, Robot, Settings, StationId};
 use serde::{Deserialize, Serialize};
 
+use crate::sight::{Outline, Sight};
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::ras::generation::Trigger;
@@ -96,6 +97,10 @@ pub enum Entry {
         #[serde(with = "hex::serde", default)]
         octets: Vec<u8>,
     },
+    /// It watches this crossing zone from now on.
+    Zone(Outline),
+    /// Its sensors have these people now, and no others.
+    People(Sight),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

@@ -2,6 +2,7 @@
 //! road, and otherwise once everybody that its sensors had on the road was seen beside it.
 
 use crossguard_codec::{Identifiers, TaskParameters};
+use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
@@ -10,7 +11,8 @@ use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::machine::Machine;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
-use crossguard_robot::street::{Road, Street, Watched, Zone};
+use crossguard_robot::street::{Road, Street};
+use crossguard_robot::zone::{Watched, Zone};
 
 const TICK_MS: u32 = 10;
 
@@ -151,10 +153,8 @@ fn a_robot_that_guarded_nobody_is_free_when_its_body_is() {
 
 #[test]
 fn a_guard_with_sensors_waits_until_everybody_was_seen_beside_the_road() {
-    let zone = Zone {
-        south_west: Place::new(-3.0, 0.0),
-        north_east: Place::new(5.0, 7.0),
-    };
+    let road = [[-3.0, 0.0], [5.0, 0.0], [5.0, 7.0], [-3.0, 7.0]];
+    let zone = Zone::of_road(Area::Polygon(road.to_vec()));
     let mut pair = Pair::left_alone(TaskType::BLOCK, Road::Watched(Watched::new(zone)));
     assert!(pair.is_on_duty(), "nothing was seen, so nothing is known");
     pair.sees(7, 1.0, 3.0);

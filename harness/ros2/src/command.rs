@@ -1,6 +1,6 @@
 //! What a message of the application tells the robot.
 
-use crossguard_codec::TaskParameters;
+use crossguard_codec::{Battery, TaskParameters};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{
     self as protocol, Availability, Event, HelpRequest, MAX_FOLLOWERS, ManeuverId, NoSuchTask,
@@ -16,7 +16,7 @@ use crossguard_robot::site::{Place, Site};
 use crate::msgs::{Command, Person, Session, Status, Task};
 use crate::report::SITE_FRAME;
 use crate::robot::BodyKind;
-use crate::standard::{Point, PoseStamped, Quaternion, Time};
+use crate::standard::{BatteryState, Point, PoseStamped, Quaternion, Time};
 
 /// Why a message tells nothing.
 #[derive(Debug, thiserror::Error)]
@@ -48,7 +48,7 @@ pub enum Refused {
     #[error("{0} is no speed: m/s, or 0 for the follower's own limit, are wanted")]
     Speed(f64),
     /// There is no such kind of people.
-    #[error("kind {0} of people: 0 to 3 are possible")]
+    #[error("kind {0} of people: 0 to 5 are possible")]
     People(u8),
     /// Nobody can be like that.
     #[error(transparent)]
@@ -59,6 +59,9 @@ pub enum Refused {
     /// An orientation that is none.
     #[error("the orientation of the pose is no quaternion")]
     Orientation,
+    /// No battery is as full as that.
+    #[error("percentage {0} of the battery: 0 to 1, or NaN where it is not known, are wanted")]
+    Battery(f32),
     /// The body is a simulated one.
     #[error("the body is simulated; --body external takes poses")]
     Simulated,
@@ -74,6 +77,7 @@ impl Refused {
         match self {
             Self::NotActive(_) => "ros: not active",
             Self::Frame(_) | Self::Orientation | Self::Simulated => "ros: impossible pose",
+            Self::Battery(_) => "ros: impossible battery",
             Self::People(_) | Self::Person(_) => "ros: impossible person",
             _ => "ros: impossible command",
         }
@@ -241,6 +245,22 @@ fn availability(command: &Command) -> Result<Availability, Refused> {
     }))
 }
 
+/// How full a message says that the battery is.
+///
+/// # Errors
+/// Why no battery is like that.
+pub fn battery(message: &BatteryState) -> Result<Order, Refused> {
+    let share = message.percentage;
+    if !share.is_nan() && !(0.0..=1.0).contains(&share) {
+        return Err(Refused::Battery(share));
+    }
+    let percent = (!share.is_nan()).then(|| f64::from(share) * 100.0);
+    Ok(Order::Battery(Battery {
+        state_of_charge: percent,
+        charging: message.power_supply_status == BatteryState::CHARGING,
+    }))
+}
+
 /// The person that a message reports.
 ///
 /// # Errors
@@ -251,6 +271,8 @@ pub fn person(person: &Person) -> Result<Order, Refused> {
         Person::BICYCLIST => VruClass::Bicyclist,
         Person::MOTORCYCLIST => VruClass::Motorcyclist,
         Person::ANIMAL => VruClass::Animal,
+        Person::WHEELCHAIR_USER => VruClass::WheelchairUser,
+        Person::VEHICLE => VruClass::Vehicle,
         other => return Err(Refused::People(other)),
     };
     let vru = PerceivedVru {
@@ -261,7 +283,7 @@ pub fn person(person: &Person) -> Result<Order, Refused> {
         confidence: person.confidence.into(),
     };
     perception::check(&vru)?;
-    Ok(Order::Perceived(vru))
+    Ok(Order::Perceived(Some(vru)))
 }
 
 #[cfg(test)]
@@ -281,6 +303,25 @@ mod tests {
             kind,
             ..Command::default()
         }
+    }
+
+    #[test]
+    fn a_battery_says_how_full_it_is_if_it_knows() {
+        let told = |percentage: f32, power_supply_status: u8| {
+            let message = BatteryState {
+                percentage,
+                power_supply_status,
+                ..BatteryState::default()
+            };
+            match battery(&message) {
+                Ok(Order::Battery(battery)) => Ok((battery.state_of_charge, battery.charging)),
+                Ok(other) => panic!("{other:?}"),
+                Err(error) => Err(error.to_string()),
+            }
+        };
+        assert_eq!(told(0.5, BatteryState::CHARGING), Ok((Some(50.0), true)));
+        assert_eq!(told(f32::NAN, 2), Ok((None, false)));
+        assert!(told(55.0, 2).unwrap_err().contains("0 to 1"));
     }
 
     #[test]

@@ -67,7 +67,7 @@ const VERBOSE: &str =
 
 const AFTER_HELP: &str = "\
 Topics ~/status, ~/corridor, ~/event, ~/transition_event and /diagnostics; ~/command,
-~/perceived and ~/pose are listened to. Without --autostart, the lifecycle is up to you:
+~/perceived, ~/pose and ~/battery are listened to. Without --autostart, the lifecycle is up to you:
   ros2 lifecycle set /NAMESPACE/crossguard configure
   ros2 lifecycle set /NAMESPACE/crossguard activate
 Messages are in the package crossguard_msgs, which comes along. Ctrl-C or SIGTERM makes the robot leave

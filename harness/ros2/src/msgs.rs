@@ -179,7 +179,7 @@ messages! {
         URGENCY_LOW = 0, URGENCY_MEDIUM = 1, URGENCY_HIGH = 2, URGENCY_EMERGENCY = 3,
     }
     Person => "Person" {
-        PEDESTRIAN = 0, BICYCLIST = 1, MOTORCYCLIST = 2, ANIMAL = 3,
+        PEDESTRIAN = 0, BICYCLIST = 1, MOTORCYCLIST = 2, ANIMAL = 3, WHEELCHAIR_USER = 4, VEHICLE = 5,
     }
 }
 

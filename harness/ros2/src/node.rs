@@ -35,8 +35,8 @@ use crate::msgs::{Command, Corridor, Event, Person, Status};
 use crate::report::{Reporter, of};
 use crate::robot::{Active, BodyKind, NoRobot, Robot};
 use crate::standard::{
-    ChangeState, ChangeStateResponse, GetAvailableStatesResponse, GetAvailableTransitionsResponse,
-    GetStateResponse, PoseStamped,
+    BatteryState, ChangeState, ChangeStateResponse, GetAvailableStatesResponse,
+    GetAvailableTransitionsResponse, GetStateResponse, PoseStamped,
 };
 
 /// How often the corridor is told at least.
@@ -242,6 +242,7 @@ impl Turn {
             Delivery::Command(message) => self.command(&message),
             Delivery::Person(message) => self.person(&message),
             Delivery::Pose(message) => self.pose(message),
+            Delivery::Battery(message) => self.battery(&message),
             Delivery::ChangeState(call) => self.change_state(call),
             Delivery::GetState(call) => {
                 let current_state = self.lifecycle.state().message();
@@ -325,6 +326,16 @@ impl Turn {
         match done {
             Ok(()) => self.pose_before = Some(message),
             Err(refused) => self.count(refused.cause(), &refused.to_string()),
+        }
+    }
+
+    fn battery(&mut self, message: &BatteryState) {
+        let done = self.commanded().and_then(|(active, _)| {
+            active.order(command::battery(message)?);
+            Ok(())
+        });
+        if let Err(refused) = done {
+            self.count(refused.cause(), &refused.to_string());
         }
     }
 

@@ -94,6 +94,48 @@ pub struct PoseStamped {
     pub pose: Pose,
 }
 
+/// How a battery is. What is not known is NaN.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct BatteryState {
+    /// When.
+    pub header: Header,
+    /// In V.
+    pub voltage: f32,
+    /// In degrees Celsius.
+    pub temperature: f32,
+    /// In A, discharging negative.
+    pub current: f32,
+    /// In Ah.
+    pub charge: f32,
+    /// In Ah.
+    pub capacity: f32,
+    /// In Ah.
+    pub design_capacity: f32,
+    /// Charge of the capacity, 0 to 1.
+    pub percentage: f32,
+    /// 0 unknown, 1 charging, 2 discharging, 3 not charging, 4 full.
+    pub power_supply_status: u8,
+    /// How well it is.
+    pub power_supply_health: u8,
+    /// Of what kind it is.
+    pub power_supply_technology: u8,
+    /// Whether there is one.
+    pub present: bool,
+    /// Of each cell, in V.
+    pub cell_voltage: Vec<f32>,
+    /// Of each cell, in degrees Celsius.
+    pub cell_temperature: Vec<f32>,
+    /// Where it is.
+    pub location: String,
+    /// Its number.
+    pub serial_number: String,
+}
+
+impl BatteryState {
+    /// The status of one that is being charged.
+    pub const CHARGING: u8 = 1;
+}
+
 /// A value of a diagnostic, by its name.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 pub struct KeyValue {
@@ -222,6 +264,7 @@ macro_rules! messages {
 messages! {
     Text => "std_msgs/msg/String";
     PoseStamped => "geometry_msgs/msg/PoseStamped";
+    BatteryState => "sensor_msgs/msg/BatteryState";
     DiagnosticArray => "diagnostic_msgs/msg/DiagnosticArray";
     TransitionEvent => "lifecycle_msgs/msg/TransitionEvent";
 }

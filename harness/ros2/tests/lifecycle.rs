@@ -166,7 +166,7 @@ fn the_graph_has_the_node_with_all_its_parts_until_it_ends() {
     assert_eq!(names("MP"), published);
     assert_eq!(
         names("MS"),
-        own(&["command", "perceived", "pose"]) as Vec<String>
+        own(&["battery", "command", "perceived", "pose"]) as Vec<String>
     );
     let services = [
         "change_state",

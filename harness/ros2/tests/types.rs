@@ -169,6 +169,7 @@ fn structs_and_definitions_say_the_same() {
     compare::<msgs::Task>("crossguard_msgs/msg/Task");
     compare::<standard::Text>("std_msgs/msg/String");
     compare::<standard::PoseStamped>("geometry_msgs/msg/PoseStamped");
+    compare::<standard::BatteryState>("sensor_msgs/msg/BatteryState");
     compare::<standard::DiagnosticArray>("diagnostic_msgs/msg/DiagnosticArray");
     compare::<standard::TransitionEvent>("lifecycle_msgs/msg/TransitionEvent");
     compare::<standard::ChangeStateRequest>("lifecycle_msgs/srv/ChangeState_Request");

@@ -105,9 +105,11 @@ A line of --perceived is one person at one time, like
   {\"at_s\": 1.5, \"id\": 7, \"position_m\": [3.0, -1.5], \"velocity_mps\": [1.2, 0.0],
    \"class\": \"pedestrian\", \"confidence\": 0.9}
 in metres on the site and seconds from the start; only id and position_m are needed. Classes are
-pedestrian, bicyclist, motorcyclist and animal. Without at_s a line is told when it is read, from a
-pipe or typed. Who is within the radius of [people] in the configuration (15 m) is announced, and
-forgotten a second after the last line. Try --perceived harness/examples/people.jsonl.";
+pedestrian, wheelchairUser, bicyclist, motorcyclist, animal and vehicle. Without at_s a line is told
+when it is read, from a pipe or typed. Who is within the radius of [people] in the configuration
+(15 m) is announced, and forgotten a second after the last line; vehicles are not announced. A line
+{\"nobody\": true} says that the sensors work and have nobody. With a table [zone] in the configuration,
+a person who waits there to cross is detected: nobody has to type 'detect'. Try --config harness/examples/kerb.toml --perceived harness/examples/people.jsonl.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !(0.0..=1.0).contains(&arguments.loss) {

@@ -34,7 +34,7 @@ pub const UNIQUENESS_MS: u64 = 30_000;
 /// Clusters of other robots that are remembered.
 const OTHERS_MAX: usize = 64;
 
-/// Kind of a road user (TS 102 894-2 `VruClusterProfiles`).
+/// Kind of a road user that sensors tell apart.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum VruClass {
@@ -46,13 +46,30 @@ pub enum VruClass {
     Motorcyclist,
     /// An animal.
     Animal,
+    /// In a wheelchair. ETSI has it among the light vehicles, beside bicycles.
+    WheelchairUser,
+    /// A car, a bus, a tram: not vulnerable, so it is in no cluster.
+    Vehicle,
 }
 
 impl VruClass {
-    /// The bit of this class, bit 0 being the lowest one.
+    /// The bit of its profile in `VruClusterProfiles` (TS 102 894-2), bit 0 being the lowest one; 0 without a
+    /// profile.
     #[must_use]
     pub const fn bit(self) -> u8 {
-        1 << self as u8
+        match self {
+            Self::Pedestrian => 1,
+            Self::Bicyclist | Self::WheelchairUser => 1 << 1,
+            Self::Motorcyclist => 1 << 2,
+            Self::Animal => 1 << 3,
+            Self::Vehicle => 0,
+        }
+    }
+
+    /// Whether it is a vulnerable road user, which a cluster may count.
+    #[must_use]
+    pub const fn is_vulnerable(self) -> bool {
+        self.bit() != 0
     }
 }
 
@@ -201,7 +218,8 @@ impl Clustering {
                 ),
                 None => (settings.radius_m, settings.confidence_min),
             };
-            if distance_m <= radius_m && vru.confidence >= confidence {
+            let is_near = distance_m <= radius_m;
+            if is_near && vru.confidence >= confidence && vru.class.is_vulnerable() {
                 let member = Member {
                     vru: *vru,
                     seen_ms: now_ms,

@@ -4,13 +4,16 @@
 //! robot has a frame of its own, which looks ahead along x (REP 103).
 
 use crossguard_protocol::TaskType;
+use crossguard_robot::sight::{Degrees, Outline, Seen, Sight};
 use crossguard_robot::site::{Place, Site};
+use crossguard_robot::zone::Conduct;
 
 use super::schemas::{
-    Color, CubePrimitive, CylinderPrimitive, FrameTransform, KeyValuePair, LocationFix, Pose,
-    Quaternion, SceneEntity, SceneEntityDeletion, SceneUpdate, TextPrimitive, Time, Vector3,
+    Color, CubePrimitive, CylinderPrimitive, FrameTransform, KeyValuePair, LinePrimitive,
+    LocationFix, People, Person, Pose, Quaternion, SceneEntity, SceneEntityDeletion, SceneUpdate,
+    TextPrimitive, Time, Vector3,
 };
-use crate::facts::{Area, Placed, View};
+use crate::facts::{Area, ClusterView, Placed, View};
 
 /// The frame of the street.
 pub(super) const STREET: &str = "street";
@@ -41,6 +44,9 @@ const COLORS: [Color; 6] = [
 ];
 const OPEN: Color = color(0.0, 0.62, 0.451, 0.5);
 const CLOSED: Color = color(0.5, 0.5, 0.5, 0.35);
+const ZONE: Color = color(0.902, 0.624, 0.0, 0.8);
+const ROAD: Color = color(0.5, 0.5, 0.5, 0.8);
+const CLUSTER: Color = color(0.8, 0.475, 0.655, 1.0);
 const TEXT: Color = color(1.0, 1.0, 1.0, 1.0);
 
 /// A turn about the vertical axis by this many degrees clockwise from north, of something that looks to
@@ -247,5 +253,97 @@ fn disc(at: Place, color: Color) -> CylinderPrimitive {
         bottom_scale: 1.0,
         top_scale: 1.0,
         color,
+    }
+}
+
+/// The people that a robot's sensors have, as numbers.
+pub(super) fn people(timestamp: Time, robot: String, sight: &Sight) -> People {
+    let people = sight.people.iter().map(|seen| Person {
+        latitude: seen.place.0,
+        longitude: seen.place.1,
+        class: name_of(&seen.class),
+        conduct: name_of(&seen.conduct),
+    });
+    let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+    People {
+        timestamp,
+        robot,
+        waiting: count(sight.waiting()),
+        on_road: count(sight.on_road()),
+        people: people.collect(),
+    }
+}
+
+/// How logs name a value of an enumeration.
+fn name_of(value: &impl serde::Serialize) -> String {
+    let name = serde_json::to_value(value).ok();
+    let name = name.as_ref().and_then(serde_json::Value::as_str);
+    name.unwrap_or_default().to_owned()
+}
+
+/// What there is to be seen at a crossing: the zone, people, and the clusters that are announced of them.
+pub(super) fn crossing<'a>(
+    timestamp: Time,
+    site: &Site,
+    (zone, sight): (&Outline, &Sight),
+    clusters: impl Iterator<Item = &'a ClusterView>,
+) -> SceneUpdate {
+    let mut outlines = entity(timestamp, STREET, "crossing zone".to_owned());
+    for (corners, color) in [(&zone.waiting, ZONE), (&zone.road, ROAD)] {
+        outlines.lines.extend(outline(site, corners, color));
+    }
+    let mut people = entity(timestamp, STREET, "people".to_owned());
+    people.cylinders = sight.people.iter().map(|seen| person(site, seen)).collect();
+    let mut announced = entity(timestamp, STREET, "clusters".to_owned());
+    for cluster in clusters {
+        announced
+            .lines
+            .extend(outline(site, &cluster.corners, CLUSTER));
+    }
+    SceneUpdate {
+        deletions: Vec::new(),
+        entities: vec![outlines, people, announced],
+    }
+}
+
+fn outline(site: &Site, corners: &[Degrees], color: Color) -> Option<LinePrimitive> {
+    let points = corners
+        .iter()
+        .map(|at| vector(site.place(at.0, at.1), 0.02));
+    (!corners.is_empty()).then(|| LinePrimitive {
+        kind: 1,
+        pose: Pose {
+            position: vector(Place::default(), 0.0),
+            orientation: IDENTITY,
+        },
+        thickness: 0.08,
+        scale_invariant: false,
+        points: points.collect(),
+        color,
+        colors: Vec::new(),
+        indices: Vec::new(),
+    })
+}
+
+fn person(site: &Site, seen: &Seen) -> CylinderPrimitive {
+    let height_m = 1.7;
+    CylinderPrimitive {
+        pose: Pose {
+            position: vector(site.place(seen.place.0, seen.place.1), height_m / 2.0),
+            orientation: IDENTITY,
+        },
+        size: Vector3 {
+            x: 0.4,
+            y: 0.4,
+            z: height_m,
+        },
+        bottom_scale: 1.0,
+        top_scale: 0.6,
+        color: match seen.conduct {
+            Conduct::Waiting => ZONE,
+            Conduct::OnRoad => color(0.835, 0.369, 0.0, 1.0),
+            Conduct::Across => color(0.0, 0.62, 0.451, 1.0),
+            Conduct::Elsewhere | Conduct::Passing => ROAD,
+        },
     }
 }

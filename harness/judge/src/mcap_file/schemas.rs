@@ -36,6 +36,7 @@ kinds!(
     RobotMessage "crossguard.Message",
     Counters "crossguard.Counters",
     Corridor "crossguard.Corridor",
+    People "crossguard.People",
     Log "foxglove.Log",
     LocationFix "foxglove.LocationFix",
     FrameTransform "foxglove.FrameTransform",
@@ -159,6 +160,35 @@ pub(super) struct Corridor {
     pub(super) why: String,
 }
 
+/// The people that a robot's sensors have.
+#[expect(
+    clippy::struct_field_names,
+    reason = "it is named after what matters in it"
+)]
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct People {
+    pub(super) timestamp: Time,
+    pub(super) robot: String,
+    /// How many wait to cross.
+    pub(super) waiting: u32,
+    /// How many are on the road.
+    pub(super) on_road: u32,
+    pub(super) people: Vec<Person>,
+}
+
+/// A road user that the sensors have.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct Person {
+    /// Degrees, north positive.
+    pub(super) latitude: f64,
+    /// Degrees, east positive.
+    pub(super) longitude: f64,
+    /// `pedestrian`, `bicyclist`, `motorcyclist`, `animal`, `wheelchairUser` or `vehicle`.
+    pub(super) class: String,
+    /// `elsewhere`, `passing`, `waiting`, `onRoad` or `across`.
+    pub(super) conduct: String,
+}
+
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct Log {
     pub(super) timestamp: Time,
@@ -254,7 +284,7 @@ pub(super) struct SceneEntity {
     pub(super) cubes: Vec<CubePrimitive>,
     pub(super) spheres: Vec<Nothing>,
     pub(super) cylinders: Vec<CylinderPrimitive>,
-    pub(super) lines: Vec<Nothing>,
+    pub(super) lines: Vec<LinePrimitive>,
     pub(super) triangles: Vec<Nothing>,
     pub(super) texts: Vec<TextPrimitive>,
     pub(super) models: Vec<Nothing>,
@@ -276,6 +306,21 @@ pub(super) struct CubePrimitive {
     /// Metres.
     pub(super) size: Vector3,
     pub(super) color: Color,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct LinePrimitive {
+    /// 0 from point to point, 1 back to the first one.
+    #[serde(rename = "type")]
+    pub(super) kind: u8,
+    pub(super) pose: Pose,
+    /// Metres, or pixels where it does not scale.
+    pub(super) thickness: f64,
+    pub(super) scale_invariant: bool,
+    pub(super) points: Vec<Vector3>,
+    pub(super) color: Color,
+    pub(super) colors: Vec<Color>,
+    pub(super) indices: Vec<u32>,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]

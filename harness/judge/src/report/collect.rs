@@ -7,6 +7,7 @@ use crossguard_model_check::sequence::{ChartPlace, ChartStep};
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{LogError, Merged, Record, Timed};
 
+use super::crowd::{PeopleRun, Span};
 use crate::facts::{Area, Direction, Fact, Observer, Placed, View};
 use crate::sequence::Sequence;
 use crate::timing::Timing;
@@ -47,6 +48,8 @@ pub(super) struct RobotRun {
     /// When its corridor was open, and why it was closed.
     pub(super) corridor: Vec<Span<String>>,
     pub(super) way: Vec<(f64, f64)>,
+    /// The people at its crossing.
+    pub(super) people: PeopleRun,
     pub(super) counters: BTreeMap<CauseName, u64>,
     /// Those of the boots before.
     counters_before: BTreeMap<CauseName, u64>,
@@ -57,14 +60,6 @@ pub(super) struct RobotRun {
     /// How many of its places are left out between two that are kept.
     stride: usize,
     places: usize,
-}
-
-/// Something that lasts.
-pub(super) struct Span<T> {
-    pub(super) from_us: u64,
-    /// While it lasts: the newest record.
-    pub(super) to_us: u64,
-    pub(super) what: T,
 }
 
 impl Run {
@@ -88,7 +83,7 @@ impl Run {
             run.timing.record(log, at_us, &record);
             run.robot(&record).records += 1;
             for fact in observer.take(&record) {
-                run.take(at_us, &record.robot, fact);
+                run.take((at_us, record.at_us), &record.robot, fact);
             }
             run.robot(&record).last_us = at_us;
             for step in run.sequence.steps(&record) {
@@ -130,7 +125,20 @@ impl Run {
         &mut self.robots[place]
     }
 
-    fn take(&mut self, at_us: u64, robot: &str, fact: Fact) {
+    /// Takes a fact in, at a time since 1970 and on the clock of its log.
+    fn take(&mut self, (at_us, log_us): (u64, u64), robot: &str, fact: Fact) {
+        let fact = match fact {
+            Fact::Corridor {
+                is_open,
+                since_us,
+                why,
+            } => Fact::Corridor {
+                is_open,
+                since_us: at_us.saturating_sub(log_us.saturating_sub(since_us)),
+                why,
+            },
+            fact => fact,
+        };
         if let Fact::Areas(areas) = fact {
             for area in areas {
                 let is_known =
@@ -183,6 +191,9 @@ impl RobotRun {
                 let before = self.counters_before.get(&cause).copied().unwrap_or(0);
                 self.counters.insert(cause, before + count);
             }
+            Fact::Zone(outline) => self.people.zone = outline,
+            Fact::People(sight) => self.people.see(at_us, &sight),
+            Fact::Cluster(cluster) => self.people.announce(at_us, cluster),
             Fact::Stopped => self.has_stopped = true,
             Fact::Note { .. } | Fact::Areas(_) => {}
         }
@@ -267,6 +278,7 @@ impl RobotRun {
     fn end(&mut self) {
         let last_us = self.last_us;
         self.close_state(last_us);
+        self.people.end(last_us);
         if let Some(last) = self.corridor.last_mut() {
             last.to_us = last.to_us.min(last_us);
         }

@@ -7,7 +7,7 @@ use crossguard_model_check::properties::PropertyId;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::collect::Run;
-use super::{Report, Validity, street, timeline};
+use super::{Report, Validity, people, street, timeline};
 use crate::timing::{Statistic, Summary, offsets_in_words};
 
 const STYLE: &str = include_str!("style.css");
@@ -25,6 +25,7 @@ pub(super) fn page(report: &Report, run: &Run) -> Markup {
             "Map",
             Some(street.unwrap_or_else(|| html! { p { "No robot says where it is." } })),
         ),
+        ("people", "People", people::table(run)),
         ("times", "Times", Some(times(report, run))),
         ("nothing", "Dropped or ignored", Some(counters(run))),
         ("properties", "Properties", properties(report)),

@@ -6,6 +6,7 @@ use maud::{Markup, html};
 
 use super::charts::{Look, number, step};
 use super::collect::Run;
+use super::people;
 use crate::facts::Area;
 
 /// Width of the picture, largest height, and room around what it shows, in pixels.
@@ -32,7 +33,8 @@ impl Projection {
     fn of(run: &Run) -> Option<Self> {
         let ways = run.robots.iter().flat_map(|robot| robot.way.iter());
         let goals = run.areas.iter().map(|area| &area.to);
-        let points: Vec<_> = ways.chain(goals).copied().collect();
+        let people = run.robots.iter().flat_map(|robot| robot.people.points());
+        let points: Vec<_> = ways.chain(goals).chain(people).copied().collect();
         let &(latitude, longitude) = points.first()?;
         let site = Site {
             latitude,
@@ -84,9 +86,11 @@ pub(super) fn street(run: &Run) -> Option<Markup> {
                 title id="map-title" { "The crossing from above" }
                 desc id="map-text" { (description(run)) }
                 rect.street width="100%" height="100%" {}
+                (people::zones(run, |at| view.pixel(at)))
                 (grid(&view, bar_m))
                 @for area in &run.areas { (place(&view, area)) }
                 @for (number, robot) in run.robots.iter().enumerate() { (way(&view, Look::of(number), &robot.way)) }
+                (people::people(run, |at| view.pixel(at)))
                 (names(run, &view))
                 path.scale d=(format!("M16 {y:.1}v6h{bar:.1}v-6", y = view.height - 26.0)) {}
                 text x=(format!("{:.1}", 22.0 + bar)) y=(format!("{:.1}", view.height - 18.0)) { (number(bar_m)) " m" }
@@ -111,6 +115,7 @@ pub(super) fn street(run: &Run) -> Option<Markup> {
             }
             li { svg.key viewBox="0 0 44 20" width="44" height="20" aria-hidden="true" { circle.goal cx="22" cy="10" r="8" {} }
                 "place that a follower was commanded to" }
+            (people::legend(run))
         }
     })
 }

@@ -4,7 +4,8 @@ use crossguard_protocol::{Role, State};
 use maud::{Markup, html};
 
 use super::charts::{number, step};
-use super::collect::{RobotRun, Run, Span};
+use super::collect::{RobotRun, Run};
+use super::crowd::Span;
 use crate::facts::View;
 
 /// How many rows of the table there are for a robot.
@@ -66,6 +67,12 @@ pub(super) fn timeline(run: &Run) -> Markup {
                         div.who { (robot.name) }
                         div.track { @for span in &robot.states { (state(axis, span)) } }
                     }
+                    @if !robot.people.waiting.is_empty() {
+                        div.row.thin {
+                            div.who { "people wait" }
+                            div.track { @for span in &robot.people.waiting { (waiting(axis, span)) } }
+                        }
+                    }
                     @if !robot.corridor.is_empty() {
                         div.row.thin {
                             div.who { "corridor" }
@@ -88,6 +95,9 @@ pub(super) fn timeline(run: &Run) -> Markup {
                 li { span.key { span.state.(class) {} } (text) }
             }
             li { span.key { span.open {} } "corridor open: the pedestrian may cross" }
+            @if run.robots.iter().any(|robot| !robot.people.waiting.is_empty()) {
+                li { span.key { span.waits {} } "people wait to cross, as far as the robot's sensors tell" }
+            }
         }
         details {
             summary { "As a table" }
@@ -127,6 +137,15 @@ fn state(axis: Axis, span: &Span<View>) -> Markup {
     );
     html! {
         div.state.(class(view.state)) style=(axis.place(span)) title=(title) { span { (words(view)) } }
+    }
+}
+
+fn waiting(axis: Axis, span: &Span<usize>) -> Markup {
+    let (from, to) = (axis.seconds(span.from_us), axis.seconds(span.to_us));
+    html! {
+        div.waits style=(axis.place(span)) title=(format!("{} waiting from {from:.3} s to {to:.3} s", span.what)) {
+            span { (span.what) }
+        }
     }
 }
 

@@ -120,7 +120,11 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
             reception: *reception,
             octets: other_octets.to_vec(),
         })],
-        Entry::Started { .. } | Entry::Dropped { .. } | Entry::Stopped { .. } => Vec::new(),
+        Entry::Started { .. }
+        | Entry::Zone(_)
+        | Entry::People(_)
+        | Entry::Dropped { .. }
+        | Entry::Stopped { .. } => Vec::new(),
     }
 }
 

@@ -3,7 +3,7 @@
 //! Its time may run faster than the protocol's, so that a demonstration need not take as long as a
 //! real crossing. How far a step really carries varies a little from maneuver to maneuver.
 
-use crossguard_codec::{RobotState, Target, TaskParameters};
+use crossguard_codec::{Battery, RobotState, Target, TaskParameters};
 use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet, TaskType};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -13,6 +13,12 @@ use crate::site::{Place, Site};
 
 /// How fast a body gains and loses speed, in m/s².
 const ACCELERATION: f64 = 1.2;
+
+/// The battery of a simulated body, unless somebody says another one.
+const SIMULATED_BATTERY: Battery = Battery {
+    state_of_charge: Some(80.0),
+    charging: false,
+};
 
 /// By how much the speed of a maneuver may differ from the one that was meant.
 const GAIT_VARIATION: f64 = 0.03;
@@ -210,7 +216,11 @@ impl Body for Simulated {
             heading_deg: self.heading_deg,
             speed_mps: self.speed_mps,
         };
-        state_of(self.build, &self.site, Some(pose), self.acceleration_mps2)
+        let state = state_of(self.build, &self.site, Some(pose), self.acceleration_mps2);
+        RobotState {
+            battery: SIMULATED_BATTERY,
+            ..state
+        }
     }
 
     fn place(&self) -> Place {

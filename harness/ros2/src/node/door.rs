@@ -12,8 +12,8 @@ use crate::message::{Message, Service};
 use crate::msgs::{Command, Corridor, Event, Person, Status};
 use crate::qos::Qos;
 use crate::standard::{
-    ChangeState, DiagnosticArray, GetAvailableStates, GetAvailableTransitions, GetState,
-    PoseStamped, TransitionEvent,
+    BatteryState, ChangeState, DiagnosticArray, GetAvailableStates, GetAvailableTransitions,
+    GetState, PoseStamped, TransitionEvent,
 };
 
 /// What comes in.
@@ -21,6 +21,7 @@ pub(super) enum Delivery {
     Command(Command),
     Person(Person),
     Pose(PoseStamped),
+    Battery(BatteryState),
     ChangeState(Call<ChangeState>),
     GetState(Call<GetState>),
     GetStates(Call<GetAvailableStates>),
@@ -60,7 +61,7 @@ impl Told {
 
 /// What a node listens to and answers; kept for as long as it does.
 pub(super) struct Ears {
-    _subscriptions: [Subscription; 3],
+    _subscriptions: [Subscription; 4],
     _servers: [Server; 5],
 }
 
@@ -117,8 +118,9 @@ impl Door {
         let commands = self.topic(node, "~/command", Delivery::Command)?;
         let people = self.topic(node, "~/perceived", Delivery::Person)?;
         let poses = self.topic(node, "~/pose", Delivery::Pose)?;
+        let batteries = self.topic(node, "~/battery", Delivery::Battery)?;
         Ok(Ears {
-            _subscriptions: [commands, people, poses],
+            _subscriptions: [commands, people, poses, batteries],
             _servers: [
                 self.service(node, "~/change_state", Delivery::ChangeState)?,
                 self.service(node, "~/get_state", Delivery::GetState)?,

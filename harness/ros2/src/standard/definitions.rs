@@ -4,7 +4,7 @@
 //! repeated here.
 
 /// The fields of the standard messages, by their names.
-pub(crate) const MESSAGES: [(&str, &str); 17] = [
+pub(crate) const MESSAGES: [(&str, &str); 18] = [
     ("builtin_interfaces/msg/Time", "int32 sec\nuint32 nanosec"),
     (
         "builtin_interfaces/msg/Duration",
@@ -31,6 +31,13 @@ pub(crate) const MESSAGES: [(&str, &str); 17] = [
     (
         "geometry_msgs/msg/PoseStamped",
         "std_msgs/Header header\nPose pose",
+    ),
+    (
+        "sensor_msgs/msg/BatteryState",
+        "std_msgs/Header header\nfloat32 voltage\nfloat32 temperature\nfloat32 current\nfloat32 charge\n\
+         float32 capacity\nfloat32 design_capacity\nfloat32 percentage\nuint8 power_supply_status\n\
+         uint8 power_supply_health\nuint8 power_supply_technology\nbool present\nfloat32[] cell_voltage\n\
+         float32[] cell_temperature\nstring location\nstring serial_number",
     ),
     ("diagnostic_msgs/msg/KeyValue", "string key\nstring value"),
     (

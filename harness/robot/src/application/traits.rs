@@ -1,0 +1,81 @@
+//! What a robot is and how its battery is, as its robot file and its operator say: it stands in every RAM.
+
+use crossguard_codec::{Battery, Dimensions, JobRole, RobotState};
+use crossguard_protocol::{Availability, Event, Robot, Unavailability};
+
+use super::{Application, Wish};
+
+/// A robot whose battery was low is available again this much above the limit, in percent.
+const RECOVERY_PERCENT: f64 = 5.0;
+
+/// What a robot says of itself besides its body's state.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Traits {
+    /// The job that it is there for; `None` for that of its build.
+    pub job: Option<JobRole>,
+    /// The box around it; `None` for that of its build.
+    pub dimensions: Option<Dimensions>,
+    /// Its battery; `None` while only its body may know.
+    pub battery: Option<Battery>,
+    /// Below this charge the robot takes no part in coordination, in percent.
+    pub low_percent: f64,
+}
+
+impl Default for Traits {
+    fn default() -> Self {
+        Self {
+            job: None,
+            dimensions: None,
+            battery: None,
+            low_percent: 10.0,
+        }
+    }
+}
+
+impl Application {
+    /// The same, which says this of itself.
+    #[must_use]
+    pub fn with_traits(self, traits: Traits) -> Self {
+        Self { traits, ..self }
+    }
+
+    /// How the robot is: what the body's sensors say, and its traits.
+    #[must_use]
+    pub fn state(&self) -> RobotState {
+        let state = self.body.state();
+        RobotState {
+            job_role: self.traits.job.unwrap_or(state.job_role),
+            dimensions: self.traits.dimensions.unwrap_or(state.dimensions),
+            battery: self.traits.battery.unwrap_or(state.battery),
+            ..state
+        }
+    }
+
+    /// Its battery is like this now.
+    pub const fn set_battery(&mut self, battery: Battery) {
+        self.traits.battery = Some(battery);
+    }
+
+    /// Takes in whether the robot is available.
+    pub(super) const fn learn_availability(&mut self, robot: &Robot) {
+        self.availability = robot.availability();
+    }
+
+    /// Says that the battery is low, or is not any more. Another reason to be unavailable stands.
+    pub(super) fn watch_battery(&mut self) {
+        let low = Availability::Unavailable(Unavailability::LowBattery);
+        let Some(percent) = self.state().battery.state_of_charge else {
+            return;
+        };
+        let limit = self.traits.low_percent;
+        let changed = if percent < limit && self.availability == Availability::Available {
+            low
+        } else if percent >= limit + RECOVERY_PERCENT && self.availability == low && self.was_low {
+            Availability::Available
+        } else {
+            return;
+        };
+        self.was_low = changed == low;
+        self.wish(Wish::Tell(Event::AvailabilityChanged(changed)));
+    }
+}

@@ -1,0 +1,115 @@
+//! What a robot file says of the robot itself: its job, its size and its battery.
+//!
+//! ```toml
+//! build = "wheeled"
+//! job = "patrol"
+//! dimensions_m = [0.9, 0.6, 1.2] # length, width, height
+//!
+//! [battery]
+//! charge_percent = 64.0
+//! charging = false
+//! low_percent = 10.0
+//! ```
+
+use crossguard_codec::{Battery, Dimensions, JobRole};
+use serde::Deserialize;
+
+use crate::application::Traits;
+
+/// Largest dimension of a robot in a RAM, in metres.
+const METRES_MAX: f64 = 102.2;
+
+/// A job as files name it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum JobName {
+    None,
+    TrafficGuard,
+    Escort,
+    Patrol,
+    Delivery,
+    Maintenance,
+    Other,
+}
+
+impl From<JobName> for JobRole {
+    fn from(name: JobName) -> Self {
+        match name {
+            JobName::None => Self::None,
+            JobName::TrafficGuard => Self::TrafficGuard,
+            JobName::Escort => Self::Escort,
+            JobName::Patrol => Self::Patrol,
+            JobName::Delivery => Self::Delivery,
+            JobName::Maintenance => Self::Maintenance,
+            JobName::Other => Self::Other,
+        }
+    }
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct BatteryTable {
+    charge_percent: Option<f64>,
+    charging: bool,
+    low_percent: Option<f64>,
+}
+
+/// Why no robot is like that.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum NoTraits {
+    /// A number of percent is not possible.
+    #[error("[battery] {field} is {value}: 0 to 100 is wanted")]
+    Percent {
+        /// The field.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// It charges, and nobody says how full it is.
+    #[error("[battery] 'charging' wants 'charge_percent', too")]
+    Charge,
+    /// No robot has such a size.
+    #[error(
+        "dimensions_m has {0}: length, width and height in metres, above 0 and at most {METRES_MAX}, are wanted"
+    )]
+    Dimension(f64),
+}
+
+/// Checks them.
+pub(super) fn check(
+    job: Option<JobName>,
+    dimensions_m: Option<[f64; 3]>,
+    battery: &BatteryTable,
+) -> Result<Traits, NoTraits> {
+    let percent = |field, value: f64| {
+        let possible = (0.0..=100.0).contains(&value);
+        possible
+            .then_some(value)
+            .ok_or(NoTraits::Percent { field, value })
+    };
+    let charge = battery
+        .charge_percent
+        .map(|value| percent("charge_percent", value));
+    let charge = charge.transpose()?;
+    if battery.charging && charge.is_none() {
+        return Err(NoTraits::Charge);
+    }
+    let impossible = |metres: &f64| !(*metres > 0.0 && *metres <= METRES_MAX);
+    if let Some(metres) = dimensions_m.into_iter().flatten().find(impossible) {
+        return Err(NoTraits::Dimension(metres));
+    }
+    let low = battery.low_percent.unwrap_or(Traits::default().low_percent);
+    Ok(Traits {
+        job: job.map(JobRole::from),
+        dimensions: dimensions_m.map(|[length, width, height]| Dimensions {
+            length: Some(length),
+            width: Some(width),
+            height: Some(height),
+        }),
+        battery: charge.map(|charge| Battery {
+            state_of_charge: Some(charge),
+            charging: battery.charging,
+        }),
+        low_percent: percent("low_percent", low)?,
+    })
+}

@@ -1,0 +1,308 @@
+//! The table `[zone]` of a robot file: where people wait to cross, and the road there.
+//!
+//! ```toml
+//! [zone]
+//! polygon_m = [[-3.0, -2.5], [5.0, -2.5], [5.0, 9.5], [-3.0, 9.5]] # or: place_m = [1.0, -1.5], radius_m = 2.5
+//! road_m = [[-3.0, 0.0], [5.0, 0.0], [5.0, 7.0], [-3.0, 7.0]]
+//! escort_m = [[1.0, -1.0], [1.0, 8.0]]
+//! dwell_s = 1.0
+//! speed_max_mps = 0.5
+//! approach_s = 3.0
+//! clear_s = 3.0
+//! ```
+
+use crossguard_endpoint::ras::area::Area;
+use serde::Deserialize;
+
+use crate::site::Place;
+use crate::zone::{WaitingRules, Zone};
+
+/// Most corners of a polygon.
+const CORNERS_MAX: usize = 64;
+
+/// Farthest place on a site, in metres.
+const METRES_MAX: f64 = 1e5;
+
+/// Smallest area of a polygon, in square metres.
+const AREA_MIN_M2: f64 = 0.01;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ZoneTable {
+    polygon_m: Option<Vec<[f64; 2]>>,
+    place_m: Option<[f64; 2]>,
+    radius_m: Option<f64>,
+    road_m: Option<Vec<[f64; 2]>>,
+    escort_m: Option<[[f64; 2]; 2]>,
+    dwell_s: Option<f64>,
+    speed_max_mps: Option<f64>,
+    approach_s: Option<f64>,
+    clear_s: Option<f64>,
+}
+
+/// Why a table `[zone]` is no zone.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum NoZone {
+    /// It has no shape, or two.
+    #[error(
+        "wants either 'polygon_m', or 'place_m' and 'radius_m', for where people wait; or 'road_m' alone, to \
+         watch the road and detect nobody"
+    )]
+    Shape,
+    /// A polygon with too few or too many corners.
+    #[error("{field} has {count} corners: 3 to {CORNERS_MAX} are possible")]
+    Corners {
+        /// The field.
+        field: &'static str,
+        /// How many it has.
+        count: usize,
+    },
+    /// No place on the site.
+    #[error("{field}: [{}, {}] is no place: metres on the site, at most {METRES_MAX}, are wanted", place[0], place[1])]
+    Place {
+        /// The field.
+        field: &'static str,
+        /// What stands there.
+        place: [f64; 2],
+    },
+    /// The sides of a polygon cross.
+    #[error(
+        "{field}: its sides {first} and {second} cross; the corners are wanted in order around it"
+    )]
+    Crossed {
+        /// The field.
+        field: &'static str,
+        /// The number of a side, from 1 on.
+        first: usize,
+        /// That of another.
+        second: usize,
+    },
+    /// A polygon without an area.
+    #[error("{0}: its corners enclose nothing")]
+    Flat(&'static str),
+    /// A number is not possible.
+    #[error("{field} is {value}: {wanted} is wanted")]
+    Number {
+        /// The field.
+        field: &'static str,
+        /// The number.
+        value: f64,
+        /// What would be possible.
+        wanted: &'static str,
+    },
+    /// A robot that leads by itself does not see when people are across.
+    #[error("has no 'road_m': with autopilot one is wanted, to see when everybody is across")]
+    NoRoad,
+    /// A robot that leads by itself has nobody to lead across.
+    #[error("has 'road_m' alone: with autopilot it is wanted where people wait, too")]
+    NobodyWaits,
+}
+
+impl ZoneTable {
+    /// The zone, and the kerbs between which people are escorted, if they are said.
+    pub(super) fn check(
+        self,
+        confidence_min: f64,
+        is_autopilot: bool,
+    ) -> Result<(Zone, Option<[Place; 2]>), NoZone> {
+        let waiting = match (self.polygon_m, self.place_m, self.radius_m) {
+            (Some(corners), None, None) => Some(polygon("polygon_m", corners)?),
+            (None, Some(place), Some(radius_m)) => Some(Area::Circle {
+                center: on_site("place_m", place)?,
+                radius_m: within("radius_m", radius_m, 0.1..=1e3, "0.1 to 1000 m")?,
+            }),
+            (None, None, None) if self.road_m.is_some() => None,
+            _ => return Err(NoZone::Shape),
+        };
+        let road = self.road_m.map(|corners| polygon("road_m", corners));
+        let road = road.transpose()?;
+        match (&waiting, &road) {
+            (_, None) if is_autopilot => return Err(NoZone::NoRoad),
+            (None, _) if is_autopilot => return Err(NoZone::NobodyWaits),
+            _ => {}
+        }
+        let kerbs = self.escort_m.map(|[from, to]| {
+            let place = |at| on_site("escort_m", at).map(|[east, north]| Place::new(east, north));
+            Ok([place(from)?, place(to)?])
+        });
+        let default = WaitingRules::default();
+        let or = |value: Option<f64>, default: f64| value.unwrap_or(default);
+        let minute = "0 to 60 s";
+        let rules = WaitingRules {
+            dwell_s: within(
+                "dwell_s",
+                or(self.dwell_s, default.dwell_s),
+                0.0..=60.0,
+                minute,
+            )?,
+            speed_max_mps: within(
+                "speed_max_mps",
+                or(self.speed_max_mps, default.speed_max_mps),
+                0.05..=2.0,
+                "0.05 to 2 m/s",
+            )?,
+            approach_s: within(
+                "approach_s",
+                or(self.approach_s, default.approach_s),
+                0.0..=10.0,
+                "0 to 10 s",
+            )?,
+            clear_s: within(
+                "clear_s",
+                or(self.clear_s, default.clear_s),
+                0.0..=60.0,
+                minute,
+            )?,
+        };
+        let zone = Zone {
+            waiting,
+            road,
+            rules,
+            confidence_min,
+        };
+        Ok((zone, kerbs.transpose()?))
+    }
+}
+
+fn within(
+    field: &'static str,
+    value: f64,
+    possible: std::ops::RangeInclusive<f64>,
+    wanted: &'static str,
+) -> Result<f64, NoZone> {
+    if possible.contains(&value) {
+        Ok(value)
+    } else {
+        Err(NoZone::Number {
+            field,
+            value,
+            wanted,
+        })
+    }
+}
+
+fn on_site(field: &'static str, place: [f64; 2]) -> Result<[f64; 2], NoZone> {
+    if place.iter().all(|metres| metres.abs() <= METRES_MAX) {
+        Ok(place)
+    } else {
+        Err(NoZone::Place { field, place })
+    }
+}
+
+fn polygon(field: &'static str, corners: Vec<[f64; 2]>) -> Result<Area, NoZone> {
+    let count = corners.len();
+    if !(3..=CORNERS_MAX).contains(&count) {
+        return Err(NoZone::Corners { field, count });
+    }
+    for corner in &corners {
+        on_site(field, *corner)?;
+    }
+    let side = |number: usize| (corners[number], corners[(number + 1) % count]);
+    for first in 0..count {
+        // The next side begins where this one ends, and the last one ends where the first begins.
+        for second in first + 2..count - usize::from(first == 0) {
+            if do_cross(side(first), side(second)) {
+                let (first, second) = (first + 1, second + 1);
+                return Err(NoZone::Crossed {
+                    field,
+                    first,
+                    second,
+                });
+            }
+        }
+    }
+    let area = Area::Polygon(corners);
+    if area.size_m2() < AREA_MIN_M2 {
+        return Err(NoZone::Flat(field));
+    }
+    Ok(area)
+}
+
+/// Whether two sides have a point in common other than by touching.
+fn do_cross((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool {
+    let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn zone(text: &str, is_autopilot: bool) -> Result<(Zone, Option<[Place; 2]>), String> {
+        let table: ZoneTable = toml::from_str(text).map_err(|error| error.to_string())?;
+        let checked = table.check(0.5, is_autopilot);
+        checked.map_err(|error| error.to_string())
+    }
+
+    const ROAD: &str = "road_m = [[-3, 0], [5, 0], [5, 7], [-3, 7]]\n";
+
+    #[test]
+    fn a_zone_is_a_polygon_or_a_place_with_a_radius() {
+        let (round, kerbs) =
+            zone(&format!("{ROAD}place_m = [1, -1.5]\nradius_m = 2"), true).unwrap();
+        assert_eq!(kerbs, None);
+        assert!(round.waiting.unwrap().contains([1.0, -3.4]));
+        assert!(round.road.unwrap().contains([4.9, 6.9]));
+        assert_eq!(round.rules, WaitingRules::default());
+        let text = "polygon_m = [[-3, -2.5], [5, -2.5], [5, 9.5], [-3, 9.5]]\nescort_m = [[0, -1], [0, 8]]\n\
+                    dwell_s = 2.0\nspeed_max_mps = 0.3\napproach_s = 0\nclear_s = 5";
+        let (corners, kerbs) = zone(text, false).unwrap();
+        assert_eq!(kerbs, Some([Place::new(0.0, -1.0), Place::new(0.0, 8.0)]));
+        assert!(corners.waiting.unwrap().contains([4.0, 9.0]) && corners.road.is_none());
+        let rules = WaitingRules {
+            dwell_s: 2.0,
+            speed_max_mps: 0.3,
+            approach_s: 0.0,
+            clear_s: 5.0,
+        };
+        assert_eq!(corners.rules, rules);
+        assert!(zone(ROAD, false).unwrap().0.waiting.is_none());
+    }
+
+    #[test]
+    fn what_is_no_zone_is_refused_by_the_name_of_its_field() {
+        let circle = "place_m = [1, -1.5]\nradius_m = 2\n";
+        for (text, cause) in [
+            ("", "wants either 'polygon_m', or 'place_m' and 'radius_m'"),
+            ("place_m = [1, 2]", "wants either 'polygon_m'"),
+            ("radius_m = 2", "wants either 'polygon_m'"),
+            (
+                "polygon_m = [[0, 0], [1, 1]]",
+                "polygon_m has 2 corners: 3 to 64 are possible",
+            ),
+            (
+                "polygon_m = [[0, 0], [1, 1], [0, 1e9]]",
+                "polygon_m: [0, 1000000000] is no place: metres on the site",
+            ),
+            (
+                "polygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]",
+                "polygon_m: its sides 1 and 3 cross",
+            ),
+            (
+                "road_m = [[0, 0], [2, 0], [4, 0]]",
+                "road_m: its corners enclose nothing",
+            ),
+            (
+                "place_m = [1, 2]\nradius_m = 0",
+                "radius_m is 0: 0.1 to 1000 m is wanted",
+            ),
+            (
+                &format!("{circle}dwell_s = -1"),
+                "dwell_s is -1: 0 to 60 s is wanted",
+            ),
+            (
+                &format!("{circle}speed_max_mps = nan"),
+                "speed_max_mps is NaN: 0.05 to 2 m/s",
+            ),
+            (&format!("{circle}dwel_s = 1"), "unknown field `dwel_s`"),
+            (&format!("{circle}escort_m = [[0, 0]]"), "escort_m"),
+        ] {
+            let error = zone(text, false).unwrap_err();
+            assert!(error.contains(cause), "{text}: {error}");
+        }
+        assert!(zone(circle, true).unwrap_err().contains("has no 'road_m'"));
+        assert!(zone(ROAD, true).unwrap_err().contains("has 'road_m' alone"));
+    }
+}

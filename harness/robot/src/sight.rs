@@ -1,0 +1,111 @@
+//! What a robot's sensors have at a crossing, for its log: people without what tracks them, and the zone.
+//!
+//! Places are in degrees, as in RAM, so that a log needs no site.
+
+use crossguard_endpoint::ras::area::Area;
+use crossguard_endpoint::ras::clustering::VruClass;
+use serde::{Deserialize, Serialize};
+
+use crate::site::{Place, Site};
+use crate::zone::{Conduct, Zone};
+
+/// Corners that a circle is drawn with.
+const CIRCLE_CORNERS: u8 = 24;
+
+/// Degrees of latitude and longitude.
+pub type Degrees = (f64, f64);
+
+/// The road users that the sensors have at a time.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Sight {
+    /// One for each.
+    pub people: Vec<Seen>,
+}
+
+/// A road user that the sensors have.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Seen {
+    /// Latitude and longitude.
+    pub place: Degrees,
+    /// What it is.
+    pub class: VruClass,
+    /// What it does at the crossing.
+    pub conduct: Conduct,
+}
+
+impl Sight {
+    /// How many people wait to cross.
+    #[must_use]
+    pub fn waiting(&self) -> usize {
+        self.count(Conduct::Waiting)
+    }
+
+    /// How many people are on the road.
+    #[must_use]
+    pub fn on_road(&self) -> usize {
+        self.count(Conduct::OnRoad)
+    }
+
+    fn count(&self, conduct: Conduct) -> usize {
+        self.people
+            .iter()
+            .filter(|seen| seen.conduct == conduct)
+            .count()
+    }
+}
+
+/// The outline of a zone, by its corners.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Outline {
+    /// Where people wait; none where nobody is detected.
+    pub waiting: Vec<Degrees>,
+    /// The part of the road on which they cross; none where it is not known.
+    pub road: Vec<Degrees>,
+}
+
+impl Outline {
+    /// That of a zone on a site.
+    #[must_use]
+    pub fn of(zone: &Zone, site: &Site) -> Self {
+        let outline = |area: &Option<Area>| {
+            let corners = area.as_ref().map_or_else(Vec::new, corners);
+            let degrees = |[east, north]: [f64; 2]| site.coordinates(Place::new(east, north));
+            corners.into_iter().map(degrees).collect()
+        };
+        Self {
+            waiting: outline(&zone.waiting),
+            road: outline(&zone.road),
+        }
+    }
+}
+
+/// The corners of an area; a circle gets some.
+#[must_use]
+pub fn corners(area: &Area) -> Vec<[f64; 2]> {
+    match area {
+        Area::Polygon(corners) => corners.clone(),
+        Area::Circle { center, radius_m } => (0..CIRCLE_CORNERS)
+            .map(|number| {
+                let share = f64::from(number) / f64::from(CIRCLE_CORNERS);
+                let (sine, cosine) = (share * std::f64::consts::TAU).sin_cos();
+                [center[0] + radius_m * cosine, center[1] + radius_m * sine]
+            })
+            .collect(),
+        Area::Rectangle {
+            center,
+            half_m,
+            direction_rad,
+        } => {
+            let (sine, cosine) = direction_rad.sin_cos();
+            [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
+                .map(|[along, across]| {
+                    let (x, y) = (along * half_m[0], across * half_m[1]);
+                    [
+                        center[0] + x * cosine - y * sine,
+                        center[1] + x * sine + y * cosine,
+                    ]
+                })
+                .to_vec()
+        }
+    }
+}

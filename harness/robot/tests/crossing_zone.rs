@@ -1,0 +1,241 @@
+//! A robot that leads by itself and watches a crossing zone: a person who waits is helped across without
+//! anybody's word, a call that nobody needs any more ends, and nobody is called for a passer-by.
+
+use crossguard_codec::Identifiers;
+use crossguard_endpoint::ras::area::Area;
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{Config, EndReason, Event, Input, Notice, Robot, StationId, Urgency};
+use crossguard_robot::application::Application;
+use crossguard_robot::body::{Build, Simulated};
+use crossguard_robot::machine::{Machine, is_at_rest};
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::{Place, Site};
+use crossguard_robot::street::Road;
+use crossguard_robot::zone::{Watched, Zone};
+
+const TICK_MS: u32 = 10;
+
+/// How many times as fast as real the bodies move.
+const SPEED: f64 = 5.0;
+
+fn strip(south: f64, north: f64) -> Area {
+    let corners = [[-3.0, south], [5.0, south], [5.0, north], [-3.0, north]];
+    Area::Polygon(corners.to_vec())
+}
+
+fn machine(station: u32, build: Build, plan: Option<Plan>, road: Road) -> Machine {
+    let robot = Robot::new(StationId(station), 1);
+    let endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
+    let place = Place::new(-f64::from(station), -2.0);
+    let body = Simulated::new(build, Site::default(), place, SPEED, 1);
+    Machine::new(endpoint, Application::new(Box::new(body), plan).on(road))
+}
+
+/// A leader that watches a zone, a helper, and what became of it.
+struct Crossing {
+    leader: Machine,
+    helper: Option<Machine>,
+    now_ms: u32,
+    calls: Vec<Urgency>,
+    ends: Vec<EndReason>,
+    /// Whether the leader's sign shows go.
+    go: bool,
+    /// Whether it ever did.
+    was_go: bool,
+}
+
+impl Crossing {
+    fn new(with_helper: bool) -> Self {
+        let zone = Zone {
+            waiting: Some(strip(-2.5, 9.5)),
+            ..Zone::of_road(strip(0.0, 7.0))
+        };
+        let plan = Some(Plan::crossing(Site::default()));
+        let road = Road::Watched(Watched::new(zone));
+        let helper = machine(2, Build::Quadruped, None, Road::Unknown);
+        Self {
+            leader: machine(1, Build::Humanoid, plan, road),
+            helper: with_helper.then_some(helper),
+            now_ms: 0,
+            calls: Vec::new(),
+            ends: Vec::new(),
+            go: false,
+            was_go: false,
+        }
+    }
+
+    fn tell(&mut self, is_leader: bool, stimulus: Stimulus<'_>) {
+        let machine = if is_leader {
+            &mut self.leader
+        } else if let Some(helper) = &mut self.helper {
+            helper
+        } else {
+            return;
+        };
+        let moment = Moment {
+            now_ms: self.now_ms.into(),
+            timestamp_its: 694_694_401_000 + u64::from(self.now_ms),
+        };
+        let effects = machine.handle(moment, f64::from(self.now_ms) / 1e3, stimulus);
+        for effect in effects {
+            match effect {
+                Effect::Transmit { packet, .. } => self.tell(
+                    !is_leader,
+                    Stimulus::Datagram {
+                        packet: &packet,
+                        arrived_ms: self.now_ms.into(),
+                    },
+                ),
+                Effect::Stepped {
+                    input: Input::Local(Event::PedestrianDetected(request)),
+                    outputs,
+                    ..
+                } if outputs.ignored().is_none() => self.calls.push(request.urgency),
+                Effect::Act(Act::Notice(Notice::SessionEnded(_, why))) => self.ends.push(why),
+                Effect::Act(Act::OpenCorridor(_)) => (self.go, self.was_go) = (true, true),
+                Effect::Act(Act::CloseCorridor(_)) => self.go = false,
+                _ => {}
+            }
+        }
+    }
+
+    /// Time passes, and the leader's sensors have this person, who goes on as they do.
+    fn pass(&mut self, ms: u32, vru: Option<&mut PerceivedVru>) {
+        let until_ms = self.now_ms + ms;
+        let mut vru = vru;
+        while self.now_ms < until_ms {
+            self.now_ms += TICK_MS;
+            if self.now_ms.is_multiple_of(100)
+                && let Some(vru) = &mut vru
+            {
+                self.leader.application_mut().perceive(vru);
+                let [vx, vy] = vru.velocity_mps;
+                vru.position_m = [vru.position_m[0] + vx * 0.1, vru.position_m[1] + vy * 0.1];
+            }
+            self.tell(true, Stimulus::Time);
+            self.tell(false, Stimulus::Time);
+        }
+    }
+
+    /// The same until something is so, for half a minute at most.
+    fn pass_until(&mut self, vru: &mut PerceivedVru, is: impl Fn(&Self) -> bool) {
+        let until_ms = self.now_ms + 30_000;
+        while !is(self) {
+            assert!(self.now_ms < until_ms, "{:?} {:?}", self.calls, self.ends);
+            self.pass(TICK_MS, Some(vru));
+        }
+    }
+
+    fn all_rest(&self) -> bool {
+        let rest = |machine: &Machine| is_at_rest(machine.endpoint().robot());
+        rest(&self.leader) && self.helper.as_ref().is_none_or(rest)
+    }
+}
+
+fn person(east: f64, north: f64) -> PerceivedVru {
+    PerceivedVru {
+        id: 7,
+        position_m: [east, north],
+        velocity_mps: [0.0; 2],
+        class: VruClass::Pedestrian,
+        confidence: 0.9,
+    }
+}
+
+#[test]
+fn a_person_who_waits_is_helped_across_from_either_side() {
+    for (kerb, way_mps) in [(-0.8, 1.4), (7.8, -1.4)] {
+        let mut crossing = Crossing::new(true);
+        let mut waiting = person(1.0, kerb);
+        crossing.pass_until(&mut waiting, |it| it.go);
+        assert_eq!(crossing.calls, [Urgency::Medium]);
+        // The helper has come to the side where the person waits.
+        let helper = crossing
+            .helper
+            .as_ref()
+            .unwrap()
+            .application()
+            .body()
+            .place();
+        assert!((helper.north - kerb).abs() < 2.0, "{helper:?} for {kerb}");
+        waiting.velocity_mps = [0.0, way_mps];
+        crossing.pass(6_500, Some(&mut waiting));
+        assert!(!(0.0..=7.0).contains(&waiting.position_m[1]), "across");
+        crossing.pass_until(&mut waiting, |it| !it.ends.is_empty() && it.all_rest());
+        assert_eq!(crossing.ends, [EndReason::TaskCompleted]);
+        waiting.velocity_mps = [0.0, 0.0];
+        crossing.pass(5_000, Some(&mut waiting));
+        assert_eq!(crossing.calls.len(), 1, "a person over there is no call");
+    }
+}
+
+#[test]
+fn the_session_waits_for_a_person_who_is_slow_on_the_road() {
+    let mut crossing = Crossing::new(true);
+    let mut slow = person(1.0, -0.3);
+    crossing.pass_until(&mut slow, |it| it.go);
+    slow.velocity_mps = [0.0, 0.55];
+    crossing.pass(12_000, Some(&mut slow));
+    assert!(slow.position_m[1] < 7.0, "still on the road");
+    assert_eq!(
+        crossing.ends,
+        [],
+        "the escort has arrived, the person has not"
+    );
+    crossing.pass_until(&mut slow, |it| !it.ends.is_empty() && it.all_rest());
+    assert_eq!(crossing.ends, [EndReason::TaskCompleted]);
+    assert!(slow.position_m[1] > 7.0);
+}
+
+#[test]
+fn a_call_ends_when_the_person_leaves() {
+    for with_helper in [false, true] {
+        let mut crossing = Crossing::new(with_helper);
+        let mut leaving = person(4.6, -0.8);
+        crossing.pass(1_200, Some(&mut leaving));
+        assert_eq!(crossing.calls, [Urgency::Medium]);
+        leaving.velocity_mps = [1.4, 0.0];
+        // Nobody has to say that the road is clear, since nobody was let across and the sensors tell.
+        crossing.pass_until(&mut leaving, |it| !it.ends.is_empty() && it.all_rest());
+        if !with_helper {
+            assert_eq!(crossing.ends, [EndReason::LeaveRequested]);
+        }
+        assert!(!crossing.was_go, "nobody is there to be let across");
+        crossing.pass(5_000, Some(&mut leaving));
+        assert_eq!(crossing.calls.len(), 1);
+    }
+}
+
+#[test]
+fn a_call_is_repeated_while_the_person_waits_and_nobody_helps() {
+    let mut crossing = Crossing::new(false);
+    let mut waiting = person(1.0, -0.8);
+    crossing.pass(30_000, Some(&mut waiting));
+    assert!(crossing.calls.len() >= 2, "{:?}", crossing.calls);
+    assert!(crossing.calls.len() <= 4, "{:?}", crossing.calls);
+}
+
+#[test]
+fn nobody_is_called_for_people_who_pass_vehicles_and_stale_sensors() {
+    let mut passer_by = person(-8.0, -0.8);
+    passer_by.velocity_mps = [1.4, 0.0];
+    let car = PerceivedVru {
+        class: VruClass::Vehicle,
+        ..person(1.0, -0.8)
+    };
+    let rider = PerceivedVru {
+        class: VruClass::Bicyclist,
+        velocity_mps: [4.0, 0.0],
+        ..person(-20.0, -0.8)
+    };
+    for mut vru in [passer_by, car, rider] {
+        let mut crossing = Crossing::new(true);
+        crossing.pass(10_000, Some(&mut vru));
+        assert_eq!(crossing.calls, [], "{vru:?}");
+    }
+    let mut crossing = Crossing::new(true);
+    crossing.pass(100, Some(&mut person(1.0, -0.8)));
+    crossing.pass(10_000, None);
+    assert_eq!(crossing.calls, [], "one line, and silence");
+}

@@ -1,0 +1,185 @@
+//! What a robot file and an operator say of a robot stands in its RAM: category, job, size and battery; and a low
+//! battery keeps it from taking part.
+
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::{
+    Battery, ControlMode, Identifiers, JobRole, RobotCategory, RobotState, Service, decode,
+    state_of,
+};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{Availability, Config, Event, Robot, StationId, Unavailability};
+use crossguard_robot::application::Application;
+use crossguard_robot::machine::Machine;
+use crossguard_robot::robot_file::RobotFile;
+
+fn read(more: &str) -> Result<RobotFile, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.toml");
+    let text = format!(
+        "name = \"R\"\nstation = 1\nboot_file = \"r.boot\"\n{more}\n[link]\naddress = \"127.0.0.1:1\"\n"
+    );
+    std::fs::write(&path, text).unwrap();
+    RobotFile::read(&path).map_err(|error| error.to_string())
+}
+
+struct Said {
+    machine: Machine,
+    now_ms: u64,
+}
+
+impl Said {
+    fn by(file: &RobotFile) -> Self {
+        let robot = Robot::new(file.station, 1);
+        let endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
+        let application = Application::new(Box::new(file.body(1)), file.plan());
+        let machine = Machine::new(endpoint, application.with_traits(file.traits));
+        Self { machine, now_ms: 0 }
+    }
+
+    /// The last RAM of the next 1.1 seconds, in which this happens.
+    fn next(&mut self, stimulus: Stimulus<'_>) -> RobotState {
+        let mut last = None;
+        let mut stimulus = Some(stimulus);
+        for _ in 0..22 {
+            self.now_ms += 50;
+            let moment = Moment {
+                now_ms: self.now_ms,
+                timestamp_its: 694_694_401_000 + self.now_ms,
+            };
+            #[expect(clippy::cast_precision_loss, reason = "a few seconds")]
+            let now_s = self.now_ms as f64 / 1e3;
+            let stimulus = stimulus.take().unwrap_or(Stimulus::Time);
+            for effect in self.machine.handle(moment, now_s, stimulus) {
+                if let Effect::Transmit {
+                    kind: Service::Ram,
+                    octets,
+                    ..
+                } = effect
+                {
+                    last = Some(
+                        decode::<RAM>(&Identifiers::default(), &octets)
+                            .unwrap()
+                            .message,
+                    );
+                }
+            }
+        }
+        state_of(&last.expect("no RAM within a second"))
+    }
+
+    fn availability(&self) -> Availability {
+        self.machine.endpoint().robot().availability()
+    }
+}
+
+#[test]
+fn every_category_of_the_message_can_be_configured() {
+    for (build, category) in [
+        ("unknown", RobotCategory::Unknown),
+        ("humanoid", RobotCategory::Humanoid),
+        ("quadruped", RobotCategory::Quadruped),
+        ("wheeled", RobotCategory::Wheeled),
+        ("tracked", RobotCategory::Tracked),
+        ("aerial", RobotCategory::Aerial),
+        ("other", RobotCategory::Other),
+    ] {
+        let file = read(&format!("build = \"{build}\"")).unwrap();
+        assert_eq!(Said::by(&file).next(Stimulus::Time).category, category);
+    }
+}
+
+#[test]
+fn every_job_size_and_battery_of_a_file_is_in_its_ram() {
+    for (name, job) in [
+        ("none", JobRole::None),
+        ("traffic-guard", JobRole::TrafficGuard),
+        ("escort", JobRole::Escort),
+        ("patrol", JobRole::Patrol),
+        ("delivery", JobRole::Delivery),
+        ("maintenance", JobRole::Maintenance),
+        ("other", JobRole::Other),
+    ] {
+        let text = format!(
+            "build = \"humanoid\"\njob = \"{name}\"\ndimensions_m = [0.9, 0.6, 1.2]\n\
+             battery = {{ charge_percent = 64.0, charging = true }}"
+        );
+        let state = Said::by(&read(&text).unwrap()).next(Stimulus::Time);
+        assert_eq!(state.job_role, job);
+        let size = state.dimensions;
+        let size = [size.length, size.width, size.height];
+        assert_eq!(size, [Some(0.9), Some(0.6), Some(1.2)]);
+        let battery = Battery {
+            state_of_charge: Some(64.0),
+            charging: true,
+        };
+        assert_eq!(state.battery, battery);
+    }
+    let plain = Said::by(&read("build = \"humanoid\"").unwrap()).next(Stimulus::Time);
+    assert_eq!(plain.job_role, JobRole::TrafficGuard);
+    assert_eq!(plain.battery.state_of_charge, Some(80.0));
+    assert_eq!(plain.dimensions.height, Some(1.7), "1.65 m in decimetres");
+}
+
+#[test]
+fn a_low_battery_keeps_a_robot_out_until_it_is_charged() {
+    let file = read("build = \"quadruped\"\nbattery = { low_percent = 20 }").unwrap();
+    let mut said = Said::by(&file);
+    let charge = |said: &mut Said, percent: f64| {
+        said.machine.application_mut().set_battery(Battery {
+            state_of_charge: Some(percent),
+            charging: true,
+        });
+        let state = said.next(Stimulus::Time);
+        assert_eq!(state.battery.state_of_charge, Some(percent));
+    };
+    let low = Availability::Unavailable(Unavailability::LowBattery);
+    charge(&mut said, 21.0);
+    assert_eq!(said.availability(), Availability::Available);
+    charge(&mut said, 19.0);
+    assert_eq!(said.availability(), low);
+    charge(&mut said, 24.0);
+    assert_eq!(said.availability(), low, "not at the limit itself");
+    charge(&mut said, 25.0);
+    assert_eq!(said.availability(), Availability::Available);
+    // Another reason stands, whatever the battery is like.
+    let stop = Availability::Unavailable(Unavailability::EmergencyStop);
+    let state = said.next(Stimulus::Event(Event::AvailabilityChanged(stop)));
+    assert_eq!(state.control_mode, ControlMode::EmergencyStop);
+    charge(&mut said, 5.0);
+    charge(&mut said, 90.0);
+    assert_eq!(said.availability(), stop);
+    let back = Event::AvailabilityChanged(Availability::Available);
+    let state = said.next(Stimulus::Event(back));
+    assert_eq!(state.control_mode, ControlMode::Autonomous);
+    assert_eq!(said.machine.endpoint().robot().station(), StationId(1));
+}
+
+#[test]
+fn what_no_robot_is_like_is_refused_by_the_name_of_its_field() {
+    for (text, cause) in [
+        ("build = \"car\"", "unknown variant `car`"),
+        (
+            "build = \"other\"\njob = \"cook\"",
+            "unknown variant `cook`",
+        ),
+        (
+            "build = \"other\"\ndimensions_m = [1, 0, 1]",
+            "dimensions_m has 0: length, width and height in metres",
+        ),
+        (
+            "build = \"other\"\nbattery = { charge_percent = 120 }",
+            "[battery] charge_percent is 120: 0 to 100 is wanted",
+        ),
+        (
+            "build = \"other\"\nbattery = { charging = true }",
+            "[battery] 'charging' wants 'charge_percent', too",
+        ),
+        (
+            "build = \"other\"\nbattery = { low_percent = -1 }",
+            "[battery] low_percent is -1",
+        ),
+    ] {
+        let error = read(text).unwrap_err();
+        assert!(error.contains(cause), "{text}: {error}");
+    }
+}
