@@ -49,7 +49,7 @@ pub struct RobotFile {
     pub config: Config,
     /// What no standard has assigned.
     pub identifiers: Identifiers,
-    /// How it announces the people around it.
+    /// How it announces the people around it, and itself to stations that do not know RAM.
     pub awareness: Awareness,
 }
 
@@ -79,6 +79,8 @@ struct RobotTable {
     people: clustering::Settings,
     #[serde(default)]
     cluster_vam: bool,
+    #[serde(default)]
+    cam: bool,
 }
 
 const fn one() -> f64 {
@@ -285,6 +287,7 @@ impl RobotTable {
             awareness: Awareness {
                 clustering: self.people,
                 cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
+                cam: self.cam,
             },
         })
     }

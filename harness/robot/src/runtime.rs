@@ -150,7 +150,7 @@ pub struct Setup {
     pub identifiers: Identifiers,
     /// Whether it signs and verifies.
     pub security: Security,
-    /// How it announces the people around it.
+    /// How it announces the people around it, and itself to stations that do not know RAM.
     pub awareness: Awareness,
     /// Moves the body, and leads.
     pub application: Application,

@@ -23,7 +23,6 @@ use std::time::{Duration, Instant};
 
 use crossguard_codec::Service;
 use crossguard_endpoint::cause::{Cause, Layer};
-use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_protocol::{Input, Output, Robot, State};
@@ -79,9 +78,8 @@ pub(super) struct Arguments {
     /// People that the robot's sensors report: a file or pipe of JSON lines, see below.
     #[arg(long, value_name = "FILE")]
     perceived: Option<PathBuf>,
-    /// Announce clusters of people by ETSI's cluster VAM as well, for devices that do not understand RAM.
-    #[arg(long)]
-    cluster_vam: bool,
+    #[command(flatten)]
+    etsi: super::etsi::EtsiArguments,
     #[command(flatten)]
     security: super::security::SecurityArguments,
     /// Write the log to this file, one JSON object per line.
@@ -132,9 +130,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let counter = boot.counter;
     let body = Box::new(file.body(arguments.seed));
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
-    if arguments.cluster_vam {
-        setup.awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);
-    }
+    setup.awareness = arguments.etsi.add_to(setup.awareness);
     let running = setup.start();
     let mut console = Console {
         file: &file,
