@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::Duration;
 
-use crossguard_codec::TaskParameters;
+use crossguard_codec::{PublicSignal, SignalMeans, SignalsShown, TaskParameters};
 use crossguard_protocol::{
     Availability, Event, HelpRequest, MAX_FOLLOWERS, State, StationId, TaskNames, TaskSet,
     TaskType, Unavailability, Urgency,
@@ -47,6 +47,8 @@ pub enum Tell {
     Clear,
     /// Its sensors have this person, at this place on the site.
     Perceived(PerceivedVru),
+    /// It shows this to people.
+    Show(SignalsShown),
 }
 
 impl From<Tell> for Order {
@@ -57,6 +59,7 @@ impl From<Tell> for Order {
             Tell::Finish(well) => Self::Finish { well },
             Tell::Clear => Self::Clear,
             Tell::Perceived(vru) => Self::Perceived(vru),
+            Tell::Show(signals) => Self::Show(signals),
         }
     }
 }
@@ -65,8 +68,12 @@ impl From<Tell> for Order {
 pub const HELP: &str = "\
 detect [FOLLOWERS] [low|medium|high|emergency] [TASK ...]
                        a pedestrian needs help; 1 follower for initialPos and move by default
-order STATION TASK [EAST NORTH [SPEED]]
-                       have a follower do a maneuver, in metres and m/s
+order STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]
+                       have a follower do a maneuver, in metres and m/s, at this road segment or
+                       intersection of the map; map_place or crossing of the configuration by default
+show VEHICLES [PEDESTRIANS] [gesture] [display] [lights] [speech]
+                       what the robot shows to whom, for its RAM: none, stop, go, caution; to pedestrians
+                       go is for the corridor alone; the means are those of the configuration by default
 in-position            the body is at the place from which it guards
 done | fail            the maneuver that runs is finished, or cannot be; done also ends a fallback
 open | close           open or close the corridor
@@ -133,6 +140,7 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
     match (command, rest.as_slice()) {
         ("detect", words) => tell(Event::PedestrianDetected(request(words, site)?)),
         ("order", words) => order(words, site),
+        ("show", words) => show(words),
         ("in-position", []) => Ok(Line::Order(Tell::InPosition)),
         ("clear", []) => Ok(Line::Order(Tell::Clear)),
         ("done", []) => Ok(Line::Order(Tell::Finish(true))),
@@ -223,6 +231,16 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
             .parse()
             .map_err(|_| wrong(station, "a station id"))?,
     );
+    let (rest, map_place) = match rest {
+        [rest @ .., kind @ ("segment" | "intersection"), reference] => {
+            let text = format!("{kind} {reference}");
+            let wanted =
+                "a road segment or intersection, like 'segment 276:12' or 'intersection 4711'";
+            let place = text.parse().map_err(|_| wrong(&text, wanted))?;
+            (rest, Some(place))
+        }
+        rest => (rest, site.map_place),
+    };
     let metres = |word: &str| number(word).ok_or_else(|| wrong(word, "a number of metres"));
     let (target, maximum_speed) = match rest {
         [] => (None, None),
@@ -242,6 +260,7 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
     let parameters = TaskParameters {
         target,
         maximum_speed,
+        map_place,
         ..TaskParameters::default()
     };
     Ok(Line::Order(Tell::Wish(Wish::Order {
@@ -249,6 +268,56 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
         task: task(name)?,
         parameters,
     })))
+}
+
+fn show(words: &[&str]) -> Result<Line, Misunderstood> {
+    let [vehicles, rest @ ..] = words else {
+        return Err(Misunderstood::Missing {
+            command: "show",
+            wanted: "what is shown to vehicles",
+        });
+    };
+    let to_vehicles =
+        signal(vehicles).ok_or_else(|| wrong(vehicles, "none, stop, go or caution"))?;
+    let (to_pedestrians, rest) = match rest {
+        ["go", ..] => {
+            return Err(wrong(
+                "go",
+                "for pedestrians here; 'open' opens the corridor",
+            ));
+        }
+        [word, others @ ..] => signal(word).map_or((PublicSignal::None, rest), |it| (it, others)),
+        [] => (PublicSignal::None, rest),
+    };
+    let means = rest
+        .iter()
+        .try_fold(SignalMeans::default(), |means, word| {
+            let one =
+                means_of(word).ok_or_else(|| wrong(word, "gesture, display, lights or speech"))?;
+            Ok(means.union(one))
+        })?;
+    Ok(Line::Order(Tell::Show(SignalsShown {
+        to_vehicles,
+        to_pedestrians,
+        means,
+    })))
+}
+
+fn signal(name: &str) -> Option<PublicSignal> {
+    use PublicSignal::{Caution, Go, None, Stop};
+    [None, Stop, Go, Caution]
+        .into_iter()
+        .find(|signal| signal.to_string() == name)
+}
+
+fn means_of(name: &str) -> Option<SignalMeans> {
+    match name {
+        "gesture" => Some(SignalMeans::GESTURE),
+        "display" => Some(SignalMeans::DISPLAY),
+        "lights" => Some(SignalMeans::LIGHTS),
+        "speech" => Some(SignalMeans::SPEECH),
+        _ => None,
+    }
 }
 
 fn wrong(word: &str, wanted: impl Into<Cow<'static, str>>) -> Misunderstood {
@@ -312,6 +381,8 @@ fn state(name: &str) -> Result<State, Misunderstood> {
 
 #[cfg(test)]
 mod tests {
+    use crossguard_codec::MapPlace;
+
     use super::*;
 
     fn parsed(text: &str) -> Result<Line, String> {
@@ -357,6 +428,66 @@ mod tests {
     }
 
     #[test]
+    fn an_order_may_name_a_place_of_the_map() {
+        let place_of = |text| match parsed(text) {
+            Ok(Line::Order(Tell::Wish(Wish::Order { parameters, .. }))) => parameters.map_place,
+            other => panic!("{text}: {other:?}"),
+        };
+        let segment = MapPlace::RoadSegment {
+            region: Some(276),
+            id: 12,
+        };
+        let intersection = MapPlace::Intersection {
+            region: None,
+            id: 4_711,
+        };
+        assert_eq!(place_of("order 2 move segment 276:12"), Some(segment));
+        assert_eq!(
+            place_of("order 2 move 1 8 0.4 intersection 4711"),
+            Some(intersection)
+        );
+        assert_eq!(place_of("order 2 move 1 8"), None);
+        let refused = parsed("order 2 move segment 70000").unwrap_err();
+        assert!(
+            refused.contains("'segment 70000' is not a road segment"),
+            "{refused}"
+        );
+    }
+
+    #[test]
+    fn what_is_shown_to_whom_and_how_can_be_said() {
+        let shown = |text| match parsed(text) {
+            Ok(Line::Order(Tell::Show(signals))) => signals,
+            other => panic!("{text}: {other:?}"),
+        };
+        let expected = |to_vehicles, to_pedestrians, means| SignalsShown {
+            to_vehicles,
+            to_pedestrians,
+            means,
+        };
+        let (none, stop) = (PublicSignal::None, PublicSignal::Stop);
+        let by_voice = SignalMeans::GESTURE.union(SignalMeans::SPEECH);
+        assert_eq!(shown("show stop"), expected(stop, none, SignalMeans(0)));
+        assert_eq!(
+            shown("show none stop"),
+            expected(none, stop, SignalMeans(0))
+        );
+        assert_eq!(
+            shown("show stop gesture speech"),
+            expected(stop, none, by_voice)
+        );
+        let caution = shown("show go caution display");
+        assert_eq!(
+            caution,
+            expected(
+                PublicSignal::Go,
+                PublicSignal::Caution,
+                SignalMeans::DISPLAY
+            )
+        );
+    }
+
+    #[test]
     fn what_means_nothing_is_answered_with_what_would() {
         for (text, answer) in [
             ("fly", "no command 'fly'; type 'help'"),
@@ -377,6 +508,16 @@ mod tests {
                 "'1' is not a place: two numbers of metres are",
             ),
             ("order 2 move 1 8 -1", "'-1' is not a speed in m/s"),
+            ("show", "'show' wants what is shown to vehicles"),
+            ("show hello", "'hello' is not none, stop, go or caution"),
+            (
+                "show stop go",
+                "'go' is not for pedestrians here; 'open' opens the corridor",
+            ),
+            (
+                "show stop stop whistle",
+                "'whistle' is not gesture, display, lights or speech",
+            ),
             ("wait long", "'long' is not a number of seconds up to a day"),
             ("wait inf", "'inf' is not a number of seconds up to a day"),
             ("until done", "'done' is not a state; see 'help'"),
@@ -411,7 +552,8 @@ mod tests {
     fn everything_that_the_help_names_is_understood() {
         for text in [
             "detect 1 low move",
-            "order 1 block",
+            "order 1 block segment 12",
+            "show stop caution lights",
             "in-position",
             "clear",
             "done",

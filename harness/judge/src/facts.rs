@@ -375,10 +375,7 @@ impl Observer {
         let (identifiers, octets) = (&self.robots[robot].identifiers, message_of(octets));
         let heard = overhear(identifiers, octets).ok();
         let (service, from, text) = match &heard {
-            Some(heard) => {
-                let texts: Vec<_> = heard.inputs.iter().map(text_of).collect();
-                (heard.service, heard.from, texts.join("; "))
-            }
+            Some(heard) => (heard.service, heard.from, text_of(heard)),
             None => of_etsi(identifiers, octets)?,
         };
         let message = Message {

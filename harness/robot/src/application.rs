@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::fmt;
 
-use crossguard_codec::{RobotState, TaskParameters};
+use crossguard_codec::{RobotState, SignalMeans, SignalsShown, TaskParameters};
 use crossguard_endpoint::Act;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::{
@@ -13,7 +13,7 @@ use crossguard_protocol::{
 
 use crate::body::{Body, BodyAct, Fallback, Pose, Report};
 use crate::plan::{Leg, Plan};
-use crate::sign::Sign;
+use crate::sign::{Shown, Sign};
 use crate::street::Road;
 
 /// What an application wants of its endpoint.
@@ -56,6 +56,10 @@ pub struct Application {
     body: Box<dyn Body>,
     /// What people see while it leads.
     sign: Sign,
+    /// What its robot's RAM say that it shows to people.
+    shown: Shown,
+    /// Whether its robot leads, so that people look at its sign.
+    leads: bool,
     /// What it knows of the people on the road.
     road: Road,
     /// What its robot still has to do on the road.
@@ -143,6 +147,8 @@ impl Application {
         Self {
             body,
             sign: Sign::default(),
+            shown: Shown::default(),
+            leads: false,
             road: Road::default(),
             obligation: None,
             maneuver: None,
@@ -161,6 +167,19 @@ impl Application {
     #[must_use]
     pub fn on(self, road: Road) -> Self {
         Self { road, ..self }
+    }
+
+    /// The same, which shows signals to people by these means, if by any.
+    #[must_use]
+    pub fn showing_by(self, means: Option<SignalMeans>) -> Self {
+        let shown = Shown::by(means);
+        Self { shown, ..self }
+    }
+
+    /// Shows this to people from now on; without means, by those of before. While the robot leads, its sign
+    /// says what is shown to pedestrians.
+    pub fn show(&mut self, signals: SignalsShown) {
+        self.shown.show(signals);
     }
 
     /// The same, which tells a listener every act.
@@ -218,6 +237,7 @@ impl Application {
     /// Takes in what the protocol knows after a step.
     pub fn learn(&mut self, robot: &Robot, config: &Config) {
         self.rules = Rules::of(config);
+        self.leads = matches!(robot.phase(), Phase::Leading(_));
         self.corridor = match robot.phase() {
             Phase::Leading(leading) => leading.corridor,
             _ => Corridor::Clear,
@@ -293,10 +313,15 @@ impl Application {
         }
     }
 
-    /// What the sensors say.
+    /// What the sensors say, and what is shown to people.
     #[must_use]
     pub fn state(&self) -> RobotState {
-        self.body.state()
+        let mut state = self.body.state();
+        if let Some(slow) = &mut state.slow {
+            let shows_go = self.sign.shows_go(micros(self.at_s));
+            slow.signals = self.shown.told(self.leads.then_some(shows_go));
+        }
+        state
     }
 
     /// The body.
@@ -484,6 +509,7 @@ impl Application {
         let parameters = TaskParameters {
             target: Some(plan.site.target(leg.to)),
             maximum_speed: Some(leg.speed_mps),
+            map_place: plan.site.map_place,
             ..TaskParameters::default()
         };
         self.wish(Wish::Order {

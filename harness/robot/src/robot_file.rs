@@ -3,7 +3,7 @@
 use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 
-use crossguard_codec::{IdentifierClash, Identifiers};
+use crossguard_codec::{IdentifierClash, Identifiers, NoMapPlace, SignalMeans};
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
@@ -41,6 +41,8 @@ pub struct RobotFile {
     /// Whether it leads the crossing by itself once a pedestrian is detected. The pedestrian is simulated
     /// then.
     pub autopilot: bool,
+    /// By what it shows signals to people, if it can.
+    pub shows: Option<SignalMeans>,
     /// The part of the road on which people cross, if its sensors have everybody there.
     pub zone: Option<Zone>,
     /// Its link.
@@ -67,6 +69,9 @@ struct RobotTable {
     #[serde(default)]
     autopilot: bool,
     crossing: Option<String>,
+    map_place: Option<String>,
+    #[serde(default)]
+    shows: Vec<Means>,
     zone_m: Option<[f64; 4]>,
     #[serde(default)]
     site: Option<SiteTable>,
@@ -81,6 +86,27 @@ struct RobotTable {
     cluster_vam: bool,
     #[serde(default)]
     cam: bool,
+}
+
+/// By what a robot shows signals to people.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Means {
+    Gesture,
+    Display,
+    Lights,
+    Speech,
+}
+
+impl From<Means> for SignalMeans {
+    fn from(means: Means) -> Self {
+        match means {
+            Means::Gesture => Self::GESTURE,
+            Means::Display => Self::DISPLAY,
+            Means::Lights => Self::LIGHTS,
+            Means::Speech => Self::SPEECH,
+        }
+    }
 }
 
 const fn one() -> f64 {
@@ -165,6 +191,9 @@ pub enum Impossibility {
     /// The crossing has no such name.
     #[error("crossing: {0}")]
     Crossing(#[from] NoCrossing),
+    /// No place of a map.
+    #[error("map_place: {0}")]
+    MapPlace(#[from] NoMapPlace),
     /// The zone has no area.
     #[error(
         "zone_m is {0:?}: west, south, east and north in metres are wanted, west < east and south < north"
@@ -241,7 +270,9 @@ impl RobotFile {
             identifiers: self.identifiers,
             security,
             awareness: self.awareness,
-            application: Application::new(body, plan).on(self.road()),
+            application: Application::new(body, plan)
+                .on(self.road())
+                .showing_by(self.shows),
             link,
             journal,
             clock: Clock::start(),
@@ -261,10 +292,14 @@ impl RobotTable {
         });
         let crossing = self.crossing.as_deref().map(str::parse);
         let crossing = crossing.transpose()?;
+        let map_place = self.map_place.as_deref().map(str::parse).transpose()?;
         let site = Site {
             crossing: crossing.map_or(protocol::Place::UNKNOWN, |CrossingReference(place)| place),
+            // Whoever says nothing else commands maneuvers at the crossing.
+            map_place: map_place.or(crossing.and_then(CrossingReference::map_place)),
             ..site
         };
+        let shows: Vec<_> = self.shows.into_iter().map(SignalMeans::from).collect();
         let zone = self.zone_m.map(zone).transpose()?;
         if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
             return Err(Impossibility::Site(site.latitude, site.longitude));
@@ -280,6 +315,7 @@ impl RobotTable {
             site,
             speed: self.speed,
             autopilot: self.autopilot,
+            shows: shows.into_iter().reduce(SignalMeans::union),
             zone,
             link: self.link.check(folder)?,
             config: Config::new(self.protocol)?,

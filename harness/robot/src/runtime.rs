@@ -27,8 +27,8 @@ use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, SyncSender, sync_chan
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crossguard_codec::Identifiers;
 use crossguard_codec::si::timestamp_its;
+use crossguard_codec::{Identifiers, SignalsShown};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
@@ -122,6 +122,8 @@ pub enum Order {
     Perceived(PerceivedVru),
     /// The body, which others move, is here.
     Moved(Pose),
+    /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
+    Show(SignalsShown),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -373,6 +375,10 @@ impl Loop {
             }
             Order::Moved(pose) => {
                 self.machine.application_mut().moved(pose);
+                Stimulus::Time
+            }
+            Order::Show(signals) => {
+                self.machine.application_mut().show(signals);
                 Stimulus::Time
             }
             Order::Reset => {

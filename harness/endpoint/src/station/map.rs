@@ -63,7 +63,10 @@ impl LocalDynamicMap {
         let users = self.kinds.entry(user.kind).or_default();
         if let Some(known) = users.get_mut(&user.identity) {
             if known.user.measured_its <= user.measured_its {
+                // It is in some of a robot's RAM, twice a second at most.
+                let signals = user.signals.or(known.user.signals);
                 *known = neighbour;
+                known.user.signals = signals;
             }
             return;
         }
@@ -126,6 +129,7 @@ mod tests {
             speed: Some(1.0),
             heading: None,
             cardinality: 1,
+            signals: None,
             measured_its,
         }
     }
