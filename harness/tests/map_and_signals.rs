@@ -30,7 +30,8 @@ fn the_place_of_a_command_and_the_signals_of_its_leader_arrive() {
     let port = two_free_ports();
     let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
     let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
-    let slower = ("speed = 40.0", "speed = 10.0");
+    // Slow enough for a RAM with the slow container in each stage.
+    let slower = ("speed = 40.0", "speed = 4.0");
     edit(&go2, &[slower]);
     let said = "crossing = \"276:4711\"\nshows = [\"gesture\", \"display\"]\n\n[link]";
     edit(&ari, &[slower, ("\n[link]", said)]);
