@@ -283,6 +283,9 @@ pub enum ViewError {
     /// The commands of one message belong to different sessions.
     #[error("commands of sessions {0} and {1} are in one message")]
     SessionsDiffer(SessionId, SessionId),
+    /// The command to this follower is for another place of the map than the first of its message.
+    #[error("the command to station {0} is for another place of the map than those before it")]
+    MapPlacesDiffer(StationId),
     /// The target of a command is not a place, or too far away.
     #[error("the target of the command for station {0} cannot be expressed")]
     Target(StationId),

@@ -10,7 +10,8 @@ use crate::message::{Message, Received};
 use crate::service::Service;
 use crate::state::{Position, RobotState};
 use crate::view::{
-    TaskParameters, availability_of, state_of, task_parameters_of, view_of_ram, views_of_rmcm,
+    MapPlace, TaskParameters, availability_of, map_place_of, state_of, task_parameters_of,
+    view_of_ram, views_of_rmcm,
 };
 
 /// What a received message says.
@@ -26,6 +27,8 @@ pub struct Heard {
     pub generation_delta_time: u16,
     /// Parameters of the command to the robot that hears it, if there is one.
     pub parameters: Option<TaskParameters>,
+    /// Where the maneuvers that are commanded take place, whoever is to do them.
+    pub map_place: Option<MapPlace>,
     /// The sender's state, from a RAM.
     pub state: Option<RobotState>,
     /// The sender's availability, from a RAM.
@@ -71,6 +74,7 @@ impl Heard {
                     inputs: [input].into_iter().collect(),
                     generation_delta_time: ram.ram.generation_delta_time.0,
                     parameters: None,
+                    map_place: None,
                     state: Some(state),
                     availability: Some(availability_of(&ram)),
                     cluster: cluster.map(|container| container.vru_cluster_information),
@@ -88,6 +92,7 @@ impl Heard {
                     inputs: views.iter().copied().map(Input::Rmcm).collect(),
                     generation_delta_time: rmcm.rmcm.generation_delta_time.0,
                     parameters: task_parameters_of(&rmcm, me),
+                    map_place: map_place_of(&rmcm),
                     state: None,
                     availability: None,
                     cluster: None,

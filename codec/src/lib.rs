@@ -111,9 +111,9 @@ pub use state::{
 };
 #[doc(no_inline)]
 pub use view::{
-    ExecutionStatus, MapPlace, Target, TaskParameters, availability_of, execution_of, map_place_of,
-    ram_from, rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of, view_of_ram,
-    views_of_rmcm,
+    ExecutionStatus, MapPlace, NoMapPlace, Target, TaskParameters, availability_of, execution_of,
+    map_place_of, ram_from, rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of,
+    view_of_ram, views_of_rmcm,
 };
 
 /// The Rust in the README compiles.

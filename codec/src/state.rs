@@ -3,6 +3,8 @@
 //! Plain values for the application: nothing here depends on the wire. [`ram_from`](crate::ram_from)
 //! and [`state_of`](crate::state_of) convert by the tables of [`si`](crate::si).
 
+use ::core::fmt;
+
 use crossguard_protocol::{Availability, Config, Robot, State, TaskSet, Unavailability};
 use serde::{Deserialize, Serialize};
 
@@ -196,6 +198,24 @@ pub struct SignalsShown {
     pub to_pedestrians: PublicSignal,
     /// By which means.
     pub means: SignalMeans,
+}
+
+impl fmt::Display for SignalsShown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (vehicles, pedestrians) = (self.to_vehicles, self.to_pedestrians);
+        write!(f, "{vehicles} to vehicles, {pedestrians} to pedestrians")
+    }
+}
+
+impl fmt::Display for PublicSignal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::None => "none",
+            Self::Stop => "stop",
+            Self::Go => "go",
+            Self::Caution => "caution",
+        })
+    }
 }
 
 wire_enum! {

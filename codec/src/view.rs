@@ -29,7 +29,7 @@ pub use rmcm::{
     execution_of, map_place_of, rmcm_from_answer, rmcm_from_commands, task_parameters_of,
     views_of_rmcm,
 };
-pub use task::{ExecutionStatus, MapPlace, Target, TaskParameters};
+pub use task::{ExecutionStatus, MapPlace, NoMapPlace, Target, TaskParameters};
 
 /// Checks that a leader names every follower once, and not itself.
 fn check_followers(

@@ -67,7 +67,7 @@ fn an_rmcm_says_what_its_leader_wants_of_each_and_where_this_robot_is_to_go() {
     };
     let commands = [command(5, 1), command(ME.0, 2)];
     let ids = Identifiers::default();
-    let rmcm = rmcm_from_commands(&ids, &state().position, None, &commands, 0).unwrap();
+    let rmcm = rmcm_from_commands(&ids, &state().position, &commands, 0).unwrap();
     let heard = hear(&encode(&ids, &rmcm).unwrap()).unwrap();
     assert_eq!((heard.service, heard.from), (Service::Rmcm, leader));
     let inputs = commands.map(|(command, _)| Input::Rmcm(Rmcm::Command(command)));

@@ -240,7 +240,7 @@ fn a_component_that_spells_out_its_default_is_refused() {
     });
     let commands = [(samples::command(), parameters)];
     let position = samples::position();
-    let rmcm = crossguard_codec::rmcm_from_commands(&identifiers(), &position, None, &commands, 0);
+    let rmcm = crossguard_codec::rmcm_from_commands(&identifiers(), &position, &commands, 0);
     let octets = encode(&identifiers(), &rmcm.unwrap()).unwrap();
     // ... as 800000, and the next number is 800001, unavailable.
     let bits = to_bits(&octets);

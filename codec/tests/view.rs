@@ -10,9 +10,9 @@ use crossguard_codec::core::ram::{
 };
 use crossguard_codec::core::rmcm::{ManeuverCommands, ManeuverContainer, RMCM};
 use crossguard_codec::{
-    EncodeError, ExecutionStatus, Identifiers, Message, Target, TaskParameters, TaskProgression,
-    ViewError, availability_of, decode, encode, execution_of, map_place_of, ram_from,
-    rmcm_from_answer, rmcm_from_commands, task_parameters_of, view_of_ram, views_of_rmcm,
+    EncodeError, ExecutionStatus, Identifiers, MapPlace, Message, Target, TaskParameters,
+    TaskProgression, ViewError, availability_of, decode, encode, execution_of, map_place_of,
+    ram_from, rmcm_from_answer, rmcm_from_commands, task_parameters_of, view_of_ram, views_of_rmcm,
 };
 use crossguard_protocol::{
     Availability, Command, Coordination, Failure, Farewell, Heartbeat, Millis, OfferNumber, Place,
@@ -89,9 +89,9 @@ proptest! {
         let session = leader.session;
         let commands: Vec<(Command, TaskParameters)> = commands
             .into_iter()
-            .map(|(command, parameters)| (Command { session, ..command }, parameters))
+            .map(|(command, parameters)| (Command { session, ..command }, views::at(place, parameters)))
             .collect();
-        let sent = rmcm_from_commands(&identifiers(), &position, place, &commands, 7);
+        let sent = rmcm_from_commands(&identifiers(), &position, &commands, 7);
         if let Ok(sent) = sent {
             let received = over_the_air(&sent);
             let expected = commands.iter().map(|(command, _)| Rmcm::Command(*command));
@@ -102,7 +102,7 @@ proptest! {
                 // What was decoded is said again as it was.
                 let parameters = task_parameters_of(&received, command.to).unwrap();
                 let again = [(*command, parameters)];
-                let again = rmcm_from_commands(&identifiers(), &position, None, &again, 7).unwrap();
+                let again = rmcm_from_commands(&identifiers(), &position, &again, 7).unwrap();
                 prop_assert_eq!(task_parameters_of(&again, command.to), Some(parameters));
             }
         }
@@ -471,7 +471,7 @@ fn in_position_stands_in_report_and_status() {
 #[test]
 fn the_commands_of_a_message_belong_together() {
     let rmcm = |commands: &[(Command, TaskParameters)]| {
-        rmcm_from_commands(&identifiers(), &samples::position(), None, commands, 0).map(drop)
+        rmcm_from_commands(&identifiers(), &samples::position(), commands, 0).map(drop)
     };
     let parameters = samples::parameters();
     let first = samples::command();
@@ -495,6 +495,10 @@ fn the_commands_of_a_message_belong_together() {
         session,
         ..other(2)
     };
+    let region = None;
+    let segment = |id| views::at(Some(MapPlace::RoadSegment { region, id }), parameters);
+    let places = [(first, segment(1)), (other(2), segment(2))];
+    assert_eq!(rmcm(&places), Err(ViewError::MapPlacesDiffer(StationId(2))));
     let error = ViewError::SessionsDiffer(first.session, session);
     assert_eq!(
         rmcm(&[(first, parameters), (elsewhere, parameters)]),
@@ -554,7 +558,7 @@ fn a_target_that_cannot_be_expressed_is_not_left_out() {
             ..TaskParameters::default()
         };
         let commands = [(samples::command(), parameters)];
-        let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), None, &commands, 0);
+        let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), &commands, 0);
         assert_eq!(
             rmcm,
             Err(ViewError::Target(samples::FOLLOWER)),
@@ -572,7 +576,7 @@ fn a_limit_that_is_no_number_is_no_limit() {
         ..TaskParameters::default()
     };
     let commands = [(samples::command(), parameters)];
-    let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), None, &commands, 0);
+    let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), &commands, 0);
     let read = task_parameters_of(&rmcm.unwrap(), samples::FOLLOWER);
     assert_eq!(read, Some(TaskParameters::default()));
 }

@@ -101,10 +101,10 @@ proptest! {
             if let Some(first) = first.filter(|_| same_session) {
                 command.session = first.session;
             }
-            (command, TaskParameters::default())
+            (command, views::at(place, TaskParameters::default()))
         };
         let commands: Vec<_> = commands.into_iter().map(told).collect();
-        laws::commands_keep_the_view(&commands, place);
+        laws::commands_keep_the_view(&commands);
     }
 
     #[test]

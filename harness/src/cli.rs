@@ -6,6 +6,7 @@ mod check;
 mod choices;
 mod codec;
 mod demo;
+mod etsi;
 mod explore;
 mod export;
 mod fsm;

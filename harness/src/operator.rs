@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::Duration;
 
-use crossguard_codec::{Battery, TaskParameters};
+use crossguard_codec::{Battery, PublicSignal, SignalMeans, SignalsShown, TaskParameters};
 use crossguard_protocol::{
     Availability, Event, HelpRequest, MAX_FOLLOWERS, State, StationId, TaskNames, TaskSet,
     TaskType, Unavailability, Urgency,
@@ -49,6 +49,8 @@ pub enum Tell {
     Perceived(Option<PerceivedVru>),
     /// Its battery is like this now.
     Battery(Battery),
+    /// It shows this to people.
+    Show(SignalsShown),
 }
 
 impl From<Tell> for Order {
@@ -60,6 +62,7 @@ impl From<Tell> for Order {
             Tell::Clear => Self::Clear,
             Tell::Perceived(vru) => Self::Perceived(vru),
             Tell::Battery(battery) => Self::Battery(battery),
+            Tell::Show(signals) => Self::Show(signals),
         }
     }
 }
@@ -68,8 +71,12 @@ impl From<Tell> for Order {
 pub const HELP: &str = "\
 detect [FOLLOWERS] [low|medium|high|emergency] [TASK ...]
                        a pedestrian needs help; 1 follower for initialPos and move by default
-order STATION TASK [EAST NORTH [SPEED]]
-                       have a follower do a maneuver, in metres and m/s
+order STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]
+                       have a follower do a maneuver, in metres and m/s, at this road segment or
+                       intersection of the map; map_place or crossing of the configuration by default
+show VEHICLES [PEDESTRIANS] [gesture] [display] [lights] [speech]
+                       what the robot shows to whom, for its RAM: none, stop, go, caution; to pedestrians
+                       go is for the corridor alone; the means are those of the configuration by default
 in-position            the body is at the place from which it guards
 done | fail            the maneuver that runs is finished, or cannot be; done also ends a fallback
 open | close           open or close the corridor
@@ -138,6 +145,7 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
     match (command, rest.as_slice()) {
         ("detect", words) => tell(Event::PedestrianDetected(request(words, site)?)),
         ("order", words) => order(words, site),
+        ("show", words) => show(words),
         ("in-position", []) => Ok(Line::Order(Tell::InPosition)),
         ("clear", []) => Ok(Line::Order(Tell::Clear)),
         ("done", []) => Ok(Line::Order(Tell::Finish(true))),
@@ -251,6 +259,16 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
             .parse()
             .map_err(|_| wrong(station, "a station id"))?,
     );
+    let (rest, map_place) = match rest {
+        [rest @ .., kind @ ("segment" | "intersection"), reference] => {
+            let text = format!("{kind} {reference}");
+            let wanted =
+                "a road segment or intersection, like 'segment 276:12' or 'intersection 4711'";
+            let place = text.parse().map_err(|_| wrong(&text, wanted))?;
+            (rest, Some(place))
+        }
+        rest => (rest, site.map_place),
+    };
     let metres = |word: &str| number(word).ok_or_else(|| wrong(word, "a number of metres"));
     let (target, maximum_speed) = match rest {
         [] => (None, None),
@@ -270,6 +288,7 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
     let parameters = TaskParameters {
         target,
         maximum_speed,
+        map_place,
         ..TaskParameters::default()
     };
     Ok(Line::Order(Tell::Wish(Wish::Order {
@@ -277,6 +296,56 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
         task: task(name)?,
         parameters,
     })))
+}
+
+fn show(words: &[&str]) -> Result<Line, Misunderstood> {
+    let [vehicles, rest @ ..] = words else {
+        return Err(Misunderstood::Missing {
+            command: "show",
+            wanted: "what is shown to vehicles",
+        });
+    };
+    let to_vehicles =
+        signal(vehicles).ok_or_else(|| wrong(vehicles, "none, stop, go or caution"))?;
+    let (to_pedestrians, rest) = match rest {
+        ["go", ..] => {
+            return Err(wrong(
+                "go",
+                "for pedestrians here; 'open' opens the corridor",
+            ));
+        }
+        [word, others @ ..] => signal(word).map_or((PublicSignal::None, rest), |it| (it, others)),
+        [] => (PublicSignal::None, rest),
+    };
+    let means = rest
+        .iter()
+        .try_fold(SignalMeans::default(), |means, word| {
+            let one =
+                means_of(word).ok_or_else(|| wrong(word, "gesture, display, lights or speech"))?;
+            Ok(means.union(one))
+        })?;
+    Ok(Line::Order(Tell::Show(SignalsShown {
+        to_vehicles,
+        to_pedestrians,
+        means,
+    })))
+}
+
+fn signal(name: &str) -> Option<PublicSignal> {
+    use PublicSignal::{Caution, Go, None, Stop};
+    [None, Stop, Go, Caution]
+        .into_iter()
+        .find(|signal| signal.to_string() == name)
+}
+
+fn means_of(name: &str) -> Option<SignalMeans> {
+    match name {
+        "gesture" => Some(SignalMeans::GESTURE),
+        "display" => Some(SignalMeans::DISPLAY),
+        "lights" => Some(SignalMeans::LIGHTS),
+        "speech" => Some(SignalMeans::SPEECH),
+        _ => None,
+    }
 }
 
 fn wrong(word: &str, wanted: impl Into<Cow<'static, str>>) -> Misunderstood {
@@ -339,132 +408,4 @@ fn state(name: &str) -> Result<State, Misunderstood> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn parsed(text: &str) -> Result<Line, String> {
-        parse(text, &Site::default()).map_err(|error| error.to_string())
-    }
-
-    fn told(text: &str) -> Event {
-        match parsed(text) {
-            Ok(Line::Order(Tell::Wish(Wish::Tell(event)))) => event,
-            other => panic!("{text}: {other:?}"),
-        }
-    }
-
-    #[test]
-    fn a_detection_has_defaults_and_takes_what_is_said() {
-        let Event::PedestrianDetected(plain) = told("detect") else {
-            panic!()
-        };
-        assert_eq!((plain.followers, plain.urgency), (1, Urgency::Medium));
-        let Event::PedestrianDetected(full) = told("detect 2 high block # at school") else {
-            panic!()
-        };
-        assert_eq!((full.followers, full.urgency), (2, Urgency::High));
-        assert_eq!(full.tasks, TaskSet::of(&[TaskType::BLOCK]));
-    }
-
-    #[test]
-    fn an_order_may_lead_somewhere_at_some_speed() {
-        let Ok(Line::Order(Tell::Wish(Wish::Order {
-            follower,
-            task,
-            parameters,
-        }))) = parsed("order 2 move 1 8 0.4")
-        else {
-            panic!("not an order")
-        };
-        assert_eq!((follower, task), (StationId(2), TaskType::MOVE));
-        assert_eq!(parameters.maximum_speed, Some(0.4));
-        assert_eq!(
-            parameters.target,
-            Some(Site::default().target(Place::new(1.0, 8.0)))
-        );
-    }
-
-    #[test]
-    fn what_means_nothing_is_answered_with_what_would() {
-        for (text, answer) in [
-            ("fly", "no command 'fly'; type 'help'"),
-            ("unavailable", "'unavailable' wants a reason"),
-            (
-                "unavailable bored",
-                "'bored' is not a reason to be unavailable; see 'help'",
-            ),
-            (
-                "detect 17",
-                "'17' is not a number of followers from 1 to 16",
-            ),
-            (
-                "detect soon",
-                format!("'soon' is not a task: {TaskNames}").as_str(),
-            ),
-            ("order 2", "'order' wants a station and a task"),
-            ("order two move", "'two' is not a station id"),
-            (
-                "order 2 move 1",
-                "'1' is not a place: two numbers of metres are",
-            ),
-            ("order 2 move 1 8 -1", "'-1' is not a speed in m/s"),
-            ("battery", "'battery' wants a charge in percent"),
-            ("battery 120", "'120' is not a charge from 0 to 100 percent"),
-            ("battery 20 full", "'full' is not 'charging'"),
-            ("wait long", "'long' is not a number of seconds up to a day"),
-            ("wait inf", "'inf' is not a number of seconds up to a day"),
-            ("until done", "'done' is not a state; see 'help'"),
-            ("quit now", "'now' is one word too many"),
-            (
-                r#"{"id": 1, "position_m": [1, 2], "at_s": 3}"#,
-                "at_s is for files of --perceived; here 'wait' does it",
-            ),
-        ] {
-            assert_eq!(parsed(text), Err(answer.to_owned()), "{text}");
-        }
-    }
-
-    #[test]
-    fn a_person_whom_the_sensors_have_is_a_line_of_json() {
-        let line = parsed(r#" {"id": 7, "position_m": [3.0, -1.5]} "#);
-        let Ok(Line::Order(Tell::Perceived(Some(vru)))) = line else {
-            panic!("{line:?}")
-        };
-        assert_eq!((vru.id, vru.position_m), (7, [3.0, -1.5]));
-        assert!(parsed("{}").unwrap_err().contains("a person is like"));
-    }
-
-    #[test]
-    fn comments_and_blank_lines_are_passed_over() {
-        for text in ["", "   ", "# nothing", "  # nothing"] {
-            assert_eq!(parsed(text), Ok(Line::Blank));
-        }
-    }
-
-    #[test]
-    fn everything_that_the_help_names_is_understood() {
-        for text in [
-            "detect 1 low move",
-            "order 1 block",
-            "in-position",
-            "clear",
-            "done",
-            "fail",
-            "open",
-            "close",
-            "task-completed",
-            "leave",
-            "unavailable low-battery",
-            "available",
-            "battery 64 charging",
-            "status",
-            "wait 1",
-            "until idle 3",
-            "help",
-            "quit",
-        ] {
-            assert!(parsed(text).is_ok(), "{text}");
-            assert!(HELP.contains(text.split(' ').next().unwrap()), "{text}");
-        }
-    }
-}
+mod tests;

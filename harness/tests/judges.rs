@@ -71,7 +71,7 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
     let log = path("demo.jsonl");
     let port = command::two_free_ports().to_string();
     let arguments = [
-        "demo", "--speed", "10", "--loss", "0.1", "--quiet", "--port", &port, "--log",
+        "demo", "--speed", "10", "--loss", "0.1", "--cam", "--quiet", "--port", &port, "--log",
     ];
     let demo = command::crossguard(&arguments).arg(&log).output().unwrap();
     assert!(demo.status.success(), "{}", stderr(&demo));
@@ -100,6 +100,20 @@ fn a_subscriber_to_zenoh_hears_packets_that_can_be_decoded() {
     let endpoint = format!("tcp/127.0.0.1:{port}");
     judge("zenoh_judge.py", &[program, Path::new(&endpoint)], "");
     assert!(wait_for(&mut demo, Duration::from_mins(2)).success());
+}
+
+#[test]
+#[ignore = "needs what harness/judges/run installs"]
+fn an_independent_decoder_of_cam_sees_the_robot() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = command::two_free_ports();
+    let robot = robot_file(folder.path(), "ARI", 7, port, port + 1);
+    let pcap = folder.path().join("ari.pcap");
+    let run = ["run", "--config", &robot, "--cam", "--pcap"];
+    let arguments = [&run[..], &[pcap.to_str().unwrap()]].concat();
+    let output = command::run_with(&arguments, b"wait 4.3\nquit\n");
+    assert!(output.status.success(), "{}", stderr(&output));
+    judge("cam_judge.py", &[&pcap, Path::new("7")], "");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::asn1::cpm::{CartesianCoordinateWithConfidence, ObjectClass, Velocity3
 use crate::core::cdd::{CartesianCoordinate, Shape, VruClusterInformation};
 use crate::distance::moved;
 use crate::si;
-use crate::state::{Position, RobotState};
+use crate::state::{Position, RobotState, SignalsShown};
 
 /// What somebody on the road is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
@@ -61,6 +61,9 @@ pub struct RoadUser {
     pub heading: Option<f64>,
     /// How many it stands for: more than one, or 0 for an unknown number, of a VRU cluster's leader.
     pub cardinality: u8,
+    /// What it shows to people, if a RAM tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub signals: Option<SignalsShown>,
     /// When that was so, as `TimestampIts`.
     pub measured_its: u64,
 }
@@ -180,6 +183,7 @@ impl RoadUser {
             speed: state.speed.map(|speed| speed.value),
             heading: state.heading.map(|heading| heading.value),
             cardinality: 1,
+            signals: state.slow.as_ref().and_then(|slow| slow.signals),
             measured_its,
         };
         let cluster = around.and_then(|cluster| cluster_around(station, cluster, &robot));
@@ -209,6 +213,7 @@ fn cluster_around(
         speed: None,
         heading: None,
         cardinality: cluster.cluster_cardinality_size.0,
+        signals: None,
         ..*robot
     })
 }
@@ -262,6 +267,7 @@ fn of_cam(cam: &CAM, now: u64) -> RoadUser {
         speed,
         heading,
         cardinality: 1,
+        signals: None,
         measured_its: si::rebuild_timestamp(now, cam.cam.generation_delta_time.0),
     }
 }
@@ -276,6 +282,7 @@ fn vru(station: u32, container: &BasicContainer) -> RoadUser {
         speed: None,
         heading: None,
         cardinality: 1,
+        signals: None,
         measured_its: 0,
     }
 }
@@ -323,6 +330,7 @@ macro_rules! objects {
                 speed,
                 heading,
                 cardinality,
+                signals: None,
                 measured_its: $frame.time.saturating_add_signed(measured),
             });
         }

@@ -26,9 +26,8 @@ use crossguard_protocol::{
 };
 
 use super::{
-    ExecutionStatus, MapPlace, TaskParameters, availability_of, execution_of, map_place_of,
-    ram_from, rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of, view_of_ram,
-    views_of_rmcm,
+    ExecutionStatus, TaskParameters, availability_of, execution_of, map_place_of, ram_from,
+    rmcm_from_answer, rmcm_from_commands, state_of, task_parameters_of, view_of_ram, views_of_rmcm,
 };
 use crate::core::ram::{RAM, RobotLeaderFollowerOperationContainer};
 use crate::core::rmcm::{ManeuverCommand, ManeuverContainer, RMCM};
@@ -175,18 +174,21 @@ fn retold(ram: &RAM) -> Option<RAM> {
 }
 
 /// An RMCM can be made of commands exactly where they are of one session, for different followers,
-/// and not too many, and it has those commands in their order. The parameters have no target, since
+/// at one place and not too many, and it has those commands in their order. The parameters have no target, since
 /// not every target can be expressed.
-pub fn commands_keep_the_view(commands: &[(Command, TaskParameters)], place: Option<MapPlace>) {
+pub fn commands_keep_the_view(commands: &[(Command, TaskParameters)]) {
+    let place = commands
+        .first()
+        .and_then(|(_, parameters)| parameters.map_place);
     let belong_together = commands.first().is_some_and(|(first, _)| {
         let stations = commands.iter().map(|(command, _)| command.to);
         commands.len() <= MAX_FOLLOWERS
             && commands
                 .iter()
-                .all(|(command, _)| command.session == first.session)
+                .all(|(command, it)| command.session == first.session && it.map_place == place)
             && are_others(first.session.leader, stations)
     });
-    let said = rmcm_of(place, commands);
+    let said = rmcm_of(commands);
     assert!(said.is_some() == belong_together);
     let Some(said) = said else {
         return;
@@ -240,7 +242,7 @@ pub fn hearing_an_rmcm_is_total(rmcm: &RMCM) {
                 let Rmcm::Command(command) = view else {
                     panic!("a leader answers");
                 };
-                let said = rmcm_of(None, &[(*command, TaskParameters::default())]);
+                let said = rmcm_of(&[(*command, TaskParameters::default())]);
                 let said = said.as_ref().and_then(the_command);
                 assert!(said.is_some_and(|said| {
                     said.request_id == heard.request_id
@@ -283,12 +285,12 @@ pub fn parameters_are_told_as_they_were_read(rmcm: &RMCM) {
 /// A command alone, with the parameters that it has in a message.
 fn retold_command(rmcm: &RMCM, command: &Command) -> Option<RMCM> {
     let parameters = task_parameters_of(rmcm, command.to)?;
-    rmcm_of(None, &[(*command, parameters)])
+    rmcm_of(&[(*command, parameters)])
 }
 
-fn rmcm_of(place: Option<MapPlace>, commands: &[(Command, TaskParameters)]) -> Option<RMCM> {
+fn rmcm_of(commands: &[(Command, TaskParameters)]) -> Option<RMCM> {
     let (identifiers, position) = (Identifiers::default(), Position::default());
-    rmcm_from_commands(&identifiers, &position, place, commands, 0).ok()
+    rmcm_from_commands(&identifiers, &position, commands, 0).ok()
 }
 
 fn rmcm_of_answer(answer: &Answer, status: ExecutionStatus) -> Option<RMCM> {

@@ -26,7 +26,7 @@ use crate::wire::{
 const _: () = assert!(ManeuverCommands::CAPACITY >= MAX_FOLLOWERS);
 
 /// The RMCM of a leader at `position` that gives these commands, 1 to [`MAX_FOLLOWERS`] of one
-/// session to different followers. `place` is where the maneuvers take place.
+/// session to different followers, which take place at one place of a map.
 ///
 /// `generation_delta_time` is that of the position; the validity of a command counts from it.
 ///
@@ -35,16 +35,19 @@ const _: () = assert!(ManeuverCommands::CAPACITY >= MAX_FOLLOWERS);
 pub fn rmcm_from_commands(
     identifiers: &Identifiers,
     position: &Position,
-    place: Option<MapPlace>,
     commands: &[(Command, TaskParameters)],
     generation_delta_time: u16,
 ) -> Result<RMCM, ViewError> {
     let count_error = ViewError::CommandCount(commands.len());
-    let (first, _) = commands.first().ok_or(count_error)?;
+    let (first, parameters) = commands.first().ok_or(count_error)?;
+    let place = parameters.map_place;
     if commands.len() > MAX_FOLLOWERS {
         return Err(count_error);
     }
-    for (command, _) in commands {
+    for (command, parameters) in commands {
+        if parameters.map_place != place {
+            return Err(ViewError::MapPlacesDiffer(command.to));
+        }
         if command.session != first.session {
             return Err(ViewError::SessionsDiffer(first.session, command.session));
         }
@@ -140,7 +143,7 @@ pub fn task_parameters_of(rmcm: &RMCM, follower: StationId) -> Option<TaskParame
         .commands
         .iter()
         .find(|command| target(command) == follower)
-        .map(TaskParameters::read)
+        .map(|command| TaskParameters::read(command, map_place_of(rmcm)))
 }
 
 /// Where the maneuvers of a leader's message take place, if it says so.

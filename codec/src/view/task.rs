@@ -1,5 +1,8 @@
 //! What a command and an answer say to the application, beyond what the protocol reads.
 
+use ::core::fmt;
+use ::core::str::FromStr;
+
 use crossguard_protocol::{Millis, StationId};
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +31,9 @@ pub struct TaskParameters {
     pub minimum_pedestrian_distance: Option<f64>,
     /// How long the command may be executed, from the generation of the message; at most one day.
     pub validity: Option<Millis>,
+    /// The road segment or intersection where the maneuver takes place; all commands of a message name the
+    /// same. The protocol decides nothing by it.
+    pub map_place: Option<MapPlace>,
 }
 
 /// Where a maneuver leads.
@@ -75,6 +81,46 @@ pub enum MapPlace {
         /// Its number.
         id: u16,
     },
+}
+
+impl fmt::Display for MapPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (kind, region, id) = match *self {
+            Self::RoadSegment { region, id } => ("segment", region, id),
+            Self::Intersection { region, id } => ("intersection", region, id),
+        };
+        match region {
+            Some(region) => write!(f, "{kind} {region}:{id}"),
+            None => write!(f, "{kind} {id}"),
+        }
+    }
+}
+
+/// A text that names no place of a map.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[error(
+    "no place of a map: a road segment or intersection is wanted, with its region if it has one and numbers \
+     from 0 to 65535, like 'segment 276:12' or 'intersection 4711'"
+)]
+pub struct NoMapPlace;
+
+impl FromStr for MapPlace {
+    type Err = NoMapPlace;
+
+    /// As it is displayed.
+    fn from_str(text: &str) -> Result<Self, NoMapPlace> {
+        let number = |text: &str| text.parse::<u16>().map_err(|_| NoMapPlace);
+        let (kind, reference) = text.split_once(' ').ok_or(NoMapPlace)?;
+        let (region, id) = match reference.split_once(':') {
+            Some((region, id)) => (Some(number(region)?), number(id)?),
+            None => (None, number(reference)?),
+        };
+        match kind {
+            "segment" => Ok(Self::RoadSegment { region, id }),
+            "intersection" => Ok(Self::Intersection { region, id }),
+            _ => Err(NoMapPlace),
+        }
+    }
 }
 
 /// How far a follower is with the command that it answers.
@@ -185,8 +231,8 @@ impl TaskParameters {
         })
     }
 
-    /// The parameters of a command.
-    pub(super) fn read(command: &ManeuverCommand) -> Self {
+    /// The parameters of a command in a message about this place.
+    pub(super) fn read(command: &ManeuverCommand, map_place: Option<MapPlace>) -> Self {
         let constraints = command.constraints;
         let speed = constraints.and_then(|constraints| constraints.maximum_speed);
         let distance = constraints.and_then(|constraints| constraints.minimum_pedestrian_distance);
@@ -199,6 +245,7 @@ impl TaskParameters {
             minimum_pedestrian_distance: distance
                 .map(|metres| si::MINIMUM_DISTANCE.decode(metres.get())),
             validity: validity.map(|duration| Millis(duration.get())),
+            map_place,
         }
     }
 }

@@ -175,14 +175,7 @@ pub fn parameters() -> TaskParameters {
 /// One command with a target.
 pub fn typical_rmcm(identifiers: &Identifiers) -> RMCM {
     let commands = [(command(), parameters())];
-    rmcm_from_commands(
-        identifiers,
-        &position(),
-        None,
-        &commands,
-        GENERATION_DELTA_TIME,
-    )
-    .unwrap()
+    rmcm_from_commands(identifiers, &position(), &commands, GENERATION_DELTA_TIME).unwrap()
 }
 
 /// An acknowledgement.
@@ -377,6 +370,10 @@ pub fn largest_rmcm(identifiers: &Identifiers) -> RMCM {
         maximum_speed: Some(100.0),
         minimum_pedestrian_distance: Some(51.1),
         validity: Some(Millis(86_400_000)),
+        map_place: Some(MapPlace::Intersection {
+            region: Some(65_535),
+            id: 65_535,
+        }),
     };
     let follower = |id| {
         (
@@ -388,11 +385,7 @@ pub fn largest_rmcm(identifiers: &Identifiers) -> RMCM {
         )
     };
     let commands: Vec<_> = (1..=16).map(follower).collect();
-    let place = Some(MapPlace::Intersection {
-        region: Some(65_535),
-        id: 65_535,
-    });
-    rmcm_from_commands(identifiers, &position(), place, &commands, u16::MAX).unwrap()
+    rmcm_from_commands(identifiers, &position(), &commands, u16::MAX).unwrap()
 }
 
 /// The messages of `golden/messages.json`, with their names: one of every kind.

@@ -395,8 +395,17 @@ pub fn parameters() -> impl Strategy<Value = TaskParameters> {
                 maximum_speed: speed,
                 minimum_pedestrian_distance: distance,
                 validity,
+                map_place: None,
             },
         )
+}
+
+/// The parameters at this place of the map.
+pub const fn at(map_place: Option<MapPlace>, parameters: TaskParameters) -> TaskParameters {
+    TaskParameters {
+        map_place,
+        ..parameters
+    }
 }
 
 pub fn place() -> impl Strategy<Value = MapPlace> {

@@ -720,8 +720,13 @@ typedef struct CrossguardBody {
   // What it can do besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
   // has a display, 5 speaks.
   uint8_t abilities;
-  // Not used.
-  uint8_t reserved[3];
+  // By what it shows signals to people, which its RAM tell: bit 0 gestures, 1 a display, 2 lights, 3 voice. 0
+  // for a robot that cannot; then the next two do not count.
+  uint8_t signal_means;
+  // What it shows to vehicles: 0 nothing, 1 stop, 2 go, 3 take care.
+  uint8_t to_vehicles;
+  // What it shows to pedestrians, likewise. Go is for an open corridor alone.
+  uint8_t to_pedestrians;
 } CrossguardBody;
 
 // A coordination session: who leads it, and its number there.
@@ -752,8 +757,16 @@ typedef struct CrossguardTaskParameters {
   int8_t lane;
   // 1 where the position is an offset from the leader's, in degrees and metres.
   uint8_t is_offset;
+  // The place of the map where the maneuver takes place: 0 none, 1 a road segment, 2 an intersection.
+  uint8_t map_kind;
+  // 1 where that place has a region.
+  uint8_t has_map_region;
+  // The region in which its number is unique.
+  uint16_t map_region;
+  // Its number.
+  uint16_t map_id;
   // Not used.
-  uint8_t reserved[2];
+  uint8_t reserved[4];
 } CrossguardTaskParameters;
 
 // Something that happened in the robot itself; `kind` says which fields count.
@@ -807,8 +820,14 @@ typedef struct CrossguardHeard {
   uint8_t unavailability;
   // 1 where its RAM says that it still has a duty on the road.
   uint8_t on_duty;
+  // As in `CrossguardBody`, by its RAM; 0 where this one says nothing of it, as most do.
+  uint8_t signal_means;
+  // What it shows to vehicles, as in `CrossguardBody`.
+  uint8_t to_vehicles;
+  // What it shows to pedestrians, as in `CrossguardBody`.
+  uint8_t to_pedestrians;
   // Not used.
-  uint8_t reserved[1];
+  uint8_t reserved[6];
 } CrossguardHeard;
 
 // One output; `kind` says which fields count.
@@ -1121,10 +1140,10 @@ CROSSGUARD_ASSERT_LEN(CrossguardSession, 8);
 CROSSGUARD_ASSERT_LEN(CrossguardSettings, 140);
 CROSSGUARD_ASSERT_LEN(CrossguardConfig, 196);
 CROSSGUARD_ASSERT_LEN(CrossguardBody, 112);
-CROSSGUARD_ASSERT_LEN(CrossguardTaskParameters, 56);
-CROSSGUARD_ASSERT_LEN(CrossguardEvent, 88);
-CROSSGUARD_ASSERT_LEN(CrossguardOutput, 104);
-CROSSGUARD_ASSERT_LEN(CrossguardHeard, 48);
+CROSSGUARD_ASSERT_LEN(CrossguardTaskParameters, 64);
+CROSSGUARD_ASSERT_LEN(CrossguardEvent, 96);
+CROSSGUARD_ASSERT_LEN(CrossguardOutput, 112);
+CROSSGUARD_ASSERT_LEN(CrossguardHeard, 56);
 CROSSGUARD_ASSERT_LEN(CrossguardFollower, 12);
 CROSSGUARD_ASSERT_LEN(CrossguardView, 248);
 #if UINTPTR_MAX == UINT64_MAX

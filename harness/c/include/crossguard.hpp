@@ -69,6 +69,13 @@ struct Octets {
   std::size_t size;
 };
 
+/// A road segment or intersection of a map.
+struct MapPlace {
+  bool is_intersection = false;
+  std::optional<std::uint16_t> region; ///< in which the number is unique
+  std::uint16_t id = 0;
+};
+
 /// Where and how a maneuver is to be done; what is not set is left to the follower.
 struct TaskParameters {
   std::optional<std::pair<double, double>> place_deg; ///< latitude and longitude
@@ -79,6 +86,7 @@ struct TaskParameters {
   std::optional<std::chrono::milliseconds> validity;
   std::optional<int> lane;
   bool is_offset = false; ///< place and altitude are relative to the leader's position
+  std::optional<MapPlace> map_place; ///< where on the map the maneuver takes place
 
   static TaskParameters from(const CrossguardTaskParameters &plain) {
     TaskParameters of;
@@ -91,6 +99,13 @@ struct TaskParameters {
     if (plain.validity_ms != 0) of.validity = std::chrono::milliseconds{plain.validity_ms};
     if (plain.lane != CROSSGUARD_NO_LANE) of.lane = plain.lane;
     of.is_offset = plain.is_offset != 0;
+    if (plain.map_kind != 0) {
+      MapPlace place;
+      place.is_intersection = plain.map_kind == 2;
+      if (plain.has_map_region != 0) place.region = plain.map_region;
+      place.id = plain.map_id;
+      of.map_place = place;
+    }
     return of;
   }
 
@@ -105,6 +120,10 @@ struct TaskParameters {
     plain.validity_ms = validity ? static_cast<std::uint32_t>(validity->count()) : 0;
     plain.lane = static_cast<std::int8_t>(lane.value_or(CROSSGUARD_NO_LANE));
     plain.is_offset = is_offset ? 1 : 0;
+    plain.map_kind = map_place ? (map_place->is_intersection ? 2 : 1) : 0;
+    plain.has_map_region = map_place && map_place->region ? 1 : 0;
+    plain.map_region = map_place ? map_place->region.value_or(0) : 0;
+    plain.map_id = map_place ? map_place->id : 0;
   }
 
 private:

@@ -174,8 +174,13 @@ pub struct CrossguardBody {
     /// What it can do besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
     /// has a display, 5 speaks.
     pub abilities: u8,
-    /// Not used.
-    pub reserved: [u8; 3],
+    /// By what it shows signals to people, which its RAM tell: bit 0 gestures, 1 a display, 2 lights, 3 voice. 0
+    /// for a robot that cannot; then the next two do not count.
+    pub signal_means: u8,
+    /// What it shows to vehicles: 0 nothing, 1 stop, 2 go, 3 take care.
+    pub to_vehicles: u8,
+    /// What it shows to pedestrians, likewise. Go is for an open corridor alone.
+    pub to_pedestrians: u8,
 }
 
 /// Where and how a maneuver is to be done. NaN, and 0 or -128 where said, leave it to the follower.
@@ -200,8 +205,16 @@ pub struct CrossguardTaskParameters {
     pub lane: i8,
     /// 1 where the position is an offset from the leader's, in degrees and metres.
     pub is_offset: u8,
+    /// The place of the map where the maneuver takes place: 0 none, 1 a road segment, 2 an intersection.
+    pub map_kind: u8,
+    /// 1 where that place has a region.
+    pub has_map_region: u8,
+    /// The region in which its number is unique.
+    pub map_region: u16,
+    /// Its number.
+    pub map_id: u16,
     /// Not used.
-    pub reserved: [u8; 2],
+    pub reserved: [u8; 4],
 }
 
 /// Something that happened in the robot itself; `kind` says which fields count.
@@ -303,8 +316,14 @@ pub struct CrossguardHeard {
     pub unavailability: u8,
     /// 1 where its RAM says that it still has a duty on the road.
     pub on_duty: u8,
+    /// As in `CrossguardBody`, by its RAM; 0 where this one says nothing of it, as most do.
+    pub signal_means: u8,
+    /// What it shows to vehicles, as in `CrossguardBody`.
+    pub to_vehicles: u8,
+    /// What it shows to pedestrians, as in `CrossguardBody`.
+    pub to_pedestrians: u8,
     /// Not used.
-    pub reserved: [u8; 1],
+    pub reserved: [u8; 6],
 }
 
 /// What a call works with: what the caller gives, and what the library gives back. Buffers are the

@@ -2,7 +2,7 @@
 
 use crossguard_codec::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, Heard, JobRole, Measurement,
-    Position, RobotCategory, RobotState, SlowState,
+    Position, PublicSignal, RobotCategory, RobotState, SignalMeans, SignalsShown, SlowState,
 };
 use crossguard_protocol::{Availability, Decimetres, Input};
 
@@ -30,7 +30,10 @@ pub(crate) const NOBODY: CrossguardHeard = CrossguardHeard {
     message: 0,
     unavailability: 0,
     on_duty: 0,
-    reserved: [0; 1],
+    signal_means: 0,
+    to_vehicles: 0,
+    to_pedestrians: 0,
+    reserved: [0; 6],
 };
 
 impl CrossguardHeard {
@@ -52,6 +55,7 @@ impl CrossguardHeard {
             Input::Ram { ram, .. } => ram.on_duty,
             _ => false,
         });
+        let shown = sender.slow.as_ref().and_then(|slow| slow.signals);
         Self {
             latitude_deg: or_nan(sender.position.latitude),
             longitude_deg: or_nan(sender.position.longitude),
@@ -65,7 +69,10 @@ impl CrossguardHeard {
                 Some(Availability::Available) | None => None,
             }),
             on_duty: on_duty.into(),
-            reserved: [0; 1],
+            signal_means: shown.map_or(0, |shown| shown.means.0),
+            to_vehicles: shown.map_or(0, |shown| signal_code(shown.to_vehicles)),
+            to_pedestrians: shown.map_or(0, |shown| signal_code(shown.to_pedestrians)),
+            reserved: [0; 6],
         }
     }
 }
@@ -91,7 +98,9 @@ impl CrossguardBody {
         job_role: 0,
         control_mode: 0,
         abilities: 0,
-        reserved: [0; 3],
+        signal_means: 0,
+        to_vehicles: 0,
+        to_pedestrians: 0,
     };
 
     /// The state that messages are made of; `None` where a code is none.
@@ -128,11 +137,39 @@ impl CrossguardBody {
             control_mode: control_mode(self.control_mode)?,
             slow: Some(SlowState {
                 capabilities: Capabilities(self.abilities),
+                signals: match self.signal_means {
+                    0 => None,
+                    means @ 1..=15 => Some(SignalsShown {
+                        to_vehicles: signal(self.to_vehicles)?,
+                        to_pedestrians: signal(self.to_pedestrians)?,
+                        means: SignalMeans(means),
+                    }),
+                    _ => return None,
+                },
                 ..SlowState::default()
             }),
             ..RobotState::default()
         })
     }
+}
+
+/// The signals by their codes.
+const SIGNALS: [PublicSignal; 4] = [
+    PublicSignal::None,
+    PublicSignal::Stop,
+    PublicSignal::Go,
+    PublicSignal::Caution,
+];
+
+fn signal(code: u8) -> Option<PublicSignal> {
+    SIGNALS.get(usize::from(code)).copied()
+}
+
+fn signal_code(signal: PublicSignal) -> u8 {
+    (0..)
+        .zip(SIGNALS)
+        .find(|(_, it)| *it == signal)
+        .map_or(0, |(code, _)| code)
 }
 
 fn category(code: u8) -> Option<RobotCategory> {
@@ -170,4 +207,49 @@ fn control_mode(code: u8) -> Option<ControlMode> {
         4 => ControlMode::Unavailable,
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_codec::{Identifiers, RAM_LEN_MAX, encode_into, ram_from};
+    use crossguard_protocol::{Robot, StationId};
+
+    use super::*;
+
+    #[test]
+    fn who_hears_a_robot_knows_what_it_shows_to_people() {
+        let body = CrossguardBody {
+            signal_means: 0b101,
+            to_vehicles: 1,
+            to_pedestrians: 3,
+            ..CrossguardBody::UNKNOWN
+        };
+        let ids = Identifiers::default();
+        let view = Robot::new(StationId(7), 1).ram();
+        let heard = |slow| {
+            let state = body.to_state().unwrap();
+            let ram = ram_from(&ids, &state, &view, Availability::Available, 0, slow).unwrap();
+            let mut octets = [0; RAM_LEN_MAX];
+            let length = encode_into(&ids, &ram, &mut octets).unwrap();
+            let here = Position::default();
+            let heard = Heard::of(&ids, StationId(8), &here, &octets[..length]).unwrap();
+            let heard = CrossguardHeard::of(&heard);
+            [heard.signal_means, heard.to_vehicles, heard.to_pedestrians]
+        };
+        assert_eq!(heard(true), [0b101, 1, 3]);
+        assert_eq!(heard(false), [0, 0, 0]);
+    }
+
+    #[test]
+    fn signals_that_are_none_are_refused() {
+        for (signal_means, to_vehicles, to_pedestrians) in [(16, 0, 0), (1, 4, 0), (1, 0, 4)] {
+            let body = CrossguardBody {
+                signal_means,
+                to_vehicles,
+                to_pedestrians,
+                ..CrossguardBody::UNKNOWN
+            };
+            assert_eq!(body.to_state(), None);
+        }
+    }
 }

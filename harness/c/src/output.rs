@@ -1,6 +1,6 @@
 //! Outputs of the protocol as plain data.
 
-use crossguard_codec::{Target, TaskParameters};
+use crossguard_codec::{MapPlace, Target, TaskParameters};
 use crossguard_protocol::{
     FallbackPolicy, Maneuver, ManeuverId, Millis, Notice, Output, SessionId, SessionNumber,
     StationId, UniqueNumber,
@@ -50,8 +50,19 @@ pub(crate) const OPEN: CrossguardTaskParameters = CrossguardTaskParameters {
     validity_ms: 0,
     lane: CROSSGUARD_NO_LANE,
     is_offset: 0,
-    reserved: [0; 2],
+    map_kind: MAP_NONE,
+    has_map_region: 0,
+    map_region: 0,
+    map_id: 0,
+    reserved: [0; 4],
 };
+
+/// `map_kind` of no place of the map.
+const MAP_NONE: u8 = 0;
+/// `map_kind` of a road segment.
+const MAP_SEGMENT: u8 = 1;
+/// `map_kind` of an intersection.
+const MAP_INTERSECTION: u8 = 2;
 
 impl CrossguardOutput {
     /// An output of this kind.
@@ -235,6 +246,16 @@ impl From<&TaskParameters> for CrossguardTaskParameters {
             validity_ms: parameters.validity.map_or(0, |validity| validity.0),
             ..OPEN
         };
+        let place = parameters.map_place.map(|place| match place {
+            MapPlace::RoadSegment { region, id } => (MAP_SEGMENT, region, id),
+            MapPlace::Intersection { region, id } => (MAP_INTERSECTION, region, id),
+        });
+        if let Some((kind, region, id)) = place {
+            plain.map_kind = kind;
+            plain.has_map_region = region.is_some().into();
+            plain.map_region = region.unwrap_or_default();
+            plain.map_id = id;
+        }
         match parameters.target {
             None => {}
             Some(Target::Lane(lane)) => plain.lane = lane,
@@ -261,7 +282,7 @@ impl From<&TaskParameters> for CrossguardTaskParameters {
 }
 
 impl CrossguardTaskParameters {
-    /// What they say; `None` where a target cannot be told from another.
+    /// What they say; `None` where a target or place of the map cannot be told from another.
     pub(crate) fn to_codec(self) -> Option<TaskParameters> {
         let place = known(self.latitude_deg).zip(known(self.longitude_deg));
         let altitude = known(self.altitude_m);
@@ -281,12 +302,62 @@ impl CrossguardTaskParameters {
             }),
             _ => return None,
         };
+        let region = match self.has_map_region {
+            0 => None,
+            1 => Some(self.map_region),
+            _ => return None,
+        };
+        let id = self.map_id;
+        let map_place = match self.map_kind {
+            MAP_NONE => None,
+            MAP_SEGMENT => Some(MapPlace::RoadSegment { region, id }),
+            MAP_INTERSECTION => Some(MapPlace::Intersection { region, id }),
+            _ => return None,
+        };
         Some(TaskParameters {
             target,
             heading: known(self.heading_deg),
             maximum_speed: known(self.maximum_speed_mps),
             minimum_pedestrian_distance: known(self.pedestrian_distance_m),
             validity: (self.validity_ms != 0).then_some(Millis(self.validity_ms)),
+            map_place,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_of_the_map_comes_back_and_a_code_of_none_is_refused() {
+        let (region, id) = (Some(276), 4_711);
+        let places = [
+            None,
+            Some(MapPlace::RoadSegment { region, id }),
+            Some(MapPlace::Intersection { region, id }),
+            Some(MapPlace::Intersection {
+                region: None,
+                id: 0,
+            }),
+        ];
+        for map_place in places {
+            let parameters = TaskParameters {
+                map_place,
+                ..TaskParameters::default()
+            };
+            let plain = CrossguardTaskParameters::from(&parameters);
+            assert_eq!(plain.to_codec(), Some(parameters));
+        }
+        let bridge = CrossguardTaskParameters {
+            map_kind: 3,
+            ..OPEN
+        };
+        assert_eq!(bridge.to_codec(), None);
+        let region = CrossguardTaskParameters {
+            has_map_region: 2,
+            ..OPEN
+        };
+        assert_eq!(region.to_codec(), None);
     }
 }

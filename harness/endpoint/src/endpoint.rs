@@ -19,6 +19,7 @@ use self::turn::Turn;
 use crate::cause::Cause;
 use crate::counters::Counters;
 use crate::exchange::{Arrived, Exchange, Host as _, Moment};
+use crate::ras::cam::{CamGeneration, cam};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::generation::{INTERVAL_MIN_MS, Limits, Trigger};
 use crate::ras::surroundings::{Awareness, Surroundings};
@@ -110,6 +111,8 @@ pub struct Endpoint<P = Robot> {
     exchange: Exchange<P>,
     around: Around,
     pseudonyms: Pseudonyms,
+    /// When CAM are sent, if they are.
+    cam: Option<CamGeneration>,
     /// Shortest interval that congestion control allows, in ms.
     congestion_ms: u64,
 }
@@ -141,18 +144,21 @@ impl<P: StateMachine> Endpoint<P> {
             },
             exchange: Exchange::new(protocol, config, identifiers, now_ms),
             pseudonyms: Pseudonyms::default(),
+            cam: None,
             congestion_ms: INTERVAL_MIN_MS,
         }
     }
 
-    /// Says how people around the robot are announced; those known so far are forgotten.
+    /// Says how people around the robot are announced, and whether it sends CAM; people known so far are
+    /// forgotten.
     #[must_use]
     pub fn with_awareness(mut self, awareness: Awareness) -> Self {
+        self.cam = awareness.cam.then(CamGeneration::default);
         self.around.surroundings = Surroundings::new(awareness, cluster_seed(self.robot()));
         self
     }
 
-    /// Congestion control says that two RAM outside of a session are at least this many ms apart.
+    /// Congestion control says that two CAM, or two RAM outside of a session, are at least this many ms apart.
     pub const fn hold_back(&mut self, congestion_ms: u64) {
         self.congestion_ms = congestion_ms;
     }
@@ -218,8 +224,8 @@ impl<P: StateMachine> Endpoint<P> {
         let by_protocol = by_protocol.map(|due| elapsed_to_ms + u64::from(due.0));
         let by_generation = elapsed_to_ms + INTERVAL_MIN_MS;
         match robot.next_ram() {
-            Some(_) => by_protocol.unwrap_or(by_generation),
-            None => by_protocol.map_or(by_generation, |due| due.min(by_generation)),
+            Some(_) if self.cam.is_none() => by_protocol.unwrap_or(by_generation),
+            _ => by_protocol.map_or(by_generation, |due| due.min(by_generation)),
         }
     }
 
@@ -267,6 +273,9 @@ impl<P: StateMachine> Endpoint<P> {
             max_ms: turn.ram_interval_max_ms(),
         };
         exchange.generate(&mut turn, moment, limits);
+        if let Some(generation) = &mut self.cam {
+            send_cam(generation, exchange, &mut turn, moment, self.congestion_ms);
+        }
         turn.into_effects()
     }
 }
@@ -304,6 +313,25 @@ fn send_cluster_vams<P: StateMachine>(
             }
             Err(error) => turn.not_sent(&error),
         }
+    }
+}
+
+/// Sends a CAM if one is due: after a RAM, so that robots know it is one of theirs.
+fn send_cam<P: StateMachine>(
+    generation: &mut CamGeneration,
+    exchange: &mut Exchange<P>,
+    turn: &mut Turn<'_>,
+    moment: Moment,
+    congestion_ms: u64,
+) {
+    let Some(due) = generation.poll(moment.now_ms, congestion_ms, turn.state()) else {
+        return;
+    };
+    let (ids, station) = (exchange.identifiers(), exchange.robot().station().0);
+    let time = moment.timestamp_its;
+    match cam(ids, station, turn.state(), time, due.low_frequency) {
+        Ok(octets) => exchange.transmit(turn, moment, (Service::Cam, due.trigger), &octets),
+        Err(error) => turn.not_sent(&error),
     }
 }
 

@@ -310,7 +310,7 @@ impl<P: StateMachine> Exchange<P> {
         let message = match rmcm {
             Rmcm::Command(command) => {
                 let commands = [(*command, self.orders.of(command.to))];
-                rmcm_from_commands(ids, position, None, &commands, time)
+                rmcm_from_commands(ids, position, &commands, time)
             }
             Rmcm::Answer(answer) => {
                 let status = ExecutionStatus {

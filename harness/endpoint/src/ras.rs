@@ -7,7 +7,8 @@
 //! ```text
 //!  perceived road users ──► clustering ──► containers ──► RAM ───────► vru (understands RAM)
 //!  robot's motion, events ─► generation ──────────────────┘  │
-//!                                             cluster VAM ◄──┘ ──────► vru (unmodified ETSI device)
+//!                          │                  cluster VAM ◄──┘ ──────► vru (unmodified ETSI device)
+//!                          └──► CAM ─────────────────────────────────► unmodified ETSI station
 //! ```
 //!
 //! - [`motion`] is where a station is and how it moves, and what counts as a change of that.
@@ -16,14 +17,19 @@
 //!   them, [`containers`] writes them into a RAM and reads them from one. [`surroundings`] are these
 //!   of one robot, together.
 //! - [`vru`] is the station of a road user: when it sends a VAM, when it leaves that to a robot, and
-//!   when it takes it up again. [`vam`] makes the message.
+//!   when it takes it up again. [`vam`] makes the message, [`cam`] that of a robot for stations that do
+//!   not know RAM; [`etsi`] is what the two have in common.
 
 #[cfg(feature = "std")]
 pub mod area;
 #[cfg(feature = "std")]
+pub mod cam;
+#[cfg(feature = "std")]
 pub mod clustering;
 #[cfg(feature = "std")]
 pub mod containers;
+#[cfg(feature = "std")]
+pub mod etsi;
 pub mod generation;
 pub mod motion;
 #[cfg(feature = "std")]

@@ -4,8 +4,9 @@
 //! A RAM is encoded every time.
 
 use crossguard_codec::{ConfidenceEllipse, Measurement, Position, RobotState};
+use crossguard_endpoint::ras::etsi::NotMade;
 use crossguard_endpoint::ras::generation::Trigger;
-use crossguard_endpoint::ras::vam::{Content, VamError, vam};
+use crossguard_endpoint::ras::vam::{Content, vam};
 use crossguard_endpoint::ras::vru::{DueVam, LeaveReason, Operation, VamTrigger};
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +54,12 @@ pub const fn frame_octets(message: usize, signed: Signed) -> usize {
 #[must_use]
 pub const fn air_time_us(octets: usize) -> u64 {
     40 + (16 + 6 + 8 * octets as u64).div_ceil(48) * 8
+}
+
+/// How long a `GeoNetworking` packet of these octets is in the air, in microseconds.
+#[must_use]
+pub const fn packet_air_time_us(octets: usize) -> u64 {
+    air_time_us(MAC + LLC + octets)
 }
 
 /// Octets of the messages whose size follows from their containers.
@@ -114,7 +121,7 @@ impl Sizes {
 pub enum SizeError {
     /// A VAM cannot be made.
     #[error("VAM: {0}")]
-    Vam(#[from] VamError),
+    Vam(#[from] NotMade),
     /// A CAM cannot be made.
     #[error("CAM: {0}")]
     Cam(#[from] CamError),

@@ -10,10 +10,10 @@ use crossguard_codec::{
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{Cluster, PerceivedVru, VruClass};
 use crossguard_endpoint::ras::containers;
+use crossguard_endpoint::ras::etsi::NotMade;
 use crossguard_endpoint::ras::generation::{Generation, Limits, Status, Trigger};
 use crossguard_endpoint::ras::motion::{Plane, Point, distance_m};
 use crossguard_endpoint::ras::surroundings::{Awareness, Surroundings, Unplaced};
-use crossguard_endpoint::ras::vam::VamError;
 use crossguard_endpoint::ras::vru::{AnnouncedCluster, Announcement, Understands};
 use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
 
@@ -71,7 +71,7 @@ pub enum RobotError {
     NotDecodable(#[from] crossguard_codec::DecodeError),
     /// A cluster VAM cannot be made.
     #[error(transparent)]
-    Vam(#[from] VamError),
+    Vam(#[from] NotMade),
     /// It does not know where it is.
     #[error(transparent)]
     Unplaced(#[from] Unplaced),
@@ -97,6 +97,7 @@ impl<'a> Robot<'a> {
         let awareness = Awareness {
             clustering: behaviour.clustering,
             cluster_vam_interval_ms: by_vam.then_some(behaviour.cluster_vam_interval_ms),
+            cam: false,
         };
         Self {
             station,

@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-use crossguard_codec::{Heard, Identifiers, Service};
+use crossguard_codec::{Heard, Identifiers, PublicSignal, Service, SignalsShown};
 use crossguard_endpoint::cause::Layer;
 use crossguard_protocol::{
     Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Outputs, Ram, Rmcm, State,
@@ -30,7 +30,7 @@ pub struct Chart {
     /// Whether robots get columns as they turn up in the records.
     grows: bool,
     /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
-    drawn: HashMap<(usize, usize), Ram>,
+    drawn: HashMap<(usize, usize), (Ram, Option<SignalsShown>)>,
 }
 
 /// Something to be drawn. Robots are named by their columns.
@@ -316,11 +316,10 @@ impl Chart {
         if heard.service == Service::Ram && !self.is_news(from, to, heard, is_lost) {
             return None;
         }
-        let text: Vec<_> = heard.inputs.iter().map(text_of).collect();
         Some(Mark::Arrow {
             from,
             to,
-            text: text.join("; "),
+            text: text_of(heard),
             is_lost,
         })
     }
@@ -332,14 +331,17 @@ impl Chart {
         };
         let essence = essence(*ram);
         let known = self.drawn.get(&(from, to));
-        let is_empty =
-            matches!(essence.coordination, Coordination::None) && essence.farewell.is_none();
+        // A RAM without the slow container says nothing of what is shown.
+        let shown = shown(heard).or(known.and_then(|(_, shown)| *shown));
+        let is_empty = matches!(essence.coordination, Coordination::None)
+            && essence.farewell.is_none()
+            && shown.is_none_or(|shown| !shows_something(shown));
         let is_news = match known {
-            Some(known) => *known != essence,
+            Some(known) => *known != (essence, shown),
             None => !is_empty,
         };
         if is_news && !is_lost {
-            self.drawn.insert((from, to), essence);
+            self.drawn.insert((from, to), (essence, shown));
         }
         is_news
     }
@@ -368,8 +370,32 @@ const fn addressee(input: &Input) -> Option<StationId> {
     }
 }
 
-/// A message in a few words.
-pub(crate) fn text_of(input: &Input) -> String {
+/// A message in a few words: what it says to the protocol, where its commands take place, and what its sender
+/// shows to people.
+pub fn text_of(heard: &Heard) -> String {
+    let inputs: Vec<_> = heard.inputs.iter().map(text_of_input).collect();
+    let place = heard.map_place.map(|place| format!(" at {place}"));
+    let shown = shown(heard).filter(|shown| shows_something(*shown));
+    let shown = shown.map(|shown| format!(", shows {shown}"));
+    [Some(inputs.join("; ")), place, shown]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// What the sender of a RAM shows to people, if it says so.
+fn shown(heard: &Heard) -> Option<SignalsShown> {
+    heard.state.as_ref()?.slow.as_ref()?.signals
+}
+
+const fn shows_something(shown: SignalsShown) -> bool {
+    !matches!(
+        (shown.to_vehicles, shown.to_pedestrians),
+        (PublicSignal::None, PublicSignal::None)
+    )
+}
+
+fn text_of_input(input: &Input) -> String {
     match input {
         Input::Ram { ram, .. } => ram_text(ram),
         other => other.to_string(),

@@ -17,17 +17,19 @@ pub use cluster::ClusterView;
 pub use view::{FollowerView, View};
 
 use area::Areas;
+use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{
     ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotCategory, RobotState, Service,
 };
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::{CauseName, Counts};
-use crossguard_endpoint::station::listen::overhear;
+use crossguard_endpoint::station::listen::{message_of, overhear, service_of};
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 use crossguard_robot::sight::{Outline, Sight};
 use crossguard_robot::trace::{Entry, Record};
 
 use crate::chart::{Chart, Mark, text_of};
+use crate::sniffer::place;
 
 /// Something that a record tells about its robot.
 #[derive(Clone, PartialEq, Debug)]
@@ -141,7 +143,7 @@ pub enum Direction {
 pub struct Message {
     /// What became of it.
     pub direction: Direction,
-    /// Its name: `RAM` or `RMCM`.
+    /// Its name: `RAM`, `RMCM`, or that of a message of ETSI.
     pub kind: &'static str,
     /// The station that sent it.
     pub from: StationId,
@@ -364,6 +366,7 @@ impl Observer {
             return Vec::new();
         };
         let mut facts = vec![Fact::Message(message)];
+        let Some(heard) = heard else { return facts };
         if let Some(placed) = heard.state.as_ref().and_then(Placed::of) {
             self.areas.place(heard.from, &placed);
             facts.push(Fact::Place(placed));
@@ -387,16 +390,20 @@ impl Observer {
         direction: Direction,
         why: String,
         octets: &[u8],
-    ) -> Option<(Heard, Message)> {
-        let heard = overhear(&self.robots[robot].identifiers, octets).ok()?;
-        let texts: Vec<_> = heard.inputs.iter().map(text_of).collect();
+    ) -> Option<(Option<Heard>, Message)> {
+        let (identifiers, octets) = (&self.robots[robot].identifiers, message_of(octets));
+        let heard = overhear(identifiers, octets).ok();
+        let (service, from, text) = match &heard {
+            Some(heard) => (heard.service, heard.from, text_of(heard)),
+            None => of_etsi(identifiers, octets)?,
+        };
         let message = Message {
             direction,
-            kind: heard.service.name(),
-            from: heard.from,
-            text: texts.join("; "),
+            kind: service.name(),
+            from,
+            text,
             why,
-            octets: crossguard_endpoint::station::listen::message_of(octets).to_vec(),
+            octets: octets.to_vec(),
         };
         Some((heard, message))
     }
@@ -419,4 +426,13 @@ impl Observer {
         };
         notes.filter_map(note).collect()
     }
+}
+
+/// What a CAM or VAM says: its service, its sender, and where that is.
+fn of_etsi(identifiers: &Identifiers, octets: &[u8]) -> Option<(Service, StationId, String)> {
+    let message = ItsMessage::decode(identifiers, octets).ok()?.message;
+    let service = service_of(&message).filter(|it| !matches!(it, Service::Ram | Service::Rmcm))?;
+    let users = message.road_users(0);
+    let text = users.first().map(place).unwrap_or_default();
+    Some((service, StationId(message.header().station_id.0), text))
 }

@@ -142,9 +142,8 @@ impl Sniffer {
             ItsMessage::Ram(_) | ItsMessage::Rmcm(_) => {
                 parts.push(match overhear(&self.identifiers, octets) {
                     Ok(heard) => {
-                        let texts: Vec<_> = heard.inputs.iter().map(text_of).collect();
                         // Its kind stands in front already.
-                        let texts = texts.join("; ");
+                        let texts = text_of(&heard);
                         let bare = texts.split_once(' ').map(|(_, text)| text.to_owned());
                         bare.unwrap_or(texts)
                     }

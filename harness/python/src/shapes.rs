@@ -68,6 +68,7 @@ fn trace() -> serde_reflection::Result<Registry> {
         codec::DriveDirection,
         codec::Identifiers,
         codec::JobRole,
+        codec::MapPlace,
         codec::PublicSignal,
         codec::RobotCategory,
         codec::RobotState,

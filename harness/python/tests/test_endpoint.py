@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -19,13 +20,23 @@ from crossguard import (
     State,
     TaskParameters,
     TaskType,
+    decode,
     events,
     notices,
     outputs,
     reasons,
     validate,
 )
-from crossguard.body import Lane, ToPosition
+from crossguard.body import (
+    Intersection,
+    Lane,
+    PublicSignal,
+    RoadSegment,
+    SignalMeans,
+    SignalsShown,
+    SlowState,
+    ToPosition,
+)
 
 UNIX_MS = 1_795_305_600_000
 PLACE = RobotState(position=Position(latitude_deg=49.0101, longitude_deg=8.4124))
@@ -83,6 +94,27 @@ def test_a_command_brings_its_parameters() -> None:
             pytest.fail(repr(other))
     notified = [effect.notice for effect in effects if isinstance(effect, outputs.Notify)]
     assert notices.CommandAcknowledged(2, start.maneuver.id) in notified
+
+
+def test_a_command_names_its_place_on_the_map() -> None:
+    ari, go2 = team()
+    for now_ms, place in ((1_200, Intersection(276, 4_711)), (1_210, RoadSegment(None, 12))):
+        parameters = TaskParameters(map_place=place)
+        told = ari.tell(events.CommandManeuver(2, TaskType.MOVE), at(now_ms), parameters)
+        effects = exchange(ari, go2, now_ms, packets(told))
+        (start,) = [effect for effect in effects if isinstance(effect, outputs.StartManeuver)]
+        assert start.parameters.map_place == place
+
+
+def test_what_a_robot_shows_to_people_is_in_its_ram() -> None:
+    ari, go2 = robot(1), robot(2)
+    shown = SignalsShown(PublicSignal.STOP, PublicSignal.CAUTION, SignalMeans.GESTURE | SignalMeans.SPEECH)
+    ari.body = replace(PLACE, slow=SlowState(signals=shown))
+    heard = exchange(ari, go2, 10, packets(ari.elapse(at(10))))
+    ram = next(effect.message for effect in heard if isinstance(effect, outputs.Heard))
+    parameters = decode(ram)["message"]["ram"]["ram"]["ramParameters"]
+    signals = parameters["robotLowFrequencyContainer"]["signalsShown"]
+    assert signals == {"toVehicles": "stop", "toPedestrians": "caution", "means": "90"}
 
 
 def test_a_command_without_parameters_does_not_keep_older_ones() -> None:

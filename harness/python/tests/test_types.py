@@ -64,6 +64,7 @@ MIRRORS: dict[str, Any] = {
     "Lease": phases.Lease,
     "Maneuver": types.Maneuver,
     "ManeuverId": types.ManeuverId,
+    "MapPlace": body.MapPlace,
     "Measurement": body.Measurement,
     "Member": phases.Member,
     "MessageIdentifiers": config.MessageIdentifiers,

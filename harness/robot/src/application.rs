@@ -18,7 +18,7 @@ pub use self::traits::Traits;
 use crate::body::{Body, BodyAct, Fallback, Pose, Report};
 use crate::plan::{Leg, Plan};
 use crate::sight::Outline;
-use crate::sign::Sign;
+use crate::sign::{Shown, Sign};
 use crate::site::Site;
 use crate::street::Road;
 
@@ -62,6 +62,10 @@ pub struct Application {
     body: Box<dyn Body>,
     /// What people see while it leads.
     sign: Sign,
+    /// What its robot's RAM say that it shows to people.
+    shown: Shown,
+    /// Whether its robot leads, so that people look at its sign.
+    leads: bool,
     /// What it knows of the people on the road.
     road: Road,
     site: Site,
@@ -155,6 +159,8 @@ impl Application {
         Self {
             body,
             sign: Sign::default(),
+            shown: Shown::default(),
+            leads: false,
             road: Road::default(),
             site: Site::default(),
             detection: Detection::default(),
@@ -254,6 +260,7 @@ impl Application {
         self.rules = Rules::of(config);
         self.learn_availability(robot);
         self.detection.learn(self.at_s, robot);
+        self.leads = matches!(robot.phase(), Phase::Leading(_));
         self.corridor = match robot.phase() {
             Phase::Leading(leading) => leading.corridor,
             _ => Corridor::Clear,
@@ -510,6 +517,7 @@ impl Application {
         let parameters = TaskParameters {
             target: Some(plan.site.target(leg.to)),
             maximum_speed: Some(leg.speed_mps),
+            map_place: plan.site.map_place,
             ..TaskParameters::default()
         };
         self.wish(Wish::Order {

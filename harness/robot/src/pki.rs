@@ -82,13 +82,28 @@ pub fn its_aids(identifiers: &Identifiers) -> Vec<u32> {
     its_aids.to_vec()
 }
 
-/// The permissions of a robot that takes these parts in sessions.
+/// Service specific permissions for CAM (EN 302 637-2): version 1, and none of the containers and
+/// causes that only some vehicles may use.
+const CAM_PERMISSIONS: [u8; 3] = [1, 0, 0];
+
+/// Service specific permissions for VAM: version 1 alone.
+const VAM_PERMISSIONS: [u8; 1] = [1];
+
+/// The permissions of a robot that takes these parts in sessions: for RAM and RMCM, and for the CAM and
+/// cluster VAM by which it speaks to stations that know neither.
 #[must_use]
 pub fn robot_permissions(identifiers: &Identifiers, parts: &[Part]) -> Vec<Permission> {
-    [Service::Ram, Service::Rmcm]
-        .map(|service| Permission {
+    let parts = Part::bitmap(parts);
+    let services: [(Service, &[u8]); 4] = [
+        (Service::Ram, &parts),
+        (Service::Rmcm, &parts),
+        (Service::Cam, &CAM_PERMISSIONS),
+        (Service::Vam, &VAM_PERMISSIONS),
+    ];
+    services
+        .map(|(service, bits)| Permission {
             its_aid: service.its_aid(identifiers),
-            ssp: Ssp::Bitmap(Part::bitmap(parts).to_vec()),
+            ssp: Ssp::Bitmap(bits.to_vec()),
         })
         .to_vec()
 }

@@ -6,7 +6,7 @@ mod zone;
 use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 
-use crossguard_codec::{IdentifierClash, Identifiers};
+use crossguard_codec::{IdentifierClash, Identifiers, NoMapPlace, SignalMeans};
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
@@ -52,6 +52,8 @@ pub struct RobotFile {
     /// Whether it leads the crossing by itself once a pedestrian is detected. Without a zone, the pedestrian is
     /// simulated then.
     pub autopilot: bool,
+    /// By what it shows signals to people, if it can.
+    pub shows: Option<SignalMeans>,
     /// Where its sensors have everybody who waits to cross or crosses, if they do.
     pub zone: Option<Zone>,
     /// The kerbs between which it has people escorted, where they are not those of the simulated street.
@@ -62,7 +64,7 @@ pub struct RobotFile {
     pub config: Config,
     /// What no standard has assigned.
     pub identifiers: Identifiers,
-    /// How it announces the people around it.
+    /// How it announces the people around it, and itself to stations that do not know RAM.
     pub awareness: Awareness,
 }
 
@@ -85,6 +87,9 @@ struct RobotTable {
     autopilot: bool,
     crossing: Option<String>,
     zone: Option<ZoneTable>,
+    map_place: Option<String>,
+    #[serde(default)]
+    shows: Vec<Means>,
     #[serde(default)]
     site: Option<SiteTable>,
     link: LinkTable,
@@ -96,6 +101,29 @@ struct RobotTable {
     people: clustering::Settings,
     #[serde(default)]
     cluster_vam: bool,
+    #[serde(default)]
+    cam: bool,
+}
+
+/// By what a robot shows signals to people.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Means {
+    Gesture,
+    Display,
+    Lights,
+    Speech,
+}
+
+impl From<Means> for SignalMeans {
+    fn from(means: Means) -> Self {
+        match means {
+            Means::Gesture => Self::GESTURE,
+            Means::Display => Self::DISPLAY,
+            Means::Lights => Self::LIGHTS,
+            Means::Speech => Self::SPEECH,
+        }
+    }
 }
 
 const fn one() -> f64 {
@@ -186,6 +214,9 @@ pub enum Impossibility {
     /// There is no such zone.
     #[error("[zone] {0}")]
     Zone(#[from] NoZone),
+    /// No place of a map.
+    #[error("map_place: {0}")]
+    MapPlace(#[from] NoMapPlace),
     /// A site that is not on earth.
     #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
     Site(f64, f64),
@@ -269,7 +300,8 @@ impl RobotFile {
             application: application
                 .at(self.site)
                 .on(self.road())
-                .with_traits(self.traits),
+                .with_traits(self.traits)
+                .showing_by(self.shows),
             link,
             journal,
             clock: Clock::start(),
@@ -289,10 +321,14 @@ impl RobotTable {
         });
         let crossing = self.crossing.as_deref().map(str::parse);
         let crossing = crossing.transpose()?;
+        let map_place = self.map_place.as_deref().map(str::parse).transpose()?;
         let site = Site {
             crossing: crossing.map_or(protocol::Place::UNKNOWN, |CrossingReference(place)| place),
+            // Whoever says nothing else commands maneuvers at the crossing.
+            map_place: map_place.or(crossing.and_then(CrossingReference::map_place)),
             ..site
         };
+        let shows: Vec<_> = self.shows.into_iter().map(SignalMeans::from).collect();
         if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
             return Err(Impossibility::Site(site.latitude, site.longitude));
         }
@@ -314,6 +350,7 @@ impl RobotTable {
             site,
             speed: self.speed,
             autopilot: self.autopilot,
+            shows: shows.into_iter().reduce(SignalMeans::union),
             zone,
             kerbs: kerbs.flatten(),
             link: self.link.check(folder)?,
@@ -322,6 +359,7 @@ impl RobotTable {
             awareness: Awareness {
                 clustering: self.people,
                 cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
+                cam: self.cam,
             },
         })
     }

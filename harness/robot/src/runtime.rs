@@ -28,7 +28,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::si::timestamp_its;
-use crossguard_codec::{Battery, Identifiers};
+use crossguard_codec::{Battery, Identifiers, SignalsShown};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
@@ -124,6 +124,8 @@ pub enum Order {
     Moved(Pose),
     /// The battery is like this now.
     Battery(Battery),
+    /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
+    Show(SignalsShown),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -152,7 +154,7 @@ pub struct Setup {
     pub identifiers: Identifiers,
     /// Whether it signs and verifies.
     pub security: Security,
-    /// How it announces the people around it.
+    /// How it announces the people around it, and itself to stations that do not know RAM.
     pub awareness: Awareness,
     /// Moves the body, and leads.
     pub application: Application,
@@ -386,6 +388,10 @@ impl Loop {
             }
             Order::Battery(battery) => {
                 self.machine.application_mut().set_battery(battery);
+                Stimulus::Time
+            }
+            Order::Show(signals) => {
+                self.machine.application_mut().show(signals);
                 Stimulus::Time
             }
             Order::Reset => {

@@ -7,6 +7,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crossguard_codec::{PublicSignal, SignalMeans, SignalsShown};
 use crossguard_protocol::Millis;
 
 /// A sign. Times are microseconds on the clock of its robot.
@@ -39,6 +40,45 @@ impl Sign {
     pub fn ends_us(&self, now_us: u64) -> Option<u64> {
         let ends_us = self.ends_us.load(Ordering::SeqCst);
         (now_us < ends_us).then_some(ends_us)
+    }
+}
+
+/// What a robot's RAM say that it shows to people; nothing of a robot that cannot show anything.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Shown(Option<SignalsShown>);
+
+impl Shown {
+    /// Nothing is shown yet, by these means.
+    pub(crate) fn by(means: Option<SignalMeans>) -> Self {
+        Self(means.map(|means| SignalsShown {
+            to_vehicles: PublicSignal::None,
+            to_pedestrians: PublicSignal::None,
+            means,
+        }))
+    }
+
+    /// Shows this from now on; without means, by those of before.
+    pub(crate) fn show(&mut self, signals: SignalsShown) {
+        let before = self.0.map(|shown| shown.means).unwrap_or_default();
+        let means = match signals.means {
+            SignalMeans(0) => before,
+            means => means,
+        };
+        self.0 = Some(SignalsShown { means, ..signals });
+    }
+
+    /// What a RAM says, of a leader whose sign shows *go* or not, or of a robot that has no sign now.
+    pub(crate) fn told(self, by_sign: Option<bool>) -> Option<SignalsShown> {
+        let shown = self.0?;
+        let to_pedestrians = match by_sign {
+            Some(true) => PublicSignal::Go,
+            Some(false) => PublicSignal::Stop,
+            None => shown.to_pedestrians,
+        };
+        Some(SignalsShown {
+            to_pedestrians,
+            ..shown
+        })
     }
 }
 

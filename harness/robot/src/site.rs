@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crossguard_codec::{ConfidenceEllipse, Position, Target};
+use crossguard_codec::{ConfidenceEllipse, MapPlace, Position, Target};
 use crossguard_protocol as protocol;
 
 /// A place in metres east and north of the site's origin.
@@ -60,6 +60,8 @@ pub struct Site {
     pub longitude: f64,
     /// The crossing that requests for help are for; [`UNKNOWN`](protocol::Place::UNKNOWN) may be any.
     pub crossing: protocol::Place,
+    /// The road segment or intersection of the map that commands name, if they name one.
+    pub map_place: Option<MapPlace>,
 }
 
 impl Default for Site {
@@ -69,6 +71,7 @@ impl Default for Site {
             latitude: 49.010_1,
             longitude: 8.412_4,
             crossing: protocol::Place::UNKNOWN,
+            map_place: None,
         }
     }
 }
@@ -84,6 +87,18 @@ pub struct CrossingReference(pub protocol::Place);
      like '276:4711'"
 )]
 pub struct NoCrossing(String);
+
+impl CrossingReference {
+    /// The crossing as a place of the map; `None` where it is not known.
+    #[must_use]
+    pub fn map_place(self) -> Option<MapPlace> {
+        let [a, b, c, d] = self.0.0.to_be_bytes();
+        (self.0 != protocol::Place::UNKNOWN).then(|| MapPlace::Intersection {
+            region: Some(u16::from_be_bytes([a, b])),
+            id: u16::from_be_bytes([c, d]),
+        })
+    }
+}
 
 impl FromStr for CrossingReference {
     type Err = NoCrossing;

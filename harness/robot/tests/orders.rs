@@ -1,6 +1,9 @@
 //! A command has the parameters that it was given with, and not those of the one before.
 
-use crossguard_codec::{Identifiers, TaskParameters};
+use crossguard_codec::its::Identity;
+use crossguard_codec::{
+    Identifiers, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
+};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
 use crossguard_robot::application::Application;
@@ -67,6 +70,44 @@ impl Street {
 }
 
 #[test]
+fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
+    let mut street = Street {
+        robots: [machine(StationId(1)), machine(FOLLOWER)],
+        now_ms: 0,
+        started: Vec::new(),
+    };
+    let on_the_map = |street: &Street| {
+        let map = street.robots[1].endpoint().map();
+        map.get(Identity::Station(1)).unwrap().user.signals
+    };
+    street.pass(2);
+    assert_eq!(on_the_map(&street), None);
+    let shown = |to_vehicles, to_pedestrians| SignalsShown {
+        to_vehicles,
+        to_pedestrians,
+        means: SignalMeans::LIGHTS,
+    };
+    let (stop, caution) = (PublicSignal::Stop, PublicSignal::Caution);
+    let application = street.robots[0].application_mut();
+    application.show(shown(stop, caution));
+    street.pass(2);
+    assert_eq!(on_the_map(&street), Some(shown(stop, caution)));
+    // A leader has a sign, and what that shows is what its RAM say.
+    let request = Plan::crossing(Site::default()).request();
+    street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
+    street.pass(2);
+    assert_eq!(on_the_map(&street), Some(shown(stop, stop)));
+    // Without means, they are those of before.
+    let quiet = SignalsShown {
+        means: SignalMeans::default(),
+        ..shown(PublicSignal::None, PublicSignal::None)
+    };
+    street.robots[0].application_mut().show(quiet);
+    street.pass(1);
+    assert_eq!(on_the_map(&street), Some(shown(PublicSignal::None, stop)));
+}
+
+#[test]
 fn a_command_without_parameters_has_none_though_the_one_before_had() {
     let mut street = Street {
         robots: [machine(StationId(1)), machine(FOLLOWER)],
@@ -78,6 +119,10 @@ fn a_command_without_parameters_has_none_though_the_one_before_had() {
     street.pass(1);
     let slowly = TaskParameters {
         maximum_speed: Some(0.5),
+        map_place: Some(MapPlace::RoadSegment {
+            region: Some(276),
+            id: 12,
+        }),
         ..TaskParameters::default()
     };
     street.tell(

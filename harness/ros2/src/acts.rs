@@ -139,6 +139,9 @@ pub(crate) fn event(act: &Act, site: &Site) -> Option<Event> {
                     z: 0.0,
                 }),
                 maximum_speed: parameters.maximum_speed.unwrap_or_default(),
+                map_place: parameters
+                    .map_place
+                    .map_or_else(String::new, |it| it.to_string()),
                 ..about(Event::START_MANEUVER, maneuver.id, maneuver.task)
             };
             (event, Output::StartManeuver(maneuver))

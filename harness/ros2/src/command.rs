@@ -1,6 +1,8 @@
 //! What a message of the application tells the robot.
 
-use crossguard_codec::{Battery, TaskParameters};
+use crossguard_codec::{
+    Battery, NoMapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
+};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{
     self as protocol, Availability, Event, HelpRequest, MAX_FOLLOWERS, ManeuverId, NoSuchTask,
@@ -47,6 +49,18 @@ pub enum Refused {
     /// No speed.
     #[error("{0} is no speed: m/s, or 0 for the follower's own limit, are wanted")]
     Speed(f64),
+    /// No place of a map.
+    #[error("map_place is '{0}': {1}")]
+    MapPlace(String, NoMapPlace),
+    /// There is no such signal.
+    #[error("signal {0}: 0 to 3 are possible")]
+    Signal(u8),
+    /// Only an open corridor shows it.
+    #[error("go is not shown to pedestrians by command; OPEN_CORRIDOR opens the corridor")]
+    Go,
+    /// There are no such means.
+    #[error("signal_means {0}: a sum of 1, 2, 4 and 8 is wanted")]
+    Means(u8),
     /// There is no such kind of people.
     #[error("kind {0} of people: 0 to 5 are possible")]
     People(u8),
@@ -109,6 +123,7 @@ pub fn order(command: &Command, site: &Site, body: BodyKind) -> Result<Order, Re
         Command::TASK_COMPLETED => Event::TaskCompleted,
         Command::LEAVE => Event::LeaveRequested,
         Command::SET_AVAILABILITY => Event::AvailabilityChanged(availability(command)?),
+        Command::SHOW => return Ok(Order::Show(signals(command)?)),
         other => return Err(Refused::Kind(other)),
     };
     Ok(Order::Wish(Wish::Tell(event)))
@@ -158,11 +173,53 @@ fn parameters(command: &Command, site: &Site) -> Result<TaskParameters, Refused>
     if !speed.is_finite() || speed < 0.0 {
         return Err(Refused::Speed(speed));
     }
+    let map_place = match command.map_place.as_str() {
+        "" => site.map_place,
+        text => {
+            let place = text.parse();
+            Some(place.map_err(|error| Refused::MapPlace(text.to_owned(), error))?)
+        }
+    };
     Ok(TaskParameters {
+        map_place,
         target: target.map(|place| site.target(place)),
         maximum_speed: (speed > 0.0).then_some(speed),
         ..TaskParameters::default()
     })
+}
+
+/// What the robot shows from now on.
+fn signals(command: &Command) -> Result<SignalsShown, Refused> {
+    let signal = |code| {
+        Ok(match code {
+            Command::SIGNAL_NONE => PublicSignal::None,
+            Command::SIGNAL_STOP => PublicSignal::Stop,
+            Command::SIGNAL_GO => PublicSignal::Go,
+            Command::SIGNAL_CAUTION => PublicSignal::Caution,
+            other => return Err(Refused::Signal(other)),
+        })
+    };
+    let signals = SignalsShown {
+        to_vehicles: signal(command.to_vehicles)?,
+        to_pedestrians: signal(command.to_pedestrians)?,
+        means: SignalMeans(command.signal_means),
+    };
+    let all = [
+        Command::MEANS_GESTURE,
+        Command::MEANS_DISPLAY,
+        Command::MEANS_LIGHTS,
+    ];
+    let all = all
+        .into_iter()
+        .fold(Command::MEANS_SPEECH, |all, one| all | one);
+    match signals {
+        SignalsShown { means, .. } if means.0 & !all != 0 => Err(Refused::Means(means.0)),
+        SignalsShown {
+            to_pedestrians: PublicSignal::Go,
+            ..
+        } => Err(Refused::Go),
+        signals => Ok(signals),
+    }
 }
 
 /// The speed that a pose may have, in m/s: as much as a RAM can tell.
@@ -287,244 +344,4 @@ pub fn person(person: &Person) -> Result<Order, Refused> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn told(command: &Command) -> Result<Event, String> {
-        match order(command, &Site::default(), BodyKind::External) {
-            Ok(Order::Wish(Wish::Tell(event))) => Ok(event),
-            Ok(other) => panic!("{other:?}"),
-            Err(error) => Err(error.to_string()),
-        }
-    }
-
-    fn of(kind: u8) -> Command {
-        Command {
-            kind,
-            ..Command::default()
-        }
-    }
-
-    #[test]
-    fn a_battery_says_how_full_it_is_if_it_knows() {
-        let told = |percentage: f32, power_supply_status: u8| {
-            let message = BatteryState {
-                percentage,
-                power_supply_status,
-                ..BatteryState::default()
-            };
-            match battery(&message) {
-                Ok(Order::Battery(battery)) => Ok((battery.state_of_charge, battery.charging)),
-                Ok(other) => panic!("{other:?}"),
-                Err(error) => Err(error.to_string()),
-            }
-        };
-        assert_eq!(told(0.5, BatteryState::CHARGING), Ok((Some(50.0), true)));
-        assert_eq!(told(f32::NAN, 2), Ok((None, false)));
-        assert!(told(55.0, 2).unwrap_err().contains("0 to 1"));
-    }
-
-    #[test]
-    fn a_detection_says_how_many_how_urgent_and_what_for() {
-        let detect = Command {
-            followers: 2,
-            urgency: Command::URGENCY_HIGH,
-            tasks: vec![Task {
-                r#type: Task::BLOCK,
-            }],
-            ..of(Command::DETECT)
-        };
-        let Ok(Event::PedestrianDetected(request)) = told(&detect) else {
-            panic!()
-        };
-        assert_eq!((request.followers, request.urgency), (2, Urgency::High));
-        assert_eq!(request.tasks, TaskSet::of(&[TaskType::BLOCK]));
-        let plain = Command {
-            followers: 1,
-            ..of(Command::DETECT)
-        };
-        let Ok(Event::PedestrianDetected(request)) = told(&plain) else {
-            panic!()
-        };
-        let tasks = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]);
-        assert_eq!(request.tasks, tasks);
-    }
-
-    #[test]
-    fn the_end_of_a_maneuver_names_it() {
-        let session = Session {
-            leader: 1,
-            boot: 2,
-            count: 3,
-        };
-        let done = Command {
-            session,
-            request: 4,
-            ..of(Command::DONE)
-        };
-        let id = ManeuverId {
-            session: session_id(session),
-            request: RequestId(4),
-        };
-        assert_eq!(told(&done), Ok(Event::ManeuverCompleted(id)));
-        let fail = Command {
-            kind: Command::FAIL,
-            ..done
-        };
-        assert_eq!(told(&fail), Ok(Event::ManeuverFailed(id)));
-        let there = Command {
-            kind: Command::IN_POSITION,
-            ..fail
-        };
-        assert_eq!(told(&there), Ok(Event::InPosition(id)));
-    }
-
-    #[test]
-    fn who_moves_a_body_says_that_it_has_finished_and_the_road_is_clear() {
-        let clear = of(Command::ROAD_CLEAR);
-        assert_eq!(told(&clear), Ok(Event::RoadClear));
-        let simulated = order(&clear, &Site::default(), BodyKind::Simulated);
-        assert!(matches!(simulated, Ok(Order::Clear)));
-    }
-
-    #[test]
-    fn a_detection_is_at_the_crossing_of_the_site_unless_it_names_another() {
-        let site = Site {
-            crossing: protocol::Place(7),
-            ..Site::default()
-        };
-        for (place, expected) in [(0, 7), (9, 9)] {
-            let detect = Command {
-                followers: 1,
-                place,
-                ..of(Command::DETECT)
-            };
-            let ordered = order(&detect, &site, BodyKind::Simulated);
-            let Ok(Order::Wish(Wish::Tell(Event::PedestrianDetected(request)))) = ordered else {
-                panic!("{ordered:?}")
-            };
-            assert_eq!(request.place, protocol::Place(expected));
-        }
-    }
-
-    #[test]
-    fn an_order_may_lead_somewhere_at_some_speed() {
-        let command = Command {
-            follower: 2,
-            task: Task { r#type: Task::MOVE },
-            has_target: true,
-            target: Point {
-                x: 1.0,
-                y: 8.0,
-                z: 0.0,
-            },
-            maximum_speed: 0.4,
-            ..of(Command::ORDER)
-        };
-        let site = Site::default();
-        let Ok(Order::Wish(Wish::Order {
-            follower,
-            task,
-            parameters,
-        })) = order(&command, &site, BodyKind::Simulated)
-        else {
-            panic!()
-        };
-        assert_eq!((follower, task), (StationId(2), TaskType::MOVE));
-        assert_eq!(parameters.target, Some(site.target(Place::new(1.0, 8.0))));
-        assert_eq!(parameters.maximum_speed, Some(0.4));
-    }
-
-    fn facing(degrees: f64, place: [f64; 2], at_s: i32) -> PoseStamped {
-        let half = degrees.to_radians() / 2.0;
-        let mut pose = PoseStamped::default();
-        pose.header.stamp.sec = at_s;
-        pose.pose.position.x = place[0];
-        pose.pose.position.y = place[1];
-        (pose.pose.orientation.z, pose.pose.orientation.w) = half.sin_cos();
-        pose
-    }
-
-    #[test]
-    fn a_pose_says_where_the_body_is_where_it_faces_and_how_fast_it_came() {
-        for (degrees, heading) in [(0.0, 90.0), (90.0, 0.0), (180.0, 270.0), (-90.0, 180.0)] {
-            let told = pose(&facing(degrees, [1.0, 2.0], 5), None).unwrap();
-            assert!((told.heading_deg - heading).abs() < 1e-9, "{told:?}");
-            assert_eq!((told.place, told.speed_mps), (Place::new(1.0, 2.0), 0.0));
-        }
-        let (first, next) = (facing(0.0, [0.0, 0.0], 5), facing(0.0, [0.6, 0.8], 6));
-        let speed = |to, from| pose(to, Some(from)).unwrap().speed_mps;
-        assert!((speed(&next, &first) - 1.0).abs() < 1e-9);
-        // What came later was before it.
-        assert!(speed(&first, &next) < 1e-9);
-        let mut other = first.clone();
-        other.header.frame_id = "map".to_owned();
-        assert!(matches!(pose(&other, None), Err(Refused::Frame(_))));
-        let nowhere = facing(0.0, [f64::NAN, 0.0], 5);
-        assert!(matches!(pose(&nowhere, None), Err(Refused::Target { .. })));
-        for orientation in [f64::NAN, 0.0] {
-            let mut twisted = first.clone();
-            twisted.pose.orientation.w = orientation;
-            assert!(matches!(pose(&twisted, None), Err(Refused::Orientation)));
-        }
-    }
-
-    #[test]
-    fn what_is_impossible_is_refused_with_what_would_be_possible() {
-        let order_of = Command {
-            task: Task { r#type: 1 },
-            has_target: true,
-            ..of(Command::ORDER)
-        };
-        for (command, answer) in [
-            (of(0), "kind 0 is no command"),
-            (of(Command::DETECT), "0 followers: 1 to 16 are possible"),
-            (
-                Command {
-                    followers: 1,
-                    urgency: 4,
-                    ..of(Command::DETECT)
-                },
-                "urgency 4: 0 to 3 are possible",
-            ),
-            (
-                of(Command::ORDER),
-                "task type 255 does not exist, the largest is 15",
-            ),
-            (
-                Command {
-                    target: Point {
-                        x: f64::NAN,
-                        y: 0.0,
-                        z: 0.0,
-                    },
-                    ..order_of.clone()
-                },
-                "(NaN, 0) is no place: metres on the site are wanted",
-            ),
-            (
-                Command {
-                    maximum_speed: -1.0,
-                    ..order_of
-                },
-                "-1 is no speed: m/s, or 0 for the follower's own limit, are wanted",
-            ),
-            (
-                Command {
-                    availability: 6,
-                    ..of(Command::SET_AVAILABILITY)
-                },
-                "availability 6: 0 to 5 are possible",
-            ),
-        ] {
-            assert_eq!(told(&command), Err(answer.to_owned()));
-        }
-        let ghost = Person {
-            confidence: f32::NAN,
-            ..Person::default()
-        };
-        assert!(person(&ghost).is_err());
-        assert!(person(&Person { kind: 9, ..ghost }).is_err());
-        assert!(person(&Person::default()).is_ok());
-    }
-}
+mod tests;

@@ -2,16 +2,22 @@
 
 mod support;
 
+use std::path::Path;
+
+use crossguard_codec::{Identifiers, PublicSignal, SignalMeans, SignalsShown};
+use crossguard_endpoint::station::listen::overhear;
+use crossguard_robot::trace::{Entry, Record};
 use crossguard_ros2::msgs::{Command, Corridor, Event, Status, Task};
+use crossguard_ros2::robot::Robot;
 use crossguard_ros2::standard::DiagnosticArray;
+use crossguard_testkit::command::edit;
 use support::{Observer, free_endpoint, meeting, node, robot, two_free_ports};
 
 #[test]
 fn a_crossing_is_commanded_and_observed_by_messages_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let ([ari, go2], first) = (two_free_ports(), free_endpoint());
-    let leader = robot(folder.path(), "ARI", 1, ari, go2);
-    let follower = robot(folder.path(), "Go2", 2, go2, ari);
+    let (first, [leader, follower]) = (free_endpoint(), robots(folder.path()));
+    let log = follower.log.clone().unwrap();
     let leading = node(meeting(&first, &[]), "/ari", leader);
     let following = node(meeting("tcp/127.0.0.1:0", &[&first]), "/go2", follower);
     let observer = Observer::at(&meeting("tcp/127.0.0.1:0", &[&first]));
@@ -30,6 +36,7 @@ fn a_crossing_is_commanded_and_observed_by_messages_alone() {
     }
     status.until("idle", |it| it.state == Status::STATE_IDLE);
 
+    commands.publish(&show()).unwrap();
     let detect = Command {
         kind: Command::DETECT,
         followers: 1,
@@ -84,6 +91,7 @@ fn a_crossing_is_commanded_and_observed_by_messages_alone() {
     for start in begun {
         assert!(start.has_target && start.maximum_speed > 0.0, "{start:?}");
         assert_eq!((start.session.leader, start.station), (1, 1));
+        assert_eq!(start.map_place, "intersection 276:4711");
     }
 
     let counted = diagnostics.until("counters", |it| {
@@ -107,4 +115,55 @@ fn a_crossing_is_commanded_and_observed_by_messages_alone() {
     assert!(gone.iter().all(|it| !it.open));
     leading.stop().unwrap();
     following.stop().unwrap();
+    check_signals(&log);
+}
+
+/// A leader that names its crossing, and a follower.
+fn robots(folder: &Path) -> [Robot; 2] {
+    let [ari, go2] = two_free_ports();
+    let leader = robot(folder, "ARI", 1, ari, go2);
+    let config = leader.config.to_str().unwrap();
+    edit(
+        config,
+        &[("autopilot", "crossing = \"276:4711\"\nautopilot")],
+    );
+    [leader, robot(folder, "Go2", 2, go2, ari)]
+}
+
+fn show() -> Command {
+    Command {
+        kind: Command::SHOW,
+        to_vehicles: Command::SIGNAL_STOP,
+        signal_means: Command::MEANS_GESTURE,
+        ..Command::default()
+    }
+}
+
+/// The follower has heard what the leader shows to vehicles, and its sign.
+fn check_signals(log: &Path) {
+    let shown = signals_heard(log);
+    let of_leader = |it: &SignalsShown| {
+        (it.to_vehicles, it.means) == (PublicSignal::Stop, SignalMeans::GESTURE)
+    };
+    assert!(
+        !shown.is_empty() && shown.iter().all(of_leader),
+        "{shown:?}"
+    );
+    // Stop, or go for as long as the corridor is open.
+    let has_sign = |it: &SignalsShown| it.to_pedestrians != PublicSignal::None;
+    assert!(shown.iter().any(has_sign), "{shown:?}");
+}
+
+/// What other robots show to people, by the RAM in a robot's log.
+fn signals_heard(log: &Path) -> Vec<SignalsShown> {
+    let text = std::fs::read_to_string(log).unwrap();
+    let records = text.lines().map(|line| serde_json::from_str(line).unwrap());
+    let signals = records.filter_map(|record: Record| match record.entry {
+        Entry::Heard { octets, .. } => {
+            let heard = overhear(&Identifiers::default(), &octets).unwrap();
+            heard.state?.slow?.signals
+        }
+        _ => None,
+    });
+    signals.collect()
 }

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use crossguard_codec::Identifiers;
 use crossguard_endpoint::ras::surroundings::Awareness;
-use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::Mode;
 use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_judge::chart::Chart;
@@ -54,9 +53,8 @@ pub(super) struct Arguments {
     /// People that the robots' sensors report: a file of JSON lines as for `crossguard run`.
     #[arg(long, value_name = "FILE")]
     perceived: Option<PathBuf>,
-    /// Announce clusters of people by ETSI's cluster VAM as well.
-    #[arg(long)]
-    cluster_vam: bool,
+    #[command(flatten)]
+    etsi: super::etsi::EtsiArguments,
     #[command(flatten)]
     records: super::records::RecordArguments,
     /// Print the results as JSON, and nothing else.
@@ -121,10 +119,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             .map(super::create_capture)
             .transpose()?,
         perceived: super::open_feed(arguments.perceived.as_deref())?,
-        awareness: Awareness {
-            cluster_vam_interval_ms: arguments.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
-            ..Awareness::default()
-        },
+        awareness: arguments.etsi.add_to(Awareness::default()),
     };
     let mut log_file = match &arguments.log {
         Some(path) => Some(create(path)?),

@@ -119,7 +119,7 @@ pub(super) struct Pseudonyms {
     /// The parts that the robot may take in sessions.
     #[arg(long = "part", value_enum, default_values = ["lead", "help"])]
     parts: Vec<PartName>,
-    /// Instead of RAM and RMCM: an ITS-AID, with its service specific permissions as a bitmap in
+    /// Instead of RAM, RMCM, CAM and VAM: an ITS-AID, with its service specific permissions as a bitmap in
     /// hexadecimal digits if it has some.
     #[arg(long = "its-aid", value_name = "NUMBER[:DIGITS]", action = ArgAction::Append,
         value_parser = permission)]

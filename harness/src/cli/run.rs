@@ -12,7 +12,7 @@
 
 mod output;
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::io::{BufRead, IsTerminal};
 use std::net::SocketAddrV4;
 use std::path::PathBuf;
@@ -21,12 +21,11 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_codec::Service;
+use crossguard_codec::{Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
-use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_harness::operator::{self, HELP, Line};
-use crossguard_protocol::{Input, Output, Robot, State};
+use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::boot;
 use crossguard_robot::perception::{Announced, Feed};
 use crossguard_robot::robot_file::RobotFile;
@@ -43,6 +42,9 @@ const TICK: Duration = Duration::from_millis(20);
 
 /// How many typed lines are kept until it is their turn; the others stay in the pipe.
 const TYPED: usize = 64;
+
+/// Of how many stations the console knows what they show.
+const STATIONS: usize = 64;
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -79,9 +81,8 @@ pub(super) struct Arguments {
     /// People that the robot's sensors report: a file or pipe of JSON lines, see below.
     #[arg(long, value_name = "FILE")]
     perceived: Option<PathBuf>,
-    /// Announce clusters of people by ETSI's cluster VAM as well, for devices that do not understand RAM.
-    #[arg(long)]
-    cluster_vam: bool,
+    #[command(flatten)]
+    etsi: super::etsi::EtsiArguments,
     #[command(flatten)]
     security: super::security::SecurityArguments,
     /// Write the log to this file, one JSON object per line.
@@ -134,9 +135,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let counter = boot.counter;
     let body = Box::new(file.body(arguments.seed));
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
-    if arguments.cluster_vam {
-        setup.awareness.cluster_vam_interval_ms = Some(CLUSTER_INTERVAL_MS);
-    }
+    setup.awareness = arguments.etsi.add_to(setup.awareness);
     let running = setup.start();
     let mut console = Console {
         file: &file,
@@ -147,6 +146,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         hold: None,
         perceived,
         announced: Announced::default(),
+        shown: BTreeMap::new(),
         missing: 0,
     };
     let (name, station) = (&file.name, file.station);
@@ -218,6 +218,8 @@ struct Console<'a> {
     /// The people that the robot's sensors report, from a file.
     perceived: Option<Feed>,
     announced: Announced,
+    /// What the stations around show to people, as they said last.
+    shown: BTreeMap<StationId, SignalsShown>,
     /// How many records did not get into a log, by the robot's own account.
     missing: u64,
 }
@@ -266,7 +268,8 @@ impl Console<'_> {
         self.watch.record(record);
         if self.lines.is_some() {
             let announced = self.announced(record);
-            for line in self.texts(record).into_iter().chain(announced) {
+            let told = self.told(record);
+            for line in self.texts(record).into_iter().chain(announced).chain(told) {
                 #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
                 let time = record.at_us as f64 / 1e6;
                 self.say(&format!("{time:>9.3} {}: {line}", record.robot));
@@ -335,6 +338,24 @@ impl Console<'_> {
         };
         let ram = overhear(&self.file.identifiers, octets).ok()?;
         self.announced.note(ram.cluster.as_ref())
+    }
+
+    /// What another robot says that the protocol takes no notice of: where on the map its command is for, and
+    /// what it shows to people now.
+    fn told(&mut self, record: &Record) -> Option<String> {
+        let Entry::Heard { from, octets, .. } = &record.entry else {
+            return None;
+        };
+        let heard = overhear(&self.file.identifiers, octets).ok()?;
+        if let Some(place) = heard.map_place {
+            return Some(format!("station {from} commands at {place}"));
+        }
+        let shown = heard.state?.slow?.signals?;
+        if self.shown.len() >= STATIONS && !self.shown.contains_key(from) {
+            return None;
+        }
+        let is_news = self.shown.insert(*from, shown) != Some(shown);
+        is_news.then(|| format!("station {from} shows {shown}"))
     }
 
     fn type_in(&mut self, text: &str) -> Result<(), Failure> {

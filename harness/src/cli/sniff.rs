@@ -1,11 +1,13 @@
 //! `crossguard sniff`.
 
+use std::collections::BTreeMap;
 use std::net::{SocketAddr, SocketAddrV4};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::si::timestamp_its;
+use crossguard_evaluation::messages::packet_air_time_us;
 use crossguard_judge::sniffer::{self, Seen, Sniffer};
 use crossguard_robot::capture;
 use crossguard_robot::transport::{Arrival, Link, Transport};
@@ -62,12 +64,13 @@ pub(super) struct Arguments {
 const AFTER_HELP: &str = "Examples:\n  crossguard sniff demo.pcap\n  \
     crossguard sniff --multicast 239.118.50.1:47400 --interface eth0\n\n\
     A line says: seconds, message, station, size, what the message says. At the end stands who was \
-    around last. Signatures are not verified.";
+    around last, and what each kind of message costs a channel of ITS-G5 (6 Mbit/s, 10 MHz). Signatures are not verified.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut printer = Printer {
         sniffer: Sniffer::new(arguments.dictionary.identifiers()),
         is_json: arguments.json,
+        load: Load::default(),
         left: arguments.count.unwrap_or(u64::MAX),
     };
     match (&arguments.file, link(arguments)) {
@@ -140,6 +143,7 @@ fn listen(arguments: &Arguments, link: &Link, printer: &mut Printer) -> Result<(
 struct Printer {
     sniffer: Sniffer,
     is_json: bool,
+    load: Load,
     /// How many packets are yet to be seen.
     left: u64,
 }
@@ -153,6 +157,7 @@ impl Printer {
         let unix_ms = u64::try_from(at.as_millis()).unwrap_or(u64::MAX);
         let now_its = timestamp_its(i64::try_from(unix_ms).unwrap_or(i64::MAX));
         let seen = self.sniffer.see(packet, unix_ms, now_its);
+        self.load.add(&seen);
         self.print(&seen)?;
         self.left -= 1;
         Ok(self.left > 0)
@@ -166,7 +171,7 @@ impl Printer {
         print(seen)
     }
 
-    /// Who was around in the end, and what could not be read.
+    /// Who was around in the end, what could not be read, and the load.
     fn sum_up(&self) -> Result<(), Failure> {
         if self.is_json {
             return Ok(());
@@ -183,6 +188,43 @@ impl Printer {
         for (cause, count) in self.sniffer.counters().iter() {
             print(format_args!("not read, {cause}: {count}"))?;
         }
-        Ok(())
+        self.load.lines().try_for_each(print)
+    }
+}
+
+/// What each kind of message costs the channel.
+#[derive(Default)]
+struct Load {
+    kinds: BTreeMap<&'static str, Share>,
+    seconds: f64,
+}
+
+#[derive(Default)]
+struct Share {
+    packets: u32,
+    octets: u32,
+    air_s: f64,
+}
+
+impl Load {
+    fn add(&mut self, seen: &Seen) {
+        let share = self.kinds.entry(seen.kind).or_default();
+        share.packets += 1;
+        share.octets += u32::try_from(seen.octets).unwrap_or(u32::MAX);
+        share.air_s += Duration::from_micros(packet_air_time_us(seen.octets)).as_secs_f64();
+        self.seconds = self.seconds.max(seen.at_s);
+    }
+
+    /// A line for each kind; none where no time has passed.
+    fn lines(&self) -> impl Iterator<Item = String> {
+        let kinds = self.kinds.iter().filter(|_| self.seconds > 0.0);
+        kinds.map(|(kind, share)| {
+            format!(
+                "load: {kind} {:.1} packets/s of {:.0} B, {:.3} % of the channel",
+                f64::from(share.packets) / self.seconds,
+                f64::from(share.octets) / f64::from(share.packets),
+                share.air_s / self.seconds * 100.0
+            )
+        })
     }
 }

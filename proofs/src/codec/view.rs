@@ -44,7 +44,7 @@ harnesses! {
     #[solver(cadical)]
     fn a_command_keeps_the_view() {
         let command: Command = arbitrary::command(&mut Symbolic);
-        laws::commands_keep_the_view(&[(command, TaskParameters::default())], None);
+        laws::commands_keep_the_view(&[(command, TaskParameters::default())]);
         let to_itself = command.to == command.session.leader;
         kani::cover!(to_itself, "to its leader");
         kani::cover!(!to_itself, "to another robot");

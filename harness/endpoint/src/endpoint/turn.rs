@@ -13,7 +13,7 @@ use crate::cause::Cause;
 use crate::exchange::{Arrived, Host, Moment, Outgoing};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::containers;
-use crate::ras::vam::VamError;
+use crate::ras::etsi::NotMade;
 
 /// What one call of [`Endpoint::handle`](super::Endpoint::handle) works with.
 pub(super) struct Turn<'a> {
@@ -70,7 +70,7 @@ impl<'a> Turn<'a> {
         identifiers: &Identifiers,
         moment: Moment,
         station: u32,
-    ) -> Vec<Result<Vec<u8>, VamError>> {
+    ) -> Vec<Result<Vec<u8>, NotMade>> {
         let (now_ms, now_its) = (moment.now_ms, moment.timestamp_its);
         let (surroundings, position) = (&mut self.around.surroundings, &self.state.position);
         let vams = surroundings.cluster_vams(identifiers, now_ms, now_its, station, position);

@@ -156,6 +156,26 @@ impl Cadence {
     }
 }
 
+/// When the low-frequency container goes along: with the first message, and again after 500 ms.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct LowFrequency {
+    last_ms: Option<u64>,
+}
+
+impl LowFrequency {
+    /// Whether the next message has it.
+    #[must_use]
+    pub fn is_due(&self, now_ms: u64) -> bool {
+        self.last_ms
+            .is_none_or(|last| now_ms.saturating_sub(last) >= LOW_FREQUENCY_INTERVAL_MS)
+    }
+
+    /// Notes that it went along.
+    pub const fn sent(&mut self, now_ms: u64) {
+        self.last_ms = Some(now_ms);
+    }
+}
+
 /// What a RAM says that events are about.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Status {
@@ -172,7 +192,7 @@ pub struct Status {
 pub struct Generation {
     cadence: Cadence,
     said: Option<(RobotState, Status)>,
-    last_low_frequency_ms: Option<u64>,
+    low_frequency: LowFrequency,
 }
 
 impl Generation {
@@ -223,8 +243,7 @@ impl Generation {
     /// Whether the next RAM has the low-frequency container.
     #[must_use]
     pub fn low_frequency_due(&self, now_ms: u64) -> bool {
-        self.last_low_frequency_ms
-            .is_none_or(|last| now_ms.saturating_sub(last) >= LOW_FREQUENCY_INTERVAL_MS)
+        self.low_frequency.is_due(now_ms)
     }
 
     /// Notes that a RAM went out.
@@ -239,7 +258,7 @@ impl Generation {
         self.cadence.sent(now_ms, trigger);
         self.said = Some((state.clone(), status));
         if with_low_frequency {
-            self.last_low_frequency_ms = Some(now_ms);
+            self.low_frequency.sent(now_ms);
         }
     }
 }

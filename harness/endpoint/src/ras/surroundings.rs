@@ -16,21 +16,24 @@ use crossguard_codec::{Identifiers, Position};
 
 use super::clustering::{Cluster, Clustering, PerceivedVru, Settings};
 use super::containers::Announced;
+use super::etsi::NotMade;
 use super::generation::INTERVAL_MAX_MS;
 use super::motion::{Plane, distance_m};
-use super::vam::{VamError, cluster_vam};
+use super::vam::cluster_vam;
 
 /// How far a robot goes before its plane follows it, in metres: so far it is exact.
 const PLANE_M: f64 = 1_000.0;
 
-/// How a robot announces the people around it.
+/// How a robot announces the people around it, and itself to stations that do not know RAM.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Awareness {
-    /// How they are clustered.
+    /// How people are clustered.
     pub clustering: Settings,
     /// How often each cluster is announced by ETSI's cluster VAM as well, in ms: for devices that do not
     /// understand RAM. `None` is not at all.
     pub cluster_vam_interval_ms: Option<u64>,
+    /// Whether the robot sends a CAM of itself beside its RAM.
+    pub cam: bool,
 }
 
 /// The people around a robot.
@@ -146,7 +149,7 @@ impl Surroundings {
         timestamp_its: u64,
         station: u32,
         position: &Position,
-    ) -> Vec<(Cluster, Result<Vec<u8>, VamError>)> {
+    ) -> Vec<(Cluster, Result<Vec<u8>, NotMade>)> {
         let (Some(plane), Some(interval_ms)) = (self.plane, self.cluster_vam_interval_ms) else {
             return Vec::new();
         };

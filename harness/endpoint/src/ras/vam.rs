@@ -16,18 +16,16 @@ use crossguard_codec::asn1::cdd211::{
     VruClusterInformationContainer211, VruHighFrequencyContainer211,
     VruMotionPredictionContainer211,
 };
-use crossguard_codec::asn1::ram::{RAM, RobotAwareness};
+use crossguard_codec::asn1::ram::RobotAwareness;
 use crossguard_codec::asn1::vam::{
     VAM, VamParameters, VruAwareness, VruClusterOperationContainer, VruHighFrequencyContainer,
     VruLowFrequencyContainer,
 };
-use crossguard_codec::{
-    DecodeError, Dictionary, EncodeError, Identifiers, Pdu, Position, RobotState, encode, ram_from,
-};
-use crossguard_protocol::{Availability, Coordination, Ram};
+use crossguard_codec::{Dictionary, Identifiers, Pdu, Position, RobotState, encode};
 
 use super::clustering::Cluster;
 use super::containers;
+use super::etsi::{NotMade, awareness};
 use super::motion::Plane;
 use super::vru::{DueVam, Operation};
 
@@ -81,7 +79,7 @@ pub fn cluster_vam(
     now_ms: u64,
     cluster: &Cluster,
     plane: &Plane,
-) -> Result<Vec<u8>, VamError> {
+) -> Result<Vec<u8>, NotMade> {
     let [east, north] = cluster.velocity_mps;
     let state = RobotState {
         position: *position,
@@ -110,7 +108,7 @@ pub fn vam(
     state: &RobotState,
     now_ms: u64,
     content: Content<'_>,
-) -> Result<Vec<u8>, VamError> {
+) -> Result<Vec<u8>, NotMade> {
     let shared = shared(station, state, now_ms, content)?;
     let motion = shared.ram_parameters.robot_high_frequency_container;
     let high_frequency = high_frequency!(VruHighFrequencyContainer, motion);
@@ -139,20 +137,17 @@ fn shared(
     state: &RobotState,
     now_ms: u64,
     content: Content<'_>,
-) -> Result<RobotAwareness, VamError> {
-    let ids = Identifiers::default();
-    let view = Ram {
-        station: crossguard_protocol::StationId(station),
-        coordination: Coordination::None,
-        farewell: None,
-        on_duty: false,
+) -> Result<RobotAwareness, NotMade> {
+    let cluster = match content {
+        Content::Cluster(cluster, plane) => Some((cluster, plane)),
+        Content::Individual(_) => None,
     };
-    let time = crossguard_codec::si::generation_delta_time(now_ms);
-    let mut shared = ram_from(&ids, state, &view, Availability::Available, time, false)?;
-    if let Content::Cluster(cluster, plane) = content {
-        containers::write(&mut shared, plane, Some(cluster));
-    }
-    let mut shared = RAM::try_from(&shared)?.ram;
+    let ids = Identifiers::default();
+    let mut shared = awareness(&ids, station, state, now_ms, false, |ram| {
+        if let Some((cluster, plane)) = cluster {
+            containers::write(ram, plane, Some(cluster));
+        }
+    })?;
     shared.ram_parameters.basic_container.station_type = TrafficParticipantType(PEDESTRIAN);
     Ok(shared)
 }
@@ -243,20 +238,6 @@ fn operation_container(operation: Operation) -> VruClusterOperationContainer {
 fn quarter_second(at_ms: u64) -> u8 {
     let [upper, _] = crossguard_codec::si::generation_delta_time(at_ms).to_be_bytes();
     upper.clamp(1, 254)
-}
-
-/// Why a VAM cannot be sent.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum VamError {
-    /// It contradicts itself.
-    #[error(transparent)]
-    Contradictory(#[from] crossguard_codec::ViewError),
-    /// The codec's two forms of it differ.
-    #[error(transparent)]
-    Disagreement(#[from] DecodeError),
-    /// It cannot be encoded.
-    #[error(transparent)]
-    NotEncodable(#[from] EncodeError),
 }
 
 #[cfg(test)]

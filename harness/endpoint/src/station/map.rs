@@ -42,12 +42,18 @@ pub struct LocalDynamicMap {
 }
 
 impl LocalDynamicMap {
-    /// Takes in what was told at `now_ms`, unless it is older than what is known.
+    /// Takes in what was told at `now_ms`, unless it is older than what is known. A robot whose RAM was
+    /// heard is that robot, whatever else it sends: its CAM for other stations says less.
     pub fn observe(&mut self, user: RoadUser, now_ms: u64) {
         let neighbour = Neighbour {
             user,
             heard_ms: now_ms,
         };
+        let robots = self.kinds.get(&Kind::Robot);
+        let is_robot = robots.is_some_and(|robots| robots.contains_key(&user.identity));
+        if is_robot && user.kind != Kind::Robot {
+            return;
+        }
         // A user that is something else now, like a pedestrian who got into a car, is only that.
         for (kind, users) in &mut self.kinds {
             if *kind != user.kind {
@@ -57,7 +63,10 @@ impl LocalDynamicMap {
         let users = self.kinds.entry(user.kind).or_default();
         if let Some(known) = users.get_mut(&user.identity) {
             if known.user.measured_its <= user.measured_its {
+                // It is in some of a robot's RAM, twice a second at most.
+                let signals = user.signals.or(known.user.signals);
                 *known = neighbour;
+                known.user.signals = signals;
             }
             return;
         }
@@ -120,6 +129,7 @@ mod tests {
             speed: Some(1.0),
             heading: None,
             cardinality: 1,
+            signals: None,
             measured_its,
         }
     }
@@ -170,6 +180,24 @@ mod tests {
         map.observe(station(1, Kind::Vru), 0);
         map.observe(station(1, Kind::Vehicle), 1);
         assert_eq!(map.iter().count(), 1);
+    }
+
+    #[test]
+    fn a_robot_stays_one_whatever_else_it_sends() {
+        let mut map = LocalDynamicMap::default();
+        map.observe(station(1, Kind::Vru), 0);
+        map.observe(station(1, Kind::Robot), 1);
+        map.observe(station(1, Kind::Vru), 2);
+        map.observe(user(Identity::Station(1), Kind::Vehicle, 9), 3);
+        let known: Vec<_> = map
+            .iter()
+            .map(|known| (known.user.kind, known.heard_ms))
+            .collect();
+        assert_eq!(known, [(Kind::Robot, 1)]);
+        // Its RAM ended, and its CAM goes on.
+        map.forget(2_001);
+        map.observe(station(1, Kind::Vru), 2_002);
+        assert_eq!(map.of_kind(Kind::Vru).count(), 1);
     }
 
     #[test]

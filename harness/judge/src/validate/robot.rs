@@ -6,7 +6,7 @@ use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{Identifiers, Service, Unheard};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::{CauseName, Counts};
-use crossguard_endpoint::station::listen::overhear;
+use crossguard_endpoint::station::listen::{overhear, service_of};
 use crossguard_protocol::{
     Config, Decimetres, Input, Output, Outputs, Rmcm, Robot, Settings, StationId,
 };
@@ -163,16 +163,14 @@ impl Follow {
         }
     }
 
-    /// A RAM says what the state is, an RMCM what a step has put out. A cluster VAM says nothing of either.
+    /// A RAM says what the state is, an RMCM what a step has put out. A CAM and a cluster VAM say nothing of
+    /// either.
     pub(super) fn sent(&mut self, kind: Service, octets: &[u8]) -> Result<(), Fault> {
-        if kind == Service::Vam {
-            let vam = ItsMessage::decode(&self.identifiers, octets);
-            return match vam
-                .map_err(Unheard::from)
-                .map_err(Fault::NoMessage)?
-                .message
-            {
-                ItsMessage::Vam(_) | ItsMessage::Vam211(_) => Ok(()),
+        if matches!(kind, Service::Cam | Service::Vam) {
+            let message = ItsMessage::decode(&self.identifiers, octets);
+            let message = message.map_err(Unheard::from).map_err(Fault::NoMessage)?;
+            return match service_of(&message.message) {
+                Some(found) if found == kind => Ok(()),
                 _ => Err(Fault::OtherOctets(kind.name().to_owned())),
             };
         }

@@ -265,6 +265,28 @@ Target: TypeAlias = ToPosition | Offset | Lane
 
 
 @dataclass(frozen=True, slots=True)
+class RoadSegment(Variant):
+    """A road segment of a map."""
+
+    region: int | None
+    """The region in which its number is unique."""
+    id: int
+
+
+@dataclass(frozen=True, slots=True)
+class Intersection(Variant):
+    """An intersection of a map."""
+
+    region: int | None
+    """The region in which its number is unique."""
+    id: int
+
+
+MapPlace: TypeAlias = RoadSegment | Intersection
+"""Where on a map a maneuver takes place."""
+
+
+@dataclass(frozen=True, slots=True)
 class TaskParameters:
     """Where and how a maneuver is to be done. What is `None` is left to the follower."""
 
@@ -278,3 +300,5 @@ class TaskParameters:
     """51.1 m at most."""
     validity_ms: int | None = None
     """How long the command may be executed, from the generation of the message; one day at most."""
+    map_place: MapPlace | None = None
+    """The road segment or intersection where the maneuver takes place; the protocol decides nothing by it."""

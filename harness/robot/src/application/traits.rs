@@ -1,9 +1,10 @@
 //! What a robot is and how its battery is, as its robot file and its operator say: it stands in every RAM.
 
-use crossguard_codec::{Battery, Dimensions, JobRole, RobotState};
+use crossguard_codec::{Battery, Dimensions, JobRole, RobotState, SignalMeans, SignalsShown};
 use crossguard_protocol::{Availability, Event, Robot, Unavailability};
 
-use super::{Application, Wish};
+use super::{Application, Wish, micros};
+use crate::sign::Shown;
 
 /// A robot whose battery was low is available again this much above the limit, in percent.
 const RECOVERY_PERCENT: f64 = 5.0;
@@ -39,10 +40,27 @@ impl Application {
         Self { traits, ..self }
     }
 
-    /// How the robot is: what the body's sensors say, and its traits.
+    /// The same, which shows signals to people by these means, if by any.
+    #[must_use]
+    pub fn showing_by(self, means: Option<SignalMeans>) -> Self {
+        let shown = Shown::by(means);
+        Self { shown, ..self }
+    }
+
+    /// Shows this to people from now on; without means, by those of before. While the robot leads, its sign
+    /// says what is shown to pedestrians.
+    pub fn show(&mut self, signals: SignalsShown) {
+        self.shown.show(signals);
+    }
+
+    /// How the robot is: what the body's sensors say, its traits, and what it shows to people.
     #[must_use]
     pub fn state(&self) -> RobotState {
-        let state = self.body.state();
+        let mut state = self.body.state();
+        if let Some(slow) = &mut state.slow {
+            let shows_go = self.sign.shows_go(micros(self.at_s));
+            slow.signals = self.shown.told(self.leads.then_some(shows_go));
+        }
         RobotState {
             job_role: self.traits.job.unwrap_or(state.job_role),
             dimensions: self.traits.dimensions.unwrap_or(state.dimensions),

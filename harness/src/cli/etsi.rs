@@ -1,0 +1,26 @@
+//! Options about messages of ETSI that robots send beside RAM and RMCM.
+
+use crossguard_endpoint::ras::surroundings::Awareness;
+use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
+
+#[derive(clap::Args)]
+pub(super) struct EtsiArguments {
+    /// Announce clusters of people by ETSI's cluster VAM as well, for devices that do not understand RAM.
+    #[arg(long)]
+    cluster_vam: bool,
+    /// Send ETSI's CAM beside RAM, so that stations which do not understand RAM see the robot.
+    #[arg(long)]
+    cam: bool,
+}
+
+impl EtsiArguments {
+    /// What is wanted besides what is configured.
+    pub(super) fn add_to(&self, configured: Awareness) -> Awareness {
+        let interval_ms = self.cluster_vam.then_some(CLUSTER_INTERVAL_MS);
+        Awareness {
+            cluster_vam_interval_ms: interval_ms.or(configured.cluster_vam_interval_ms),
+            cam: self.cam || configured.cam,
+            ..configured
+        }
+    }
+}
