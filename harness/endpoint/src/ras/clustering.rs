@@ -425,6 +425,21 @@ mod tests {
     }
 
     #[test]
+    fn a_vehicle_is_in_no_cluster_and_a_wheelchair_user_has_the_profile_that_etsi_gives() {
+        let of = |class, east_m| PerceivedVru {
+            class,
+            ..pedestrian(7, east_m, 4.0)
+        };
+        assert!(
+            perceiving(&[of(VruClass::Vehicle, 3.0)])
+                .clusters()
+                .is_empty()
+        );
+        let clusters = perceiving(&[of(VruClass::WheelchairUser, 3.0)]).clusters();
+        assert_eq!(clusters[0].profiles, VruClass::Bicyclist.bit());
+    }
+
+    #[test]
     fn the_edge_has_hysteresis_in_distance_and_confidence() {
         let mut clustering = perceiving(&[pedestrian(1, 15.5, 0.0)]);
         assert_eq!(clustering.members(), 0);
