@@ -29,8 +29,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::area::Area;
-use super::generation::SPEED_TRIGGER_MPS;
-use super::motion::{Likeness, Point, distance_m};
+use super::motion::{MATCH, Point, distance_m};
 use super::vru::CONTINUITY_MS;
 
 mod grouping;
@@ -39,12 +38,6 @@ mod tests;
 
 /// How long an id is not used again, in ms (`timeClusterUniquenessThreshold`).
 pub const UNIQUENESS_MS: u64 = 30_000;
-/// By how much the motion of somebody and that of the cluster around them may differ, for them to be a
-/// member: the speed by what triggers a VAM, the direction by what a sensor and a stride err.
-pub const MATCH: Likeness = Likeness {
-    speed_mps: SPEED_TRIGGER_MPS,
-    heading_deg: 20.0,
-};
 /// Clusters of other robots that are remembered.
 const OTHERS_MAX: usize = 64;
 

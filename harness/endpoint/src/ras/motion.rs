@@ -70,6 +70,13 @@ impl Likeness {
     }
 }
 
+/// By how much the motion of somebody and that of the cluster around them may differ, for them to be a member: the
+/// speed by what triggers a VAM, the direction by what a sensor and a stride err.
+pub const MATCH: Likeness = Likeness {
+    speed_mps: 0.5,
+    heading_deg: 20.0,
+};
+
 /// What has changed since a message was sent; `None` where one of the two is not known.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Change {

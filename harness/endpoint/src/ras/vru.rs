@@ -14,7 +14,7 @@
 //! A device that [understands RAM](Understands::Ram) is passive as soon as it finds itself in a RAM: the robot
 //! has seen it, so there is nothing to join. By the [strict](Suppression::Strict) rule it finds itself in a
 //! cluster if it is inside of the bounding shape and moves as the cluster does; a robot's clusters are close and
-//! of one [motion](super::clustering::MATCH), so it was perceived then. The shape moves with the cluster between
+//! of one [motion](super::motion::MATCH), so it was perceived then. The shape moves with the cluster between
 //! two announcements. A device that no longer finds itself there resumes at once. By the
 //! [loose](Suppression::Loose) rule the bounding shape alone counts, and 3 m around it. An [unmodified](Understands::ClusterVam) one knows cluster
 //! VAMs only, and joins by their rules; being inside of the bounding shape after it fell silent stands for
@@ -31,9 +31,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::area::Area;
-use super::clustering::MATCH;
 use super::generation::Trigger;
-use super::motion::{Change, Motion, STANDING_MPS, distance_m};
+use super::motion::{Change, MATCH, Motion, STANDING_MPS, distance_m};
 
 /// Shortest interval between two VAM, in ms (`T_GenVamMin`).
 pub const INTERVAL_MIN_MS: u64 = 100;

@@ -11,12 +11,12 @@ use super::{PerceivedVru, Settings};
 
 /// How close and alike two members have to be.
 #[derive(Clone, Copy)]
-struct Limits {
+struct Togetherness {
     spread_m: f64,
     likeness: Likeness,
 }
 
-impl Limits {
+impl Togetherness {
     /// To come together.
     fn to_join(settings: &Settings) -> Self {
         Self {
@@ -55,7 +55,10 @@ pub(super) fn groups(
     before: &[(u8, BTreeSet<u32>)],
     settings: &Settings,
 ) -> Vec<BTreeSet<u32>> {
-    let (join, stay) = (Limits::to_join(settings), Limits::to_stay(settings));
+    let (join, stay) = (
+        Togetherness::to_join(settings),
+        Togetherness::to_stay(settings),
+    );
     let size_max = settings.size_max.clamp(1, usize::from(u8::MAX));
     let (mut groups, mut alone) = stayed(people, before, stay);
     // By place and not by id: what a sensor tracks people by has no influence.
@@ -86,7 +89,7 @@ pub(super) fn groups(
 fn stayed<'a>(
     people: &[&'a PerceivedVru],
     before: &[(u8, BTreeSet<u32>)],
-    stay: Limits,
+    stay: Togetherness,
 ) -> (Vec<Vec<&'a PerceivedVru>>, Vec<&'a PerceivedVru>) {
     let is_in = |vru: &PerceivedVru, group: &BTreeSet<u32>| group.contains(&vru.id);
     let is_new = |vru: &&&PerceivedVru| !before.iter().any(|(_, group)| is_in(vru, group));
@@ -115,7 +118,7 @@ fn stayed<'a>(
 }
 
 /// Makes one group of two that are close and alike together, as long as there are such.
-fn unite(groups: &mut Vec<Vec<&PerceivedVru>>, join: Limits, size_max: usize) {
+fn unite(groups: &mut Vec<Vec<&PerceivedVru>>, join: Togetherness, size_max: usize) {
     let mut first = 0;
     while first < groups.len() {
         let fits = |other: &[&PerceivedVru]| {
