@@ -275,6 +275,7 @@ pub(super) struct Parameters {
 }
 
 /// What a station really sends per second; `None` by rules.
+#[expect(clippy::struct_field_names, reason = "units are last in names")]
 #[derive(Serialize)]
 struct Rates {
     vam_hz: Option<f64>,
