@@ -197,7 +197,7 @@ fn figure(
     });
     BarChart {
         title: title.to_owned(),
-        subtitle: format!("{assumptions}; bars are means, whiskers standard deviations over seeds"),
+        subtitle: format!("{assumptions}; means and deviations over seeds"),
         x_axis: "pedestrians".to_owned(),
         y_axis: y_axis.to_owned(),
         groups: people.iter().map(ToString::to_string).collect(),
