@@ -85,7 +85,7 @@ fn people_around_a_robot_are_in_its_ram() {
     assert_eq!(street.hears(0, Stimulus::Time), [(Trigger::First, None)]);
     let people = [
         person(1, 3.0, 0.0),
-        person(2, 0.0, -4.0),
+        person(2, 2.0, -2.0),
         person(3, 40.0, 0.0),
     ];
     assert_eq!(street.hears(500, Stimulus::Perceived(&people)), []);
@@ -94,7 +94,7 @@ fn people_around_a_robot_are_in_its_ram() {
         panic!("{sent:?}")
     };
     assert_eq!(cluster.cardinality, 2);
-    assert!(cluster.area.contains([3.0, 0.0]) && cluster.area.contains([0.0, -4.0]));
+    assert!(cluster.area.contains([3.0, 0.0]) && cluster.area.contains([2.0, -2.0]));
     assert!(!cluster.area.contains([40.0, 0.0]));
 }
 
@@ -116,7 +116,7 @@ fn a_crowd_is_announced_in_parts_each_within_a_second() {
             }
         }
     }
-    assert_eq!(last_ms.len(), 4);
+    assert!((4..=10).contains(&last_ms.len()), "{}", last_ms.len());
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn people_of_a_file_are_announced_in_ram_and_in_cluster_vam() {
     let path = |name: &str| folder.path().join(name).display().to_string();
     let robot = lonely_robot(folder.path());
     let people = three_people(|at_s, id| {
-        let east_m = 4.0 * f64::from(id);
+        let east_m = 3.0 + f64::from(id);
         format!("{{\"at_s\": {at_s}, \"id\": {id}, \"position_m\": [{east_m}, 2.0]}}\n")
     });
     std::fs::write(path("people.jsonl"), people).unwrap();
@@ -218,7 +218,14 @@ fn people_of_a_file_are_announced_in_ram_and_in_cluster_vam() {
     // What was sent besides RAM and RMCM does not make the log invalid.
     let validated = run(&["validate", &log]);
     assert_eq!(validated.status.code(), Some(0), "{}", stderr(&validated));
-    tshark_finds_packets_at_the_port_of_vam(&pcap, clusters(&packets, "VAM").len());
+    // Once nobody is there any more, VAM break the cluster up, by which there is nobody.
+    let vams = packets
+        .iter()
+        .filter(|packet| packet["kind"] == "VAM")
+        .count();
+    let breakups = vams - clusters(&packets, "VAM").len();
+    assert!((1..=3).contains(&breakups), "{breakups}");
+    tshark_finds_packets_at_the_port_of_vam(&pcap, vams);
 }
 
 /// Wireshark 4.0 has no dissector for VAM, but knows the packets around them.

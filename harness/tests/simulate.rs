@@ -73,6 +73,163 @@ fn judge(folder: &Path, preset: &str, results: &[u8]) -> Option<(Option<i32>, St
     ))
 }
 
+/// Who was silent, and who wrongly so, judged by an independent program from the traces.
+#[test]
+fn silence_is_what_python_computes_from_the_same_traces() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (silences, results) = (file("silences.csv"), file("results.json"));
+    let judge = || {
+        let python = Command::new("python3")
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(["judges/silence.py", &results, &silences])
+            .args([
+                "evaluation/traces/kerb-20.json.gz",
+                "evaluation/traces/kerb-50.json.gz",
+            ])
+            .output()
+            .ok()?;
+        let text = [python.stdout, python.stderr].concat();
+        Some((
+            python.status.code(),
+            String::from_utf8_lossy(&text).into_owned(),
+        ))
+    };
+    let cells = [
+        "--pedestrians",
+        "20,50",
+        "--robots",
+        "0,9",
+        "--radius",
+        "15",
+        "--seeds",
+        "3",
+    ];
+    for others in [
+        ["--suppression", "strict"],
+        ["--suppression", "loose"],
+        ["--unseen", "0.3"],
+    ] {
+        let run = ["cbr", "--json", "--silences", &silences];
+        let output = simulate(&[&run[..], &cells[..], &others[..]].concat());
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        std::fs::write(&results, &output.stdout).unwrap();
+        let Some((code, said)) = judge() else {
+            println!("skipped silence_is_what_python_computes_from_the_same_traces: no python3");
+            return;
+        };
+        assert_eq!(code, Some(0), "{others:?}: {said}");
+        assert!(said.starts_with("2 cells and 0 statements agree"), "{said}");
+    }
+    // A judge that finds everything right is none: the loose rule is not the strict one, and silence counts.
+    let output = simulate(&[&["cbr", "--json", "--suppression", "loose"], &cells[..]].concat());
+    std::fs::write(&results, &output.stdout).unwrap();
+    let (code, said) = judge().unwrap();
+    assert_eq!(code, Some(1), "{said}");
+}
+
+/// By the strict rule hardly anybody is silent whom no robot perceives; by the loose one, more are.
+#[test]
+fn the_strict_rule_leaves_fewer_people_without_an_announcement() {
+    let wrongly_silent = |rule: &str| {
+        let cells = [
+            "--pedestrians",
+            "50",
+            "--robots",
+            "9",
+            "--radius",
+            "15",
+            "--seeds",
+            "3",
+        ];
+        let report = json(&[&["cbr", "--json", "--suppression", rule], &cells[..]].concat());
+        assert_eq!(report["parameters"]["behaviour"]["suppression"], rule);
+        let percent = |name: &str| report["cells"][0][name]["mean"].as_f64().unwrap();
+        percent("wrongly_silent_percent") / percent("passive_percent")
+    };
+    let (strict, loose) = (wrongly_silent("strict"), wrongly_silent("loose"));
+    assert!(strict < 0.02 && loose > 2.0 * strict, "{strict} {loose}");
+}
+
+fn outcome(report: &Value, statement: &str) -> String {
+    let lines = report["statements"].as_array().unwrap().iter();
+    let line = lines.clone().find(|it| it["statement"] == statement);
+    line.unwrap()["outcome"].as_str().unwrap().to_owned()
+}
+
+/// Every statement of the paper stands in a line of its own, and its verdict follows the run.
+#[test]
+fn every_statement_of_the_paper_on_coverage_has_a_verdict() {
+    let report = json(&["obs", "--json"]);
+    assert_eq!(report["documented"], true);
+    let statements = report["statements"].as_array().unwrap();
+    assert_eq!(statements.len(), 11);
+    for line in statements {
+        assert_eq!(line["outcome"], "met", "{line}");
+    }
+    let plain = json(&["obs", "--json", "--preset", "plain"]);
+    assert_eq!(plain["documented"], false);
+    assert_eq!(outcome(&plain, "coverageOfNine"), "notMet");
+    assert_eq!(outcome(&plain, "severalAreBetter"), "met");
+    let few = simulate(&["obs", "--robots", "9", "--pedestrians", "20"]);
+    let text = String::from_utf8(few.stdout).unwrap();
+    let line = text
+        .lines()
+        .find(|it| it.contains("coverage, 1 robot"))
+        .unwrap();
+    assert!(line.trim_start().starts_with("not measured"), "{line}");
+}
+
+#[test]
+fn verdicts_on_channel_load_follow_the_run() {
+    let of = |others: &[&str]| json(&[&["cbr", "--json", "--seeds", "2"], others].concat());
+    let few = of(&[]);
+    assert_eq!(few["statements"].as_array().unwrap().len(), 15);
+    // Ten seeds are documented.
+    assert_eq!(few["documented"], false);
+    for statement in [
+        "power",
+        "lowLoad",
+        "consistentReduction",
+        "growsWithDensity",
+    ] {
+        assert_eq!(outcome(&few, statement), "met", "{statement}");
+    }
+    assert_eq!(outcome(&few, "dataRate"), "assumed");
+    assert_eq!(outcome(&of(&["--signed"]), "lowLoad"), "notMet");
+    let seldom = of(&["--vam", "etsi"]);
+    assert_eq!(outcome(&seldom, "consistentReduction"), "notMet");
+    assert_eq!(outcome(&seldom, "largestReduction"), "notMet");
+}
+
+/// Stations check every 100 ms, so seven VAM a second are five.
+#[test]
+fn the_rate_that_is_printed_is_the_one_that_is_sent() {
+    let cells = [
+        "--pedestrians",
+        "20",
+        "--robots",
+        "0",
+        "--radius",
+        "15",
+        "--seeds",
+        "1",
+    ];
+    let report = json(&[&["cbr", "--json", "--vam", "7"], &cells[..]].concat());
+    assert_eq!(report["parameters"]["true_rates"]["vam_hz"], 5.0);
+    assert_eq!(report["parameters"]["true_rates"]["ram_hz"], Value::Null);
+    let sent = report["cells"][0]["messages_per_s"][0]["mean"]
+        .as_f64()
+        .unwrap();
+    assert!((sent / 20.0 - 5.0).abs() < 0.05, "{sent}");
+    let text = simulate(&[&["cbr", "--vam", "7"], &cells[..]].concat()).stdout;
+    assert!(String::from_utf8(text).unwrap().contains("vam hz: 5.0"));
+}
+
 #[test]
 fn coverage_has_the_shape_that_scripts_read() {
     let report = json(&["obs", "--json", "--preset", "plain", "--seeds", "2"]);
@@ -155,6 +312,7 @@ fn bad_usage_says_what_to_do() {
     assert!(refusal(&["obs", "--traces", "nowhere.json.gz"]).contains("nowhere.json.gz"));
     assert!(refusal(&["cbr", "--vam", "often"]).contains("etsi"));
     assert!(refusal(&["cbr", "--v2x-share", "2"]).contains("--v2x-share"));
+    assert!(refusal(&["cbr", "--unseen", "2"]).contains("--unseen"));
     // The traces that come along have their own vehicles.
     assert!(refusal(&["obs", "--vehicles", "50"]).contains("--sumo"));
     assert!(refusal(&["record"]).contains("pip install eclipse-sumo"));
@@ -205,7 +363,7 @@ fn several_robots_at_an_intersection_and_robots_on_patrol_are_measured() {
     let report = json(&[&arguments[..], &more[..]].concat());
     let cell = &report["cells"][1];
     assert!(
-        cell["passive_percent"]["mean"].as_f64().unwrap() > 20.0,
+        cell["passive_percent"]["mean"].as_f64().unwrap() > 15.0,
         "{cell}"
     );
     // A robot that walks tells more often than once a second.

@@ -98,7 +98,7 @@ fn heading_of(angle: &Wgs84AngleValue) -> Option<f64> {
 impl ItsMessage {
     /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
     /// sender, unless it is a CPM, a DENM or an RMCM, the people that a RAM announces, and what a CPM
-    /// perceives, at most 255 objects.
+    /// perceives, at most 255 objects. Nobody by a VAM that breaks a cluster up.
     #[must_use]
     pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
         match self {
@@ -122,6 +122,10 @@ impl ItsMessage {
                 let parameters = &vam.vam.vam_parameters;
                 let cluster = parameters.vru_cluster_information_container.as_ref();
                 let cluster = cluster.map(|cluster| &cluster.vru_cluster_information);
+                // A cluster that its head breaks up has nobody any more.
+                if cluster.is_some_and(|cluster| cluster.cluster_cardinality_size.0 == 0) {
+                    return Vec::new();
+                }
                 let motion = &parameters.vru_high_frequency_container;
                 vec![RoadUser {
                     cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
@@ -143,6 +147,10 @@ impl ItsMessage {
                 let parameters = &vam.vam.vam_parameters;
                 let cluster = parameters.vru_cluster_information_container.as_ref();
                 let cluster = cluster.map(|cluster| &cluster.vru_cluster_information);
+                // A cluster that its head breaks up has nobody any more.
+                if cluster.is_some_and(|cluster| cluster.cluster_cardinality_size.0 == 0) {
+                    return Vec::new();
+                }
                 let motion = &parameters.vru_high_frequency_container;
                 vec![RoadUser {
                     cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),

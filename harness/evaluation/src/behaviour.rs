@@ -2,12 +2,12 @@
 
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
-use crossguard_endpoint::ras::vru::{Understands, VamRule};
+use crossguard_endpoint::ras::vru::{Suppression, Understands, VamRule};
 use serde::{Deserialize, Serialize};
 
 use super::radio::Radio;
 
-/// How the stations behave. The paper states none of these.
+/// How the stations behave. The paper states the power of the radio, and none of the others.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Behaviour {
@@ -15,8 +15,12 @@ pub struct Behaviour {
     pub vam: VamRule,
     /// What devices understand of a cluster.
     pub understands: Understands,
+    /// Whether a device has to be perceived to fall silent.
+    pub suppression: Suppression,
     /// Share of people with a device, 0..1.
     pub v2x_share: f64,
+    /// Share of people that no robot perceives, as if they were hidden all the time, 0..1.
+    pub unseen_share: f64,
     /// Interval of RAM in ms; `None` is by the generation rules, once a second for a robot that stands
     /// still.
     pub ram_interval_ms: Option<u64>,
@@ -43,16 +47,68 @@ impl Default for Behaviour {
         Self {
             vam: VamRule::Periodic(100),
             understands: Understands::Ram,
+            suppression: Suppression::default(),
             v2x_share: 1.0,
+            unseen_share: 0.0,
             ram_interval_ms: None,
             cluster_vam_interval_ms: CLUSTER_INTERVAL_MS,
             cam_interval_ms: None,
             cam_path_points: 5,
             vehicles_leave_s: None,
-            signed: true,
+            signed: false,
             dcc: false,
             clustering: clustering::Settings::default(),
             radio: Radio::default(),
         }
+    }
+}
+
+impl Behaviour {
+    /// The same with devices that fall silent by this rule. The loose rule goes with clusters of everybody in
+    /// the zone, however far from each other and whatever their motion.
+    #[must_use]
+    pub fn with_suppression(self, suppression: Suppression) -> Self {
+        let clustering = match suppression {
+            Suppression::Strict => self.clustering,
+            Suppression::Loose => clustering::Settings {
+                spread_m: 200.0,
+                speed_difference_mps: 50.0,
+                heading_difference_deg: 360.0,
+                ..self.clustering
+            },
+        };
+        Self {
+            suppression,
+            clustering,
+            ..self
+        }
+    }
+
+    /// Whether no robot ever perceives this person, the `number`th from 0. The share is spread evenly.
+    #[must_use]
+    pub fn is_unseen(&self, number: u32) -> bool {
+        let before = |number: u32| (f64::from(number) * self.unseen_share + 1e-9).floor();
+        before(number + 1) > before(number)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_of_people_that_nobody_perceives_is_spread_evenly() {
+        let unseen = |unseen_share| {
+            let behaviour = Behaviour {
+                unseen_share,
+                ..Behaviour::default()
+            };
+            (0..20)
+                .filter(|&it| behaviour.is_unseen(it))
+                .collect::<Vec<u32>>()
+        };
+        assert!(unseen(0.0).is_empty());
+        assert_eq!(unseen(0.2), [4, 9, 14, 19]);
+        assert_eq!(unseen(1.0).len(), 20);
     }
 }

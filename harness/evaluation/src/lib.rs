@@ -12,7 +12,7 @@
 //! - [`coverage`] is the observation coverage ratio, and the greedy placement of robots.
 //! - [`simulation`] is a run on the air of stations with one [`behaviour`], with [`messages`] of real size, on the channel of [`radio`].
 //! - [`matrix`] are all cells of the evaluation, over seeds and cores; [`statistics`] their mean and
-//!   deviation, [`plot`] their pictures, [`paper`] what the paper states.
+//!   deviation, [`plot`] their pictures, [`paper`] what the paper states, [`statements`] whether a run meets it.
 //!
 //! `harness/doc/evaluation.md` says which assumptions reproduce the paper, and which do not.
 
@@ -28,6 +28,7 @@ pub mod radio;
 mod robot;
 pub mod shipped;
 pub mod simulation;
+pub mod statements;
 pub mod stationing;
 pub mod statistics;
 pub mod sumo;

@@ -9,7 +9,7 @@ use super::behaviour::Behaviour;
 use super::coverage::coverage;
 use super::messages::Sizes;
 use super::robot::RobotError;
-use super::simulation::{Measured, simulate};
+use super::simulation::{Measured, Silence, simulate};
 use super::stationing::Stationing;
 use super::statistics::Estimate;
 use super::trace::Traces;
@@ -43,7 +43,7 @@ pub struct ObsCell {
 }
 
 /// Channel load in a cell of the matrix.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
 pub struct CbrCell {
     /// Robots.
     pub robots: usize,
@@ -59,6 +59,8 @@ pub struct CbrCell {
     pub predicted_percent: Estimate,
     /// Share of devices' time without VAM of their own, in percent.
     pub passive_percent: Estimate,
+    /// Share of devices' time without VAM of their own though no robot perceives them, in percent.
+    pub wrongly_silent_percent: Estimate,
     /// Share of VAM in the air time without robots, in percent.
     pub vam_share_percent: Estimate,
     /// VAM, CAM and RAM per second.
@@ -102,10 +104,36 @@ struct Job {
 }
 
 /// What came of a [`Job`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Done {
     measured: Measured,
+    silences: Vec<Silence>,
     coverage: f64,
+}
+
+/// Channel load in every cell, and when devices were silent.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct CbrResults {
+    /// The cells.
+    pub cells: Vec<CbrCell>,
+    /// When devices were silent in the runs with robots.
+    pub silences: Vec<SilenceInRun>,
+}
+
+/// A time in which a device was silent in a run of the matrix.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct SilenceInRun {
+    /// Robots.
+    pub robots: usize,
+    /// People on foot.
+    pub pedestrians: usize,
+    /// Perception radius in metres.
+    pub radius_m: f64,
+    /// The run's seed.
+    pub seed: u64,
+    /// Who, and when.
+    #[serde(flatten)]
+    pub silence: Silence,
 }
 
 /// Channel load in every cell; `done` is told after every run how many of how many there are.
@@ -118,7 +146,7 @@ pub fn cbr(
     behaviour: &Behaviour,
     sizes: &Sizes,
     done: impl Fn(usize, usize) + Sync,
-) -> Result<Vec<CbrCell>, RobotError> {
+) -> Result<CbrResults, RobotError> {
     let jobs = jobs(traces, axes);
     let results = Mutex::new(vec![None; jobs.len()]);
     let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
@@ -154,9 +182,34 @@ pub fn cbr(
         .unwrap_or_else(std::sync::PoisonError::into_inner);
     let find = |wanted: Job| {
         let index = jobs.iter().position(|job| *job == wanted)?;
-        results[index]
+        results[index].clone()
     };
-    Ok(cells(traces, axes, find))
+    Ok(CbrResults {
+        cells: cells(traces, axes, find),
+        silences: silences(traces, &jobs, &results),
+    })
+}
+
+fn silences(traces: &[Traces], jobs: &[Job], results: &[Option<Done>]) -> Vec<SilenceInRun> {
+    let runs = jobs
+        .iter()
+        .zip(results)
+        .filter_map(|(job, done)| Some((job, done.as_ref()?)));
+    let of_run = |(job, done): (&Job, &Done)| {
+        let file = &traces[job.traces];
+        let of = SilenceInRun {
+            robots: job.robots,
+            pedestrians: file.pedestrians(),
+            radius_m: job.radius_m,
+            seed: file.runs[job.run].seed,
+            silence: Silence::default(),
+        };
+        let silences = done.silences.iter();
+        silences
+            .map(|&silence| SilenceInRun { silence, ..of })
+            .collect::<Vec<_>>()
+    };
+    runs.flat_map(of_run).collect()
 }
 
 fn set(results: &Mutex<Vec<Option<Done>>>, jobs: &[Job], job: &Job, done: Done) {
@@ -210,9 +263,11 @@ fn measure(
         .robots(&file.grid, job.robots, duration_ms, sample_ms);
     let mut behaviour = behaviour.clone();
     behaviour.clustering.radius_m = job.radius_m;
+    let (measured, silences) = simulate(run, duration_ms, &robots, &behaviour, sizes)?;
     Ok(Done {
-        measured: simulate(run, duration_ms, &robots, &behaviour, sizes)?,
-        coverage: coverage(run, &robots, job.radius_m),
+        measured,
+        silences,
+        coverage: coverage(run, &robots, job.radius_m) * (1.0 - behaviour.unseen_share),
     })
 }
 
@@ -270,6 +325,7 @@ fn cell(
         reduction_percent: Estimate::of(reduction),
         predicted_percent: Estimate::of(predicted),
         passive_percent: percent(|it| it.measured.passive),
+        wrongly_silent_percent: percent(|it| it.measured.wrongly_silent),
         vam_share_percent: Estimate::of(before.iter().map(|it| 100.0 * vam_share(&it.measured))),
         messages_per_s: [
             rate(|it| it.vam_rate),

@@ -48,12 +48,18 @@ pub const fn frame_octets(message: usize, signed: Signed) -> usize {
     MAC + LLC + NETWORK + message + security
 }
 
+/// Data rate of the 10 MHz channel, in Mbit/s: the default of ITS-G5. The paper does not state it.
+pub const DATA_RATE_MBPS: u64 = 6;
+/// How long a symbol takes, in microseconds.
+const SYMBOL_US: u64 = 8;
+
 /// How long a frame of these octets is in the air, in microseconds: IEEE 802.11 with 10 MHz at 6 Mbit/s.
 /// 40 us of preamble and signal, then symbols of 8 us with 48 bits each, among them 16 of service and 6
 /// of tail.
 #[must_use]
 pub const fn air_time_us(octets: usize) -> u64 {
-    40 + (16 + 6 + 8 * octets as u64).div_ceil(48) * 8
+    let symbols = (16 + 6 + 8 * octets as u64).div_ceil(DATA_RATE_MBPS * SYMBOL_US);
+    40 + symbols * SYMBOL_US
 }
 
 /// How long a `GeoNetworking` packet of these octets is in the air, in microseconds.

@@ -1,19 +1,86 @@
-//! What the paper states in numbers of its two figures, and the figures with that marked.
+//! What the paper states of its simulation, as values in one place, and its two figures with that marked.
 //!
-//! Only text is quoted; bars of the paper's figures are not read off.
+//! Only text is quoted; bars of the paper's figures are not read off. [`statements`](super::statements) compares
+//! these with a run.
+
+use serde::Serialize;
 
 use super::matrix::{CbrCell, ObsCell};
 use super::plot::{BarChart, Series, Stated};
 use super::statistics::Estimate;
 
-/// Coverage at 15 m and 100 people, in percent: one robot, nine robots.
-pub const COVERAGE_PERCENT: [(usize, [f64; 2], &str); 2] =
-    [(1, [5.0, 6.0], "5 to 6 %"), (9, [17.0, 18.0], "17 to 18 %")];
-/// Reduction of the mean channel busy ratio with nine robots at 15 m and 100 people, in percent:
-/// about 16.
-pub const REDUCTION_PERCENT: (usize, [f64; 2], &str) = (9, [15.5, 16.5], "about 16 %");
-/// The cell that the text speaks of: people, radius.
-const CELL: (usize, f64) = (100, 15.0);
+/// A range that the paper states.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct StatedRange {
+    /// Its lower end.
+    pub least: f64,
+    /// Its upper end; the lower one for a single number.
+    pub most: f64,
+}
+
+/// What the paper states of its simulation (section III-B).
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct PaperSimulation {
+    /// Intersections along a side of the grid.
+    pub nodes_per_side: u32,
+    /// Length of a road segment in metres.
+    pub segment_m: f64,
+    /// Vehicles.
+    pub vehicles: usize,
+    /// Numbers of pedestrians.
+    pub pedestrians: [usize; 3],
+    /// Numbers of robots.
+    pub robots: [usize; 3],
+    /// Sensing radii in metres.
+    pub radii_m: [f64; 2],
+    /// Column and row, from 1, of the intersection at which a single robot is.
+    pub central_intersection: [usize; 2],
+    /// Transmission power in milliwatts.
+    pub power_mw: f64,
+    /// Carrier frequency in gigahertz.
+    pub frequency_ghz: f64,
+    /// Coverage of one robot at the larger radius, in percent, whatever the number of pedestrians.
+    pub coverage_of_one_percent: StatedRange,
+    /// The same of nine robots.
+    pub coverage_of_nine_percent: StatedRange,
+    /// Largest reduction of the mean channel busy ratio, in percent: by nine robots at the larger radius with 100
+    /// pedestrians.
+    pub reduction_most_percent: StatedRange,
+}
+
+/// What the paper states.
+pub const PAPER: PaperSimulation = PaperSimulation {
+    nodes_per_side: 3,
+    segment_m: 100.0,
+    vehicles: 20,
+    pedestrians: [20, 50, 100],
+    robots: [0, 1, 9],
+    radii_m: [10.0, 15.0],
+    central_intersection: [2, 2],
+    power_mw: 200.0,
+    frequency_ghz: 5.9,
+    coverage_of_one_percent: StatedRange {
+        least: 5.0,
+        most: 6.0,
+    },
+    coverage_of_nine_percent: StatedRange {
+        least: 17.0,
+        most: 18.0,
+    },
+    reduction_most_percent: StatedRange {
+        least: 16.3,
+        most: 16.3,
+    },
+};
+
+/// A statement that is marked in a figure: robots, people (`None` for every number of them), range, words.
+type Mark = (usize, Option<usize>, StatedRange, &'static str);
+
+const COVERAGE: [Mark; 2] = [
+    (1, None, PAPER.coverage_of_one_percent, "5 to 6 %"),
+    (9, None, PAPER.coverage_of_nine_percent, "17 to 18 %"),
+];
+const REDUCTION: [Mark; 1] = [(9, Some(100), PAPER.reduction_most_percent, "up to 16.3 %")];
 
 /// Place of a cell in a figure: robots, people, radius.
 type Key = (usize, usize, f64);
@@ -35,7 +102,7 @@ pub fn coverage_figure(cells: &[ObsCell], assumptions: &str) -> BarChart {
         ["Observation coverage ratio", assumptions],
         "coverage in %",
         &bars,
-        &COVERAGE_PERCENT,
+        &COVERAGE,
     )
 }
 
@@ -56,7 +123,7 @@ pub fn reduction_figure(cells: &[CbrCell], assumptions: &str) -> BarChart {
         ["Reduction of the mean channel busy ratio", assumptions],
         "reduction in %",
         &bars,
-        &[REDUCTION_PERCENT],
+        &REDUCTION,
     )
 }
 
@@ -89,7 +156,7 @@ fn figure(
     [title, assumptions]: [&str; 2],
     y_axis: &str,
     bars: &[(Key, Estimate)],
-    stated: &[(usize, [f64; 2], &'static str)],
+    stated: &[Mark],
 ) -> BarChart {
     // Without robots there is one value, whatever the radius.
     let without = |key: &Key| if key.0 == 0 { (0, key.1, 0.0) } else { *key };
@@ -112,18 +179,25 @@ fn figure(
         color: color(&kinds, kind),
         bars: people.iter().map(|&people| bar(kind, people)).collect(),
     });
-    let stated = stated.iter().filter_map(|(robots, range, words)| {
-        let is_kind = |kind: &(usize, f64)| kind.0 == *robots && kind.1.total_cmp(&CELL.1).is_eq();
-        Some(Stated {
-            group: people.iter().position(|it| *it == CELL.0)?,
-            series: kinds.iter().position(is_kind)?,
-            range: *range,
-            words,
+    let radius_m = PAPER.radii_m[1];
+    let stated = stated.iter().flat_map(|(robots, of, range, words)| {
+        let is_kind =
+            |kind: &(usize, f64)| kind.0 == *robots && kind.1.total_cmp(&radius_m).is_eq();
+        let series = kinds.iter().position(is_kind);
+        let groups = people.iter().enumerate();
+        let groups = groups.filter(move |(_, people)| of.is_none_or(|of| of == **people));
+        groups.filter_map(move |(group, _)| {
+            Some(Stated {
+                group,
+                series: series?,
+                range: [range.least, range.most],
+                words,
+            })
         })
     });
     BarChart {
         title: title.to_owned(),
-        subtitle: format!("{assumptions}; bars are means, whiskers standard deviations over seeds"),
+        subtitle: format!("{assumptions}; means and deviations over seeds"),
         x_axis: "pedestrians".to_owned(),
         y_axis: y_axis.to_owned(),
         groups: people.iter().map(ToString::to_string).collect(),

@@ -197,19 +197,31 @@ impl BarChart {
         let y = if bar.mean < 0.0 {
             low + 13.0
         } else {
-            self.above_marks(group, series, high - 5.0)
+            self.beside_marks(group, series, high - 5.0, low + 13.0)
         };
-        text(svg, middle, y, "middle", 10, &number);
+        // The halo keeps it readable on every bar.
+        let _ = writeln!(
+            svg,
+            "<text x=\"{middle:.1}\" y=\"{y:.1}\" text-anchor=\"middle\" font-size=\"10\" \
+             stroke=\"white\" stroke-width=\"2.5\" paint-order=\"stroke\">{number}</text>"
+        );
     }
 
-    /// Where words over a bar stand at this height, or higher if the paper's range is there.
-    fn above_marks(&self, group: usize, series: usize, y: f64) -> f64 {
+    /// Where the number of a bar stands: above it, or in it where the paper's range is above and there is room. Above
+    /// that range it would seem to be its number.
+    fn beside_marks(&self, group: usize, series: usize, above: f64, inside: f64) -> f64 {
         let here = self.stated.iter();
-        let here = here.filter(|it| (it.group, it.series) == (group, series));
-        here.map(|it| it.range.map(|value| self.y(value)))
-            .filter(|[bottom, top]| y > top - 2.0 && y - 10.0 < bottom + 2.0)
-            .map(|[_, top]| top - 5.0)
-            .fold(y, f64::min)
+        let mut here = here.filter(|it| (it.group, it.series) == (group, series));
+        let is_in_the_way = |it: &Stated| {
+            let [bottom, top] = it.range.map(|value| self.y(value));
+            above > top - 2.0 && above - 10.0 < bottom + 2.0
+        };
+        let has_room = inside <= self.y(0.0) - 2.0;
+        if has_room && here.any(is_in_the_way) {
+            inside
+        } else {
+            above
+        }
     }
 
     fn mark(&self, svg: &mut String, stated: &Stated) {
@@ -224,6 +236,29 @@ impl BarChart {
         // Black on white shows on every bar, and to everybody.
         let _ = writeln!(svg, "<rect {area} stroke=\"white\" stroke-width=\"3.5\"/>");
         let _ = writeln!(svg, "<rect {area} {DASHES}/>");
+    }
+
+    /// What the paper states, each once: with its group where it is not of all groups.
+    fn stated_words(&self) -> Vec<String> {
+        let mut said: Vec<(usize, &str, Vec<usize>)> = Vec::new();
+        for it in &self.stated {
+            match said
+                .iter_mut()
+                .find(|(series, words, _)| (*series, *words) == (it.series, it.words))
+            {
+                Some((_, _, groups)) => groups.push(it.group),
+                None => said.push((it.series, it.words, vec![it.group])),
+            }
+        }
+        let words = said.iter().map(|(series, words, groups)| {
+            let series = &self.series[*series].name;
+            if groups.len() == self.groups.len() {
+                return format!("{words} ({series})");
+            }
+            let groups: Vec<&str> = groups.iter().map(|it| self.groups[*it].as_str()).collect();
+            format!("{words} ({series}, {} {})", groups.join(", "), self.x_axis)
+        });
+        words.collect()
     }
 
     fn legend(&self, svg: &mut String) {
@@ -249,11 +284,7 @@ impl BarChart {
             "<rect x=\"{LEFT}\" y=\"{:.1}\" width=\"12\" height=\"12\" fill=\"none\" {DASHES}/>",
             y - 10.0,
         );
-        let words = self.stated.iter().map(|it| {
-            let (series, group) = (&self.series[it.series].name, &self.groups[it.group]);
-            format!("{} ({series}, {group} {})", it.words, self.x_axis)
-        });
-        let words = words.collect::<Vec<_>>().join("; ");
+        let words = self.stated_words().join("; ");
         let words = format!("stated in the paper: {words}");
         text(svg, LEFT + 17.0, y, "start", 12, &words);
     }
@@ -313,6 +344,18 @@ mod tests {
         let heights = (chart.y(0.0) - chart.y(5.0), chart.y(0.0) - chart.y(10.0));
         assert!((heights.1 - 2.0 * heights.0).abs() < 1e-9);
         assert_eq!(svg.matches("<rect").count(), 1 + 2 + 2 + 2);
+    }
+
+    #[test]
+    fn what_is_stated_of_every_group_stands_once_in_the_legend() {
+        let mut chart = chart(&[5.0, 10.0]);
+        chart.stated.push(Stated {
+            group: 0,
+            ..chart.stated[0].clone()
+        });
+        assert_eq!(chart.stated_words(), ["17 to 18 % (1 robot)"]);
+        // It is drawn at both.
+        assert_eq!(chart.to_svg().matches("<rect").count(), 1 + 2 + 2 * 2 + 2);
     }
 
     #[test]

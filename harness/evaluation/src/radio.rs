@@ -16,7 +16,7 @@ const SIFS_US: u64 = 32;
 /// Window over which the channel busy ratio is taken, in microseconds.
 pub const WINDOW_US: u64 = 100_000;
 
-/// What the channel is like. The paper states none of these.
+/// What the channel is like. The paper states the power, 200 mW, and the frequency, 5.9 GHz.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Radio {

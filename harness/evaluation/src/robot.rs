@@ -13,7 +13,7 @@ use crossguard_endpoint::ras::containers;
 use crossguard_endpoint::ras::etsi::NotMade;
 use crossguard_endpoint::ras::generation::{Generation, Limits, Status, Trigger};
 use crossguard_endpoint::ras::motion::{Plane, Point, distance_m};
-use crossguard_endpoint::ras::surroundings::{Awareness, Surroundings, Unplaced};
+use crossguard_endpoint::ras::surroundings::{Awareness, Surroundings, Told, Unplaced};
 use crossguard_endpoint::ras::vru::{AnnouncedCluster, Announcement, Understands};
 use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
 
@@ -34,6 +34,7 @@ pub(super) struct Announced {
     by: Understands,
     cluster: Option<containers::Announced>,
     velocity_mps: Option<[f64; 2]>,
+    ended: Option<u8>,
 }
 
 impl Announced {
@@ -47,6 +48,7 @@ impl Announced {
                 cardinality: cluster.cardinality,
                 velocity_mps: self.velocity_mps,
             }),
+            ended: self.ended,
         }
     }
 }
@@ -87,11 +89,13 @@ pub(super) struct Robot<'a> {
     radius_m: f64,
     ram_interval_ms: Option<u64>,
     last_ram_ms: Option<u64>,
+    /// People that it does not perceive, by number.
+    unseen: Vec<bool>,
     perceived: Vec<PerceivedVru>,
 }
 
 impl<'a> Robot<'a> {
-    pub(super) fn new(number: u32, track: &'a Track, seed: u64, behaviour: &Behaviour) -> Self {
+    pub(super) fn new(number: u32, track: &'a Track, run: &Run, behaviour: &Behaviour) -> Self {
         let station = FIRST_STATION + number;
         let by_vam = behaviour.understands == Understands::ClusterVam;
         let awareness = Awareness {
@@ -104,10 +108,14 @@ impl<'a> Robot<'a> {
             track,
             state: state_of_a_robot(),
             generation: Generation::default(),
-            surroundings: Surroundings::new(awareness, seed << 16 ^ u64::from(station)),
+            surroundings: Surroundings::new(awareness, run.seed << 16 ^ u64::from(station)),
             radius_m: awareness.clustering.radius_m,
             ram_interval_ms: behaviour.ram_interval_ms,
             last_ram_ms: None,
+            unseen: (0_u32..)
+                .take(run.pedestrians.len())
+                .map(|person| behaviour.is_unseen(person))
+                .collect(),
             perceived: Vec::new(),
         }
     }
@@ -141,8 +149,12 @@ impl<'a> Robot<'a> {
             self.station,
             &position,
         );
-        for (cluster, octets) in vams {
-            messages.push(self.cluster_vam(&cluster, octets?.len()));
+        for (told, octets) in vams {
+            let octets = octets?.len();
+            messages.push(match told {
+                Told::Cluster(cluster) => self.cluster_vam(&cluster, octets),
+                Told::Ended(ended) => self.breakup_vam(ended.id, octets),
+            });
         }
         Ok(messages)
     }
@@ -150,7 +162,8 @@ impl<'a> Robot<'a> {
     fn perceive(&mut self, now_us: u64, place: Point, run: &Run) -> Result<(), Unplaced> {
         let reach_m = self.radius_m + SENSED_BEYOND_M;
         self.perceived.clear();
-        for (id, track) in (0_u32..).zip(&run.pedestrians) {
+        let people = (0_u32..).zip(&run.pedestrians).zip(&self.unseen);
+        for ((id, track), _) in people.filter(|(_, unseen)| !**unseen) {
             let motion = track.motion(now_us);
             if distance_m(motion.position_m, place) <= reach_m {
                 self.perceived.push(PerceivedVru {
@@ -167,9 +180,18 @@ impl<'a> Robot<'a> {
             .perceive(now_us / 1_000, &position, &self.perceived)
     }
 
+    /// Whether it perceives this person now.
+    pub(super) fn perceives(&self, person: u32) -> bool {
+        self.surroundings.clustering().is_member(person)
+    }
+
     /// Another robot's RAM.
     pub(super) fn hear(&mut self, now_ms: u64, heard: &Announced) {
         if heard.by == Understands::Ram {
+            if let Some(id) = heard.ended {
+                self.surroundings.hear_ended(now_ms, heard.head, id);
+                return;
+            }
             let cluster = heard.cluster.as_ref();
             let on_own_plane = cluster.and_then(|it| self.on_own_plane(it));
             let (own, head) = (self.station, heard.head);
@@ -222,7 +244,7 @@ impl<'a> Robot<'a> {
 
     fn ram(&mut self, now_ms: u64, trigger: Trigger) -> Result<Message, RobotError> {
         let ids = Identifiers::default();
-        let cluster = self.surroundings.next_cluster();
+        let told = self.surroundings.next_told();
         self.last_ram_ms = Some(now_ms);
         let low_frequency = self.generation.low_frequency_due(now_ms);
         let (status, time) = (
@@ -238,18 +260,26 @@ impl<'a> Robot<'a> {
             time,
             low_frequency,
         )?;
-        if let Some(plane) = self.surroundings.plane() {
-            containers::write(&mut ram, plane, cluster.as_ref());
+        match (&told, self.surroundings.plane()) {
+            (Some(Told::Cluster(cluster)), Some(plane)) => {
+                containers::write(&mut ram, plane, Some(cluster));
+            }
+            (Some(Told::Ended(ended)), _) => containers::write_ended(&mut ram, *ended),
+            (Some(Told::Cluster(_)) | None, _) => {}
         }
         self.generation
             .sent(now_ms, trigger, &self.state, status, low_frequency);
         let octets = encode(&ids, &ram)?;
         let received = decode::<RAM>(&ids, &octets)?.message;
+        let parameters = &received.ram.ram_parameters;
+        let container = parameters.vru_cluster_information_container.as_ref();
+        let information = container.map(|it| &it.vru_cluster_information);
         let announced = Announced {
             head: self.station,
             by: Understands::Ram,
             cluster: containers::read(&received, &grid()),
-            velocity_mps: None,
+            velocity_mps: containers::velocity_mps(&received),
+            ended: information.and_then(containers::ended),
         };
         Ok(Message {
             octets: octets.len(),
@@ -273,6 +303,19 @@ impl<'a> Robot<'a> {
                 cardinality: cluster.cardinality,
             }),
             velocity_mps: Some(cluster.velocity_mps),
+            ended: None,
+        };
+        Message { octets, announced }
+    }
+
+    /// That one of these is over.
+    fn breakup_vam(&self, id: u8, octets: usize) -> Message {
+        let announced = Announced {
+            head: self.station,
+            by: Understands::ClusterVam,
+            cluster: None,
+            velocity_mps: None,
+            ended: Some(id),
         };
         Message { octets, announced }
     }

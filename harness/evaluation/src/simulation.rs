@@ -23,8 +23,11 @@ use super::radio::{Channel, Transmission, WINDOW_US};
 use super::robot::{Announced, Robot, RobotError};
 use super::trace::{Run, Track};
 
-/// How often a generation rule is checked, in microseconds.
-pub(super) const CHECK_US: u64 = 100_000;
+/// How often a generation rule is checked, in ms (`T_CheckVamGen`): what is sent at an interval is sent at a
+/// multiple of it.
+pub const CHECK_MS: u64 = 100;
+/// The same in microseconds.
+const CHECK_US: u64 = 1_000 * CHECK_MS;
 /// How long a message takes to be built at most, in microseconds.
 const ASSEMBLY_MAX_US: u64 = 10_000;
 /// Stations are switched on one after the other until then, and what happens before is not counted, in
@@ -36,12 +39,15 @@ const QUEUE_MAX: usize = 2;
 /// What was measured in a run.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Measured {
-    /// Mean channel busy ratio over stations and windows of 100 ms, 0..1.
+    /// Mean channel busy ratio over vehicles, devices and windows of 100 ms, 0..1. Robots are left out, so that it is
+    /// the mean over the same stations whatever the number of robots.
     pub mcbr: f64,
     /// Largest channel busy ratio of a window, 0..1.
     pub cbr_max: f64,
     /// Share of devices' time in which they leave their announcement to a robot, 0..1.
     pub passive: f64,
+    /// Share of devices' time in which they do so though no robot perceives them, 0..1.
+    pub wrongly_silent: f64,
     /// Air time of CAM by time, 0..1.
     pub cam_load: f64,
     /// Air time of VAM by time, 0..1.
@@ -97,8 +103,11 @@ enum Role<'a> {
         low_frequency_ms: Option<u64>,
     },
     Device {
+        /// Number of the person who carries it.
+        person: u32,
         track: &'a Track,
         station: Box<VruStation>,
+        silent_since_ms: Option<u64>,
     },
     Robot(Box<Robot<'a>>),
 }
@@ -151,6 +160,28 @@ pub(super) struct Simulation<'a> {
     events: BinaryHeap<Reverse<(u64, Event)>>,
     end_us: u64,
     sums: Sums,
+    silences: Vec<Silence>,
+}
+
+/// A time in which a device was silent because of a robot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Silence {
+    /// Number of the person who carries it, in the order of the trace, from 0.
+    pub person: u32,
+    /// From when, in ms from the beginning of the run: the first check at which it was silent.
+    pub from_ms: u64,
+    /// Until when: the first check at which it was not, or the end of the run.
+    pub to_ms: u64,
+}
+
+impl Silence {
+    const fn new(person: u32, from_ms: u64, to_ms: u64) -> Self {
+        Self {
+            person,
+            from_ms,
+            to_ms,
+        }
+    }
 }
 
 #[derive(Default)]
@@ -159,6 +190,7 @@ struct Sums {
     station_windows: u64,
     busy_max_us: u32,
     passive: u64,
+    wrongly_silent: u64,
     device_checks: u64,
     air_us: [u64; 3],
     frames: [u64; 3],
@@ -168,7 +200,7 @@ struct Sums {
     replaced: u64,
 }
 
-/// Measures a run with robots on these ways.
+/// Measures a run with robots on these ways, and says when each device was silent.
 ///
 /// # Errors
 /// When a robot's message cannot be encoded.
@@ -178,7 +210,7 @@ pub fn simulate(
     robots: &[Track],
     behaviour: &Behaviour,
     sizes: &Sizes,
-) -> Result<Measured, RobotError> {
+) -> Result<(Measured, Vec<Silence>), RobotError> {
     let mut simulation = Simulation::new(run, duration_ms, robots, behaviour, sizes);
     while let Some(Reverse((now_us, event))) = simulation.events.pop() {
         if now_us >= simulation.end_us {
@@ -186,7 +218,8 @@ pub fn simulate(
         }
         simulation.happen(now_us, event)?;
     }
-    Ok(simulation.measured())
+    let measured = simulation.measured();
+    Ok((measured, simulation.into_silences()))
 }
 
 impl<'a> Simulation<'a> {
@@ -210,16 +243,19 @@ impl<'a> Simulation<'a> {
             said: Motion::default(),
             low_frequency_ms: None,
         });
-        let devices = run
-            .pedestrians
-            .iter()
-            .take(devices)
-            .map(|track| Role::Device {
-                track,
-                station: Box::new(VruStation::new(behaviour.vam, behaviour.understands)),
-            });
+        let people = (0_u32..).zip(&run.pedestrians);
+        let devices = people.take(devices).map(|(person, track)| Role::Device {
+            person,
+            track,
+            station: Box::new(VruStation::with(
+                behaviour.vam,
+                behaviour.understands,
+                behaviour.suppression,
+            )),
+            silent_since_ms: None,
+        });
         let robots = (0_u32..).zip(robots).map(|(number, track)| {
-            Role::Robot(Box::new(Robot::new(number, track, run.seed, behaviour)))
+            Role::Robot(Box::new(Robot::new(number, track, run, behaviour)))
         });
         let station = |role| Station {
             role,
@@ -246,6 +282,7 @@ impl<'a> Simulation<'a> {
             events,
             end_us: duration_ms * 1_000,
             sums: Sums::default(),
+            silences: Vec::new(),
         };
         simulation.place_all(0);
         simulation
@@ -279,7 +316,8 @@ impl<'a> Simulation<'a> {
         let counts = now_us > SETTLING_US;
         let has_dcc = self.behaviour.dcc;
         self.channel.close_window(now_us, |number, busy_us| {
-            if counts {
+            let is_robot = matches!(stations[number].role, Role::Robot(_));
+            if counts && !is_robot {
                 sums.busy_us += u64::from(busy_us);
                 sums.station_windows += 1;
                 sums.busy_max_us = sums.busy_max_us.max(busy_us);
@@ -327,10 +365,26 @@ impl<'a> Simulation<'a> {
                 let octets = self.sizes.cam(low_frequency);
                 self.build(now_us, number, octets, Payload::Cam);
             }
-            Role::Device { track, station } => {
+            Role::Device {
+                person,
+                track,
+                station,
+                silent_since_ms,
+            } => {
                 let due = station.poll(now_ms, &track.motion(now_us), congestion_ms);
+                let (person, is_silent) = (*person, station.is_passive());
+                let since_ms = if is_silent {
+                    silent_since_ms.get_or_insert(now_ms);
+                    None
+                } else {
+                    silent_since_ms.take()
+                };
+                self.silences
+                    .extend(since_ms.map(|from_ms| Silence::new(person, from_ms, now_ms)));
                 if now_us > SETTLING_US {
-                    self.sums.passive += u64::from(station.is_passive());
+                    let is_wrong = is_silent && !self.is_perceived(person);
+                    self.sums.passive += u64::from(is_silent);
+                    self.sums.wrongly_silent += u64::from(is_wrong);
                     self.sums.device_checks += 1;
                 }
                 if let Some(due) = due {
@@ -346,6 +400,14 @@ impl<'a> Simulation<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Whether any robot perceives this person now.
+    fn is_perceived(&self, person: u32) -> bool {
+        self.stations.iter().any(|station| match &station.role {
+            Role::Robot(robot) => robot.perceives(person),
+            Role::Vehicle { .. } | Role::Device { .. } => false,
+        })
     }
 
     /// A message is built; it will be ready after a moment.
@@ -449,7 +511,7 @@ impl<'a> Simulation<'a> {
             }
             let is_received = self.channel.receives(number, transmission);
             match &mut station.role {
-                Role::Device { track, station } => {
+                Role::Device { track, station, .. } => {
                     self.sums.heard += 1;
                     self.sums.lost += u64::from(!is_received);
                     if is_received {
@@ -461,6 +523,23 @@ impl<'a> Simulation<'a> {
                 Role::Robot(_) | Role::Vehicle { .. } => {}
             }
         }
+    }
+
+    /// When devices were silent; who still is, is until the end.
+    fn into_silences(self) -> Vec<Silence> {
+        let mut silences = self.silences;
+        silences.extend(self.stations.iter().filter_map(|station| {
+            let Role::Device {
+                person,
+                silent_since_ms: Some(from_ms),
+                ..
+            } = station.role
+            else {
+                return None;
+            };
+            Some(Silence::new(person, from_ms, self.end_us / 1_000))
+        }));
+        silences
     }
 
     #[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
@@ -475,6 +554,7 @@ impl<'a> Simulation<'a> {
             mcbr: share(sums.busy_us, sums.station_windows * WINDOW_US),
             cbr_max: f64::from(sums.busy_max_us) / WINDOW_US as f64,
             passive: share(sums.passive, sums.device_checks),
+            wrongly_silent: share(sums.wrongly_silent, sums.device_checks),
             cam_load,
             vam_load,
             ram_load,

@@ -3,7 +3,7 @@
 
 use crossguard_endpoint::ras::clustering::Settings;
 use crossguard_endpoint::ras::motion::Point;
-use crossguard_endpoint::ras::vru::{Understands, VamRule};
+use crossguard_endpoint::ras::vru::{Suppression, Understands, VamRule};
 use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::coverage::coverage;
 use crossguard_evaluation::matrix::{predicted_reduction, vam_share};
@@ -46,6 +46,7 @@ fn measure(run: &Run, robots: &[Point], behaviour: &Behaviour) -> Measured {
         &sizes,
     )
     .unwrap()
+    .0
 }
 
 fn on_an_ideal_channel(vam: VamRule, ram_interval_ms: u64) -> Behaviour {
@@ -64,12 +65,13 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
     /// With what devices really do, the law is exact but for the few VAM by which they come and go; with
-    /// coverage in its place, when nobody crosses the edge.
+    /// coverage in its place, when nobody crosses the edge. RAM come often enough that each cluster of a row of
+    /// people is announced again in time.
     #[test]
     fn the_reduction_is_coverage_times_the_share_of_vam_less_that_of_ram(
         near in 0_u8..12, far in 1_u8..12, walkers in 0_u8..4, vehicles in 0_u8..6,
         vam_ms in prop_oneof![Just(100_u64), Just(200), Just(500)],
-        ram_ms in prop_oneof![Just(100_u64), Just(500), Just(1_000)],
+        ram_ms in prop_oneof![Just(100_u64), Just(200), Just(300)],
         seed in 0_u64..1_000,
     ) {
         let row = |count: u8, y: f64| (0..count).map(move |i| [f64::from(i) - 5.0, y]);
@@ -160,13 +162,48 @@ fn unmodified_devices_join_by_the_cluster_vam_of_a_robot() {
         ..Behaviour::default()
     };
     let measured = measure(&crowd(), &[[0.0, 0.0]], &behaviour);
-    assert!(measured.passive > 0.45, "{measured:?}");
+    // The row is several clusters: a device near two of them may first try to join the other one.
+    assert!(measured.passive > 0.3, "{measured:?}");
     let deaf = Behaviour {
         cluster_vam_interval_ms: 5_000,
         ..behaviour
     };
     // A head that is silent for longer than `timeClusterContinuity` is lost.
     assert!(measure(&crowd(), &[[0.0, 0.0]], &deaf).passive < 0.1);
+}
+
+/// Two people side by side in front of a robot, of which it sees one: one walks north, the other east.
+#[test]
+fn only_a_loose_device_falls_silent_beside_somebody_who_is_perceived() {
+    let crossing = |step: [f64; 2]| {
+        let place = |sample: u64| {
+            #[expect(clippy::cast_precision_loss, reason = "a few samples")]
+            let walked_m = (sample % 10) as f64 * 0.7 - 3.0;
+            [walked_m * step[0], walked_m * step[1]]
+        };
+        Track::new(500, &(0..=SECONDS * 2).map(place).collect::<Vec<_>>())
+    };
+    let run = Run {
+        seed: 3,
+        vehicles: Vec::new(),
+        pedestrians: vec![crossing([0.0, 1.0]), crossing([1.0, 0.0])],
+    };
+    let wrongly_silent = |suppression| {
+        let behaviour = Behaviour {
+            unseen_share: 0.5,
+            ..Behaviour::default()
+        };
+        let behaviour = behaviour.with_suppression(suppression);
+        assert!(!behaviour.is_unseen(0) && behaviour.is_unseen(1));
+        let measured = measure(&run, &[[5.0, 5.0]], &behaviour);
+        assert!(measured.passive > 0.2, "{measured:?}");
+        measured.wrongly_silent
+    };
+    let (strict, loose) = (
+        wrongly_silent(Suppression::Strict),
+        wrongly_silent(Suppression::Loose),
+    );
+    assert!(strict < 0.02 && loose > 0.1, "{strict} {loose}");
 }
 
 #[test]
@@ -177,10 +214,14 @@ fn congestion_control_slows_a_full_channel_down() {
             .collect(),
         ..crowd()
     };
-    let free = measure(&crowded, &[], &Behaviour::default());
+    let signed = Behaviour {
+        signed: true,
+        ..Behaviour::default()
+    };
+    let free = measure(&crowded, &[], &signed);
     let held_back = Behaviour {
         dcc: true,
-        ..Behaviour::default()
+        ..signed
     };
     let held_back = measure(&crowded, &[], &held_back);
     assert!(

@@ -252,6 +252,14 @@ impl Announced {
         };
         let id = cluster.cluster_id.map_or(0, |id| id.0);
         let count = cluster.cluster_cardinality_size.0;
+        if count == 0 {
+            let was_told = self.0.remove(&id).is_some();
+            let now = match self.0.len() {
+                0 => "announces nobody any more".to_owned(),
+                _ => format!("no longer announces cluster {id}"),
+            };
+            return was_told.then_some(now);
+        }
         let people = if count == 1 { "person" } else { "people" };
         (self.0.insert(id, count) != Some(count))
             .then(|| format!("announces {count} {people}, cluster {id}"))
@@ -260,6 +268,8 @@ impl Announced {
 
 #[cfg(test)]
 mod tests {
+    use crossguard_codec::core::cdd::{CardinalNumber1B, Identifier1B};
+
     use super::*;
 
     #[test]
@@ -284,6 +294,24 @@ mod tests {
         );
         let nobody = parse(r#"{"at_s": 2, "nobody": true}"#).unwrap();
         assert_eq!((nobody.vru, nobody.at_s), (None, Some(2.0)));
+    }
+
+    #[test]
+    fn a_cluster_that_is_over_is_told_once() {
+        let cluster = |id, count| VruClusterInformation {
+            cluster_id: Some(Identifier1B(id)),
+            cluster_bounding_box_shape: None,
+            cluster_cardinality_size: CardinalNumber1B(count),
+            cluster_profiles: None,
+        };
+        let mut announced = Announced::default();
+        let mut note = |id, count| announced.note(Some(&cluster(id, count)));
+        assert_eq!(note(7, 2).unwrap(), "announces 2 people, cluster 7");
+        assert_eq!(note(8, 1).unwrap(), "announces 1 person, cluster 8");
+        assert_eq!(note(7, 0).unwrap(), "no longer announces cluster 7");
+        assert_eq!(note(7, 0), None);
+        assert_eq!(note(8, 0).unwrap(), "announces nobody any more");
+        assert_eq!(announced.note(None), None);
     }
 
     #[test]

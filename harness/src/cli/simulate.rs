@@ -9,6 +9,7 @@ use crossguard_evaluation::coverage::greedy;
 use crossguard_evaluation::matrix;
 use crossguard_evaluation::messages::Sizes;
 use crossguard_evaluation::paper;
+use crossguard_evaluation::statements::{self, Comparison};
 use crossguard_evaluation::sumo::{Plan, Sumo};
 use crossguard_evaluation::trace::{Run, Traces};
 use serde::Serialize;
@@ -99,8 +100,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 #[derive(Serialize)]
 struct SimulateReport<'a, C> {
     preset: &'a str,
+    /// Whether nothing was set otherwise than the evaluation page documents it.
+    documented: bool,
     parameters: &'a Parameters,
     cells: &'a [C],
+    /// What the paper states, beside what was measured.
+    statements: &'a [Comparison],
 }
 
 fn obs(arguments: &Obs) -> Result<(), Failure> {
@@ -112,7 +117,9 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let charts = [("coverage.svg", paper::coverage_figure(&cells, &assumptions))];
     output::write_charts(&arguments.output, &charts)?;
     output::write_csv(&arguments.output, &cells)?;
-    finish(&arguments.output, matrix, &parameters, &cells)
+    let axes = matrix.axes();
+    let statements = statements::of_coverage(parameters.setting(&axes), &cells);
+    finish(&arguments.output, matrix, &parameters, &cells, &statements)
 }
 
 fn cbr(arguments: &Cbr) -> Result<(), Failure> {
@@ -127,7 +134,9 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     };
     let cells = matrix::cbr(&traces, &matrix.axes(), &behaviour, &sizes, done);
     bar.finish_and_clear();
-    let cells = cells.map_err(Failure::input)?;
+    let results = cells.map_err(Failure::input)?;
+    let cells = results.cells;
+    output::write_silences(arguments.air.silences.as_deref(), &results.silences)?;
     let parameters = matrix.parameters(&traces, Some(behaviour));
     let assumptions = parameters.in_brief(matrix.preset.name());
     let charts = [
@@ -139,25 +148,32 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     ];
     output::write_charts(&arguments.output, &charts)?;
     output::write_csv(&arguments.output, &cells)?;
-    finish(&arguments.output, matrix, &parameters, &cells)
+    let axes = matrix.axes();
+    let statements = statements::of_load(parameters.setting(&axes), &cells);
+    finish(&arguments.output, matrix, &parameters, &cells, &statements)
 }
 
-/// Prints the cells, as JSON or as a table under the parameters.
+/// Prints the cells and what the paper states, as JSON or as tables under the parameters.
 fn finish<C: Serialize + output::Row>(
     output: &Output,
     matrix: &Matrix,
     parameters: &Parameters,
     cells: &[C],
+    statements: &[Comparison],
 ) -> Result<(), Failure> {
+    let documented = matrix.is_documented(parameters);
     if output.json {
         return print_json(&SimulateReport {
             preset: matrix.preset.name(),
+            documented,
             parameters,
             cells,
+            statements,
         });
     }
     output::print_parameters(parameters)?;
-    print(output::table(cells))
+    print(output::table(cells))?;
+    output::print_statements(documented, statements)
 }
 
 #[derive(Serialize)]

@@ -14,6 +14,7 @@ use crate::exchange::{Arrived, Host, Moment, Outgoing};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::containers;
 use crate::ras::etsi::NotMade;
+use crate::ras::surroundings::Told;
 
 /// What one call of [`Endpoint::handle`](super::Endpoint::handle) works with.
 pub(super) struct Turn<'a> {
@@ -135,10 +136,13 @@ impl Host for Turn<'_> {
         self.around.neighbours.observe_robot(heard, &ego, now_ms);
         let surroundings = &mut self.around.surroundings;
         if let Some(plane) = surroundings.plane() {
-            let cluster = heard.cluster.as_ref();
+            let (cluster, from) = (heard.cluster.as_ref(), heard.from.0);
+            if let Some(ended) = cluster.and_then(containers::ended) {
+                surroundings.hear_ended(now_ms, from, ended);
+                return;
+            }
             let cluster = cluster.and_then(|it| containers::on_plane(it, &state.position, plane));
-            let own = me.station().0;
-            surroundings.hear(now_ms, own, heard.from.0, cluster.as_ref());
+            surroundings.hear(now_ms, me.station().0, from, cluster.as_ref());
         }
     }
 
@@ -163,10 +167,12 @@ impl Host for Turn<'_> {
 
     fn complete(&mut self, ram: &mut RAM) {
         let surroundings = &mut self.around.surroundings;
-        if let Some(cluster) = surroundings.next_cluster()
-            && let Some(plane) = surroundings.plane()
-        {
-            containers::write(ram, plane, Some(&cluster));
+        match (surroundings.next_told(), surroundings.plane()) {
+            (Some(Told::Cluster(cluster)), Some(plane)) => {
+                containers::write(ram, plane, Some(&cluster));
+            }
+            (Some(Told::Ended(ended)), _) => containers::write_ended(ram, ended),
+            (Some(Told::Cluster(_)) | None, _) => {}
         }
     }
 

@@ -7,14 +7,17 @@
 //! |---|---|
 //! | members join by a notification of 3 s | perception makes members; most of them have no radio |
 //! | created from 3 to 5 road users on | from 1 on: one person without a radio is the case that matters |
-//! | members within 3 to 5 m of the head | within the perception radius, with hysteresis at its edge |
-//! | members of the same velocity (5 %) | any velocity: the robot sees them all the time. A device that joins by ETSI's rules checks its own velocity, see [`vru`](super::vru) |
+//! | members within 3 to 5 m of the head (`maxClusterDistance`) | within the perception radius, with hysteresis at its edge, and within 3 m of each other; a robot with people around it has several clusters |
+//! | members of the same velocity (5 %) | members of the same speed and direction within [`Settings`], wider than 5 %: a sensor errs, and people do not walk in step |
 //! | cardinality counts the head | it does not: the head is no road user who needs to be seen |
 //! | at most 20 members | the same; a larger group is split along its longer side |
 //! | who is in two clusters chooses | who is in the zones of two robots is announced by the one of the lower station id: see [`Clustering::leave_to`] |
-//! | a head that ends its cluster warns for 3 s (`timeClusterBreakupWarning`) | no warning; devices of a cluster that is no longer announced resume by themselves, see [`vru`](super::vru) |
+//! | a head that breaks its cluster up warns for 3 s (`timeClusterBreakupWarning`) | no warning, since people part without one: the cluster is over at once, and [`surroundings`](super::surroundings) says so in a RAM and in three cluster VAM |
 //! | a head may change its cluster's id, with 3 s of notice | the id of a cluster stays |
 //! | clusters of different kinds combine (`maxCombinedClusterDistance`) | a cluster has all kinds from the beginning, and says which |
+//!
+//! So everywhere in the shape of a cluster somebody who is perceived is near, and moves as the cluster is said
+//! to: who is inside and moves so was perceived, or walks in step beside somebody who was.
 //!
 //! No identifier of a person leaves the robot: what tracks them is used here only, and a cluster's
 //! random id is not used again for 30 s (`timeClusterUniquenessThreshold`) after the cluster is gone.
@@ -26,8 +29,12 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::area::Area;
-use super::motion::{Point, distance_m};
+use super::motion::{MATCH, Point, distance_m};
 use super::vru::CONTINUITY_MS;
+
+mod grouping;
+#[cfg(test)]
+mod tests;
 
 /// How long an id is not used again, in ms (`timeClusterUniquenessThreshold`).
 pub const UNIQUENESS_MS: u64 = 30_000;
@@ -94,8 +101,18 @@ pub struct PerceivedVru {
 pub struct Settings {
     /// Who is nearer to the robot than this becomes a member, in metres; at most 100.
     pub radius_m: f64,
-    /// A member stays one until it is this much further away, in metres.
+    /// A member stays one until it is this much further away, from the robot or from another member of its
+    /// cluster, in metres.
     pub hysteresis_m: f64,
+    /// Members of a cluster are at most this far from each other when they come together, in metres
+    /// (`maxClusterDistance`, 3..5); at most 200.
+    pub spread_m: f64,
+    /// The speeds of two members of a cluster differ by no more than this, in m/s; when they come together,
+    /// by half of it. At most 50.
+    pub speed_difference_mps: f64,
+    /// The directions of two members of a cluster differ by no more than this, in degrees; when they come
+    /// together, by half of it. At most 360.
+    pub heading_difference_deg: f64,
     /// Who is less certain, from 0 to 1, does not become a member; a member stays one down to half of it.
     pub confidence_min: f64,
     /// A member that is no longer perceived is forgotten after so long, in ms. The default is half of
@@ -113,6 +130,9 @@ impl Default for Settings {
         Self {
             radius_m: 15.0,
             hysteresis_m: 1.0,
+            spread_m: 3.0,
+            speed_difference_mps: MATCH.speed_mps,
+            heading_difference_deg: MATCH.heading_deg,
             confidence_min: 0.5,
             forget_ms: 1_000,
             size_max: 20,
@@ -132,6 +152,12 @@ impl Settings {
             Err("radius_m is 0 to 100 m")
         } else if !within(self.hysteresis_m, 20.0) || !within(self.margin_m, 20.0) {
             Err("hysteresis_m and margin_m are 0 to 20 m")
+        } else if !within(self.spread_m, 200.0) {
+            Err("spread_m is 0 to 200 m")
+        } else if !within(self.speed_difference_mps, 50.0) {
+            Err("speed_difference_mps is 0 to 50 m/s")
+        } else if !within(self.heading_difference_deg, 360.0) {
+            Err("heading_difference_deg is 0 to 360 degrees")
         } else if !within(self.confidence_min, 1.0) {
             Err("confidence_min is 0 to 1")
         } else if !(100..=CONTINUITY_MS).contains(&self.forget_ms) {
@@ -161,6 +187,24 @@ pub struct Cluster {
     pub velocity_mps: [f64; 2],
 }
 
+/// Why a cluster is over (TS 102 894-2 `ClusterBreakupReason`).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum BreakupReason {
+    /// Its members went apart, or moved no longer alike. ETSI has no reason for that.
+    NotProvided = 0,
+    /// None of its members is around any more.
+    ClusteringPurposeCompleted = 1,
+}
+
+/// A cluster that is over.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Ended {
+    /// The id that it had.
+    pub id: u8,
+    /// Why.
+    pub reason: BreakupReason,
+}
+
 /// The members of a robot's clusters.
 #[derive(Clone, Debug)]
 pub struct Clustering {
@@ -168,6 +212,8 @@ pub struct Clustering {
     members: BTreeMap<u32, Member>,
     groups: Vec<(u8, BTreeSet<u32>)>,
     retired: BTreeMap<u8, u64>,
+    /// Clusters that are over, until they are asked for; by id, so at most 256.
+    ended: BTreeMap<u8, BreakupReason>,
     /// Clusters of robots that precede this one, by head and id.
     others: BTreeMap<(u32, Option<u8>), Other>,
     random: ChaCha8Rng,
@@ -194,6 +240,7 @@ impl Clustering {
             members: BTreeMap::new(),
             groups: Vec::new(),
             retired: BTreeMap::new(),
+            ended: BTreeMap::new(),
             others: BTreeMap::new(),
             random: ChaCha8Rng::seed_from_u64(seed),
         }
@@ -280,6 +327,25 @@ impl Clustering {
         self.regroup(now_ms);
     }
 
+    /// The clusters that are over since this was asked the last time.
+    pub fn take_ended(&mut self) -> Vec<Ended> {
+        let ended = std::mem::take(&mut self.ended).into_iter();
+        ended.map(|(id, reason)| Ended { id, reason }).collect()
+    }
+
+    /// Whether the robot perceives this road user in its zone.
+    #[must_use]
+    pub fn is_member(&self, id: u32) -> bool {
+        self.members.contains_key(&id)
+    }
+
+    /// Takes back those who were left to a cluster that is over, by its head and id.
+    pub fn take_back_one(&mut self, now_ms: u64, id: (u32, Option<u8>)) {
+        if self.others.remove(&id).is_some() {
+            self.regroup(now_ms);
+        }
+    }
+
     /// How many road users the robot perceives in its zone, also the ones that it leaves to another robot.
     #[must_use]
     pub fn members(&self) -> usize {
@@ -326,16 +392,13 @@ impl Clustering {
         })
     }
 
-    /// Divides the members into groups that are small enough, each with the id of the group before
-    /// that most of it comes from.
+    /// Divides the members into groups of which each is close and of one motion, with the id of the group
+    /// before that most of it comes from.
     fn regroup(&mut self, now_ms: u64) {
-        let size_max = self.settings.size_max.clamp(1, usize::from(u8::MAX));
-        let mut parts = Vec::new();
-        let places = self.members.iter();
-        let places = places.map(|(&id, member)| (id, member.vru.position_m));
         let is_left = |place| self.others.values().any(|it| it.area.contains(place));
-        let all: Vec<(u32, Point)> = places.filter(|(_, place)| !is_left(*place)).collect();
-        split(all, size_max, &mut parts);
+        let vrus = self.members.values().map(|member| &member.vru);
+        let people: Vec<&PerceivedVru> = vrus.filter(|it| !is_left(it.position_m)).collect();
+        let parts = grouping::groups(&people, &self.groups, &self.settings);
         let mut before = std::mem::take(&mut self.groups);
         for part in parts {
             let kept = (0..before.len())
@@ -347,8 +410,16 @@ impl Clustering {
             };
             self.groups.push((id, part));
         }
-        self.retired
-            .extend(before.into_iter().map(|(id, _)| (id, now_ms)));
+        for (id, members) in before {
+            let is_around = members.iter().any(|it| self.members.contains_key(it));
+            let reason = if is_around {
+                BreakupReason::NotProvided
+            } else {
+                BreakupReason::ClusteringPurposeCompleted
+            };
+            self.retired.insert(id, now_ms);
+            self.ended.insert(id, reason);
+        }
     }
 
     /// A random id that is neither in use nor was within the last 30 s.
@@ -367,198 +438,6 @@ impl Clustering {
                 .min_by_key(|(_, since_ms)| **since_ms)
                 .map_or(0, |(&id, _)| id),
             count => free[self.random.random_range(0..count)],
-        }
-    }
-}
-
-/// Splits along the longer side, in halves of equal size, until every part is small enough.
-fn split(mut members: Vec<(u32, Point)>, size_max: usize, parts: &mut Vec<BTreeSet<u32>>) {
-    // Halving needs as many rounds as the number has bits, so this is no deep recursion.
-    if members.len() > size_max {
-        let extent = |axis: usize| {
-            let of = |(_, place): &(u32, Point)| place[axis];
-            let most = members.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-            let least = members.iter().map(of).fold(f64::INFINITY, f64::min);
-            most - least
-        };
-        let axis = usize::from(extent(1) > extent(0));
-        members.sort_by(|a, b| a.1[axis].total_cmp(&b.1[axis]));
-        let rest = members.split_off(members.len() / 2);
-        split(members, size_max, parts);
-        split(rest, size_max, parts);
-    } else if !members.is_empty() {
-        parts.push(members.into_iter().map(|(id, _)| id).collect());
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use proptest::prelude::*;
-
-    use super::*;
-
-    fn pedestrian(id: u32, east_m: f64, north_m: f64) -> PerceivedVru {
-        PerceivedVru {
-            id,
-            position_m: [east_m, north_m],
-            velocity_mps: [1.0, 0.0],
-            class: VruClass::Pedestrian,
-            confidence: 0.9,
-        }
-    }
-
-    fn perceiving(perceived: &[PerceivedVru]) -> Clustering {
-        let mut clustering = Clustering::new(Settings::default(), 1);
-        clustering.perceive(0, [0.0, 0.0], perceived);
-        clustering
-    }
-
-    #[test]
-    fn one_person_is_a_cluster() {
-        let clusters = perceiving(&[pedestrian(7, 3.0, 4.0)]).clusters();
-        assert_eq!(clusters.len(), 1);
-        assert_eq!(
-            (clusters[0].cardinality, clusters[0].profiles),
-            (1, VruClass::Pedestrian.bit())
-        );
-        assert!(distance_m(clusters[0].velocity_mps, [1.0, 0.0]) < 1e-9);
-    }
-
-    #[test]
-    fn a_vehicle_is_in_no_cluster_and_a_wheelchair_user_has_the_profile_that_etsi_gives() {
-        let of = |class, east_m| PerceivedVru {
-            class,
-            ..pedestrian(7, east_m, 4.0)
-        };
-        assert!(
-            perceiving(&[of(VruClass::Vehicle, 3.0)])
-                .clusters()
-                .is_empty()
-        );
-        let clusters = perceiving(&[of(VruClass::WheelchairUser, 3.0)]).clusters();
-        assert_eq!(clusters[0].profiles, VruClass::Bicyclist.bit());
-    }
-
-    #[test]
-    fn the_edge_has_hysteresis_in_distance_and_confidence() {
-        let mut clustering = perceiving(&[pedestrian(1, 15.5, 0.0)]);
-        assert_eq!(clustering.members(), 0);
-        for (now_ms, east_m, members) in [
-            (100, 14.9, 1),
-            (200, 15.9, 1),
-            (300, 16.1, 0),
-            (400, 15.9, 0),
-        ] {
-            clustering.perceive(now_ms, [0.0, 0.0], &[pedestrian(1, east_m, 0.0)]);
-            assert_eq!(clustering.members(), members, "{east_m} m");
-        }
-        let mut unsure = pedestrian(2, 5.0, 0.0);
-        for (now_ms, confidence, members) in
-            [(500, 0.4, 0), (600, 0.6, 1), (700, 0.3, 1), (800, 0.2, 0)]
-        {
-            unsure.confidence = confidence;
-            clustering.perceive(now_ms, [0.0, 0.0], &[unsure]);
-            assert_eq!(clustering.members(), members, "{confidence}");
-        }
-    }
-
-    #[test]
-    fn who_is_hidden_for_a_moment_is_remembered() {
-        let mut clustering = perceiving(&[pedestrian(1, 5.0, 0.0)]);
-        clustering.perceive(999, [0.0, 0.0], &[]);
-        assert_eq!(clustering.members(), 1);
-        clustering.perceive(1_000, [0.0, 0.0], &[]);
-        assert!(clustering.clusters().is_empty());
-    }
-
-    #[test]
-    fn an_id_stays_while_its_cluster_does_and_is_not_used_again_soon() {
-        let mut clustering = perceiving(&[pedestrian(1, 5.0, 0.0)]);
-        let id = clustering.clusters()[0].id;
-        clustering.perceive(
-            100,
-            [0.0, 0.0],
-            &[pedestrian(1, 6.0, 0.0), pedestrian(2, 2.0, 0.0)],
-        );
-        assert_eq!(clustering.clusters()[0].id, id);
-        for round in 0..100 {
-            let now_ms = 2_000 + round * 100;
-            clustering.perceive(
-                now_ms,
-                [0.0, 0.0],
-                &[pedestrian(1, 20.0, 0.0), pedestrian(2, 20.0, 0.0)],
-            );
-            clustering.perceive(now_ms + 50, [0.0, 0.0], &[pedestrian(3, 1.0, 0.0)]);
-            assert_ne!(clustering.clusters()[0].id, id);
-            clustering.perceive(now_ms + 60, [0.0, 0.0], &[pedestrian(3, 20.0, 0.0)]);
-        }
-    }
-
-    #[test]
-    fn who_is_in_the_zones_of_two_robots_is_announced_by_one() {
-        let mut clustering = perceiving(&[pedestrian(1, 3.0, 0.0), pedestrian(2, -9.0, 0.0)]);
-        let announced = |clustering: &Clustering| -> u32 {
-            let clusters = clustering.clusters();
-            clusters.iter().map(|it| u32::from(it.cardinality)).sum()
-        };
-        assert_eq!(announced(&clustering), 2);
-        let area = Area::around(&[[3.0, 0.0]], 1.0).unwrap();
-        clustering.leave_to(0, (4, Some(9)), area);
-        assert_eq!((announced(&clustering), clustering.members()), (1, 2));
-        clustering.take_back(100, 5);
-        assert_eq!(announced(&clustering), 1);
-        clustering.take_back(100, 4);
-        assert_eq!(announced(&clustering), 2);
-    }
-
-    #[test]
-    fn people_are_taken_back_from_a_silent_robot_and_forgotten_without_a_sensor() {
-        let mut clustering = perceiving(&[]);
-        let area = Area::around(&[[3.0, 0.0]], 1.0).unwrap();
-        clustering.leave_to(0, (4, None), area);
-        clustering.perceive(1_500, [0.0, 0.0], &[pedestrian(1, 3.0, 0.0)]);
-        assert_eq!(clustering.count(), 0);
-        clustering.elapse(1_999);
-        assert_eq!(clustering.count(), 0);
-        clustering.elapse(2_000);
-        assert_eq!(clustering.count(), 1);
-        clustering.elapse(2_500);
-        assert_eq!((clustering.count(), clustering.members()), (0, 0));
-    }
-
-    proptest! {
-        /// Every member is in one cluster's area, no cluster is larger than allowed, and together they
-        /// count everybody once.
-        #[test]
-        fn clusters_divide_the_members(
-            places in proptest::collection::vec((-20.0..20.0_f64, -20.0..20.0_f64), 0..90)
-        ) {
-            let perceived: Vec<PerceivedVru> = (0..).zip(&places)
-                .map(|(id, &(x, y))| pedestrian(id, x, y)).collect();
-            let clustering = perceiving(&perceived);
-            let clusters = clustering.clusters();
-            let near: Vec<_> = perceived.iter().filter(|vru| distance_m([0.0, 0.0], vru.position_m) <= 15.0).collect();
-            let counted: usize = clusters.iter().map(|it| usize::from(it.cardinality)).sum();
-            prop_assert_eq!(counted, near.len());
-            prop_assert!(clusters.iter().all(|it| (1..=20).contains(&it.cardinality)));
-            for vru in near {
-                prop_assert!(clusters.iter().any(|it| it.area.contains(vru.position_m)));
-            }
-            let ids: BTreeSet<u8> = clusters.iter().map(|it| it.id).collect();
-            prop_assert_eq!(ids.len(), clusters.len());
-        }
-
-        /// What a person is tracked by has no influence on what is announced.
-        #[test]
-        fn nothing_persistent_gets_out(
-            places in proptest::collection::vec((-12.0..12.0_f64, -9.0..9.0_f64), 1..50), offset in 1_u32..1_000_000
-        ) {
-            let announced = |offset: u32| {
-                let perceived: Vec<PerceivedVru> = (offset..).zip(&places)
-                    .map(|(id, &(x, y))| pedestrian(id, x, y)).collect();
-                perceiving(&perceived).clusters()
-            };
-            prop_assert_eq!(announced(0), announced(offset));
         }
     }
 }

@@ -11,13 +11,13 @@ use crossguard_codec::core::vam::{VruClusterInformationContainer, VruMotionPredi
 use crossguard_codec::{Position, position_of, si};
 
 use super::area::Area;
-use super::clustering::Cluster;
+use super::clustering::{Cluster, Ended};
 use super::motion::{Plane, Point};
 
 /// How far ahead a cluster's motion is predicted, in tenths of a second.
 const PREDICTED_TENTHS: [u8; 3] = [10, 20, 30];
 /// A slower cluster stands, and has no prediction, in m/s.
-const STANDING_MPS: f64 = 0.2;
+const UNMOVED_MPS: f64 = 0.2;
 
 /// Writes `cluster` into a RAM, or none.
 pub fn write(ram: &mut RAM, plane: &Plane, cluster: Option<&Cluster>) {
@@ -28,6 +28,65 @@ pub fn write(ram: &mut RAM, plane: &Plane, cluster: Option<&Cluster>) {
         cluster.map(|(reference, cluster)| information(cluster, reference));
     parameters.vru_motion_prediction_container =
         cluster.and_then(|(reference, cluster)| prediction(cluster, plane, reference));
+}
+
+/// Writes into a RAM that a cluster is over: it has its id, nobody in it and no shape.
+pub fn write_ended(ram: &mut RAM, ended: Ended) {
+    let parameters = &mut ram.ram.ram_parameters;
+    parameters.vru_cluster_information_container = Some(VruClusterInformationContainer {
+        vru_cluster_information: VruClusterInformation {
+            cluster_id: Some(Identifier1B(ended.id)),
+            cluster_bounding_box_shape: None,
+            cluster_cardinality_size: CardinalNumber1B(0),
+            cluster_profiles: None,
+        },
+    });
+    parameters.vru_motion_prediction_container = None;
+}
+
+/// The id of the cluster that this says is over, if it says that.
+#[must_use]
+pub fn ended(information: &VruClusterInformation) -> Option<u8> {
+    let id = information.cluster_id?.0;
+    (information.cluster_cardinality_size.0 == 0).then_some(id)
+}
+
+/// The velocity of the cluster of a RAM, in m/s to the east and to the north: that between the first and the last
+/// point of its predicted path. One without a path stands; `None` for a path that does not tell.
+#[must_use]
+pub fn velocity_mps(ram: &RAM) -> Option<[f64; 2]> {
+    let parameters = &ram.ram.ram_parameters;
+    let prediction = parameters.vru_motion_prediction_container.as_ref();
+    let Some(path) = prediction.and_then(|it| it.path_prediction.as_ref()) else {
+        return Some([0.0, 0.0]);
+    };
+    let plane = Plane::around(&position_of(&parameters.basic_container))?;
+    let (first, last) = (path.first()?, path.last()?);
+    let ([from, to], [began, ends]) = (
+        [place_of(first, &plane)?, place_of(last, &plane)?],
+        [seconds_of(first)?, seconds_of(last)?],
+    );
+    (ends > began).then(|| [0, 1].map(|axis| (to[axis] - from[axis]) / (ends - began)))
+}
+
+/// Where a predicted point is, on the plane around the reference position.
+fn place_of(point: &PathPointPredicted, plane: &Plane) -> Option<Point> {
+    let delta = |steps: i32| f64::from(steps) * 1e-7;
+    let origin = plane.position([0.0, 0.0]);
+    plane.point(&Position::at(
+        origin.latitude? + delta(point.delta_latitude.get()),
+        origin.longitude? + delta(point.delta_longitude.get()),
+    ))
+}
+
+/// When a predicted point is reached, in seconds from now.
+fn seconds_of(point: &PathPointPredicted) -> Option<f64> {
+    match point.path_delta_time {
+        Some(PathDeltaTimeChoice::DeltaTimeHighPrecision(tenths)) => {
+            Some(f64::from(tenths.get()) / 10.0)
+        }
+        _ => None,
+    }
 }
 
 /// The container of a cluster in a message whose reference position is at `reference`.
@@ -53,7 +112,7 @@ fn prediction(
     reference: Point,
 ) -> Option<VruMotionPredictionContainer> {
     let [east, north] = cluster.velocity_mps;
-    if east.hypot(north) < STANDING_MPS {
+    if east.hypot(north) < UNMOVED_MPS {
         return None;
     }
     let from = plane.position(reference);
@@ -133,7 +192,7 @@ mod tests {
     use crossguard_protocol::{Availability, Robot, StationId};
     use proptest::prelude::*;
 
-    use super::super::clustering::{Clustering, PerceivedVru, Settings, VruClass};
+    use super::super::clustering::{BreakupReason, Clustering, PerceivedVru, Settings, VruClass};
     use super::*;
 
     fn ram_with(cluster: Option<&Cluster>, plane: &Plane, robot_m: Point) -> RAM {
@@ -181,6 +240,28 @@ mod tests {
         // 3 m + 3 s * 1.5 m/s to the north, a degree being 111.2 km.
         let north = f64::from(path[2].delta_latitude.get()) * 1e-7 * 111_200.0;
         assert!((north - 7.5).abs() < 0.02, "{north}");
+        let [east_mps, north_mps] = velocity_mps(&ram).unwrap();
+        assert!(east_mps.abs() < 0.02 && (north_mps - 1.5).abs() < 0.02);
+    }
+
+    #[test]
+    fn a_cluster_that_is_over_has_an_id_and_nobody() {
+        let plane = Plane::at(49.0, 8.4);
+        let ended_7 = Ended {
+            id: 7,
+            reason: BreakupReason::NotProvided,
+        };
+        let ids = Identifiers::default();
+        let mut ram = ram_with(None, &plane, [0.0, 0.0]);
+        write_ended(&mut ram, ended_7);
+        let heard = decode::<RAM>(&ids, &encode(&ids, &ram).unwrap()).unwrap();
+        let parameters = &heard.message.ram.ram_parameters;
+        let container = parameters.vru_cluster_information_container.unwrap();
+        assert_eq!(ended(&container.vru_cluster_information), Some(7));
+        // Nobody is anywhere by it, and it is no cluster to join.
+        assert_eq!(read(&heard.message, &plane), None);
+        let cluster = ram_with(None, &plane, [0.0, 0.0]).ram.ram_parameters;
+        assert_eq!(cluster.vru_cluster_information_container, None);
     }
 
     proptest! {
@@ -200,7 +281,8 @@ mod tests {
                 class: VruClass::Pedestrian,
                 confidence: 1.0,
             }).collect();
-            let mut clustering = Clustering::new(Settings { margin_m: 0.1, ..Settings::default() }, 5);
+            let settings = Settings { margin_m: 0.1, spread_m: 100.0, ..Settings::default() };
+            let mut clustering = Clustering::new(settings, 5);
             clustering.perceive(0, robot_m, &perceived);
             let clusters = clustering.clusters();
             let heard = read(&ram_with(clusters.first(), &plane, robot_m), &plane).unwrap();

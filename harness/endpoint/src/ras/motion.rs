@@ -10,6 +10,9 @@ use crossguard_protocol::Decimetres;
 /// A place on the plane: metres to the east and to the north of its origin.
 pub type Point = [f64; 2];
 
+/// Who is slower stands, in m/s: a heading is noise there.
+pub const STANDING_MPS: f64 = 0.3;
+
 /// Distance between two places, in metres.
 #[must_use]
 pub fn distance_m(a: Point, b: Point) -> f64 {
@@ -42,6 +45,37 @@ pub fn turn_deg(from_deg: f64, to_deg: f64) -> f64 {
     let turn = (from_deg - to_deg).abs() % 360.0;
     turn.min(360.0 - turn)
 }
+
+/// By how much two motions may differ and still be alike.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Likeness {
+    /// Largest difference of speed, in m/s.
+    pub speed_mps: f64,
+    /// Largest angle between the two directions, in degrees, 0..180.
+    pub heading_deg: f64,
+}
+
+impl Likeness {
+    /// Whether two velocities, in m/s to the east and to the north, are alike. Who is slower than
+    /// [`STANDING_MPS`] has no direction that counts: then the difference of the two velocities does.
+    #[must_use]
+    pub fn holds(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+        let (of_a, of_b) = (a[0].hypot(a[1]), b[0].hypot(b[1]));
+        if of_a.min(of_b) < STANDING_MPS {
+            return distance_m(a, b) <= self.speed_mps;
+        }
+        let heading_deg = |[east, north]: [f64; 2]| east.atan2(north).to_degrees();
+        (of_a - of_b).abs() <= self.speed_mps
+            && turn_deg(heading_deg(a), heading_deg(b)) <= self.heading_deg
+    }
+}
+
+/// By how much the motion of somebody and that of the cluster around them may differ, for them to be a member: the
+/// speed by what triggers a VAM, the direction by what a sensor and a stride err.
+pub const MATCH: Likeness = Likeness {
+    speed_mps: 0.5,
+    heading_deg: 20.0,
+};
 
 /// What has changed since a message was sent; `None` where one of the two is not known.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -142,6 +176,25 @@ mod tests {
         assert!(distance_m(back, [120.0, -35.0]) < 1e-6);
         let metres = crossguard_codec::distance(&Position::at(49.0, 8.4), &there);
         assert_eq!(metres, Decimetres(1_250));
+    }
+
+    #[test]
+    fn motions_are_alike_in_speed_and_in_direction() {
+        let alike = |a, b| {
+            let likeness = Likeness {
+                speed_mps: 0.5,
+                heading_deg: 20.0,
+            };
+            likeness.holds(a, b) && likeness.holds(b, a)
+        };
+        assert!(alike([0.0, 1.4], [0.3, 1.2]));
+        // As fast, to the east and to the north; the same way, and faster; back and forth.
+        assert!(!alike([0.0, 1.4], [1.4, 0.0]));
+        assert!(!alike([0.0, 1.4], [0.0, 5.0]));
+        assert!(!alike([0.0, 1.4], [0.0, -1.4]));
+        // Two that hardly move, whatever their sensor says of the direction.
+        assert!(alike([0.0, 0.1], [0.1, -0.1]));
+        assert!(!alike([0.0, 0.0], [0.0, 1.4]));
     }
 
     #[test]

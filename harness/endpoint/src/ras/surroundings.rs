@@ -1,5 +1,6 @@
 //! What a robot perceives of the people around it, and what it announces of them: one cluster in every
-//! RAM, in turn, and a cluster VAM for each where devices do not understand RAM.
+//! RAM, in turn, and a cluster VAM for each where devices do not understand RAM. A cluster that is over goes
+//! first: the next RAM is due at once and says so, and three cluster VAM break it up.
 //!
 //! ```text
 //!  sensor ──► perceive ─┐
@@ -12,17 +13,24 @@
 //! with it. Without input and output; the live [`Endpoint`](crate::Endpoint) and the robots of
 //! `crossguard-evaluation` are the same here.
 
+use std::collections::{BTreeMap, VecDeque};
+
 use crossguard_codec::{Identifiers, Position};
 
-use super::clustering::{Cluster, Clustering, PerceivedVru, Settings};
+use super::clustering::{Cluster, Clustering, Ended, PerceivedVru, Settings};
 use super::containers::Announced;
 use super::etsi::NotMade;
-use super::generation::INTERVAL_MAX_MS;
+use super::generation::{INTERVAL_MAX_MS, INTERVAL_MIN_MS};
 use super::motion::{Plane, distance_m};
-use super::vam::cluster_vam;
+use super::vam::{breakup_vam, cluster_vam};
+use super::vru::CONTINUITY_MS;
 
 /// How far a robot goes before its plane follows it, in metres: so far it is exact.
 const PLANE_M: f64 = 1_000.0;
+/// How soon a cluster is announced again, in ms: three quarters of what a device waits (`timeClusterContinuity`).
+const ANNOUNCED_WITHIN_MS: u64 = 3 * CONTINUITY_MS / 4;
+/// How many cluster VAM say that a cluster is over (`numClusterVAMRepeat`).
+const BREAKUP_REPEAT: u8 = 3;
 
 /// How a robot announces the people around it, and itself to stations that do not know RAM.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -42,9 +50,25 @@ pub struct Surroundings {
     plane: Option<Plane>,
     clustering: Clustering,
     /// Clusters that were announced in RAM.
-    announced: usize,
+    announced: u64,
     cluster_vam_interval_ms: Option<u64>,
     last_cluster_vam_ms: Option<u64>,
+    /// Clusters that a RAM or a cluster VAM announced and that are not over: which of the announcements in RAM
+    /// was the last, 0 for none.
+    told: BTreeMap<u8, u64>,
+    /// Clusters that are over and that no RAM said so of.
+    ended: VecDeque<Ended>,
+    /// Clusters that cluster VAM break up, and how many of these are still to be sent.
+    breakups: Vec<(Ended, u8)>,
+}
+
+/// What a cluster VAM says.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Told {
+    /// Where a cluster is.
+    Cluster(Cluster),
+    /// That one is over.
+    Ended(Ended),
 }
 
 impl Surroundings {
@@ -57,6 +81,9 @@ impl Surroundings {
             announced: 0,
             cluster_vam_interval_ms: awareness.cluster_vam_interval_ms,
             last_cluster_vam_ms: None,
+            told: BTreeMap::new(),
+            ended: VecDeque::new(),
+            breakups: Vec::new(),
         }
     }
 
@@ -90,7 +117,21 @@ impl Surroundings {
         });
         let placed: Vec<_> = placed.collect();
         self.clustering.perceive(now_ms, robot_m, &placed);
+        self.note_ended();
         Ok(())
+    }
+
+    /// Remembers to say which clusters are over, of those that were announced.
+    fn note_ended(&mut self) {
+        for ended in self.clustering.take_ended() {
+            if self.told.remove(&ended.id).is_none() {
+                continue;
+            }
+            self.ended.push_back(ended);
+            if self.cluster_vam_interval_ms.is_some() {
+                self.breakups.push((ended, BREAKUP_REPEAT));
+            }
+        }
     }
 
     /// The plane for a robot that is here now. Once it is far from its origin, a new one, on which nobody
@@ -110,6 +151,7 @@ impl Surroundings {
     /// Forgets who was not perceived for too long.
     pub fn elapse(&mut self, now_ms: u64) {
         self.clustering.elapse(now_ms);
+        self.note_ended();
     }
 
     /// Takes in what another robot announces in its RAM, on this robot's plane: see
@@ -123,25 +165,49 @@ impl Surroundings {
             }
             None => self.clustering.take_back(now_ms, head),
         }
+        self.note_ended();
     }
 
-    /// The longest interval between two RAM at which every cluster is announced about once a second, in
-    /// ms.
+    /// Takes in that another robot's cluster is over.
+    pub fn hear_ended(&mut self, now_ms: u64, head: u32, id: u8) {
+        self.clustering.take_back_one(now_ms, (head, Some(id)));
+        self.note_ended();
+    }
+
+    /// The longest interval between two RAM at which up to 15 clusters are announced every 1.5 s, in ms; the
+    /// shortest one when a cluster is over.
     #[must_use]
     pub fn ram_interval_max_ms(&self) -> u64 {
-        INTERVAL_MAX_MS / (self.clustering.count() as u64).max(1)
+        if !self.ended.is_empty() {
+            return INTERVAL_MIN_MS;
+        }
+        let interval_ms = ANNOUNCED_WITHIN_MS / (self.clustering.count() as u64).max(1);
+        // Where time is looked at every 100 ms, one in between would be the next longer one.
+        let whole_ms = interval_ms / INTERVAL_MIN_MS * INTERVAL_MIN_MS;
+        whole_ms.clamp(INTERVAL_MIN_MS, INTERVAL_MAX_MS)
     }
 
-    /// The cluster that the next RAM announces, if there is one.
-    pub fn next_cluster(&mut self) -> Option<Cluster> {
-        let clusters = self.clustering.clusters();
-        let turn = self.announced % clusters.len().max(1);
-        self.announced = self.announced.wrapping_add(1);
-        clusters.into_iter().nth(turn)
+    /// What the next RAM says of the people around, if anything.
+    pub fn next_told(&mut self) -> Option<Told> {
+        match self.ended.pop_front() {
+            Some(ended) => Some(Told::Ended(ended)),
+            None => self.next_cluster().map(Told::Cluster),
+        }
     }
 
-    /// The cluster VAM that are due at `now_ms` from `station` at `position`, each with its cluster;
-    /// `timestamp_its` is the time of the position.
+    /// The cluster that was announced the longest ago; one that never was comes first.
+    fn next_cluster(&mut self) -> Option<Cluster> {
+        let clusters = self.clustering.clusters().into_iter();
+        let last = |cluster: &Cluster| self.told.get(&cluster.id).copied().unwrap_or(0);
+        let cluster = clusters.min_by_key(last)?;
+        self.announced += 1;
+        self.told.insert(cluster.id, self.announced);
+        Some(cluster)
+    }
+
+    /// The cluster VAM that are due at `now_ms` from `station` at `position`, each with what it says;
+    /// `timestamp_its` is the time of the position. The first one that breaks a cluster up is due at once, the
+    /// others every interval.
     pub fn cluster_vams(
         &mut self,
         ids: &Identifiers,
@@ -149,21 +215,31 @@ impl Surroundings {
         timestamp_its: u64,
         station: u32,
         position: &Position,
-    ) -> Vec<(Cluster, Result<Vec<u8>, NotMade>)> {
+    ) -> Vec<(Told, Result<Vec<u8>, NotMade>)> {
         let (Some(plane), Some(interval_ms)) = (self.plane, self.cluster_vam_interval_ms) else {
             return Vec::new();
         };
         let is_early = |last| now_ms.saturating_sub(last) < interval_ms;
-        if self.clustering.count() == 0 || self.last_cluster_vam_ms.is_some_and(is_early) {
-            return Vec::new();
+        let is_early = self.last_cluster_vam_ms.is_some_and(is_early);
+        let mut vams = Vec::new();
+        for (ended, left) in &mut self.breakups {
+            if !is_early || *left == BREAKUP_REPEAT {
+                *left -= 1;
+                let vam = breakup_vam(ids, station, position, timestamp_its, *ended);
+                vams.push((Told::Ended(*ended), vam));
+            }
+        }
+        self.breakups.retain(|(_, left)| *left > 0);
+        if is_early || (self.clustering.count() == 0 && vams.is_empty()) {
+            return vams;
         }
         self.last_cluster_vam_ms = Some(now_ms);
-        let clusters = self.clustering.clusters().into_iter();
-        let vams = clusters.map(|cluster| {
+        for cluster in self.clustering.clusters() {
+            self.told.entry(cluster.id).or_default();
             let vam = cluster_vam(ids, station, position, timestamp_its, &cluster, &plane);
-            (cluster, vam)
-        });
-        vams.collect()
+            vams.push((Told::Cluster(cluster), vam));
+        }
+        vams
     }
 }
 
@@ -174,7 +250,7 @@ pub struct Unplaced;
 
 #[cfg(test)]
 mod tests {
-    use super::super::clustering::VruClass;
+    use super::super::clustering::{BreakupReason, VruClass};
     use super::super::motion::Point;
     use super::*;
 
@@ -242,9 +318,81 @@ mod tests {
             let people: &[PerceivedVru] = if now_ms < 1_000 { &near } else { &[] };
             around.perceive(now_ms, &at(0.0), people).unwrap();
             let vams = around.cluster_vams(&Identifiers::default(), now_ms, now_ms, 7, &at(0.0));
-            sent.extend(vams.iter().map(|(_, vam)| (now_ms, vam.is_ok())));
+            sent.extend(vams.iter().map(|(told, vam)| {
+                assert!(vam.is_ok());
+                (now_ms, matches!(told, Told::Cluster(_)))
+            }));
         }
         // Who is no longer perceived is forgotten a second after the last time, at 900 ms.
-        assert_eq!(sent, [(0, true), (500, true), (1_000, true), (1_500, true)]);
+        let (is_there, is_over) = (true, false);
+        let told = [
+            (0, is_there),
+            (500, is_there),
+            (1_000, is_there),
+            (1_500, is_there),
+            (1_900, is_over),
+            (2_000, is_over),
+            (2_500, is_over),
+        ];
+        assert_eq!(sent, told);
+    }
+
+    #[test]
+    fn the_cluster_that_waited_the_longest_is_next_and_each_comes_in_time() {
+        let mut around = surroundings();
+        let row =
+            |count: u8| (1..=count).map(|id| person(id.into(), [5.0 * f64::from(id) - 15.0, 0.0]));
+        let mut id_of_next = |now_ms, count| {
+            around
+                .perceive(now_ms, &at(0.0), &row(count).collect::<Vec<_>>())
+                .unwrap();
+            let round_ms = around.ram_interval_max_ms() * u64::from(count);
+            assert!(
+                count == 1 || (1_000..=1_500).contains(&round_ms),
+                "{round_ms}"
+            );
+            match around.next_told() {
+                Some(Told::Cluster(cluster)) => cluster.id,
+                told => panic!("{told:?}"),
+            }
+        };
+        let (first, second) = (id_of_next(0, 2), id_of_next(100, 2));
+        assert_ne!(first, second);
+        // A third one comes before those whose turn it would be.
+        let third = id_of_next(200, 3);
+        assert!(![first, second].contains(&third));
+        assert_eq!(
+            [300, 400, 500].map(|now_ms| id_of_next(now_ms, 3)),
+            [first, second, third]
+        );
+    }
+
+    #[test]
+    fn a_ram_says_at_once_that_a_cluster_is_over_and_only_of_one_that_was_announced() {
+        let mut around = surroundings();
+        around
+            .perceive(0, &at(0.0), &[person(1, [5.0, 0.0])])
+            .unwrap();
+        let Some(Told::Cluster(cluster)) = around.next_told() else {
+            panic!("nobody is announced")
+        };
+        around
+            .perceive(100, &at(0.0), &[person(2, [-5.0, 0.0])])
+            .unwrap();
+        around
+            .perceive(200, &at(0.0), &[person(1, [30.0, 0.0])])
+            .unwrap();
+        assert_eq!(around.ram_interval_max_ms(), INTERVAL_MIN_MS);
+        let over = Ended {
+            id: cluster.id,
+            reason: BreakupReason::ClusteringPurposeCompleted,
+        };
+        assert_eq!(around.next_told(), Some(Told::Ended(over)));
+        assert_eq!(around.ram_interval_max_ms(), INTERVAL_MAX_MS);
+        // The other person was never announced.
+        around
+            .perceive(300, &at(0.0), &[person(2, [30.0, 0.0])])
+            .unwrap();
+        assert_eq!(around.next_told(), None);
     }
 }

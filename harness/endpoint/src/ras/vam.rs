@@ -5,16 +5,17 @@
 //! made as those of a RAM are.
 
 use crossguard_codec::asn1::cdd::{
-    AccelerationComponent, ClusterJoinInfo, ClusterLeaveInfo, ClusterLeaveReason,
-    DeltaTimeQuarterSecond, ExteriorLights, Identifier1B, ItsPduHeader, LongitudinalAcceleration,
-    LongitudinalAccelerationValue, MessageId, OrdinalNumber1B, PathDeltaTimeChoice,
-    PathPointPredicted, StationId, TrafficParticipantType, VruExteriorLights,
-    VruProfileAndSubprofile, VruSizeClass, VruSpecificExteriorLights, VruSubProfilePedestrian,
+    AccelerationComponent, ClusterBreakupInfo, ClusterBreakupReason, ClusterJoinInfo,
+    ClusterLeaveInfo, ClusterLeaveReason, DeltaTimeQuarterSecond, ExteriorLights, Identifier1B,
+    ItsPduHeader, LongitudinalAcceleration, LongitudinalAccelerationValue, MessageId,
+    OrdinalNumber1B, PathDeltaTimeChoice, PathPointPredicted, StationId, TrafficParticipantType,
+    VruExteriorLights, VruProfileAndSubprofile, VruSizeClass, VruSpecificExteriorLights,
+    VruSubProfilePedestrian,
 };
 use crossguard_codec::asn1::cdd211::{
-    PathPointPredicted211, PathPredicted211, VAM211, VamParameters211, VruAwareness211,
-    VruClusterInformationContainer211, VruHighFrequencyContainer211,
-    VruMotionPredictionContainer211,
+    ClusterBreakupInfo211, ClusterBreakupReason211, PathPointPredicted211, PathPredicted211,
+    VAM211, VamParameters211, VruAwareness211, VruClusterInformationContainer211,
+    VruClusterOperationContainer211, VruHighFrequencyContainer211, VruMotionPredictionContainer211,
 };
 use crossguard_codec::asn1::ram::RobotAwareness;
 use crossguard_codec::asn1::vam::{
@@ -23,7 +24,7 @@ use crossguard_codec::asn1::vam::{
 };
 use crossguard_codec::{Dictionary, Identifiers, Pdu, Position, RobotState, encode};
 
-use super::clustering::Cluster;
+use super::clustering::{BreakupReason, Cluster, Ended};
 use super::containers;
 use super::etsi::{NotMade, awareness};
 use super::motion::Plane;
@@ -36,6 +37,8 @@ pub enum Content<'a> {
     Individual(DueVam),
     /// A robot's VAM for a cluster that it leads.
     Cluster(&'a Cluster, &'a Plane),
+    /// A robot's VAM for a cluster that it no longer leads.
+    Breakup(Ended),
 }
 
 /// `stationType` of a pedestrian.
@@ -88,11 +91,45 @@ pub fn cluster_vam(
         ..RobotState::default()
     };
     let content = Content::Cluster(cluster, plane);
+    of_dictionary(ids, station, &state, now_ms, content)
+}
+
+/// The octets of the VAM by which `station`, a robot at `position`, says that a cluster is over, on the dictionary
+/// that `ids` say: with the id of the cluster, nobody in it, and `ClusterBreakupInfo` with `now_ms`, a
+/// `TimestampIts`, as its time.
+///
+/// # Errors
+/// When the message cannot be encoded.
+pub fn breakup_vam(
+    ids: &Identifiers,
+    station: u32,
+    position: &Position,
+    now_ms: u64,
+    ended: Ended,
+) -> Result<Vec<u8>, NotMade> {
+    let state = RobotState {
+        position: *position,
+        ..RobotState::default()
+    };
+    of_dictionary(ids, station, &state, now_ms, Content::Breakup(ended))
+}
+
+fn of_dictionary(
+    ids: &Identifiers,
+    station: u32,
+    state: &RobotState,
+    now_ms: u64,
+    content: Content<'_>,
+) -> Result<Vec<u8>, NotMade> {
     match ids.dictionary {
-        Dictionary::V2_4_1 => vam(station, &state, now_ms, content),
+        Dictionary::V2_4_1 => vam(station, state, now_ms, content),
         Dictionary::V2_1_1 => {
-            let shared = shared(station, &state, now_ms, content)?;
-            let vam = VAM211::new(header(station), awareness_211(shared));
+            let shared = shared(station, state, now_ms, content)?;
+            let operation = match content {
+                Content::Breakup(ended) => Some(breakup_211(ended, now_ms)),
+                Content::Individual(_) | Content::Cluster(..) => None,
+            };
+            let vam = VAM211::new(header(station), awareness_211(shared, operation));
             Ok(encode(ids, &vam)?)
         }
     }
@@ -113,15 +150,21 @@ pub fn vam(
     let motion = shared.ram_parameters.robot_high_frequency_container;
     let high_frequency = high_frequency!(VruHighFrequencyContainer, motion);
     let (low_frequency, operation) = match content {
-        Content::Individual(due) => (due.low_frequency.then(low_frequency), due.operation),
+        Content::Individual(due) => {
+            let operation = due.operation.map(operation_container);
+            (due.low_frequency.then(low_frequency), operation)
+        }
         Content::Cluster(..) => (None, None),
+        // ETSI sends the low-frequency container along with every operation; it would say that the robot is a
+        // pedestrian.
+        Content::Breakup(ended) => (None, Some(breakup(ended, now_ms))),
     };
     let parameters = VamParameters::new(
         shared.ram_parameters.basic_container,
         high_frequency,
         low_frequency,
         shared.ram_parameters.vru_cluster_information_container,
-        operation.map(operation_container),
+        operation,
         shared.ram_parameters.vru_motion_prediction_container,
     );
     let vam = VAM::new(
@@ -138,15 +181,11 @@ fn shared(
     now_ms: u64,
     content: Content<'_>,
 ) -> Result<RobotAwareness, NotMade> {
-    let cluster = match content {
-        Content::Cluster(cluster, plane) => Some((cluster, plane)),
-        Content::Individual(_) => None,
-    };
     let ids = Identifiers::default();
-    let mut shared = awareness(&ids, station, state, now_ms, false, |ram| {
-        if let Some((cluster, plane)) = cluster {
-            containers::write(ram, plane, Some(cluster));
-        }
+    let mut shared = awareness(&ids, station, state, now_ms, false, |ram| match content {
+        Content::Individual(_) => {}
+        Content::Cluster(cluster, plane) => containers::write(ram, plane, Some(cluster)),
+        Content::Breakup(ended) => containers::write_ended(ram, ended),
     })?;
     shared.ram_parameters.basic_container.station_type = TrafficParticipantType(PEDESTRIAN);
     Ok(shared)
@@ -169,7 +208,10 @@ fn header(station: u32) -> ItsPduHeader {
 }
 
 /// The same of a cluster on the dictionary v2.1.1, whose predicted points are others.
-fn awareness_211(shared: RobotAwareness) -> VruAwareness211 {
+fn awareness_211(
+    shared: RobotAwareness,
+    operation: Option<VruClusterOperationContainer211>,
+) -> VruAwareness211 {
     let parameters = shared.ram_parameters;
     let motion = parameters.robot_high_frequency_container;
     let high_frequency = high_frequency!(VruHighFrequencyContainer211, motion);
@@ -184,7 +226,8 @@ fn awareness_211(shared: RobotAwareness) -> VruAwareness211 {
         VruMotionPredictionContainer211::new(None, path, None, None, None, None, None)
     });
     let basic = parameters.basic_container;
-    let parameters = VamParameters211::new(basic, high_frequency, None, cluster, None, prediction);
+    let parameters =
+        VamParameters211::new(basic, high_frequency, None, cluster, operation, prediction);
     VruAwareness211::new(shared.generation_delta_time, parameters)
 }
 
@@ -231,6 +274,25 @@ fn operation_container(operation: Operation) -> VruClusterOperationContainer {
         }
     };
     VruClusterOperationContainer::new(join, leave, None, None)
+}
+
+fn breakup(ended: Ended, now_ms: u64) -> VruClusterOperationContainer {
+    let reason = ClusterBreakupReason(ended.reason as u8);
+    let time = DeltaTimeQuarterSecond(quarter_second(now_ms));
+    let info = ClusterBreakupInfo::new(reason, time);
+    VruClusterOperationContainer::new(None, None, Some(info), None)
+}
+
+fn breakup_211(ended: Ended, now_ms: u64) -> VruClusterOperationContainer211 {
+    let reason = match ended.reason {
+        BreakupReason::NotProvided => ClusterBreakupReason211::notProvided,
+        BreakupReason::ClusteringPurposeCompleted => {
+            ClusterBreakupReason211::clusteringPurposeCompleted
+        }
+    };
+    let time = DeltaTimeQuarterSecond(quarter_second(now_ms));
+    let info = ClusterBreakupInfo211::new(reason, time);
+    VruClusterOperationContainer211::new(None, None, Some(info), None)
 }
 
 /// `DeltaTimeQuarterSecond`: the upper octet of the generation delta time of a moment, 1..254. That of
@@ -303,6 +365,7 @@ mod tests {
                 cardinality: 5,
                 velocity_mps: Some([0.0, 0.0]),
             }),
+            ended: None,
         };
         let mut sent = |now_ms, heard: Option<&Announcement<'_>>, motion: &Motion| {
             let reaction = heard.map(|heard| device.hear(now_ms, motion, heard));
@@ -394,6 +457,45 @@ mod tests {
             .map(|it| it.path_delta_time.0)
             .collect();
         assert_eq!(times, [10, 20, 30]);
+    }
+
+    #[test]
+    fn a_cluster_is_broken_up_on_both_dictionaries() {
+        let plane = Plane::at(48.765_432_1, 9.123_456_7);
+        let ended = Ended {
+            id: 7,
+            reason: BreakupReason::ClusteringPurposeCompleted,
+        };
+        let heard = |dictionary| {
+            let ids = Identifiers {
+                dictionary,
+                ..Identifiers::default()
+            };
+            let vam = breakup_vam(&ids, 9, &plane.position([0.0, 0.0]), 12 * 256, ended).unwrap();
+            ItsMessage::decode(&ids, &vam).unwrap().message
+        };
+        let (new, old) = (heard(Dictionary::V2_4_1), heard(Dictionary::V2_1_1));
+        // On a map there is nobody by it.
+        assert!(new.road_users(0).is_empty() && old.road_users(0).is_empty());
+        let ItsMessage::Vam(vam) = new else {
+            panic!("{new:?}")
+        };
+        let parameters = &vam.vam.vam_parameters;
+        let cluster = parameters.vru_cluster_information_container.as_ref();
+        let cluster = &cluster.unwrap().vru_cluster_information;
+        assert_eq!(cluster.cluster_id, Some(Identifier1B(7)));
+        assert_eq!(cluster.cluster_bounding_box_shape, None);
+        let operation = parameters.vru_cluster_operation_container.as_ref();
+        let breakup = operation.unwrap().cluster_breakup_info.as_ref().unwrap();
+        assert_eq!(breakup.cluster_breakup_reason, ClusterBreakupReason(1));
+        assert_eq!(breakup.breakup_time, DeltaTimeQuarterSecond(12));
+        let ItsMessage::Vam211(vam) = old else {
+            panic!("{old:?}")
+        };
+        let operation = &vam.vam.vam_parameters.vru_cluster_operation_container;
+        let breakup = operation.as_ref().unwrap().cluster_breakup_info.as_ref();
+        let reason = breakup.unwrap().cluster_breakup_reason;
+        assert_eq!(reason, ClusterBreakupReason211::clusteringPurposeCompleted);
     }
 
     #[test]

@@ -11,10 +11,15 @@
 //!             └────────────────────── leaving (leave info) ◄───────────┘ join failed
 //! ```
 //!
-//! A device that [understands RAM](Understands::Ram) is passive as soon as a RAM covers it: the robot
-//! has seen it, so there is nothing to join. An [unmodified](Understands::ClusterVam) one knows cluster
+//! A device that [understands RAM](Understands::Ram) is passive as soon as it finds itself in a RAM: the robot
+//! has seen it, so there is nothing to join. By the [strict](Suppression::Strict) rule it finds itself in a
+//! cluster if it is inside of the bounding shape and moves as the cluster does; a robot's clusters are close and
+//! of one [motion](super::motion::MATCH), so it was perceived then. The shape moves with the cluster between
+//! two announcements. A device that no longer finds itself there resumes at once. By the
+//! [loose](Suppression::Loose) rule the bounding shape alone counts, and 3 m around it. An [unmodified](Understands::ClusterVam) one knows cluster
 //! VAMs only, and joins by their rules; being inside of the bounding shape after it fell silent stands for
-//! the confirmation, since a robot counts the people that it sees. Both resume by the same timers.
+//! the confirmation, since a robot counts the people that it sees. All resume when their head says that the
+//! cluster is over, and by the same timers.
 //!
 //! Where zones overlap, a device stays with the head that it is with. One that understands RAM goes over
 //! to another head without a VAM in between, once it is outside of the one's shape and inside of the
@@ -27,7 +32,7 @@ use serde::{Deserialize, Serialize};
 
 use super::area::Area;
 use super::generation::Trigger;
-use super::motion::{Change, Motion};
+use super::motion::{Change, MATCH, Motion, STANDING_MPS, distance_m};
 
 /// Shortest interval between two VAM, in ms (`T_GenVamMin`).
 pub const INTERVAL_MIN_MS: u64 = 100;
@@ -50,9 +55,6 @@ pub const DISTANCE_MAX_M: f64 = 3.0;
 pub const VELOCITY_DIFFERENCE_MAX: f64 = 0.05;
 /// Members that a cluster has at most (`maxClusterSize`).
 pub const SIZE_MAX: u8 = 20;
-/// Two stations that are both slower stand, and then their velocities do not differ, in m/s. ETSI says
-/// nothing of it, and 5 % of nothing is nothing.
-pub const STANDING_MPS: f64 = 0.3;
 
 /// When a VAM is due.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -74,6 +76,17 @@ pub enum Understands {
     ClusterVam,
 }
 
+/// Whether a device falls silent by a RAM.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Suppression {
+    /// Only if it was perceived itself: it is in the shape of a cluster and moves as that does.
+    #[default]
+    Strict,
+    /// Wherever the shape of a cluster covers it, perceived or not.
+    Loose,
+}
+
 /// What a device hears of the cluster of one head.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Announcement<'a> {
@@ -81,8 +94,10 @@ pub struct Announcement<'a> {
     pub head: u32,
     /// By which message.
     pub by: Understands,
-    /// The cluster; `None` for a head that has none any more.
+    /// The cluster; `None` for a head that has none any more, or that says that one is over.
     pub cluster: Option<AnnouncedCluster<'a>>,
+    /// The id of a cluster that is over.
+    pub ended: Option<u8>,
 }
 
 /// The cluster of an [`Announcement`].
@@ -94,7 +109,7 @@ pub struct AnnouncedCluster<'a> {
     pub area: &'a Area,
     /// How many belong to it.
     pub cardinality: u8,
-    /// Its velocity in m/s, to the east and to the north; from a cluster VAM.
+    /// Its velocity in m/s, to the east and to the north, if it says one.
     pub velocity_mps: Option<[f64; 2]>,
 }
 
@@ -217,7 +232,7 @@ pub struct Membership {
     pub heard_ms: u64,
     /// What bounded the cluster then.
     pub area: Area,
-    /// The velocity of the cluster then, from a cluster VAM.
+    /// The velocity of the cluster then, if it said one.
     pub velocity_mps: Option<[f64; 2]>,
 }
 
@@ -226,6 +241,7 @@ pub struct Membership {
 pub struct VruStation {
     rule: VamRule,
     understands: Understands,
+    suppression: Suppression,
     state: State,
     /// The last VAM: when, and what it said of the motion.
     said: Option<(u64, Motion)>,
@@ -235,12 +251,19 @@ pub struct VruStation {
 }
 
 impl VruStation {
-    /// A device that has just been switched on.
+    /// A device that has just been switched on, and falls silent by the strict rule.
     #[must_use]
     pub fn new(rule: VamRule, understands: Understands) -> Self {
+        Self::with(rule, understands, Suppression::default())
+    }
+
+    /// A device that has just been switched on.
+    #[must_use]
+    pub fn with(rule: VamRule, understands: Understands, suppression: Suppression) -> Self {
         Self {
             rule,
             understands,
+            suppression,
             state: State::Standalone,
             said: None,
             last_low_frequency_ms: None,
@@ -265,29 +288,41 @@ impl VruStation {
         if heard.by != self.understands {
             return Reaction::NotUnderstood;
         }
+        let by = self.fit();
         match &mut self.state {
             State::Joining(membership) | State::Passive(membership) => {
-                let by_vam = self.understands == Understands::ClusterVam;
                 if membership.head != heard.head {
-                    let is_inside = |area: &Area| area.contains(motion.position_m);
-                    let covered_there = heard.cluster.is_some_and(|it| is_inside(it.area));
-                    if by_vam || !covered_there || is_inside(&membership.area) {
+                    let fits = |cluster: AnnouncedCluster<'_>| {
+                        by.misfit(motion, cluster.area, cluster.velocity_mps)
+                            .is_none()
+                    };
+                    let fits_there = heard.cluster.is_some_and(fits);
+                    if by == Fit::Etsi || !fits_there || membership.fits(by, now_ms, motion) {
                         return Reaction::InAnother;
                     }
                     // From one robot's zone into the next.
                     membership.head = heard.head;
                 }
                 membership.heard_ms = now_ms;
+                let id = membership.id;
                 let Some(cluster) = heard.cluster else {
-                    let id = membership.id;
+                    if heard.ended.is_some_and(|ended| id != Some(ended)) {
+                        return Reaction::GoesOn;
+                    }
                     self.leave(now_ms, id, LeaveReason::ClusterDisbandedByLeader);
                     return Reaction::Resumes;
                 };
-                if by_vam && membership.id != cluster.id {
+                if by == Fit::Etsi && id != cluster.id {
                     return Reaction::InAnother;
                 }
-                if !cluster.area.contains(motion.position_m) {
-                    return Reaction::Outside;
+                match by.misfit(motion, cluster.area, cluster.velocity_mps) {
+                    // Its own cluster is elsewhere now.
+                    Some(reason) if by == Fit::Strict && id == cluster.id => {
+                        self.leave(now_ms, id, reason);
+                        return Reaction::Resumes;
+                    }
+                    Some(_) => return Reaction::Outside,
+                    None => {}
                 }
                 membership.id = cluster.id;
                 membership.covered_ms = now_ms;
@@ -299,17 +334,26 @@ impl VruStation {
         }
     }
 
+    const fn fit(&self) -> Fit {
+        match (self.understands, self.suppression) {
+            (Understands::ClusterVam, _) => Fit::Etsi,
+            (Understands::Ram, Suppression::Strict) => Fit::Strict,
+            (Understands::Ram, Suppression::Loose) => Fit::Loose,
+        }
+    }
+
     /// Whether the device, which is in no cluster, enters this one.
     fn consider(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement<'_>) -> Reaction {
         let Some(cluster) = heard.cluster else {
             return Reaction::GoesOn;
         };
-        let by_vam = self.understands == Understands::ClusterVam;
+        let by = self.fit();
+        let by_vam = by == Fit::Etsi;
         let near_m = if by_vam { DISTANCE_MAX_M } else { 0.0 };
         if cluster.area.distance_m(motion.position_m) > near_m {
             return Reaction::Outside;
         }
-        if !is_of_velocity(motion, cluster.velocity_mps) {
+        if !by.is_of_velocity(motion, cluster.velocity_mps) {
             return Reaction::VelocityDiffers;
         }
         if by_vam && cluster.cardinality >= SIZE_MAX {
@@ -382,7 +426,7 @@ impl VruStation {
     /// What time and motion do to the membership.
     fn pass(&mut self, now_ms: u64, motion: &Motion) {
         let since = |then_ms: u64| now_ms.saturating_sub(then_ms);
-        let by_vam = self.understands == Understands::ClusterVam;
+        let by = self.fit();
         match &self.state {
             State::Standalone => {}
             State::Leaving { since_ms, .. } => {
@@ -391,7 +435,7 @@ impl VruStation {
                 }
             }
             State::Joining(membership) => {
-                if membership.broken(now_ms, motion).is_some() {
+                if membership.broken(by, now_ms, motion).is_some() {
                     let id = membership.id;
                     self.leave(now_ms, id, LeaveReason::CancelledJoin);
                 } else if since(membership.since_ms) >= JOIN_NOTIFICATION_MS {
@@ -403,11 +447,11 @@ impl VruStation {
                 }
             }
             State::Passive(membership) => {
-                let unconfirmed = by_vam && membership.covered_ms < membership.since_ms;
+                let unconfirmed = by == Fit::Etsi && membership.covered_ms < membership.since_ms;
                 if unconfirmed && since(membership.since_ms) >= JOIN_SUCCESS_MS {
                     let id = membership.id;
                     self.leave(now_ms, id, LeaveReason::FailedJoin);
-                } else if let Some(reason) = membership.broken(now_ms, motion) {
+                } else if let Some(reason) = membership.broken(by, now_ms, motion) {
                     let id = membership.id;
                     self.leave(now_ms, id, reason);
                 }
@@ -439,16 +483,80 @@ impl VruStation {
     }
 }
 
+/// By what a device takes itself for a member.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Fit {
+    /// By its place and its motion.
+    Strict,
+    /// By its place.
+    Loose,
+    /// By the rules of ETSI for a cluster VAM.
+    Etsi,
+}
+
+impl Fit {
+    /// Why a device in this motion is none of a cluster in this area, if it is none.
+    fn misfit(
+        self,
+        motion: &Motion,
+        area: &Area,
+        velocity_mps: Option<[f64; 2]>,
+    ) -> Option<LeaveReason> {
+        if !area.contains(motion.position_m) {
+            Some(LeaveReason::OutOfClusterBoundingBox)
+        } else if self == Self::Strict && !self.is_of_velocity(motion, velocity_mps) {
+            Some(LeaveReason::OutOfClusterSpeedRange)
+        } else {
+            None
+        }
+    }
+
+    /// Whether a device moves as a cluster does. By the strict rule nobody moves as a cluster of unknown
+    /// velocity, by that of ETSI everybody does.
+    fn is_of_velocity(self, motion: &Motion, cluster: Option<[f64; 2]>) -> bool {
+        let own = motion.velocity_mps();
+        match self {
+            Self::Strict => cluster.is_some_and(|cluster| MATCH.holds(own, cluster)),
+            Self::Loose => true,
+            Self::Etsi => cluster.is_none_or(|cluster| is_within_five_percent(own, cluster)),
+        }
+    }
+}
+
 impl Membership {
+    /// Whether the device is still where its cluster is.
+    fn fits(&self, by: Fit, now_ms: u64, motion: &Motion) -> bool {
+        let area = self.area_at(by, now_ms);
+        by.misfit(motion, &area, self.velocity_mps).is_none()
+    }
+
+    /// What bounds the cluster now, as far as the device knows: by the strict rule the shape moves with it.
+    fn area_at(&self, by: Fit, now_ms: u64) -> Area {
+        let area = self.area.clone();
+        match (by, self.velocity_mps) {
+            (Fit::Strict, Some(velocity_mps)) => {
+                #[expect(clippy::cast_precision_loss, reason = "two seconds")]
+                let seconds = now_ms.saturating_sub(self.covered_ms) as f64 / 1_000.0;
+                area.moved(velocity_mps.map(|mps| mps * seconds))
+            }
+            _ => area,
+        }
+    }
+
     /// Why the device cannot stay, if it cannot.
-    fn broken(&self, now_ms: u64, motion: &Motion) -> Option<LeaveReason> {
+    fn broken(&self, by: Fit, now_ms: u64, motion: &Motion) -> Option<LeaveReason> {
         let is_over = |since_ms| now_ms.saturating_sub(since_ms) >= CONTINUITY_MS;
-        let distance_m = self.area.distance_m(motion.position_m);
+        let beyond_m = self.area_at(by, now_ms).distance_m(motion.position_m);
+        let beyond_max_m = if by == Fit::Strict {
+            0.0
+        } else {
+            DISTANCE_MAX_M
+        };
         if is_over(self.heard_ms) {
             Some(LeaveReason::ClusterLeaderLost)
-        } else if is_over(self.covered_ms) || distance_m > DISTANCE_MAX_M {
+        } else if is_over(self.covered_ms) || beyond_m > beyond_max_m {
             Some(LeaveReason::OutOfClusterBoundingBox)
-        } else if !is_of_velocity(motion, self.velocity_mps) {
+        } else if !by.is_of_velocity(motion, self.velocity_mps) {
             Some(LeaveReason::OutOfClusterSpeedRange)
         } else {
             None
@@ -456,16 +564,12 @@ impl Membership {
     }
 }
 
-/// Whether a device moves as a cluster does. A cluster of unknown velocity moves as everybody.
-fn is_of_velocity(motion: &Motion, cluster: Option<[f64; 2]>) -> bool {
-    let Some([east, north]) = cluster else {
-        return true;
-    };
-    let [own_east, own_north] = motion.velocity_mps();
-    let cluster_mps = east.hypot(north);
-    let difference = (own_east - east).hypot(own_north - north);
-    difference <= VELOCITY_DIFFERENCE_MAX * cluster_mps
-        || (cluster_mps < STANDING_MPS && motion.speed_mps < STANDING_MPS)
+/// Whether two velocities are the same by ETSI. Two stations that both stand have the same: ETSI says nothing
+/// of it, and 5 % of nothing is nothing.
+fn is_within_five_percent(own: [f64; 2], cluster: [f64; 2]) -> bool {
+    let cluster_mps = cluster[0].hypot(cluster[1]);
+    distance_m(own, cluster) <= VELOCITY_DIFFERENCE_MAX * cluster_mps
+        || (cluster_mps < STANDING_MPS && own[0].hypot(own[1]) < STANDING_MPS)
 }
 
 #[cfg(test)]

@@ -4,11 +4,14 @@ use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use crossguard_endpoint::ras::vru::{Understands, VamRule};
+use crossguard_endpoint::ras::vru::{Suppression, Understands, VamRule};
 use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::grid::{Grid, Preset, Site};
 use crossguard_evaluation::matrix::Axes;
+use crossguard_evaluation::paper::PAPER;
 use crossguard_evaluation::shipped;
+use crossguard_evaluation::simulation::CHECK_MS;
+use crossguard_evaluation::statements::Setting;
 use crossguard_evaluation::stationing::Stationing;
 use crossguard_evaluation::sumo::{Plan, Sumo};
 use crossguard_evaluation::trace::Traces;
@@ -205,6 +208,20 @@ impl Matrix {
         Ok(())
     }
 
+    /// Whether a run with these parameters is the one that the evaluation page documents.
+    pub(super) fn is_documented(&self, parameters: &Parameters) -> bool {
+        let is_default = |behaviour: &Behaviour| *behaviour == Behaviour::default();
+        self.traces.is_empty()
+            && self.sumo.is_none()
+            && self.preset == Preset::Kerb
+            && self.stationing() == Stationing::at(Preset::Kerb.site())
+            && self.robots == PAPER.robots
+            && self.pedestrians == PAPER.pedestrians
+            && self.radius == PAPER.radii_m
+            && parameters.seeds == 10
+            && parameters.behaviour.as_ref().is_none_or(is_default)
+    }
+
     /// What the results depend on.
     pub(super) fn parameters(&self, traces: &[Traces], behaviour: Option<Behaviour>) -> Parameters {
         let first = traces.first();
@@ -228,6 +245,7 @@ impl Matrix {
                 .unwrap_or(0),
             duration_s: first.map_or(0, |traces| traces.duration_ms() / 1_000),
             sample_ms: first.map_or(0, |traces| traces.sample_ms),
+            true_rates: behaviour.as_ref().map(Rates::of),
             behaviour,
         }
     }
@@ -251,10 +269,47 @@ pub(super) struct Parameters {
     duration_s: u64,
     sample_ms: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
+    true_rates: Option<Rates>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     behaviour: Option<Behaviour>,
 }
 
+/// What a station really sends per second; `None` by rules.
+#[expect(clippy::struct_field_names, reason = "units are last in names")]
+#[derive(Serialize)]
+struct Rates {
+    vam_hz: Option<f64>,
+    ram_hz: Option<f64>,
+    cam_hz: Option<f64>,
+}
+
+impl Rates {
+    fn of(behaviour: &Behaviour) -> Self {
+        let vam_ms = match behaviour.vam {
+            VamRule::Etsi => None,
+            VamRule::Periodic(interval_ms) => Some(interval_ms),
+        };
+        #[expect(clippy::cast_precision_loss, reason = "100..5000")]
+        let hz = |interval_ms: Option<u64>| interval_ms.map(|it| 1_000.0 / it as f64);
+        Self {
+            vam_hz: hz(vam_ms),
+            ram_hz: hz(behaviour.ram_interval_ms),
+            cam_hz: hz(behaviour.cam_interval_ms),
+        }
+    }
+}
+
 impl Parameters {
+    /// What statements of the paper are compared with.
+    pub(super) const fn setting<'a>(&'a self, axes: &'a Axes) -> Setting<'a> {
+        Setting {
+            grid: &self.grid,
+            vehicles: self.vehicles,
+            axes,
+            behaviour: self.behaviour.as_ref(),
+        }
+    }
+
     /// The most important ones in a line.
     pub(super) fn in_brief(&self, preset: &str) -> String {
         let vam = self
@@ -264,9 +319,16 @@ impl Parameters {
                 VamRule::Etsi => ", VAM by ETSI's triggers".to_owned(),
                 VamRule::Periodic(interval_ms) => format!(", a VAM every {interval_ms} ms"),
             });
+        let suppression = self
+            .behaviour
+            .as_ref()
+            .map_or("", |it| match it.suppression {
+                Suppression::Strict => ", strict suppression",
+                Suppression::Loose => ", loose suppression",
+            });
         let (seeds, vam) = (self.seeds, vam.unwrap_or_default());
         let plural = if seeds == 1 { "" } else { "s" };
-        format!("preset {preset}, {seeds} seed{plural}{vam}")
+        format!("preset {preset}, {seeds} seed{plural}{vam}{suppression}")
     }
 }
 
@@ -300,10 +362,20 @@ enum Devices {
     ClusterVam,
 }
 
-/// What goes over the air. The paper states none of it.
+/// When a device that understands RAM falls silent.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum SilenceRule {
+    /// Only if it was perceived itself: it is where a cluster is, and moves as that does.
+    Strict,
+    /// Wherever the bounding shape of a cluster covers it, perceived or not.
+    Loose,
+}
+
+/// What goes over the air.
 #[derive(clap::Args)]
 pub(super) struct Air {
-    /// When devices send VAM: 'etsi', or a number per second (0.2 to 10).
+    /// When devices send VAM: 'etsi', or a number per second (0.2 to 10). Stations check every 100 ms, so
+    /// the true rate is 10 by a whole number; it is printed.
     #[arg(
         long,
         default_value = "10",
@@ -334,6 +406,15 @@ pub(super) struct Air {
     /// Which announcements devices understand.
     #[arg(long, value_enum, default_value = "ram", help_heading = "Air")]
     devices: Devices,
+    /// When devices fall silent.
+    #[arg(long, value_enum, default_value = "strict", help_heading = "Air")]
+    suppression: SilenceRule,
+    /// Share of people that no robot perceives, as if they were hidden all the time.
+    #[arg(long, default_value_t = 0.0, value_name = "0..1", help_heading = "Air")]
+    unseen: f64,
+    /// Write to this file when each device was silent, as comma-separated values.
+    #[arg(long, value_name = "FILE", help_heading = "Air")]
+    pub(super) silences: Option<PathBuf>,
     /// Share of people with a device.
     #[arg(long, default_value_t = 1.0, value_name = "0..1", help_heading = "Air")]
     v2x_share: f64,
@@ -346,9 +427,9 @@ pub(super) struct Air {
     /// Path loss exponent.
     #[arg(long, default_value_t = 2.2, value_name = "N", help_heading = "Air")]
     path_loss_exponent: f64,
-    /// Packets are not signed.
+    /// Packets are signed.
     #[arg(long, help_heading = "Air")]
-    unsigned: bool,
+    signed: bool,
     /// Reactive congestion control (TS 102 687) holds stations back.
     #[arg(long, help_heading = "Air")]
     dcc: bool,
@@ -359,6 +440,9 @@ impl Air {
     pub(super) fn behaviour(&self) -> Result<Behaviour, String> {
         if !(0.0..=1.0).contains(&self.v2x_share) {
             return Err("--v2x-share is 0 to 1".to_owned());
+        }
+        if !(0.0..=1.0).contains(&self.unseen) {
+            return Err("--unseen is 0 to 1".to_owned());
         }
         if !(1.0..=6.0).contains(&self.path_loss_exponent) {
             return Err("--path-loss-exponent is 1 to 6".to_owned());
@@ -373,34 +457,57 @@ impl Air {
                 Devices::ClusterVam => Understands::ClusterVam,
             },
             v2x_share: self.v2x_share,
+            unseen_share: self.unseen,
             ram_interval_ms: interval_ms("--ram", &self.ram, "rules", 1.0)?,
             cam_interval_ms: interval_ms("--cam", &self.cam, "rules", 1.0)?,
             cam_path_points: self.cam_path_points,
             vehicles_leave_s: self.vehicles_leave,
-            signed: !self.unsigned,
+            signed: self.signed,
             dcc: self.dcc,
             ..Behaviour::default()
         };
         behaviour.radio.exponent = self.path_loss_exponent;
         behaviour.radio.ideal = self.ideal;
-        Ok(behaviour)
+        Ok(behaviour.with_suppression(match self.suppression {
+            SilenceRule::Strict => Suppression::Strict,
+            SilenceRule::Loose => Suppression::Loose,
+        }))
     }
 }
 
-/// The interval of a rate; `None` when it is by rules.
+/// The true interval of a rate; `None` when it is by rules. Stations check every 100 ms whether they send, so it
+/// is a multiple of that.
 fn interval_ms(option: &str, text: &str, rules: &str, min_hz: f64) -> Result<Option<u64>, String> {
     if text == rules {
         return Ok(None);
     }
     match text.parse::<f64>() {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "100..5000"
-        )]
-        Ok(hz) if (min_hz..=10.0).contains(&hz) => Ok(Some((1_000.0 / hz).round() as u64)),
+        Ok(hz) if (min_hz..=10.0).contains(&hz) => {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "100..5000"
+            )]
+            let wanted_ms = (1_000.0 / hz).round() as u64;
+            Ok(Some(wanted_ms.div_ceil(CHECK_MS) * CHECK_MS))
+        }
         _ => Err(format!(
             "{option} is '{rules}' or {min_hz} to 10 per second, not {text:?}"
         )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_is_the_one_at_which_stations_really_send() {
+        let interval = |hz| interval_ms("--vam", hz, "etsi", 0.2).unwrap();
+        let intervals = ["10", "9.9", "7", "5", "4", "3", "2", "0.2", "etsi"].map(interval);
+        let expected = [100, 200, 200, 200, 300, 400, 500, 5_000].map(Some);
+        assert_eq!(intervals[..8], expected);
+        assert_eq!(intervals[8], None);
+        assert!(interval_ms("--vam", "11", "etsi", 0.2).is_err());
     }
 }

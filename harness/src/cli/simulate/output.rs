@@ -4,8 +4,10 @@ use std::path::Path;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_evaluation::matrix::{CbrCell, ObsCell};
+use crossguard_evaluation::matrix::{CbrCell, ObsCell, SilenceInRun};
 use crossguard_evaluation::plot::BarChart;
+use crossguard_evaluation::simulation::Silence;
+use crossguard_evaluation::statements::Comparison;
 use crossguard_evaluation::statistics::Estimate;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -50,6 +52,7 @@ impl Row for CbrCell {
             "reduction",
             "by the law",
             "silent devices",
+            "wrongly silent",
             "VAM share",
             "VAM/s",
             "CAM/s",
@@ -72,6 +75,7 @@ impl Row for CbrCell {
             percent(self.reduction_percent),
             format!("{:.2} %", self.predicted_percent.mean),
             format!("{:.2} %", self.passive_percent.mean),
+            format!("{:.2} %", self.wrongly_silent_percent.mean),
             format!("{:.1} %", self.vam_share_percent.mean),
             vam,
             cam,
@@ -92,6 +96,27 @@ pub(super) fn table<C: Row>(cells: &[C]) -> Table {
     table
 }
 
+/// What the paper states beside what was measured, one line each.
+pub(super) fn print_statements(
+    is_documented: bool,
+    statements: &[Comparison],
+) -> Result<(), Failure> {
+    let setting = if is_documented {
+        "at the documented setting"
+    } else {
+        "at another setting than the documented one"
+    };
+    print(format_args!("\nWhat the paper states, {setting}:"))?;
+    let mut table = Table::new();
+    table.load_style(NOTHING);
+    table.set_header(["verdict", "about", "measured", "paper", "rule"]);
+    for it in statements {
+        let verdict = it.outcome.words();
+        table.add_row([verdict, it.about, &it.measured, &it.paper, it.rule]);
+    }
+    print(table)
+}
+
 /// What the results depend on, one line each.
 pub(super) fn print_parameters(parameters: &Parameters) -> Result<(), Failure> {
     let value = serde_json::to_value(parameters).map_err(Failure::input)?;
@@ -110,7 +135,11 @@ fn print_value(indent: usize, value: &serde_json::Value) -> Result<(), Failure> 
             print(format_args!("{:indent$}{name}:", ""))?;
             print_value(indent + 2, value)?;
         } else {
-            let value = value.to_string().replace('"', "");
+            let is_rate = name.ends_with(" hz");
+            let value = match value {
+                serde_json::Value::Null if is_rate => "by rules".to_owned(),
+                value => value.to_string().replace('"', ""),
+            };
             print(format_args!("{:indent$}{name}: {value}", ""))?;
         }
     }
@@ -169,6 +198,7 @@ impl Csv for CbrCell {
         "reduction_percent_sd",
         "predicted_percent_mean",
         "passive_percent_mean",
+        "wrongly_silent_percent_mean",
         "vam_share_percent_mean",
         "vam_per_s_mean",
         "cam_per_s_mean",
@@ -186,6 +216,7 @@ impl Csv for CbrCell {
             self.reduction_percent.sd,
             self.predicted_percent.mean,
             self.passive_percent.mean,
+            self.wrongly_silent_percent.mean,
             self.vam_share_percent.mean,
             vam.mean,
             cam.mean,
@@ -198,6 +229,31 @@ impl Csv for CbrCell {
             .chain(numbers.map(|it| it.to_string()))
             .collect()
     }
+}
+
+/// Writes when devices were silent to the file that was asked for, if one was.
+pub(super) fn write_silences(
+    path: Option<&Path>,
+    silences: &[SilenceInRun],
+) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
+    let failed = |error: csv::Error| Failure::Input(format!("{}: {error}", path.display()));
+    let mut file = csv::Writer::from_path(path).map_err(failed)?;
+    let columns = "robots,pedestrians,radius_m,seed,person,from_ms,to_ms";
+    file.write_record(columns.split(',')).map_err(failed)?;
+    for it in silences {
+        let Silence {
+            person,
+            from_ms,
+            to_ms,
+        } = it.silence;
+        let cell = [it.robots.to_string(), it.pedestrians.to_string()];
+        let rest = [it.radius_m.to_string(), it.seed.to_string()];
+        let silence = [person.to_string(), from_ms.to_string(), to_ms.to_string()];
+        let record = cell.iter().chain(&rest).chain(&silence);
+        file.write_record(record).map_err(failed)?;
+    }
+    file.flush().map_err(|error| failed(error.into()))
 }
 
 /// Draws charts into the folder that was asked for, if one was.

@@ -18,6 +18,10 @@ fn standing() -> Motion {
     Motion::default()
 }
 
+fn loose(rule: VamRule) -> VruStation {
+    VruStation::with(rule, Understands::Ram, Suppression::Loose)
+}
+
 fn circle(radius_m: f64) -> Area {
     Area::Circle {
         center: [0.0, 0.0],
@@ -33,8 +37,9 @@ fn announcement(by: Understands, area: &Area) -> Announcement<'_> {
             id: Some(7),
             area,
             cardinality: 3,
-            velocity_mps: (by == Understands::ClusterVam).then_some([0.0, 0.0]),
+            velocity_mps: Some([0.0, 0.0]),
         }),
+        ended: None,
     }
 }
 
@@ -109,8 +114,8 @@ fn a_covered_device_is_silent_until_its_robot_is_lost() {
 }
 
 #[test]
-fn a_device_that_walks_out_resumes_three_metres_outside() {
-    let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
+fn by_the_loose_rule_a_device_that_walks_out_resumes_three_metres_outside() {
+    let mut station = loose(VamRule::Etsi);
     let area = circle(5.0);
     station.hear(0, &walking(4.0), &announcement(Understands::Ram, &area));
     assert_eq!(station.poll(100, &walking(7.9), 0), None);
@@ -130,6 +135,7 @@ fn a_robot_without_a_cluster_releases_its_devices_and_nobody_elses() {
         head,
         by: Understands::Ram,
         cluster: None,
+        ended: None,
     };
     assert_eq!(
         station.hear(100, &standing(), &none(HEAD + 1)),
@@ -145,7 +151,7 @@ fn a_robot_without_a_cluster_releases_its_devices_and_nobody_elses() {
 
 #[test]
 fn a_device_goes_over_to_the_next_robot_without_a_vam() {
-    let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
+    let mut station = loose(VamRule::Periodic(100));
     let near = |east_m: f64| Area::around(&[[east_m, 0.0]], 5.0).unwrap();
     let (first, second) = (near(0.0), near(6.0));
     let other = |area| Announcement {
@@ -175,7 +181,7 @@ fn a_device_goes_over_to_the_next_robot_without_a_vam() {
 #[test]
 fn who_leaves_says_whether_its_head_was_silent_or_did_not_count_it() {
     let left = |heard_again: bool| {
-        let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
+        let mut station = loose(VamRule::Periodic(100));
         let (area, elsewhere) = (circle(5.0), Area::around(&[[30.0, 0.0]], 2.0).unwrap());
         station.hear(0, &standing(), &announcement(Understands::Ram, &area));
         if heard_again {
@@ -256,14 +262,127 @@ fn an_unmodified_device_that_is_not_confirmed_gives_up() {
     assert_eq!(due.operation, Some(Operation::Leave { id: 7, reason }));
 }
 
+/// A cluster that walks to the east at 1.4 m/s, around where somebody was at `now_ms` who began at the origin.
+fn walking_cluster(area: &Area) -> Announcement<'_> {
+    let mut announced = announcement(Understands::Ram, area);
+    announced.cluster.as_mut().unwrap().velocity_mps = Some([1.4, 0.0]);
+    announced
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a few seconds")]
+fn after(now_ms: u64) -> Motion {
+    walking(now_ms as f64 * 1.4e-3)
+}
+
+#[test]
+fn by_the_strict_rule_a_device_walks_on_silently_with_its_cluster() {
+    let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
+    let area = circle(1.0);
+    let heard = station.hear(0, &after(0), &walking_cluster(&area));
+    assert_eq!(heard, Reaction::Suspends);
+    // It is 2.7 m from where it was announced; the shape went along.
+    for now_ms in (100..2_000).step_by(100) {
+        assert_eq!(station.poll(now_ms, &after(now_ms), 0), None, "{now_ms}");
+    }
+    assert!(station.poll(2_000, &after(2_000), 0).is_some());
+}
+
+#[test]
+fn who_moves_otherwise_than_a_cluster_that_covers_it_was_not_perceived() {
+    let area = circle(5.0);
+    let heard = |motion: &Motion, announced: &Announcement<'_>| {
+        VruStation::new(VamRule::Etsi, Understands::Ram).hear(0, motion, announced)
+    };
+    let north = Motion {
+        heading_deg: 0.0,
+        ..walking(0.0)
+    };
+    let cycling = Motion {
+        speed_mps: 5.0,
+        ..walking(0.0)
+    };
+    for motion in [standing(), north, cycling] {
+        let reaction = heard(&motion, &walking_cluster(&area));
+        assert_eq!(reaction, Reaction::VelocityDiffers, "{motion:?}");
+    }
+    // Nor does it know that when the cluster does not say how it moves.
+    let mut unknown = walking_cluster(&area);
+    unknown.cluster.as_mut().unwrap().velocity_mps = None;
+    assert_eq!(heard(&walking(0.0), &unknown), Reaction::VelocityDiffers);
+    assert_eq!(
+        heard(&walking(0.0), &walking_cluster(&area)),
+        Reaction::Suspends
+    );
+}
+
+#[test]
+fn who_leaves_a_cluster_resumes_at_once_and_says_why() {
+    let left = |motion: Motion| {
+        let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
+        let area = circle(1.0);
+        station.hear(0, &after(0), &walking_cluster(&area));
+        station.poll(100, &motion, 0).unwrap().operation
+    };
+    let id = 7;
+    let reason = LeaveReason::OutOfClusterBoundingBox;
+    assert_eq!(left(walking(1.3)), Some(Operation::Leave { id, reason }));
+    let reason = LeaveReason::OutOfClusterSpeedRange;
+    let turned = Motion {
+        heading_deg: 45.0,
+        ..after(100)
+    };
+    assert_eq!(left(turned), Some(Operation::Leave { id, reason }));
+}
+
+#[test]
+fn who_is_no_longer_in_its_own_cluster_resumes_when_it_hears_that() {
+    let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
+    let (area, elsewhere) = (circle(1.0), Area::around(&[[9.0, 0.0]], 1.0).unwrap());
+    station.hear(0, &standing(), &announcement(Understands::Ram, &area));
+    let mut other = announcement(Understands::Ram, &elsewhere);
+    other.cluster.as_mut().unwrap().id = Some(8);
+    // Another cluster of the same robot says nothing of this one.
+    assert_eq!(station.hear(500, &standing(), &other), Reaction::Outside);
+    assert_eq!(station.poll(600, &standing(), 0), None);
+    let own = announcement(Understands::Ram, &elsewhere);
+    assert_eq!(station.hear(700, &standing(), &own), Reaction::Resumes);
+    assert!(station.poll(700, &standing(), 0).is_some());
+}
+
+#[test]
+fn a_cluster_that_is_over_releases_its_own_devices_at_once() {
+    for by in [Understands::Ram, Understands::ClusterVam] {
+        let mut station = VruStation::new(VamRule::Periodic(500), by);
+        let area = circle(5.0);
+        let there = announcement(by, &area);
+        let over = |id| Announcement {
+            cluster: None,
+            ended: Some(id),
+            ..there.clone()
+        };
+        for now_ms in (0..=3_400).step_by(100) {
+            station.hear(now_ms, &standing(), &there);
+            station.poll(now_ms, &standing(), 0);
+        }
+        assert!(station.is_passive(), "{by:?}");
+        let other = station.hear(3_500, &standing(), &over(8));
+        assert_eq!((other, station.is_passive()), (Reaction::GoesOn, true));
+        let own = station.hear(3_600, &standing(), &over(7));
+        assert_eq!(own, Reaction::Resumes);
+        let reason = LeaveReason::ClusterDisbandedByLeader;
+        let vam = station.poll(3_600, &standing(), 0).unwrap();
+        assert_eq!(vam.operation, Some(Operation::Leave { id: 7, reason }));
+    }
+}
+
 proptest! {
-    /// Whatever is announced: a device is silent only while it was covered within the last 2 s and
-    /// is not further than 3 m from where it was covered; and it sends within 5 s otherwise.
+    /// Whatever is announced, by the loose rule: a device is silent only while it was covered within the last
+    /// 2 s; and it sends within 5 s otherwise.
     #[test]
     fn silence_has_a_reason(
         steps in proptest::collection::vec((0_u8..4, -12.0..12.0_f64, 1.0..6.0_f64), 1..300)
     ) {
-        let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
+        let mut station = loose(VamRule::Etsi);
         let (mut covered_ms, mut last_ms, mut now_ms) = (None, 0_u64, 0_u64);
         let mut east_m = 0.0;
         for (what, to_m, radius_m) in steps {
@@ -285,6 +404,41 @@ proptest! {
                 last_ms = now_ms;
             }
             prop_assert!(now_ms - last_ms <= INTERVAL_MAX_MS);
+        }
+    }
+
+    /// Whatever is announced, by the strict rule: a device is silent only inside of the shape that it heard of
+    /// last as its own, moved with the cluster, and in the motion of that cluster.
+    #[test]
+    fn strict_silence_is_a_match_of_place_and_motion(
+        steps in proptest::collection::vec((0_u8..4, -3.0..3.0_f64, 0.5..3.0_f64, 0.0..360.0_f64), 1..200)
+    ) {
+        let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
+        let mut matched: Option<(u64, f64)> = None;
+        let mut now_ms = 0_u64;
+        for (what, offset_m, radius_m, heading_deg) in steps {
+            now_ms += 100;
+            let steady = after(now_ms);
+            let motion = match what {
+                0 => Motion { heading_deg, ..steady },
+                _ => Motion { position_m: [steady.position_m[0] + offset_m, 0.0], ..steady },
+            };
+            if what == 1 {
+                let center = steady.position_m;
+                let area = Area::Circle { center, radius_m };
+                let reaction = station.hear(now_ms, &motion, &walking_cluster(&area));
+                if matches!(reaction, Reaction::Suspends | Reaction::GoesOn) {
+                    matched = Some((now_ms, radius_m));
+                }
+            }
+            station.poll(now_ms, &motion, 0);
+            if station.is_passive() {
+                let (since_ms, radius_m) = matched.unwrap();
+                prop_assert!(now_ms - since_ms < CONTINUITY_MS);
+                let off_m = (motion.position_m[0] - steady.position_m[0]).abs();
+                prop_assert!(off_m <= radius_m + 1e-6, "{off_m}");
+                prop_assert!((motion.heading_deg - 90.0).abs() <= 20.0 + 1e-6, "{motion:?}");
+            }
         }
     }
 }
