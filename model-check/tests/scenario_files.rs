@@ -43,8 +43,8 @@ fn impossible_values_are_named_with_their_line() {
         ),
         (
             "followers = 1",
-            "followers = 5",
-            "a request for 5 followers: between 1 and 4",
+            "followers = 17",
+            "a request for 17 followers: between 1 and 16",
         ),
         (
             "tasks = [\"move\"]",

@@ -290,7 +290,7 @@ fn an_impossible_request_opens_no_session() {
     let mut street = Street::new(&[ARI]);
     for request in [
         escort(0),
-        escort(5),
+        escort(17),
         HelpRequest {
             tasks: TaskSet::EMPTY,
             ..escort(1)

@@ -1,5 +1,6 @@
 //! Laws of requests: when a robot asks for help, and with what.
 
+use crate::MAX_FOLLOWERS;
 use crate::config::Config;
 use crate::input::{Event, Input};
 use crate::state::{Identity, Phase, Robot, Role};
@@ -23,13 +24,14 @@ fn is_free(robot: &Robot) -> bool {
         && robot.next_number().count != u16::MAX
 }
 
-/// L1, W8: a robot that detects a pedestrian asks for one to four followers that have something to do, where
+/// L1, W8: a robot that detects a pedestrian asks for one follower or more that have something to do, where
 /// it has no other part or duty; everything else it refuses.
 pub fn a_pedestrian_is_asked_for_where_that_is_possible(step: &Taken) {
     let Input::Local(Event::PedestrianDetected(request)) = step.input else {
         return;
     };
-    let is_possible = matches!(request.followers, 1..=4) && request.tasks.0 != 0;
+    let is_possible =
+        (1..=MAX_FOLLOWERS).contains(&usize::from(request.followers)) && request.tasks.0 != 0;
     let asks = requesting(&step.after).is_some_and(|asked| asked.request == request)
         && step.before.role() == Role::None;
     assert!(asks == (is_possible && is_free(&step.before)));

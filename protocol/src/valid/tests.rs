@@ -195,7 +195,7 @@ fn a_requester() {
             r.availability = Availability::Unavailable(Unavailability::NotSafe);
         };
         "it asks for nobody": |r| requesting(r).request.followers = 0;
-        "it asks for more than can follow": |r| requesting(r).request.followers = 5;
+        "it asks for more than can follow": |r| requesting(r).request.followers = 17;
         "it asks for nothing": |r| requesting(r).request.tasks = TaskSet::EMPTY;
         "it asks without end": |r| requesting(r).help = Countdown::OFF;
         "it never selects": |r| requesting(r).selection = Countdown::OFF;
@@ -299,7 +299,7 @@ fn a_leader() {
         };
         "nobody follows": |r| leading(r).members = crate::List::EMPTY;
         "more follow than were asked for": |r| leading(r).request.followers = 1;
-        "more were asked for than can follow": |r| leading(r).request.followers = 5;
+        "more were asked for than can follow": |r| leading(r).request.followers = 17;
         "one follows twice": |r| {
             let one = *leading(r).member(GO2).unwrap();
             leading(r).members = [one, one].into_iter().collect();
