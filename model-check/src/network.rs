@@ -36,6 +36,10 @@ const MAX_ON_AIR: usize = 30;
 
 /// A message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "each is interned once, and is copied as it is"
+)]
 pub enum Message {
     /// A RAM.
     Ram(Ram),

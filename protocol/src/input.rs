@@ -10,6 +10,10 @@ use crate::time::Millis;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 #[repr(u8)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is no heap, and room for sixteen followers is in one variant"
+)]
 pub enum Input {
     /// A RAM was received.
     Ram {

@@ -51,6 +51,10 @@ pub struct Robot {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 #[repr(u8)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is no heap, and room for sixteen followers is in one variant"
+)]
 pub enum Phase {
     /// None.
     Idle,

@@ -69,7 +69,7 @@ pub fn rmcm_from_commands(
         identifiers,
         leader,
         position,
-        container,
+        &container,
         generation_delta_time,
     ))
 }
@@ -112,7 +112,7 @@ pub fn rmcm_from_answer(
         identifiers,
         answer.from,
         position,
-        container,
+        &container,
         generation_delta_time,
     ))
 }
@@ -180,7 +180,7 @@ fn rmcm(
     identifiers: &Identifiers,
     sender: StationId,
     position: &Position,
-    container: ManeuverContainer,
+    container: &ManeuverContainer,
     generation_delta_time: u16,
 ) -> RMCM {
     RMCM {
@@ -189,7 +189,7 @@ fn rmcm(
             generation_delta_time: GenerationDeltaTime(generation_delta_time),
             rmcm_parameters: RmcmParameters {
                 basic_container: basic_container(identifiers.robot_station_type, position),
-                maneuver_container: container,
+                maneuver_container: *container,
             },
         },
     }

@@ -213,7 +213,7 @@ fn three_people_far_from_each_other_are_no_rectangle_between_them() {
 }
 
 #[test]
-fn a_cluster_whose_members_are_gone_is_said_to_be_over_at_once_in_ram_and_in_vam() {
+fn a_cluster_whose_members_are_gone_is_said_to_be_over_at_once_told_once_and_repeated() {
     let mut street = Street::new();
     let near = |_| vec![person(1, [3.0, 0.0], NORTH), person(2, [-9.0, 0.0], NORTH)];
     let sent = street.perceives(3_000, near);
@@ -233,19 +233,19 @@ fn a_cluster_whose_members_are_gone_is_said_to_be_over_at_once_in_ram_and_in_vam
         let said = sent.iter().filter(|(_, it)| of(it) == Some(id));
         said.map(|(at_ms, _)| at_ms - 3_100).collect()
     };
-    let in_ram = when(|it| match it {
+    let told_once = when(|it| match it {
         Sent::Ended(id) => Some(*id),
         _ => None,
     });
-    assert!(in_ram.len() == 1 && in_ram[0] <= 100, "{in_ram:?}");
+    assert!(told_once.len() == 1 && told_once[0] <= 100, "{told_once:?}");
     // `numClusterVAMRepeat` is three.
-    let in_vam = when(|it| match it {
+    let repeated = when(|it| match it {
         Sent::BreakupVam(id) => Some(*id),
         _ => None,
     });
     assert!(
-        in_vam.len() == 3 && in_vam[0] == 0 && in_vam[2] <= 1_000,
-        "{in_vam:?}"
+        repeated.len() == 3 && repeated[0] == 0 && repeated[2] <= 1_000,
+        "{repeated:?}"
     );
     let still = when(|it| match it {
         Sent::Cluster(cluster, _) => cluster.id,

@@ -1,4 +1,4 @@
-//! T_neg is the way of a command to its follower, and not the way of the acknowledgement back: it agrees with the delay
+//! `T_neg` is the way of a command to its follower, and not the way of the acknowledgement back: it agrees with the delay
 //! that the simulated network was given, also where the logs of leader and follower have clocks of their own.
 
 use crossguard_judge::sim::{Deed, Happening, Swarm, run};

@@ -3,6 +3,11 @@
 //!
 //! `cargo bench -p crossguard-robot --bench memory`
 
+#![allow(
+    clippy::large_stack_arrays,
+    reason = "a pair of machines, in a benchmark"
+)]
+
 use std::hint::black_box;
 
 use crossguard_codec::geonet::{EgoPosition, Stack};

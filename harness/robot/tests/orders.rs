@@ -1,5 +1,7 @@
 //! A command has the parameters that it was given with, and not those of the one before.
 
+#![allow(clippy::large_stack_arrays, reason = "a pair of machines, in a test")]
+
 use crossguard_codec::its::Identity;
 use crossguard_codec::{
     Identifiers, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,

@@ -85,10 +85,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             print(format_args!("{line}."))?;
         }
     }
-    match timing.offsets().values().any(Result::is_err) {
-        true => Err(Failure::Incomplete),
-        false => Ok(()),
+    if timing.offsets().values().any(Result::is_err) {
+        return Err(Failure::Incomplete);
     }
+    Ok(())
 }
 
 fn clocks(timing: &Timing, names: &[String]) -> Vec<ClockReport> {
