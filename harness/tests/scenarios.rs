@@ -123,6 +123,8 @@ fn sixteen_followers_take_commands_of_one_leader_and_the_pedestrian_crosses() {
         &run(&["demo", "--scenario", "team", "--followers", "17"]),
         "17 is not in 1..=16",
     );
+    let (alone, _) = scenario("team", &["--followers", "1", "--speed", "20"]);
+    assert_eq!(alone["teams"][0]["followers"], 1, "{alone}");
     let crossing = run(&["demo", "--followers", "2"]);
     assert_refused(&crossing, "--followers: only of --scenario team");
 }

@@ -217,11 +217,10 @@ impl Plan {
             speed_mps: ESCORT_MPS,
             ..Leg::new(TaskType::MOVE, OTHER_SIDE)
         };
-        let stages = vec![
-            Stage::of(&places),
-            Stage::of(&parts(TaskType::BLOCK)),
-            Stage::of(&[(escort, way)]),
-        ];
+        let stages = [places, parts(TaskType::BLOCK), vec![(escort, way)]];
+        // Without blockers nobody has a part in the second one, and it would have no end.
+        let stages = stages.iter().filter(|parts| !parts.is_empty());
+        let stages = stages.map(|parts| Stage::of(parts)).collect();
         let followers = u8::try_from(blockers.len() + 1).unwrap_or(u8::MAX);
         Self::with(site, followers, stages).at_escorts_pace()
     }
