@@ -2,8 +2,9 @@
 
 mod detection;
 mod traits;
+mod whereabouts;
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt;
 
 use crossguard_codec::TaskParameters;
@@ -126,6 +127,8 @@ struct Errand {
     stage: usize,
     /// How far each follower is with its part of the stage.
     followers: BTreeMap<StationId, Part>,
+    /// Who said last that it is elsewhere than where it was sent.
+    elsewhere: BTreeSet<StationId>,
     /// When the corridor was to be opened last.
     tried_s: f64,
     since_s: f64,
@@ -427,9 +430,9 @@ impl Application {
         }
         match notice {
             Notice::FollowerJoined(follower) => self.begin_part(follower),
-            Notice::ManeuverReported(follower, _) => self.report(follower, false),
-            Notice::ManeuverInPosition(follower, _) => self.report(follower, true),
-            Notice::ManeuverCompleted(follower, _) => self.set(follower, Part::Done),
+            Notice::ManeuverReported(..) => self.open_corridor(),
+            Notice::ManeuverInPosition(follower, _) => self.is_in_position(follower),
+            Notice::ManeuverCompleted(follower, _) => self.has_completed(follower),
             Notice::ManeuverFailed(follower, ..)
             | Notice::FollowerSafeIdle(follower, _)
             | Notice::CommandRejected(follower, ..) => self.command(follower),
@@ -458,22 +461,13 @@ impl Application {
         self.command(follower);
     }
 
-    /// A follower executes its leg; `in_position` where it guards from a place and is there.
-    fn report(&mut self, follower: StationId, in_position: bool) {
-        let holds = |leg: Leg| self.rules.holding.contains(leg.task);
-        if in_position && self.leg(follower).is_some_and(holds) {
-            self.set(follower, Part::Holds);
-        }
-        self.open_corridor();
-    }
-
     /// Asks for the corridor to be opened in the last stage, where the leader's own body does its part in it.
     /// While it is open no guard is commanded anything, so an earlier stage would be the last one.
     fn open_corridor(&mut self) {
         let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
             return;
         };
-        if errand.stage + 1 < plan.stages.len() {
+        if errand.stage + 1 < plan.stages.len() || !errand.elsewhere.is_empty() {
             return;
         }
         errand.tried_s = self.at_s;
@@ -488,6 +482,7 @@ impl Application {
     fn miss(&mut self, follower: StationId) {
         if let Some(errand) = &mut self.errand {
             errand.followers.remove(&follower);
+            errand.elsewhere.remove(&follower);
             if !errand.followers.is_empty() {
                 self.wish(Wish::Tell(Event::LeaveRequested));
             }

@@ -61,3 +61,44 @@ fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
     let told = Wish::Tell(Event::AvailabilityChanged(fault));
     assert_eq!(application.next_wish(), Some(told));
 }
+
+/// A guard that reports from beside the road must not let anybody cross.
+#[test]
+fn a_follower_that_reports_from_elsewhere_is_commanded_again_and_in_the_end_given_up() {
+    let follower = StationId(2);
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let session = SessionId { leader, number };
+    let site = Site::default();
+    let place = Place::new(6.0, 5.0);
+    let plan = Plan {
+        stages: vec![Stage::everybody(Leg::new(TaskType::BLOCK, place))],
+        ..Plan::crossing(site)
+    };
+    let reports_from = |at: Place, times: u8| {
+        let body = Simulated::new(Build::Humanoid, site, Place::default(), 1.0, 1);
+        let mut application = Application::new(Box::new(body), Some(plan.clone()));
+        application.act(&Act::Notice(Notice::RolesEstablished(session)));
+        application.act(&Act::Notice(Notice::FollowerJoined(follower)));
+        for request in (0..times).map(RequestId) {
+            let id = ManeuverId { session, request };
+            application.follower_is_at(follower, &site.position(at));
+            application.act(&Act::Notice(Notice::ManeuverInPosition(follower, id)));
+        }
+        let mut wishes = Vec::new();
+        while let Some(wish) = application.next_wish() {
+            wishes.push(match wish {
+                Wish::Order { .. } => "order",
+                Wish::Tell(Event::OpenCorridor) => "open",
+                Wish::Tell(Event::LeaveRequested) => "give up",
+                Wish::Tell(_) => "other",
+            });
+        }
+        wishes
+    };
+    assert_eq!(reports_from(place, 1), ["order", "open"]);
+    assert_eq!(reports_from(Place::new(6.0, 6.5), 1), ["order", "open"]);
+    let elsewhere = reports_from(Place::new(6.0, 8.2), 9);
+    assert!(!elsewhere.contains(&"open"), "{elsewhere:?}");
+    assert_eq!(elsewhere.last(), Some(&"give up"));
+}
