@@ -147,7 +147,7 @@ def judge_robot(topic, found, log):
     same(topic + "/location", [(at_ns,) for at_ns, _ in found.topics[topic + "/location"]],
          log[topic + "/location"])
     people = [(at_ns, len(value["people"]), value["waiting"])
-              for at_ns, value in found.topics[topic + "/people"]]
+              for at_ns, value in found.topics.get(topic + "/people", [])]
     same(topic + "/people", people, log[topic + "/people"])
     roles = [(at_ns, value["role"]) for at_ns, value in found.topics[topic + "/state"]]
     same(topic + "/state", changes(roles), changes(log[topic + "/role"]))
