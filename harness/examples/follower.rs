@@ -18,7 +18,7 @@ use std::net::UdpSocket;
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crossguard_codec::{Identifiers, Position, RobotState, si};
+use crossguard_codec::{Identifiers, Position, RobotState, Target, si};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, ManeuverId, Notice, Robot, StationId};
 use crossguard_robot::boot;
@@ -35,8 +35,10 @@ struct Follower {
     peer: u16,
     log: Option<File>,
     began: Instant,
-    /// What the body does, and until when.
-    running: Option<(ManeuverId, Instant)>,
+    /// Where the body is, in degrees. A leader does not believe a follower that is elsewhere than it was sent.
+    position: Position,
+    /// What the body does, where it leads, and until when.
+    running: Option<(ManeuverId, Option<Target>, Instant)>,
     completed: usize,
     is_released: bool,
 }
@@ -51,7 +53,7 @@ impl Follower {
         };
         // What the sensors know of the body; what they do not know stays unavailable.
         let state = RobotState {
-            position: Position::at(48.765_41, 9.123_46),
+            position: self.position,
             speed: Some(if self.running.is_some() { 0.5 } else { 0.0 }.into()),
             ..RobotState::default()
         };
@@ -79,8 +81,8 @@ impl Follower {
     fn act(&mut self, act: &Act) {
         println!("{act:?}");
         match act {
-            Act::Start(maneuver, _where_and_how) => {
-                self.running = Some((maneuver.id, Instant::now() + MANEUVER));
+            Act::Start(maneuver, parameters) => {
+                self.running = Some((maneuver.id, parameters.target, Instant::now() + MANEUVER));
             }
             // A body that falls back takes its time. Until the application tells `Event::RoadClear`, once the
             // body is where the policy wants it and nobody is on the road, the robot helps nobody else.
@@ -93,9 +95,17 @@ impl Follower {
     /// Says so when the body has finished.
     fn advance(&mut self) -> Result<(), Box<dyn Error>> {
         match self.running {
-            Some((maneuver, until)) if Instant::now() >= until => {
+            Some((maneuver, target, until)) if Instant::now() >= until => {
                 self.running = None;
                 self.completed += 1;
+                if let Some(Target::Position {
+                    latitude,
+                    longitude,
+                    ..
+                }) = target
+                {
+                    self.position = Position::at(latitude, longitude);
+                }
                 self.handle(Stimulus::Event(Event::ManeuverCompleted(maneuver)))
             }
             _ => Ok(()),
@@ -184,6 +194,7 @@ pub(crate) fn follow(arguments: &[String]) -> Result<usize, Box<dyn Error>> {
         peer: peer.parse()?,
         log: rest.first().map(File::create).transpose()?,
         began: Instant::now(),
+        position: Position::at(48.765_41, 9.123_46),
         running: None,
         completed: 0,
         is_released: false,

@@ -20,6 +20,7 @@
 #include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <signal.h>
@@ -350,9 +351,18 @@ static void receive(Application *app) {
     finish_turn(app);
 }
 
+/* The next RAM says where the body is: a leader does not believe a follower that is elsewhere than it was sent. */
+static void stand_where_sent(Application *app) {
+    const CrossguardTaskParameters *sent = &app->maneuver.parameters;
+    if (sent->is_offset || isnan(sent->latitude_deg) || isnan(sent->longitude_deg)) return;
+    app->turn.body.latitude_deg = sent->latitude_deg;
+    app->turn.body.longitude_deg = sent->longitude_deg;
+}
+
 /* The simulated body arrives. A guard that holds traffic says so and stays, until it is told to stop. */
 static void move_body(Application *app, uint64_t now) {
     if (app->doing != UNDER_WAY || now < app->arrives_ms) return;
+    stand_where_sent(app);
     if (app->maneuver.task == CROSSGUARD_TASK_BLOCK) {
         app->doing = HOLDS_PLACE;
         tell_of_maneuver(app, CROSSGUARD_EVENT_KIND_IN_POSITION);

@@ -215,6 +215,7 @@ public:
   void operator()(const crossguard::Send &send) { link_.send(send.packet); }
   void operator()(const crossguard::StartManeuver &start) {
     maneuver_ = start.maneuver;
+    parameters_ = start.parameters;
     doing_ = Doing::under_way;
     arrives_at_ = Clock::now() + maneuver_time;
     std::cout << "starts task " << int(start.maneuver.task) << " of request "
@@ -272,6 +273,7 @@ private:
   Clock::time_point announced_{}, tried_{}, arrives_at_{};
   std::deque<crossguard::Event> wishes_;
   crossguard::Maneuver maneuver_{};
+  crossguard::TaskParameters parameters_{};
   Doing doing_ = Doing::stands;
   Stage stage_ = Stage::waits;
   std::uint32_t follower_ = 0;
@@ -362,9 +364,19 @@ private:
     }
   }
 
+  // The next RAM says where the body is: a leader does not believe a follower that is elsewhere than it was
+  // sent.
+  void stand_where_sent() {
+    const crossguard::TaskParameters &sent = parameters_;
+    if (sent.is_offset || !sent.place_deg) return;
+    turn_.body().latitude_deg = sent.place_deg->first;
+    turn_.body().longitude_deg = sent.place_deg->second;
+  }
+
   // The simulated body arrives. A guard that holds traffic says so and stays, until it is told to stop.
   void move_body() {
     if (doing_ != Doing::under_way || Clock::now() < arrives_at_) return;
+    stand_where_sent();
     if (maneuver_.task == crossguard::Task::block) {
       doing_ = Doing::holds_place;
       wishes_.push_back(crossguard::Event::in_position(maneuver_));

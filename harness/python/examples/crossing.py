@@ -25,6 +25,7 @@ import subprocess
 import sys
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 from crossguard import (
@@ -46,7 +47,7 @@ from crossguard import (
     phases,
     reasons,
 )
-from crossguard.body import RobotCategory, ToPosition
+from crossguard.body import RobotCategory, Target, ToPosition
 from crossguard.types import Maneuver
 
 MANEUVER_MS = 1_500
@@ -141,6 +142,7 @@ class Application:
         self.is_corridor_open = False
         self.doing = Doing.STANDS
         self.maneuver: Maneuver | None = None
+        self.target: Target | None = None
         self.arrives_ms = 0
         self.road_was_seen_clear = False
         # What is to be told, in this order.
@@ -178,12 +180,21 @@ class Application:
         stop."""
         if self.maneuver is None or self.doing is not Doing.UNDER_WAY or at.now_ms < self.arrives_ms:
             return
+        self.stand_where_sent()
         if self.maneuver.task is TaskType.BLOCK:
             self.doing = Doing.HOLDS_PLACE
             self.wish(events.InPosition(self.maneuver.id))
         else:
             self.doing = Doing.STANDS
             self.wish(events.ManeuverCompleted(self.maneuver.id))
+
+    def stand_where_sent(self) -> None:
+        """The next RAM says where the body is: a leader does not believe a follower that is elsewhere than it
+        was sent."""
+        match self.target:
+            case ToPosition(latitude_deg, longitude_deg):
+                place = Position(latitude_deg=latitude_deg, longitude_deg=longitude_deg)
+                self.endpoint.body = replace(self.endpoint.body, position=place)
 
     def finish_duty(self, at: Moment) -> None:
         """`RoadClear`, once the body has finished its fallback and the road is seen to be clear."""
@@ -225,8 +236,9 @@ class Application:
             match effect:
                 case outputs.Send(packet=packet):
                     self.send(packet)
-                case outputs.StartManeuver(maneuver):
+                case outputs.StartManeuver(maneuver, parameters):
                     self.maneuver = maneuver
+                    self.target = parameters.target
                     self.doing = Doing.UNDER_WAY
                     self.arrives_ms = at.now_ms + MANEUVER_MS
                     self.say(f"starts {maneuver.task.name} of request {maneuver.id.request}")
