@@ -27,7 +27,7 @@ pub struct Heard {
     pub generation_delta_time: u16,
     /// Parameters of the command to the robot that hears it, if there is one.
     pub parameters: Option<TaskParameters>,
-    /// Where the maneuvers that are commanded take place, whoever is to do them.
+    /// The place of the map that the commands name, for all followers.
     pub map_place: Option<MapPlace>,
     /// The sender's state, from a RAM.
     pub state: Option<RobotState>,

@@ -16,44 +16,16 @@ Simulation and judge look at different moments within 100 ms, so shares may diff
 """
 
 import csv
-import gzip
 import json
 import math
 import sys
+
+from traces import by_people, robots, ways
 
 STEP_MS, SETTLING_MS, HYSTERESIS = 100, 5000, 1.0
 TOLERANCE = 0.2
 # Section III-B of the paper.
 PEOPLE, LARGE, SMALL, MOST = (20, 50, 100), 15, 10, 16.3
-
-
-def places(changes):
-    """Metres from centimetres that were differenced twice."""
-    at, step = changes[0], 0
-    yield at / 100
-    for change in changes[1:]:
-        step += change
-        at += step
-        yield at / 100
-
-
-def ways(run):
-    """Where everybody is at every sample."""
-    return [list(zip(places(east), places(north))) for east, north in run["pedestrians"]]
-
-
-def robots(grid, site, count):
-    """Where robots stand: nearest to the middle of the grid first."""
-    side, segment = range(grid["nodes_per_side"]), grid["segment_m"]
-    middle = (grid["nodes_per_side"] - 1) * segment / 2
-    corner = grid["lanes"] * 3.2 + grid["sidewalk_m"] / 2
-    east = {"east": corner, "west": -corner}.get(site.split("-")[-1], 0)
-    north = {"north": corner, "south": -corner}.get(site.split("-")[0], 0)
-    nodes = sorted(
-        ((x * segment, y * segment) for x in side for y in side),
-        key=lambda node: (node[0] - middle) ** 2 + (node[1] - middle) ** 2,
-    )
-    return [(x + east, y + north) for x, y in nodes[:count]]
 
 
 def perceived(way, sample_ms, end_ms, at, radius):
@@ -139,14 +111,13 @@ def main():
     behaviour = parameters["behaviour"]
     # Somebody who walks in step beside one who is perceived takes itself for them.
     all_seen = behaviour["suppression"] == "strict" and behaviour["unseen_share"] == 0
-    files = [json.load(gzip.open(path)) for path in sys.argv[3:]]
-    by_people = {len(file["runs"][0]["pedestrians"]): file for file in files}
+    files = by_people(sys.argv[3:])
     worst = compared = 0
     for cell in results["cells"]:
         if cell["robots"] == 0:
             continue
         key = (cell["robots"], cell["pedestrians"], cell["radius_m"])
-        file = by_people[cell["pedestrians"]]
+        file = files[cell["pedestrians"]]
         silent, wrong, covered = shares(file, cell, parameters, silences.get(key, {}))
         for name, share in (("passive_percent", silent), ("wrongly_silent_percent", wrong)):
             found = cell[name]["mean"]

@@ -172,7 +172,7 @@ fn unmodified_devices_join_by_the_cluster_vam_of_a_robot() {
     assert!(measure(&crowd(), &[[0.0, 0.0]], &deaf).passive < 0.1);
 }
 
-/// Two people side by side in front of a robot, of which it sees one: one walks north, the other east.
+/// Two people stand side by side in front of a robot. It sees one of them. One walks north, the other east.
 #[test]
 fn only_a_loose_device_falls_silent_beside_somebody_who_is_perceived() {
     let crossing = |step: [f64; 2]| {

@@ -257,8 +257,6 @@ impl ManeuverTimes {
     }
 
     fn complete(&self, offset: Offset, time_scale: f64) -> Option<(TaskType, Sample)> {
-        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-        let seconds = |from: u64, to: u64| (to as f64 - from as f64) / 1e6;
         #[expect(clippy::cast_precision_loss, reason = "clocks are not so far apart")]
         let ahead = offset.offset_us as f64 / 1e6;
         let sample = Sample {
@@ -294,6 +292,12 @@ pub fn offsets_in_words(timing: &Timing, logs: &[String]) -> Vec<String> {
 #[expect(clippy::cast_precision_loss, reason = "for people to read")]
 fn milliseconds(us: i64) -> String {
     format!("{:.3}", us as f64 / 1e3)
+}
+
+/// From one time to another, in seconds; negative where the other is the earlier.
+#[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+fn seconds(from_us: u64, to_us: u64) -> f64 {
+    (to_us as f64 - from_us as f64) / 1e6
 }
 
 fn summarize(task: TaskType, samples: &[Sample]) -> Summary {

@@ -11,13 +11,13 @@ use crossguard_codec::asn1::cam::{
 };
 use crossguard_codec::asn1::cdd::{
     Curvature, CurvatureCalculationMode, CurvatureConfidence, CurvatureValue, ExteriorLights,
-    HeadingValue, ItsPduHeader, MessageId, ObjectDimensionValue, OrdinalNumber1B, PathHistory,
-    StationId, VehicleWidth, YawRate, YawRateConfidence, YawRateValue,
+    HeadingValue, ObjectDimensionValue, PathHistory, VehicleWidth, YawRate, YawRateConfidence,
+    YawRateValue,
 };
 use crossguard_codec::asn1::ram::{RobotHighFrequencyContainer, RobotLowFrequencyContainer};
-use crossguard_codec::{DriveDirection, Identifiers, Pdu, Position, RobotState, encode};
+use crossguard_codec::{DriveDirection, Identifiers, Position, RobotState, encode};
 
-use super::etsi::{NotMade, awareness};
+use super::etsi::{NotMade, awareness, header};
 use super::generation::{Cadence, Limits, LowFrequency, Trigger};
 use super::motion::{Change, Plane};
 
@@ -106,14 +106,11 @@ pub fn cam(
         None,
         None,
     );
-    let (protocol_version, message_id) = CAM::expected_header(ids);
-    let header = ItsPduHeader::new(
-        OrdinalNumber1B(protocol_version),
-        MessageId(message_id),
-        StationId(station),
-    );
     let payload = CamPayload::new(shared.generation_delta_time, parameters);
-    Ok(encode(ids, &CAM::new(header, payload))?)
+    Ok(encode(
+        ids,
+        &CAM::new(header::<CAM>(ids, station), payload),
+    )?)
 }
 
 /// Where a CAM says that the robot is: at the middle of the front of its box (EN 302 637-2, annex B), whose
@@ -201,10 +198,11 @@ fn slow_container(slow: Option<RobotLowFrequencyContainer>) -> BasicVehicleConta
 mod tests {
     use crossguard_codec::its::{ItsMessage, Kind};
     use crossguard_codec::{
-        ConfidenceEllipse, Dimensions, Lights, Measurement, PastPosition, SlowState, distance,
-        golden,
+        Dimensions, Lights, Measurement, PastPosition, SlowState, distance, golden,
     };
     use crossguard_protocol::Decimetres;
+
+    use super::super::etsi::golden_position;
 
     use super::*;
 
@@ -225,16 +223,7 @@ mod tests {
             duration,
         };
         RobotState {
-            position: Position {
-                altitude: Some(260.0),
-                altitude_confidence: Some(1.0),
-                ellipse: Some(ConfidenceEllipse {
-                    semi_major: 1.0,
-                    semi_minor: 0.5,
-                    orientation: 90.0,
-                }),
-                ..Position::at(48.765_432_1, 9.123_456_7)
-            },
+            position: golden_position(),
             heading: Some(measurement(90.0, 1.0)),
             speed: Some(measurement(13.89, 0.5)),
             drive_direction: DriveDirection::Forward,

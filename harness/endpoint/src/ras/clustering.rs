@@ -339,7 +339,7 @@ impl Clustering {
         self.members.contains_key(&id)
     }
 
-    /// Takes back those who were left to a cluster that is over, by its head and id.
+    /// Takes back the people of another head's cluster, given by head and id, once that cluster is over.
     pub fn take_back_one(&mut self, now_ms: u64, id: (u32, Option<u8>)) {
         if self.others.remove(&id).is_some() {
             self.regroup(now_ms);

@@ -121,7 +121,7 @@ impl Surroundings {
         Ok(())
     }
 
-    /// Remembers to say which clusters are over, of those that were announced.
+    /// Queues the announcement that a cluster is over, for each cluster that was announced.
     fn note_ended(&mut self) {
         for ended in self.clustering.take_ended() {
             if self.told.remove(&ended.id).is_none() {

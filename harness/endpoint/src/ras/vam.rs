@@ -7,10 +7,9 @@
 use crossguard_codec::asn1::cdd::{
     AccelerationComponent, ClusterBreakupInfo, ClusterBreakupReason, ClusterJoinInfo,
     ClusterLeaveInfo, ClusterLeaveReason, DeltaTimeQuarterSecond, ExteriorLights, Identifier1B,
-    ItsPduHeader, LongitudinalAcceleration, LongitudinalAccelerationValue, MessageId,
-    OrdinalNumber1B, PathDeltaTimeChoice, PathPointPredicted, StationId, TrafficParticipantType,
-    VruExteriorLights, VruProfileAndSubprofile, VruSizeClass, VruSpecificExteriorLights,
-    VruSubProfilePedestrian,
+    LongitudinalAcceleration, LongitudinalAccelerationValue, PathDeltaTimeChoice,
+    PathPointPredicted, TrafficParticipantType, VruExteriorLights, VruProfileAndSubprofile,
+    VruSizeClass, VruSpecificExteriorLights, VruSubProfilePedestrian,
 };
 use crossguard_codec::asn1::cdd211::{
     ClusterBreakupInfo211, ClusterBreakupReason211, PathPointPredicted211, PathPredicted211,
@@ -22,11 +21,11 @@ use crossguard_codec::asn1::vam::{
     VAM, VamParameters, VruAwareness, VruClusterOperationContainer, VruHighFrequencyContainer,
     VruLowFrequencyContainer,
 };
-use crossguard_codec::{Dictionary, Identifiers, Pdu, Position, RobotState, encode};
+use crossguard_codec::{Dictionary, Identifiers, Position, RobotState, encode};
 
 use super::clustering::{BreakupReason, Cluster, Ended};
 use super::containers;
-use super::etsi::{NotMade, awareness};
+use super::etsi::{NotMade, awareness, header};
 use super::motion::Plane;
 use super::vru::{DueVam, Operation};
 
@@ -129,7 +128,10 @@ fn of_dictionary(
                 Content::Breakup(ended) => Some(breakup_211(ended, now_ms)),
                 Content::Individual(_) | Content::Cluster(..) => None,
             };
-            let vam = VAM211::new(header(station), awareness_211(shared, operation));
+            let vam = VAM211::new(
+                header::<VAM>(&Identifiers::default(), station),
+                awareness_211(shared, operation),
+            );
             Ok(encode(ids, &vam)?)
         }
     }
@@ -168,7 +170,7 @@ pub fn vam(
         shared.ram_parameters.vru_motion_prediction_container,
     );
     let vam = VAM::new(
-        header(station),
+        header::<VAM>(&Identifiers::default(), station),
         VruAwareness::new(shared.generation_delta_time, parameters),
     );
     Ok(encode(&Identifiers::default(), &vam)?)
@@ -195,15 +197,6 @@ fn acceleration(of_robot: &AccelerationComponent) -> LongitudinalAcceleration {
     LongitudinalAcceleration::new(
         LongitudinalAccelerationValue(of_robot.value.0),
         of_robot.confidence.clone(),
-    )
-}
-
-fn header(station: u32) -> ItsPduHeader {
-    let (protocol_version, message_id) = VAM::expected_header(&Identifiers::default());
-    ItsPduHeader::new(
-        OrdinalNumber1B(protocol_version),
-        MessageId(message_id),
-        StationId(station),
     )
 }
 
@@ -305,10 +298,11 @@ fn quarter_second(at_ms: u64) -> u8 {
 #[cfg(test)]
 mod tests {
     use crossguard_codec::its::ItsMessage;
-    use crossguard_codec::{ConfidenceEllipse, Measurement, Position, golden};
+    use crossguard_codec::{Measurement, golden};
 
     use super::super::area::Area;
     use super::super::clustering::VruClass;
+    use super::super::etsi::golden_position;
     use super::super::motion::Motion;
     use super::super::vru::{
         AnnouncedCluster, Announcement, LeaveReason, Reaction, Understands, VamRule, VamTrigger,
@@ -325,16 +319,7 @@ mod tests {
             })
         };
         RobotState {
-            position: Position {
-                altitude: Some(260.0),
-                altitude_confidence: Some(1.0),
-                ellipse: Some(ConfidenceEllipse {
-                    semi_major: 1.0,
-                    semi_minor: 0.5,
-                    orientation: 90.0,
-                }),
-                ..Position::at(48.765_432_1, 9.123_456_7)
-            },
+            position: golden_position(),
             heading: measurement(90.0, 1.0),
             speed: measurement(1.39, 0.5),
             ..RobotState::default()

@@ -6,7 +6,7 @@ use std::fmt;
 use crossguard_protocol::{Phase, Robot, TaskType};
 use serde::Serialize;
 
-use super::Statistic;
+use super::{Statistic, seconds};
 
 /// A session: its leader and its number.
 pub(super) type Session = (u32, u32);
@@ -113,9 +113,4 @@ impl Teams {
         };
         by_size.into_iter().map(summary).collect()
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-fn seconds(from_us: u64, to_us: u64) -> f64 {
-    to_us.saturating_sub(from_us) as f64 / 1e6
 }
