@@ -19,6 +19,7 @@ mod report;
 mod run;
 mod security;
 mod simulate;
+mod site;
 mod sniff;
 mod timing;
 mod validate;
@@ -82,6 +83,9 @@ enum Command {
     Sniff(sniff::Arguments),
     /// Route for robots that meet over zenoh and have no way to each other (--zenoh client).
     Router(zenoh::RouterArguments),
+    /// Check and draw the site of a crossing, and a plan on it.
+    #[command(subcommand)]
+    Site(site::Command),
     /// Convert messages between octets and JSON.
     #[command(subcommand)]
     Codec(codec::Command),
@@ -140,6 +144,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Sniff(arguments) => sniff::run(&arguments),
         Command::Router(arguments) => zenoh::route(&arguments),
+        Command::Site(command) => site::run(&command),
         Command::Codec(command) => codec::run(&command),
         Command::Pki(command) => pki::run(&command),
     };

@@ -8,7 +8,7 @@ mod links;
 mod scenario;
 
 pub use links::Meeting;
-pub use scenario::{Participant, Scenario};
+pub use scenario::{NoScenario, Participant, Scenario};
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -34,11 +34,10 @@ use crossguard_robot::machine::is_at_rest;
 use crossguard_robot::perception::Feed;
 use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::sign::Sign;
-use crossguard_robot::site::Site;
 use crossguard_robot::street::{Road, Street};
 use crossguard_robot::trace::{self, Entry, Record};
 use crossguard_robot::transport::{Faults, LinkError, ZenohRouter};
-use scenario::End;
+use scenario::Ending;
 
 /// How many records the log may lag behind.
 const LOG: usize = 65_536;
@@ -143,7 +142,7 @@ struct Demo<'a> {
     rest: BTreeMap<String, (bool, String)>,
     counters: BTreeMap<String, Counts>,
     /// How the newest session ended.
-    end: Option<End>,
+    end: Option<Ending>,
     /// The pedestrian, and what shows him or her when to cross.
     street: Street,
     signs: Vec<Sign>,
@@ -211,14 +210,14 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     let (mut robots, mut signs) = (Vec::new(), Vec::new());
     let street = Street::default();
     for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
-        let (site, seed) = (Site::default(), options.seed.wrapping_add(nth));
+        let (site, seed) = (options.scenario.site(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Simulated::new(build, site, place, options.time_scale, seed);
         let application = Application::new(Box::new(body), participant.plan.clone());
-        let application = application.on(Road::Known(street.clone()));
+        let application = application.at(site).on(Road::Known(street.clone()));
         signs.push(application.sign().clone());
         let running = Setup {
-            name: participant.name.to_owned(),
+            name: participant.name.clone(),
             station: participant.station,
             // Nothing of a demonstration outlives it, so each of its boots is the first.
             boot: Boot::first_of_its_kind(),
@@ -235,7 +234,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         robots.push((participant, running));
     }
     Ok(Demo {
-        scenario: options.scenario,
+        scenario: options.scenario.clone(),
         robots,
         records,
         clock,
@@ -299,15 +298,15 @@ impl Demo<'_> {
         let victim = self.scenario.victim();
         let victim = victim.filter(|_| !self.street.is_clear() && !self.has_struck);
         for (participant, robot) in &self.robots {
-            if Some(participant.name) == victim {
+            if Some(&*participant.name) == victim {
                 robot.order(Order::Die);
                 (self.watch)(Seen::PowerLoss {
                     at_us: self.clock.now_us(),
-                    robot: participant.name,
+                    robot: &participant.name,
                 });
                 self.has_struck = true;
                 let state = (true, WITHOUT_POWER.to_owned());
-                self.rest.insert(participant.name.to_owned(), state);
+                self.rest.insert(participant.name.clone(), state);
             }
         }
     }
@@ -315,7 +314,7 @@ impl Demo<'_> {
     fn all_at_rest(&self) -> bool {
         self.robots
             .iter()
-            .all(|(one, _)| self.rest.get(one.name).is_some_and(|(rest, _)| *rest))
+            .all(|(one, _)| self.rest.get(&one.name).is_some_and(|(rest, _)| *rest))
     }
 
     /// Takes in what the robots report within a moment.
@@ -377,9 +376,9 @@ impl Demo<'_> {
         match output {
             // Of two requesters one withdraws, and the other goes on.
             Output::Notify(Notice::SessionEnded(_, EndReason::Withdrawn(_))) => {}
-            Output::Notify(Notice::SessionEnded(_, why)) => self.end = Some(End::Session(why)),
+            Output::Notify(Notice::SessionEnded(_, why)) => self.end = Some(Ending::Session(why)),
             Output::Notify(Notice::Released(_, why)) if self.has_struck && self.end.is_none() => {
-                self.end = Some(End::Released(why));
+                self.end = Some(Ending::Released(why));
             }
             _ => {}
         }
@@ -407,7 +406,7 @@ impl Demo<'_> {
             other => other,
         };
         let outcome = Outcome {
-            scenario: self.scenario,
+            scenario: self.scenario.clone(),
             maneuvers: self.timing.summaries(options.time_scale),
             teams: self.timing.teams(),
             trace_valid: validated.is_ok(),

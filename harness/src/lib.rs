@@ -12,11 +12,13 @@
 //!
 //! - [`demo`] is the paper's crossing and its extensions to teams, with simulated bodies.
 //! - [`operator`] reads what a person types to `crossguard run`.
+//! - [`site_picture`] draws a site and a plan to scale.
 //! - [`metrics`] serves what Prometheus wants to know of a running robot.
 
 pub mod demo;
 pub mod metrics;
 pub mod operator;
+pub mod site_picture;
 
 /// The Rust in the README compiles.
 #[cfg(doctest)]

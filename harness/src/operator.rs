@@ -70,7 +70,8 @@ impl From<Tell> for Order {
 /// What can be typed.
 pub const HELP: &str = "\
 detect [FOLLOWERS] [low|medium|high|emergency] [TASK ...]
-                       a pedestrian needs help; 1 follower for initialPos and move by default
+                       a pedestrian needs help; what the plan asks for by default, or else 1 follower for
+                       initialPos and move
 order STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]
                        have a follower do a maneuver, in metres and m/s, at this road segment or
                        intersection of the map; map_place or crossing of the configuration by default
@@ -132,6 +133,18 @@ pub enum Misunderstood {
 /// # Errors
 /// Why it means nothing.
 pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
+    parse_with(text, site, None)
+}
+
+/// The same; `detect` alone is this request, that of the robot's plan.
+///
+/// # Errors
+/// Why it means nothing.
+pub fn parse_with(
+    text: &str,
+    site: &Site,
+    planned: Option<HelpRequest>,
+) -> Result<Line, Misunderstood> {
     if text.trim_start().starts_with('{') {
         return person(text);
     }
@@ -143,6 +156,10 @@ pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
     let rest: Vec<&str> = words.collect();
     let tell = |event| Ok(Line::Order(Tell::Wish(Wish::Tell(event))));
     match (command, rest.as_slice()) {
+        ("detect", []) => {
+            let request = planned.map_or_else(|| request(&[], site), Ok)?;
+            tell(Event::PedestrianDetected(request))
+        }
         ("detect", words) => tell(Event::PedestrianDetected(request(words, site)?)),
         ("order", words) => order(words, site),
         ("show", words) => show(words),

@@ -1,23 +1,25 @@
 //! The application of a robot: what moves its body, and what it does when it leads.
 
 mod detection;
+mod errand;
 mod traits;
 mod whereabouts;
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::VecDeque;
 use std::fmt;
 
 use crossguard_codec::TaskParameters;
 use crossguard_endpoint::Act;
 use crossguard_protocol::{
-    Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Notice, Phase, Robot,
-    StationId, TaskSet, TaskType, Unavailability,
+    Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Phase, Robot, StationId,
+    TaskSet, TaskType, Unavailability,
 };
 
 use self::detection::Detection;
+use self::errand::Errand;
 pub use self::traits::Traits;
 use crate::body::{Body, BodyAct, Fallback, Pose, Report};
-use crate::plan::{Leg, Plan};
+use crate::plan::Plan;
 use crate::sight::Outline;
 use crate::sign::{Shown, Sign};
 use crate::site::Site;
@@ -38,12 +40,6 @@ pub enum Wish {
         parameters: TaskParameters,
     },
 }
-
-/// How often a leg that failed is commanded again before the leader gives up.
-const ATTEMPTS: u8 = 3;
-
-/// How long a leader waits before it asks again for an open corridor or an escort, in seconds.
-const OPENING_PERIOD_S: f64 = 0.5;
 
 /// The longest list of wishes; more are not kept.
 const WISHES: usize = 64;
@@ -117,31 +113,6 @@ struct Rules {
     guarding: TaskSet,
     holding: TaskSet,
     t_safety_s: f64,
-}
-
-/// How a plan goes.
-#[derive(Debug, Default)]
-struct Errand {
-    /// Whether all stages are done.
-    is_done: bool,
-    stage: usize,
-    /// How far each follower is with its part of the stage.
-    followers: BTreeMap<StationId, Part>,
-    /// Who said last that it is elsewhere than where it was sent.
-    elsewhere: BTreeSet<StationId>,
-    /// When the corridor was to be opened last.
-    tried_s: f64,
-    since_s: f64,
-}
-
-#[derive(Clone, Copy, PartialEq, Debug)]
-enum Part {
-    /// Commanded so often; not begun, or under way.
-    Commanded(u8),
-    /// Goes on until it is ended.
-    Holds,
-    /// Done, or nothing to do.
-    Done,
 }
 
 impl Rules {
@@ -409,175 +380,6 @@ impl Application {
         let fault = Availability::Unavailable(Unavailability::LocalFault);
         self.wishes
             .push_front(Wish::Tell(Event::AvailabilityChanged(fault)));
-    }
-
-    /// Follows the plan when it leads.
-    fn notice(&mut self, notice: Notice) {
-        if let (Notice::RolesEstablished(_), Some(plan)) = (notice, &self.plan) {
-            if let Some(place) = plan.own_place {
-                self.body.walk_to(place);
-            }
-            if let Road::Own(street) = &self.road {
-                street.arrive(plan.crossing_us(self.body.time_scale()));
-            }
-            self.errand = Some(Errand {
-                since_s: self.at_s,
-                ..Errand::default()
-            });
-        }
-        if self.errand.is_none() {
-            return;
-        }
-        match notice {
-            Notice::FollowerJoined(follower) => self.begin_part(follower),
-            Notice::ManeuverReported(..) => self.open_corridor(),
-            Notice::ManeuverInPosition(follower, _) => self.is_in_position(follower),
-            Notice::ManeuverCompleted(follower, _) => self.has_completed(follower),
-            Notice::ManeuverFailed(follower, ..)
-            | Notice::FollowerSafeIdle(follower, _)
-            | Notice::CommandRejected(follower, ..) => self.command(follower),
-            Notice::FollowerGone(follower, _) => self.miss(follower),
-            // The session ends once the road is clear.
-            Notice::Yielded(_) | Notice::SessionEnded(..) => self.errand = None,
-            _ => {}
-        }
-        self.finish_stage();
-    }
-
-    /// The follower's leg of this stage.
-    fn leg(&self, follower: StationId) -> Option<Leg> {
-        let (plan, errand) = (self.plan.as_ref()?, self.errand.as_ref()?);
-        plan.stages.get(errand.stage)?.leg(follower)
-    }
-
-    fn set(&mut self, follower: StationId, part: Part) {
-        if let Some(errand) = &mut self.errand {
-            errand.followers.insert(follower, part);
-        }
-    }
-
-    fn begin_part(&mut self, follower: StationId) {
-        self.set(follower, Part::Commanded(0));
-        self.command(follower);
-    }
-
-    /// Asks for the corridor to be opened in the last stage, where the leader's own body does its part in it.
-    /// While it is open no guard is commanded anything, so an earlier stage would be the last one.
-    fn open_corridor(&mut self) {
-        let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
-            return;
-        };
-        if errand.stage + 1 < plan.stages.len() || !errand.elsewhere.is_empty() {
-            return;
-        }
-        errand.tried_s = self.at_s;
-        let stands = |place| self.body.stands_at(place);
-        let is_needed = self.road.needs_corridor(self.at_s);
-        if self.corridor != Corridor::Open && is_needed && plan.own_place.is_none_or(stands) {
-            self.wish(Wish::Tell(Event::OpenCorridor));
-        }
-    }
-
-    /// A follower is gone, and with it a part of the plan that nobody else does.
-    fn miss(&mut self, follower: StationId) {
-        if let Some(errand) = &mut self.errand {
-            errand.followers.remove(&follower);
-            errand.elsewhere.remove(&follower);
-            if !errand.followers.is_empty() {
-                self.wish(Wish::Tell(Event::LeaveRequested));
-            }
-        }
-    }
-
-    /// Commands the follower's leg, again if it failed; in the end the leader gives up.
-    fn command(&mut self, follower: StationId) {
-        let Some(leg) = self.leg(follower) else {
-            return self.set(follower, Part::Done);
-        };
-        let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
-            return;
-        };
-        let attempts = match errand.followers.get(&follower) {
-            Some(Part::Commanded(attempts)) => *attempts,
-            // A part that was begun well has all its attempts before it.
-            Some(Part::Holds | Part::Done) => 0,
-            None => return,
-        };
-        if attempts >= ATTEMPTS {
-            return self.wish(Wish::Tell(Event::LeaveRequested));
-        }
-        errand
-            .followers
-            .insert(follower, Part::Commanded(attempts + 1));
-        let parameters = TaskParameters {
-            target: Some(plan.site.target(leg.to)),
-            maximum_speed: Some(leg.speed_mps),
-            map_place: plan.site.map_place,
-            ..TaskParameters::default()
-        };
-        self.wish(Wish::Order {
-            follower,
-            task: leg.task,
-            parameters,
-        });
-    }
-
-    /// Goes on to the next stage when every follower has done its part or holds it.
-    fn finish_stage(&mut self) {
-        let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
-            return;
-        };
-        let is_ready = |part: &Part| !matches!(part, Part::Commanded(_));
-        let everybody = errand.followers.len() >= usize::from(plan.followers);
-        errand.is_done = false;
-        if !everybody || !errand.followers.values().all(is_ready) {
-            return;
-        }
-        if errand.stage + 1 < plan.stages.len() {
-            let next = errand.stage + 1;
-            self.begin_stage(next);
-        } else {
-            errand.is_done = true;
-        }
-    }
-
-    fn begin_stage(&mut self, stage: usize) {
-        let Some(errand) = &mut self.errand else {
-            return;
-        };
-        errand.stage = stage;
-        errand.is_done = false;
-        let followers: Vec<_> = errand.followers.keys().copied().collect();
-        for follower in followers {
-            // Who holds goes on holding unless the stage has something else for it.
-            if self.leg(follower).is_some() {
-                self.begin_part(follower);
-            }
-        }
-    }
-
-    /// What a leader does by the clock: it opens the corridor when it did not open before, ends the
-    /// task when the pedestrian is across, and gives up in the end.
-    fn lead_on(&mut self) {
-        let (Some(plan), Some(errand)) = (&self.plan, &self.errand) else {
-            return;
-        };
-        let is_clear = self.corridor == Corridor::Clear;
-        let lets_cross = plan.lets_cross(self.rules.guarding);
-        let is_across = self.road.everybody_is_across(self.at_s) || (!lets_cross && is_clear);
-        // An escort that is there already is done as soon as it is commanded: it is not commanded without end.
-        let may_try = self.at_s - errand.tried_s >= OPENING_PERIOD_S;
-        if errand.is_done && is_across {
-            self.wish(Wish::Tell(Event::TaskCompleted));
-        } else if self.at_s - errand.since_s > plan.patience_s && is_clear {
-            self.errand = None;
-            self.wish(Wish::Tell(Event::LeaveRequested));
-        } else if may_try && errand.is_done && is_clear && plan.is_escort(errand.stage) {
-            // The escort is over there, and nobody came along.
-            self.begin_stage(0);
-        } else if may_try && self.corridor != Corridor::Open {
-            self.open_corridor();
-        }
     }
 }
 

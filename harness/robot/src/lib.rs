@@ -14,6 +14,7 @@
 //!   seeded faults over any of them; [`capture`] writes packets to pcap files and reads them.
 //! - [`site`], [`street`], [`zone`] and [`perception`] are what the robot knows of the crossing and the people
 //!   there; [`sight`] is what its log says of them, and [`sign`] what people at the road see.
+//! - [`site_file`] and [`plan_file`] are sites and plans as files, which demonstrations and robots read.
 //! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up; [`observe`] hands it to `tracing`.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
 //! - [`pki`] has the certificates and keys that it signs with, for tests.
@@ -25,16 +26,19 @@ pub mod body;
 pub mod boot;
 pub mod capture;
 pub mod journal;
+mod located;
 pub mod machine;
 pub mod observe;
 pub mod perception;
 pub mod pki;
 pub mod plan;
+pub mod plan_file;
 pub mod robot_file;
 pub mod runtime;
 pub mod sight;
 pub mod sign;
 pub mod site;
+pub mod site_file;
 pub mod street;
 pub mod tally;
 pub mod trace;

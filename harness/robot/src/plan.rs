@@ -13,6 +13,8 @@ pub struct Leg {
     pub to: Place,
     /// How fast, in m/s.
     pub speed_mps: f64,
+    /// Which way to face there, in degrees clockwise from north, if that matters.
+    pub heading_deg: Option<f64>,
 }
 
 /// What happens at a time. A stage is over when every part is done; a `block` is when it has begun,
@@ -26,10 +28,10 @@ pub struct Stage {
 /// Who does a part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Who {
-    /// Every follower without a part of its own in the stage.
+    /// Every follower without a part of its own in the stage, side by side.
     Everybody,
-    /// This robot.
-    Station(StationId),
+    /// The follower with this role of the plan.
+    Role(usize),
 }
 
 /// What a leader has its followers do.
@@ -43,6 +45,8 @@ pub struct Plan {
     pub urgency: Urgency,
     /// The stages.
     pub stages: Vec<Stage>,
+    /// The roles of followers, each with the station that it is for, or for any. Without roles, everybody does the same.
+    pub roles: Vec<Option<StationId>>,
     /// Where the leader itself stands while it leads, if it is to go there.
     pub own_place: Option<Place>,
     /// How long a simulated pedestrian takes to cross, in seconds of the robots' own time.
@@ -61,6 +65,7 @@ impl Leg {
             task,
             to,
             speed_mps: 1.4,
+            heading_deg: None,
         }
     }
 }
@@ -74,30 +79,11 @@ impl Stage {
         }
     }
 
-    /// A stage with a part for each of these robots.
-    #[must_use]
-    pub fn of(parts: &[(StationId, Leg)]) -> Self {
-        let parts = parts
-            .iter()
-            .map(|&(station, leg)| (Who::Station(station), leg));
-        Self {
-            parts: parts.collect(),
-        }
-    }
-
     /// Whether the pedestrian is escorted in it.
     #[must_use]
     pub fn is_escort(&self) -> bool {
         let mut parts = self.parts.iter();
         parts.any(|(_, leg)| leg.task == TaskType::MOVE)
-    }
-
-    /// The part of a follower; `None` when it has none.
-    #[must_use]
-    pub fn leg(&self, follower: StationId) -> Option<Leg> {
-        let of = |who| self.parts.iter().find(|(part, _)| *part == who);
-        let part = of(Who::Station(follower)).or_else(|| of(Who::Everybody));
-        part.map(|(_, leg)| *leg)
     }
 }
 
@@ -105,10 +91,8 @@ impl Stage {
 // of it.
 const KERB: Place = Place::new(1.0, -1.0);
 const OTHER_SIDE: Place = Place::new(1.0, 8.0);
-/// Where a robot blocks the lane that is next to the kerb.
-pub const NEAR_LANE: Place = Place::new(-4.0, 2.0);
-/// Where a robot blocks the other lane.
-pub const FAR_LANE: Place = Place::new(6.0, 5.0);
+/// How far apart followers with the same part are, in metres.
+const BESIDE_M: f64 = 1.5;
 
 /// How fast a robot walks beside a pedestrian, in m/s.
 const ESCORT_MPS: f64 = 0.424;
@@ -124,6 +108,7 @@ impl Plan {
             followers,
             urgency: Urgency::Medium,
             stages,
+            roles: Vec::new(),
             own_place: None,
             crossing_s: 8.0,
             patience_s: 200.0,
@@ -168,61 +153,49 @@ impl Plan {
         let Some([from, to]) = self.kerbs else {
             return;
         };
-        if people.distance(to) < people.distance(from) {
-            *self = Self {
-                followers: self.followers,
-                urgency: self.urgency,
-                own_place: self.own_place,
-                patience_s: self.patience_s,
-                ..Self::escort(self.site, to, from)
-            };
+        if people.distance(to) >= people.distance(from) {
+            return;
+        }
+        self.kerbs = Some([to, from]);
+        let legs = self.stages.iter_mut().flat_map(|stage| &mut stage.parts);
+        for (_, leg) in legs {
+            if leg.to == from {
+                leg.to = to;
+            } else if leg.to == to {
+                leg.to = from;
+            }
         }
     }
 
-    /// Two humanoids block both directions: the leader the near lane, its follower the far one. The
-    /// pedestrian crosses between them.
+    /// The part of the follower in this seat in a stage; `None` when it has none. Seats are the roles, or else the
+    /// followers in the order in which they joined, who stand side by side.
     #[must_use]
-    pub fn bilateral(site: Site, follower: StationId) -> Self {
-        let stages = vec![
-            Stage::of(&[(follower, Leg::new(TaskType::INITIAL_POS, FAR_LANE))]),
-            Stage::of(&[(follower, Leg::new(TaskType::BLOCK, FAR_LANE))]),
-        ];
-        Self {
-            own_place: Some(NEAR_LANE),
-            ..Self::with(site, 1, stages)
+    pub fn leg(&self, stage: usize, seat: usize) -> Option<Leg> {
+        let parts = &self.stages.get(stage)?.parts;
+        let of = |who| parts.iter().find(|(part, _)| *part == who);
+        if let Some((_, leg)) = of(Who::Role(seat)) {
+            return Some(*leg);
         }
+        let (_, leg) = of(Who::Everybody)?;
+        let to = self.beside(leg.to, seat);
+        Some(Leg { to, ..*leg })
     }
 
-    /// The leader blocks one direction, a second humanoid the other, and a dog escorts.
-    #[must_use]
-    pub fn trio(site: Site, blocker: StationId, escort: StationId) -> Self {
-        Self {
-            own_place: Some(NEAR_LANE),
-            ..Self::team(site, &[(blocker, FAR_LANE)], escort)
-        }
-    }
-
-    /// Some robots block, each at its place, while one escorts.
-    #[must_use]
-    pub fn team(site: Site, blockers: &[(StationId, Place)], escort: StationId) -> Self {
-        let parts = |task| {
-            let parts = blockers
-                .iter()
-                .map(|&(station, place)| (station, Leg::new(task, place)));
-            parts.collect::<Vec<_>>()
+    /// The place of the follower in this seat, where the first one is at `place`: by turns on either side of it, along
+    /// the road.
+    fn beside(&self, place: Place, seat: usize) -> Place {
+        let metres = BESIDE_M * f64::from(u32::try_from(seat.div_ceil(2)).unwrap_or(u32::MAX));
+        let metres = if seat.is_multiple_of(2) {
+            -metres
+        } else {
+            metres
         };
-        let mut places = parts(TaskType::INITIAL_POS);
-        places.push((escort, Leg::new(TaskType::INITIAL_POS, KERB)));
-        let way = Leg {
-            speed_mps: ESCORT_MPS,
-            ..Leg::new(TaskType::MOVE, OTHER_SIDE)
-        };
-        let stages = [places, parts(TaskType::BLOCK), vec![(escort, way)]];
-        // Without blockers nobody has a part in the second one, and it would have no end.
-        let stages = stages.iter().filter(|parts| !parts.is_empty());
-        let stages = stages.map(|parts| Stage::of(parts)).collect();
-        let followers = u8::try_from(blockers.len() + 1).unwrap_or(u8::MAX);
-        Self::with(site, followers, stages).at_escorts_pace()
+        let along = self.kerbs.map_or(0.0, |[from, to]| from.bearing(to)) + 90.0;
+        let (east, north) = along.to_radians().sin_cos();
+        if seat == 0 {
+            return place;
+        }
+        Place::new(place.east + metres * east, place.north + metres * north)
     }
 
     /// What a leader with this plan asks for.

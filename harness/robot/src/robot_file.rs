@@ -11,16 +11,19 @@ use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::Security;
-use crossguard_protocol::{self as protocol, BrokenInequality, Config, Settings, StationId};
+use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
 use crate::application::{Application, Traits};
 use crate::body::{Body, Build, Driver, External, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
+use crate::located::FileError;
 use crate::plan::Plan;
+use crate::plan_file::PlanFile;
 use crate::runtime::{Clock, Setup};
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
+use crate::site_file::SiteFile;
 use crate::street::{Road, Street};
 use crate::transport::{Halves, Link, Zenoh};
 use crate::zone::{Watched, Zone};
@@ -56,8 +59,10 @@ pub struct RobotFile {
     pub shows: Option<SignalMeans>,
     /// Where its sensors have everybody who waits to cross or crosses, if they do.
     pub zone: Option<Zone>,
-    /// The kerbs between which it has people escorted, where they are not those of the simulated street.
+    /// The kerbs between which it has people escorted, where they are not those of its plan.
     pub kerbs: Option<[Place; 2]>,
+    /// What it does when it leads by itself, if a file says that; otherwise the paper's crossing.
+    pub plan_file: Option<PlanFile>,
     /// Its link.
     pub link: Link,
     /// The protocol's configuration.
@@ -92,6 +97,8 @@ struct RobotTable {
     shows: Vec<Means>,
     #[serde(default)]
     site: Option<SiteTable>,
+    site_file: Option<PathBuf>,
+    plan_file: Option<PathBuf>,
     link: LinkTable,
     #[serde(default)]
     protocol: Settings,
@@ -147,6 +154,15 @@ struct LinkTable {
     interface: Option<String>,
     ethernet: Option<String>,
     zenoh: Option<Zenoh>,
+}
+
+/// What is said beside a robot file, and counts more.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct Besides<'a> {
+    /// The file of the site.
+    pub site_file: Option<&'a Path>,
+    /// The file of the plan, or the name of one that comes with the kit.
+    pub plan_file: Option<&'a Path>,
 }
 
 /// Why a robot cannot be configured.
@@ -217,6 +233,12 @@ pub enum Impossibility {
     /// No place of a map.
     #[error("map_place: {0}")]
     MapPlace(#[from] NoMapPlace),
+    /// The site is said twice.
+    #[error("[site] and 'site_file' both say where the site is: one of them is wanted")]
+    TwoSites,
+    /// A file of the site or the plan does not fit.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A site that is not on earth.
     #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
     Site(f64, f64),
@@ -228,16 +250,26 @@ impl RobotFile {
     /// # Errors
     /// The first thing that is wrong.
     pub fn read(path: &Path) -> Result<Self, RobotFileError> {
+        Self::read_with(path, Besides::default())
+    }
+
+    /// The same, with another site or plan than the file names.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn read_with(path: &Path, besides: Besides<'_>) -> Result<Self, RobotFileError> {
         let owned = || path.to_owned();
         let text = std::fs::read_to_string(path).map_err(|cause| RobotFileError::Unreadable {
             path: owned(),
             cause,
         })?;
-        let file: RobotTable = toml::from_str(&text).map_err(|cause| RobotFileError::Syntax {
-            path: owned(),
-            cause: Box::new(cause),
-        })?;
+        let mut file: RobotTable =
+            toml::from_str(&text).map_err(|cause| RobotFileError::Syntax {
+                path: owned(),
+                cause: Box::new(cause),
+            })?;
         let folder = path.parent().unwrap_or(Path::new("."));
+        file.name_files(folder, besides);
         file.check(folder)
             .map_err(|cause| RobotFileError::Impossible {
                 path: owned(),
@@ -272,9 +304,10 @@ impl RobotFile {
     /// What it does when it leads, if it leads by itself.
     #[must_use]
     pub fn plan(&self) -> Option<Plan> {
-        self.autopilot.then(|| match self.kerbs {
-            Some([from, to]) => Plan::escort(self.site, from, to),
-            None => Plan::crossing(self.site),
+        self.autopilot.then(|| match (self.kerbs, &self.plan_file) {
+            (Some([from, to]), None) => Plan::escort(self.site, from, to),
+            (None, None) => Plan::crossing(self.site),
+            (_, Some(file)) => file.plan(self.station, file.followers),
         })
     }
 
@@ -310,23 +343,52 @@ impl RobotFile {
 }
 
 impl RobotTable {
+    /// Finds the files that it names: beside it, or where the command says.
+    fn name_files(&mut self, folder: &Path, besides: Besides<'_>) {
+        let beside = |path: PathBuf| folder.join(path);
+        // A name of a shipped plan is no path.
+        let plan = |path: PathBuf| match path.extension() {
+            Some(_) => beside(path),
+            None => path,
+        };
+        let site_file = besides.site_file.map(Path::to_owned);
+        if site_file.is_some() {
+            self.site = None;
+        }
+        self.site_file = site_file.or(self.site_file.take().map(beside));
+        let plan_file = besides.plan_file.map(Path::to_owned);
+        self.plan_file = plan_file.or(self.plan_file.take().map(plan));
+    }
+
+    /// The site: that of its file, or the street of the demonstrations where the table says.
+    fn site(&self) -> Result<SiteFile, Impossibility> {
+        match (&self.site, &self.site_file) {
+            (None, None) => Ok(SiteFile::street()),
+            (None, Some(path)) => Ok(SiteFile::read(path)?),
+            (Some(_), Some(_)) => Err(Impossibility::TwoSites),
+            (Some(table), None) => Ok(SiteFile::street().at(Site {
+                latitude: table.latitude,
+                longitude: table.longitude,
+                ..Site::default()
+            })),
+        }
+    }
+
     fn check(self, folder: &Path) -> Result<RobotFile, Impossibility> {
         if !(1.0..=100.0).contains(&self.speed) {
             return Err(Impossibility::Speed(self.speed));
         }
-        let site = self.site.map_or_else(Site::default, |site| Site {
-            latitude: site.latitude,
-            longitude: site.longitude,
-            ..Site::default()
-        });
+        let layout = self.site()?;
         let crossing = self.crossing.as_deref().map(str::parse);
         let crossing = crossing.transpose()?;
         let map_place = self.map_place.as_deref().map(str::parse).transpose()?;
         let site = Site {
-            crossing: crossing.map_or(protocol::Place::UNKNOWN, |CrossingReference(place)| place),
+            crossing: crossing.map_or(layout.site.crossing, |CrossingReference(place)| place),
             // Whoever says nothing else commands maneuvers at the crossing.
-            map_place: map_place.or(crossing.and_then(CrossingReference::map_place)),
-            ..site
+            map_place: map_place
+                .or(crossing.and_then(CrossingReference::map_place))
+                .or(layout.site.map_place),
+            ..layout.site
         };
         let shows: Vec<_> = self.shows.into_iter().map(SignalMeans::from).collect();
         if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
@@ -334,11 +396,18 @@ impl RobotTable {
         }
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
+        // On a site of one's own the crossing is where its places are.
+        let crossing = Path::new("crossing");
+        let own = (self.autopilot && self.site_file.is_some()).then_some(crossing);
+        let plan = self.plan_file.as_deref().or(own);
+        let plan = plan
+            .map(|name| PlanFile::open(name, layout.at(site)))
+            .transpose()?;
+        // A plan is for a robot that leads by itself.
+        let autopilot = self.autopilot || self.plan_file.is_some();
         let traits = traits::check(self.job, self.dimensions_m, &self.battery)?;
         let confidence_min = self.people.confidence_min;
-        let zone = self
-            .zone
-            .map(|zone| zone.check(confidence_min, self.autopilot));
+        let zone = self.zone.map(|zone| zone.check(confidence_min, autopilot));
         let (zone, kerbs) = zone.transpose()?.unzip();
         Ok(RobotFile {
             name: self.name,
@@ -349,10 +418,11 @@ impl RobotTable {
             place: Place::new(self.place[0], self.place[1]),
             site,
             speed: self.speed,
-            autopilot: self.autopilot,
+            autopilot,
             shows: shows.into_iter().reduce(SignalMeans::union),
             zone,
             kerbs: kerbs.flatten(),
+            plan_file: plan,
             link: self.link.check(folder)?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,

@@ -5,7 +5,7 @@ use crossguard_codec::{Identifiers, TaskParameters};
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
+use crossguard_protocol::{Config, Event, HelpRequest, Robot, StationId, TaskSet, TaskType};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::machine::Machine;
@@ -31,6 +31,14 @@ fn machine(station: u32, road: Road) -> Machine {
     Machine::new(endpoint, Application::new(Box::new(body), None).on(road))
 }
 
+/// A request for a robot that blocks.
+fn blocking() -> HelpRequest {
+    HelpRequest {
+        tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::BLOCK]),
+        ..Plan::crossing(Site::default()).request()
+    }
+}
+
 impl Pair {
     /// 12 s after the leader fell silent: the follower's session is over.
     fn left_alone(task: TaskType, road: Road) -> Self {
@@ -39,7 +47,7 @@ impl Pair {
             follower: machine(2, road),
             now_ms: 0,
         };
-        let request = Plan::bilateral(Site::default(), StationId(2)).request();
+        let request = blocking();
         pair.tell_leader(Stimulus::Event(Event::PedestrianDetected(request)));
         pair.pass(1_000);
         pair.tell_leader(Stimulus::Order {

@@ -1,12 +1,15 @@
 //! `crossguard demo`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use crossguard_codec::Identifiers;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Mode;
 use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_judge::chart::Chart;
+use crossguard_robot::plan_file::PlanFile;
+use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::transport::Faults;
 
 use super::ranges::{in_range, speed};
@@ -14,10 +17,16 @@ use super::{Failure, print, print_json, timing};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// What happens.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t)]
-    scenario: Scenario,
-    /// How many followers the team of --scenario team has, 1 to 16.
+    /// What happens: a plan that comes with the kit.
+    #[arg(long, value_name = "NAME", value_parser = names(), default_value = "crossing")]
+    scenario: String,
+    /// What happens: a plan of your own. Its roles name robot, station, build and where that waits.
+    #[arg(long, value_name = "FILE", conflicts_with = "scenario")]
+    plan: Option<PathBuf>,
+    /// The site that the plan is on; by default the street of the demonstrations.
+    #[arg(long, value_name = "FILE")]
+    site: Option<PathBuf>,
+    /// How many followers a team with optional roles has, like that of --scenario team, 1 to 16.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MAX_FOLLOWERS))]
     followers: Option<u8>,
     /// How many crossings.
@@ -65,15 +74,29 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
-/// How many followers a team has unless it is said.
-const FOLLOWERS: u8 = 3;
-
 /// How many it can have.
 #[expect(clippy::cast_possible_wrap, reason = "it is at most 16")]
 const MAX_FOLLOWERS: i64 = crossguard_protocol::MAX_FOLLOWERS as i64;
 
 /// With more robots the chart is wider than a screen.
 const CHARTED: usize = 6;
+
+/// The names of the shipped plans.
+fn names() -> PossibleValuesParser {
+    let values = Scenario::shipped().map(|(name, what)| PossibleValue::new(name).help(what));
+    PossibleValuesParser::new(values)
+}
+
+/// What happens.
+fn scenario(arguments: &Arguments) -> Result<Scenario, Failure> {
+    let site = match &arguments.site {
+        Some(path) => SiteFile::read(path).map_err(Failure::input)?,
+        None => SiteFile::street(),
+    };
+    let shipped = Path::new(&arguments.scenario);
+    let plan = PlanFile::open(arguments.plan.as_deref().unwrap_or(shipped), site);
+    Scenario::of(plan.map_err(Failure::input)?).map_err(Failure::input)
+}
 
 fn loss(text: &str) -> Result<f64, String> {
     in_range(
@@ -85,20 +108,23 @@ fn loss(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let scenario = arguments.scenario;
+    let scenario = scenario(arguments)?;
     if let Some(victim) = scenario.victim().filter(|_| arguments.trials > 1) {
         return Err(Failure::Input(format!(
             "--trials {}: {victim} loses power in this scenario, so there is one crossing",
             arguments.trials
         )));
     }
-    if arguments.followers.is_some() && scenario != Scenario::Team {
-        let why = "--followers: only of --scenario team can the number be chosen";
-        return Err(Failure::Input(why.to_owned()));
+    let (usual, [least, most]) = scenario.followers();
+    let followers = arguments.followers.unwrap_or(usual);
+    if !(least..=most).contains(&followers) {
+        return Err(Failure::Input(format!(
+            "--followers {followers}: {least} to {most} have a role in plan {}",
+            scenario.name()
+        )));
     }
-    let followers = arguments.followers.unwrap_or(FOLLOWERS);
     let participants = scenario.participants(followers);
-    let names: Vec<_> = participants.iter().map(|one| one.name).collect();
+    let names: Vec<_> = participants.iter().map(|one| &*one.name).collect();
     let options = Options {
         scenario,
         followers,
@@ -129,7 +155,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shows_chart = is_told && names.len() <= CHARTED;
     let columns: Vec<_> = participants
         .iter()
-        .map(|one| (one.name, one.station))
+        .map(|one| (&*one.name, one.station))
         .collect();
     let mut chart = Chart::new(&columns, Identifiers::default());
     if is_told {

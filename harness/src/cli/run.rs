@@ -28,7 +28,7 @@ use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::boot;
 use crossguard_robot::perception::{Announced, Feed};
-use crossguard_robot::robot_file::RobotFile;
+use crossguard_robot::robot_file::{Besides, RobotFile};
 use crossguard_robot::runtime::{Order, Running};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
@@ -52,6 +52,13 @@ pub(super) struct Arguments {
     /// The robot's configuration.
     #[arg(long, value_name = "FILE")]
     config: PathBuf,
+    /// The site, instead of that of the configuration; see 'crossguard site'.
+    #[arg(long, value_name = "FILE")]
+    site: Option<PathBuf>,
+    /// What the robot does when it leads, instead of the configured plan: a file, or the name of one that comes with
+    /// the kit, like bilateral or trio.
+    #[arg(long, value_name = "FILE|NAME")]
+    plan: Option<PathBuf>,
     /// Send to and listen on this multicast group instead of the configured link.
     #[arg(
         long,
@@ -119,7 +126,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             arguments.loss
         )));
     }
-    let file = RobotFile::read(&arguments.config).map_err(Failure::input)?;
+    let besides = Besides {
+        site_file: arguments.site.as_deref(),
+        plan_file: arguments.plan.as_deref(),
+    };
+    let file = RobotFile::read_with(&arguments.config, besides).map_err(Failure::input)?;
     let (mut link, address) = open_link(arguments, &file)?;
     let capture = arguments.pcap.as_deref().map(super::create_capture);
     let capture = capture.transpose()?;
@@ -359,7 +370,8 @@ impl Console<'_> {
     }
 
     fn type_in(&mut self, text: &str) -> Result<(), Failure> {
-        match operator::parse(text, &self.file.site) {
+        let request = self.file.plan().map(|plan| plan.request());
+        match operator::parse_with(text, &self.file.site, request) {
             Ok(line) => self.pending.push_back(line),
             // A person tries again; a script is wrong from here on.
             Err(error) if std::io::stdin().is_terminal() => self.say(&error.to_string()),

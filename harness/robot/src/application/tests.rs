@@ -1,10 +1,10 @@
 //! What an application does with its body and its plan.
 
-use crossguard_protocol::{RequestId, SessionId, SessionNumber, StopReason, UniqueNumber};
+use crossguard_protocol::{Notice, RequestId, SessionId, SessionNumber, StopReason, UniqueNumber};
 
 use super::*;
 use crate::body::{Build, External, NotTaken, Simulated};
-use crate::plan::Stage;
+use crate::plan::{Leg, Stage};
 use crate::site::{Place, Site};
 
 #[test]

@@ -8,7 +8,9 @@
 use crossguard_codec::Position;
 use crossguard_protocol::StationId;
 
-use super::{Application, Leg, Part};
+use super::Application;
+use super::errand::Part;
+use crate::plan::Leg;
 
 /// How far from its place a follower may be, besides what its RAM says of its confidence, in metres: less than the width
 /// of a lane.

@@ -1,0 +1,117 @@
+//! Files of sites and plans: how they are read, and what is wrong with one, by its line.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::site::Place;
+
+/// Farthest place on a site, in metres.
+pub(crate) const METRES_MAX: f64 = 1e5;
+
+/// A file of a site or a plan that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub struct FileError {
+    /// Its path, or the name of a shipped one.
+    pub file: String,
+    /// The line, from 1 on; `None` where the whole file is meant.
+    pub line: Option<usize>,
+    /// What is wrong there.
+    pub what: String,
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{}:{line}: {}", self.file, self.what),
+            None => write!(f, "{}: {}", self.file, self.what),
+        }
+    }
+}
+
+/// What is wrong, and where in the text.
+#[derive(Debug)]
+pub(crate) struct Misfit {
+    pub(crate) span: Option<Range<usize>>,
+    pub(crate) what: String,
+}
+
+impl Misfit {
+    pub(crate) fn at<T>(spanned: &toml::Spanned<T>, what: impl Into<String>) -> Self {
+        Self {
+            span: Some(spanned.span()),
+            what: what.into(),
+        }
+    }
+
+    pub(crate) fn whole(what: impl Into<String>) -> Self {
+        Self {
+            span: None,
+            what: what.into(),
+        }
+    }
+
+    pub(crate) fn of(self, file: &str, text: &str) -> FileError {
+        FileError {
+            file: file.to_owned(),
+            line: self.span.map(|span| line_of(text, span.start)),
+            what: self.what,
+        }
+    }
+}
+
+/// The text of a file.
+pub(crate) fn read(path: &Path) -> Result<String, FileError> {
+    std::fs::read_to_string(path).map_err(|cause| FileError {
+        file: path.display().to_string(),
+        line: None,
+        what: cause.to_string(),
+    })
+}
+
+/// The tables of a text.
+pub(crate) fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, Misfit> {
+    toml::from_str(text).map_err(|cause| Misfit {
+        span: cause.span(),
+        what: cause.message().to_owned(),
+    })
+}
+
+fn line_of(text: &str, offset: usize) -> usize {
+    let before = text.as_bytes().iter().take(offset);
+    before.filter(|octet| **octet == b'\n').count() + 1
+}
+
+/// A place on the site.
+pub(crate) fn place(at: &toml::Spanned<[f64; 2]>) -> Result<Place, Misfit> {
+    let [east, north] = *at.get_ref();
+    if [east, north]
+        .iter()
+        .all(|metres| metres.abs() <= METRES_MAX)
+    {
+        Ok(Place::new(east, north))
+    } else {
+        let what = format!(
+            "[{east}, {north}] is no place: metres east and north, at most {METRES_MAX}, are wanted"
+        );
+        Err(Misfit::at(at, what))
+    }
+}
+
+/// A number within a range.
+pub(crate) fn within(
+    value: &toml::Spanned<f64>,
+    possible: std::ops::RangeInclusive<f64>,
+    unit: &str,
+) -> Result<f64, Misfit> {
+    let number = *value.get_ref();
+    if possible.contains(&number) {
+        Ok(number)
+    } else {
+        let (least, most) = possible.into_inner();
+        let what = format!("{number} is not possible: {least} to {most} {unit} is wanted");
+        Err(Misfit::at(value, what))
+    }
+}

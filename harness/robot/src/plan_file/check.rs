@@ -1,0 +1,260 @@
+//! Whether a plan fits its site: every place is there and is for what the task does, and bodies are kept apart.
+
+use std::collections::BTreeMap;
+
+use crossguard_protocol::{
+    EndReason, MAX_FOLLOWERS, ReleaseReason, StationId, TaskNames, TaskSet, TaskType, Urgency,
+};
+use toml::Spanned;
+
+use super::tables::{DemoTable, EndName, PartTable, PlanTables, RoleTable, SpotName, UrgencyName};
+use super::{APART_M, Ending, PlanFile, Role};
+use crate::located::{self, METRES_MAX, Misfit};
+use crate::plan::{Leg, Stage, Who};
+use crate::site::Place;
+use crate::site_file::{Purpose, SiteFile};
+
+/// For how long an unescorted pedestrian is on the road, and how long a leader has patience, in seconds.
+const CROSSING_S: f64 = 8.0;
+const PATIENCE_S: f64 = 200.0;
+
+impl PlanTables {
+    pub(super) fn check(self, name: &str, site: SiteFile) -> Result<PlanFile, Misfit> {
+        let roles = roles(&self.roles, &site)?;
+        let followers: Vec<_> = roles.iter().filter(|role| !role.leads).collect();
+        let wanted = match &self.followers {
+            None => followers.len(),
+            Some(number) => {
+                let least = followers.iter().filter(|role| !role.optional).count();
+                let most = followers.len();
+                let wanted = usize::from(*number.get_ref());
+                if !(least..=most).contains(&wanted) {
+                    let what = format!("{wanted} followers: {least} to {most} fit the roles");
+                    return Err(Misfit::at(number, what));
+                }
+                wanted
+            }
+        };
+        let stages = stages(&self, &followers, &site)?;
+        apart(&self, &roles, &stages)?;
+        let number =
+            |value: &Option<Spanned<f64>>, default, range: std::ops::RangeInclusive<f64>| {
+                let number = value.as_ref();
+                number.map_or(Ok(default), |number| located::within(number, range, "s"))
+            };
+        let either_way = self.either_way.as_ref().map(|[from, to]| {
+            let crossing = Some((Purpose::Cross, "an escort"));
+            Ok([place(&site, from, crossing)?, place(&site, to, crossing)?])
+        });
+        let (loses_power, ends) = demo(self.demo.as_ref(), &roles)?;
+        Ok(PlanFile {
+            name: name.to_owned(),
+            summary: self.summary.unwrap_or_else(|| format!("Plan {name}.")),
+            followers: u8::try_from(wanted).unwrap_or(u8::MAX),
+            urgency: match self.urgency {
+                UrgencyName::Low => Urgency::Low,
+                UrgencyName::Medium => Urgency::Medium,
+                UrgencyName::High => Urgency::High,
+                UrgencyName::Emergency => Urgency::Emergency,
+            },
+            crossing_s: number(&self.crossing_s, CROSSING_S, 1.0..=600.0)?,
+            patience_s: number(&self.patience_s, PATIENCE_S, 1.0..=3_600.0)?,
+            either_way: either_way.transpose()?,
+            site,
+            roles,
+            stages,
+            loses_power,
+            ends,
+        })
+    }
+}
+
+fn roles(tables: &[Spanned<RoleTable>], site: &SiteFile) -> Result<Vec<Role>, Misfit> {
+    let mut roles: Vec<Role> = Vec::new();
+    for spanned in tables {
+        let table = spanned.get_ref();
+        let refuse = |what: String| Err(Misfit::at(spanned, what));
+        if roles.iter().any(|role| role.name == table.name) {
+            return refuse(format!("there are two roles '{}'", table.name));
+        }
+        let has_station = |role: &Role| role.station.is_some_and(|it| Some(it.0) == table.station);
+        if let Some(other) = roles.iter().find(|role| has_station(role)) {
+            let (one, other) = (&table.name, &other.name);
+            return refuse(format!("roles '{other}' and '{one}' are for one station"));
+        }
+        if !table.leads && table.stands.is_some() {
+            let name = &table.name;
+            return refuse(format!(
+                "role '{name}' does not lead: where it stands is the target of its part in a stage"
+            ));
+        }
+        let spot = |name: &Option<Spanned<SpotName>>| {
+            let name = name.as_ref();
+            name.map(|name| place(site, name, None)).transpose()
+        };
+        roles.push(Role {
+            name: table.name.clone(),
+            leads: table.leads,
+            optional: table.optional,
+            any: table.any,
+            robot: table.robot.clone(),
+            station: table.station.map(StationId),
+            build: table.build,
+            waits: spot(&table.waits)?,
+            stands: spot(&table.stands)?,
+        });
+    }
+    let followers = roles.iter().filter(|role| !role.leads).count();
+    if followers == roles.len() {
+        return Err(Misfit::whole("no role has 'leads = true'"));
+    }
+    if !(1..=MAX_FOLLOWERS).contains(&followers) {
+        let what = format!("{followers} followers: 1 to {MAX_FOLLOWERS} are possible");
+        return Err(Misfit::whole(what));
+    }
+    Ok(roles)
+}
+
+fn stages(tables: &PlanTables, followers: &[&Role], site: &SiteFile) -> Result<Vec<Stage>, Misfit> {
+    if tables.stages.is_empty() {
+        return Err(Misfit::whole("there is no stage"));
+    }
+    let mut stages = Vec::new();
+    for table in &tables.stages {
+        if table.get_ref().is_empty() {
+            return Err(Misfit::at(table, "nobody has a part in this stage"));
+        }
+        let parts = table.get_ref().iter().map(|(name, part)| {
+            let number = followers.iter().position(|role| role.name == *name);
+            let Some(number) = number else {
+                let names: Vec<_> = followers.iter().map(|role| &*role.name).collect();
+                let names = names.join(", ");
+                let what = format!("no follower has the role '{name}'; there are {names}");
+                return Err(Misfit::at(part, what));
+            };
+            Ok((Who::Role(number), leg(part.get_ref(), site)?))
+        });
+        let parts = parts.collect::<Result<_, _>>()?;
+        stages.push(Stage { parts });
+    }
+    Ok(stages)
+}
+
+fn leg(part: &PartTable, site: &SiteFile) -> Result<Leg, Misfit> {
+    let name = part.task.get_ref();
+    let all = TaskSet(u16::MAX);
+    let task = all.iter().find(|task| task.to_string() == *name);
+    let Some(task) = task else {
+        let what = format!("'{name}' is no task: {TaskNames} are");
+        return Err(Misfit::at(&part.task, what));
+    };
+    let purpose = match task {
+        TaskType::BLOCK => Some((Purpose::Guard, "a block")),
+        TaskType::MOVE => Some((Purpose::Cross, "a move")),
+        _ => None,
+    };
+    let mut leg = Leg::new(task, place(site, &part.to, purpose)?);
+    if let Some(speed) = &part.speed_mps {
+        leg.speed_mps = located::within(speed, 0.05..=5.0, "m/s")?;
+    }
+    let heading = part.heading_deg.as_ref();
+    let heading = heading.map(|heading| located::within(heading, 0.0..=360.0, "degrees"));
+    leg.heading_deg = heading.transpose()?;
+    Ok(leg)
+}
+
+/// The place of this name, which has to be for this.
+fn place(
+    site: &SiteFile,
+    name: &Spanned<SpotName>,
+    wanted: Option<(Purpose, &str)>,
+) -> Result<Place, Misfit> {
+    let text = match name.get_ref() {
+        SpotName::At([east, north]) if east.abs() <= METRES_MAX && north.abs() <= METRES_MAX => {
+            return Ok(Place::new(*east, *north));
+        }
+        SpotName::At([east, north]) => {
+            let what = format!(
+                "[{east}, {north}] is no place: metres east and north, at most {METRES_MAX}, are wanted"
+            );
+            return Err(Misfit::at(name, what));
+        }
+        SpotName::Named(text) => text,
+    };
+    let Some(spot) = site.places.get(text) else {
+        let names: Vec<_> = site.places.keys().map(String::as_str).collect();
+        let (site, names) = (&site.name, names.join(", "));
+        let what = format!("site '{site}' has no place '{text}'; it has {names}");
+        return Err(Misfit::at(name, what));
+    };
+    if let Some((purpose, whose)) = wanted
+        && spot.purpose != purpose
+    {
+        let wanted = match purpose {
+            Purpose::Wait => "wait",
+            Purpose::Guard => "guard",
+            Purpose::Cross => "cross",
+        };
+        let what = format!("place '{text}' is not for {whose}: one for = \"{wanted}\" is wanted");
+        return Err(Misfit::at(name, what));
+    }
+    Ok(spot.place)
+}
+
+/// Looks that no two robots are sent to one place. Who has no part in a stage stays where its last one led.
+fn apart(tables: &PlanTables, roles: &[Role], stages: &[Stage]) -> Result<(), Misfit> {
+    let leaders = roles.iter().filter(|role| role.leads);
+    let stand = leaders.filter_map(|role| Some((&*role.name, role.stands.or(role.waits)?)));
+    let leaders: Vec<_> = stand.collect();
+    let followers: Vec<_> = roles.iter().filter(|role| !role.leads).collect();
+    let mut targets = BTreeMap::new();
+    for (stage, table) in stages.iter().zip(&tables.stages) {
+        for (who, leg) in &stage.parts {
+            if let Who::Role(number) = who {
+                targets.insert(*number, leg.to);
+            }
+        }
+        for (who, leg) in &stage.parts {
+            let Who::Role(own) = who else { continue };
+            let (own, name) = (*own, &followers[*own].name);
+            let others = targets.iter().filter(|(number, _)| **number != own);
+            let others = others.map(|(number, place)| (&*followers[*number].name, *place));
+            for (other, place) in others.chain(leaders.iter().copied()) {
+                let metres = place.distance(leg.to);
+                if metres < APART_M {
+                    let what = format!(
+                        "roles '{name}' and '{other}' are {metres:.2} m apart in this stage: \
+                         at least {APART_M} m is wanted"
+                    );
+                    let part = table.get_ref().get(name);
+                    return Err(part.map_or(Misfit::whole(what.clone()), |part| {
+                        Misfit::at(&part.get_ref().to, what)
+                    }));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn demo(
+    table: Option<&Spanned<DemoTable>>,
+    roles: &[Role],
+) -> Result<(Option<String>, Ending), Misfit> {
+    let Some(spanned) = table else {
+        return Ok((None, Ending::Session(EndReason::TaskCompleted)));
+    };
+    let table = spanned.get_ref();
+    if let Some(name) = &table.loses_power
+        && !roles.iter().any(|role| role.robot.as_ref() == Some(name))
+    {
+        let what = format!("no role has the robot '{name}', which is to lose power");
+        return Err(Misfit::at(spanned, what));
+    }
+    let ends = match table.ends {
+        EndName::TaskCompleted => Ending::Session(EndReason::TaskCompleted),
+        EndName::NoFollowers => Ending::Session(EndReason::NoFollowers),
+        EndName::ContactLost => Ending::Released(ReleaseReason::ContactLost),
+    };
+    Ok((table.loses_power.clone(), ends))
+}

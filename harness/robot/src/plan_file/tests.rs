@@ -1,0 +1,154 @@
+//! Plans that fit, and plans that do not.
+
+use crossguard_protocol::TaskType;
+
+use super::*;
+
+const TWO_DOGS: &str = r#"
+[[roles]]
+name = "leader"
+leads = true
+waits = "corner"
+
+[[roles]]
+name = "first"
+[[roles]]
+name = "second"
+[[stages]]
+first = { task = "initialPos", to = "near-kerb" }
+second = { task = "initialPos", to = [2.5, -1.0] }
+[[stages]]
+first = { task = "move", to = "far-kerb", speed_mps = 0.424 }
+second = { task = "block", to = "far-lane", heading_deg = 90.0 }
+"#;
+
+fn parse(text: &str) -> Result<PlanFile, String> {
+    let plan = PlanFile::parse("p.toml", "p", text, SiteFile::street());
+    plan.map_err(|error| error.to_string())
+}
+
+#[test]
+fn every_shipped_plan_fits_the_street_and_the_crossing_is_that_of_the_paper() {
+    for (name, _) in SHIPPED {
+        let plan = PlanFile::open(Path::new(name), SiteFile::street());
+        plan.unwrap_or_else(|error| panic!("{error}"));
+    }
+    let site = SiteFile::street();
+    let file = PlanFile::open(Path::new("crossing"), site.clone()).unwrap();
+    let (plan, built) = (file.plan(StationId(1), 1), Plan::crossing(site.site));
+    assert_eq!(plan.roles, [None], "any robot may escort");
+    assert_eq!(
+        (plan.kerbs, plan.crossing_s),
+        (built.kerbs, built.crossing_s)
+    );
+    for stage in 0..2 {
+        assert_eq!(plan.leg(stage, 0), built.leg(stage, 0));
+    }
+}
+
+#[test]
+fn a_team_has_as_many_guards_as_there_are_followers_besides_the_escort() {
+    let team = PlanFile::open(Path::new("team"), SiteFile::street()).unwrap();
+    assert_eq!(team.followers, 3);
+    for followers in 1..=16 {
+        let plan = team.plan(StationId(1), followers);
+        assert_eq!(plan.followers, followers);
+        assert_eq!(
+            team.taking_part(followers).len(),
+            usize::from(followers) + 1
+        );
+        assert_eq!(plan.roles.last(), Some(&Some(StationId(2))), "the dog");
+        assert_eq!(plan.stages.len(), if followers == 1 { 2 } else { 3 });
+    }
+}
+
+#[test]
+fn two_dogs_go_to_two_places() {
+    let plan = parse(TWO_DOGS).unwrap().plan(StationId(1), 2);
+    let [first, second] = [0, 1].map(|seat| plan.leg(0, seat).unwrap().to);
+    assert!(first.distance(second) >= APART_M);
+    let block = plan.leg(1, 1).unwrap();
+    assert_eq!(
+        (block.task, block.heading_deg),
+        (TaskType::BLOCK, Some(90.0))
+    );
+}
+
+#[test]
+fn a_plan_that_does_not_fit_is_refused_with_its_line() {
+    for (from, to, cause) in [
+        (
+            "[2.5, -1.0]",
+            "\"near-kerb\"",
+            "p.toml:13: roles 'second' and 'first' are 0.00 m apart",
+        ),
+        (
+            "[2.5, -1.0]",
+            "[1.9, -1.0]",
+            "are 0.90 m apart in this stage: at least 1 m is wanted",
+        ),
+        (
+            "[2.5, -1.0]",
+            "\"corner\"",
+            "p.toml:13: roles 'second' and 'leader' are 0.00 m apart",
+        ),
+        (
+            "\"far-kerb\"",
+            "\"bench\"",
+            "p.toml:15: site 'street' has no place 'bench'; it has ",
+        ),
+        (
+            "\"far-kerb\"",
+            "\"far-lane\"",
+            "p.toml:15: place 'far-lane' is not for a move",
+        ),
+        (
+            "\"far-lane\"",
+            "\"corner\"",
+            "p.toml:16: place 'corner' is not for a block",
+        ),
+        ("\"move\"", "\"dance\"", "p.toml:15: 'dance' is no task: "),
+        ("0.424", "9", "p.toml:15: "),
+        (
+            "heading_deg = 90.0",
+            "heading_deg = 361.0",
+            "361 is not possible: 0 to 360 degrees",
+        ),
+        (
+            "second = { task = \"initialPos\"",
+            "third = { task = \"initialPos\"",
+            "p.toml:13: no follower has the role 'third'; there are first, second",
+        ),
+        (
+            "name = \"second\"",
+            "name = \"first\"",
+            "there are two roles 'first'",
+        ),
+        ("leads = true", "", "no role has 'leads = true'"),
+        (
+            "name = \"first\"",
+            "name = \"first\"\nstands = \"corner\"",
+            "role 'first' does not lead",
+        ),
+        ("to = [2.5, -1.0]", "to = [1e30, 0.0]", "p.toml:13: [1"),
+        (
+            "to = [2.5, -1.0]",
+            "to = 7",
+            "a place is wanted: its name on the site",
+        ),
+        (
+            "waits = \"corner\"",
+            "wait = \"corner\"",
+            "p.toml:5: unknown field `wait`",
+        ),
+    ] {
+        assert!(TWO_DOGS.contains(from), "{from}");
+        let error = parse(&TWO_DOGS.replacen(from, to, 1)).unwrap_err();
+        assert!(error.contains(cause), "{to}: {error}");
+    }
+    let unknown = PlanFile::open(Path::new("parade"), SiteFile::street()).unwrap_err();
+    assert!(
+        unknown.to_string().contains("one of crossing, bilateral"),
+        "{unknown}"
+    );
+}

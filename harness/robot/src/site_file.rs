@@ -1,0 +1,350 @@
+//! A site as a file: the crossing with its kerbs, the lanes, and the places where robots wait, guard and cross.
+//!
+//! ```toml
+//! [origin]
+//! latitude = 49.0101
+//! longitude = 8.4124
+//!
+//! [crossing]
+//! reference = "276:4711"
+//! kerbs_m = [[[-3.0, 0.0], [5.0, 0.0]], [[-3.0, 7.0], [5.0, 7.0]]]
+//!
+//! [[lanes]]
+//! name = "near"
+//! from_m = [-20.0, 1.75]
+//! to_m = [20.0, 1.75]
+//! width_m = 3.5
+//!
+//! [places]
+//! near-kerb = { at_m = [1.0, -1.0], for = "cross" }
+//! near-lane = { at_m = [-4.0, 2.0], for = "guard" }
+//! ```
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::located::{self, FileError, Misfit};
+use crate::site::{CrossingReference, Place, Site};
+
+/// A site, checked: every guard stands on a lane, nobody waits or begins to cross on one.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SiteFile {
+    /// Its name.
+    pub name: String,
+    /// Where it is on earth, and what maps call it.
+    pub site: Site,
+    /// The edges of the carriageway between which people cross.
+    pub kerbs: Vec<[Place; 2]>,
+    /// The lanes.
+    pub lanes: Vec<Lane>,
+    /// The places of robots, by name.
+    pub places: BTreeMap<String, Spot>,
+}
+
+/// A lane.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Lane {
+    /// Its name.
+    pub name: String,
+    /// Where its middle begins, in the direction of its traffic.
+    pub from: Place,
+    /// Where its middle ends.
+    pub to: Place,
+    /// Its width in metres.
+    pub width_m: f64,
+}
+
+/// A place of robots.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Spot {
+    /// Where it is.
+    pub place: Place,
+    /// What it is for.
+    pub purpose: Purpose,
+}
+
+/// What a place is for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Purpose {
+    /// Robots wait there, off the lanes.
+    Wait,
+    /// A robot stands there and holds traffic back, on a lane.
+    Guard,
+    /// A robot begins or ends an escort there, off the lanes.
+    Cross,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SiteTables {
+    name: Option<String>,
+    origin: Spanned<OriginTable>,
+    #[serde(default)]
+    crossing: CrossingTable,
+    #[serde(default)]
+    lanes: Vec<LaneTable>,
+    #[serde(default)]
+    places: BTreeMap<String, Spanned<SpotTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OriginTable {
+    latitude: f64,
+    longitude: f64,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct CrossingTable {
+    reference: Option<Spanned<String>>,
+    map_place: Option<Spanned<String>>,
+    kerbs_m: Vec<[Spanned<[f64; 2]>; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LaneTable {
+    name: String,
+    from_m: Spanned<[f64; 2]>,
+    to_m: Spanned<[f64; 2]>,
+    width_m: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpotTable {
+    at_m: Spanned<[f64; 2]>,
+    #[serde(rename = "for")]
+    purpose: Purpose,
+}
+
+/// The street of the demonstrations.
+const STREET: &str = include_str!("../plans/street.toml");
+
+impl SiteFile {
+    /// Reads a site.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its line.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let text = located::read(path)?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        Self::parse(&path.display().to_string(), &stem, &text)
+    }
+
+    /// The street of the demonstrations.
+    ///
+    /// # Panics
+    /// Never: a test reads it.
+    #[must_use]
+    pub fn street() -> Self {
+        Self::parse("site street", "street", STREET).expect("a test reads it")
+    }
+
+    /// The same site, whose origin is elsewhere and whose crossing is another one.
+    #[must_use]
+    pub fn at(self, site: Site) -> Self {
+        Self { site, ..self }
+    }
+
+    fn parse(file: &str, name: &str, text: &str) -> Result<Self, FileError> {
+        let tables: Result<SiteTables, _> = located::parse(text);
+        let checked = tables.and_then(|tables| tables.check(name));
+        checked.map_err(|misfit| misfit.of(file, text))
+    }
+
+    /// The lane that a place is on.
+    #[must_use]
+    pub fn lane_at(&self, place: Place) -> Option<&Lane> {
+        self.lanes.iter().find(|lane| lane.has(place))
+    }
+}
+
+impl Lane {
+    /// Whether a place is on it.
+    #[must_use]
+    pub fn has(&self, place: Place) -> bool {
+        let length = self.from.distance(self.to);
+        let (east, north) = (
+            self.to.east - self.from.east,
+            self.to.north - self.from.north,
+        );
+        let (de, dn) = (place.east - self.from.east, place.north - self.from.north);
+        let along = (de * east + dn * north) / length;
+        let beside = (de * north - dn * east) / length;
+        (0.0..=length).contains(&along) && beside.abs() <= self.width_m / 2.0
+    }
+}
+
+impl SiteTables {
+    fn check(self, name: &str) -> Result<SiteFile, Misfit> {
+        let site = self.site()?;
+        let kerbs = self.crossing.kerbs_m.iter();
+        let kerbs = kerbs.map(|[from, to]| Ok([located::place(from)?, located::place(to)?]));
+        let lanes = self.lanes.iter().map(LaneTable::check);
+        let mut checked = SiteFile {
+            name: self.name.unwrap_or_else(|| name.to_owned()),
+            site,
+            kerbs: kerbs.collect::<Result<_, Misfit>>()?,
+            lanes: lanes.collect::<Result<_, _>>()?,
+            places: BTreeMap::new(),
+        };
+        for (name, spot) in self.places {
+            let place = located::place(&spot.get_ref().at_m)?;
+            let purpose = spot.get_ref().purpose;
+            let lane = checked.lane_at(place).map(|lane| lane.name.clone());
+            let what = match (purpose, lane) {
+                (Purpose::Guard, None) if !checked.lanes.is_empty() => {
+                    format!("place '{name}' is for guarding, and on no lane")
+                }
+                (Purpose::Wait | Purpose::Cross, Some(lane)) => {
+                    format!(
+                        "place '{name}' is on lane '{lane}': only places to guard may be on one"
+                    )
+                }
+                _ => {
+                    checked.places.insert(name, Spot { place, purpose });
+                    continue;
+                }
+            };
+            return Err(Misfit::at(&spot, what));
+        }
+        Ok(checked)
+    }
+
+    fn site(&self) -> Result<Site, Misfit> {
+        let OriginTable {
+            latitude,
+            longitude,
+        } = *self.origin.get_ref();
+        if !(-85.0..=85.0).contains(&latitude) || !(-180.0..=180.0).contains(&longitude) {
+            let what = format!(
+                "{latitude}, {longitude} is not a latitude and longitude in degrees, at most 85 and 180"
+            );
+            return Err(Misfit::at(&self.origin, what));
+        }
+        let mut site = Site {
+            latitude,
+            longitude,
+            ..Site::default()
+        };
+        if let Some(text) = &self.crossing.reference {
+            let named: Result<CrossingReference, _> = text.get_ref().parse();
+            let named = named.map_err(|error| Misfit::at(text, error.to_string()))?;
+            (site.crossing, site.map_place) = (named.0, named.map_place());
+        }
+        if let Some(text) = &self.crossing.map_place {
+            let named = text.get_ref().parse();
+            site.map_place = Some(named.map_err(|error: crossguard_codec::NoMapPlace| {
+                Misfit::at(text, error.to_string())
+            })?);
+        }
+        Ok(site)
+    }
+}
+
+impl LaneTable {
+    fn check(&self) -> Result<Lane, Misfit> {
+        let (from, to) = (located::place(&self.from_m)?, located::place(&self.to_m)?);
+        if from.distance(to) < 1.0 {
+            let what = format!("lane '{}' is shorter than a metre", self.name);
+            return Err(Misfit::at(&self.to_m, what));
+        }
+        Ok(Lane {
+            name: self.name.clone(),
+            from,
+            to,
+            width_m: located::within(&self.width_m, 1.0..=30.0, "m")?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(from: &str, to: &str) -> String {
+        assert!(STREET.contains(from), "{from}");
+        let text = STREET.replacen(from, to, 1);
+        let error = SiteFile::parse("s.toml", "s", &text).unwrap_err();
+        error.to_string()
+    }
+
+    #[test]
+    fn the_street_is_a_site() {
+        let street = SiteFile::street();
+        assert_eq!(street.site, Site::default());
+        assert_eq!((street.kerbs.len(), street.lanes.len()), (2, 2));
+        let lane = |name: &str| {
+            let place = street.places[name].place;
+            street.lane_at(place).map(|lane| lane.name.clone())
+        };
+        assert_eq!(lane("near-lane").as_deref(), Some("near"));
+        assert_eq!(lane("far-lane").as_deref(), Some("far"));
+        assert_eq!(lane("near-kerb"), None);
+    }
+
+    #[test]
+    fn a_site_that_does_not_fit_is_refused_with_its_line() {
+        for (from, to, cause) in [
+            (
+                "latitude = 49",
+                "latitude = 95",
+                "s.toml:5: 95.0101, 8.4124 is not a latitude",
+            ),
+            (
+                "width_m = 3.5",
+                "width_m = nan",
+                "s.toml:19: NaN is not possible: 1 to 30 m",
+            ),
+            (
+                "[20.0, 1.75]",
+                "[-20.0, 1.75]",
+                "s.toml:18: lane 'near' is shorter than a metre",
+            ),
+            (
+                "[-4.0, 2.0]",
+                "[-4.0, 9.0]",
+                "place 'near-lane' is for guarding, and on no lane",
+            ),
+            (
+                "[1.0, -1.0]",
+                "[1.0, 1.0]",
+                "place 'near-kerb' is on lane 'near'",
+            ),
+            (
+                "[1.0, -1.0]",
+                "[1.0, 1e30]",
+                "is no place: metres east and north",
+            ),
+            (
+                "# reference = \"276:4711\"",
+                "reference = \"0:0\"",
+                "s.toml:11: '0:0' is no crossing",
+            ),
+            (
+                "# map_place = \"segment 276:12\"",
+                "map_place = \"street 1\"",
+                "s.toml:12: ",
+            ),
+            (
+                "for = \"wait\"",
+                "for = \"rest\"",
+                "s.toml:29: unknown variant `rest`",
+            ),
+            (
+                "name = \"near\"",
+                "nam = \"near\"",
+                "s.toml:16: unknown field `nam`",
+            ),
+        ] {
+            let error = refused(from, to);
+            assert!(error.contains(cause), "{to}: {error}");
+        }
+    }
+}
