@@ -16,6 +16,9 @@ const SCALE: f64 = 32.0;
 /// How much of the site is shown around its places, in metres.
 const MARGIN_M: f64 = 2.5;
 
+/// How much more to the east, for the labels there, in metres.
+const LABEL_M: f64 = 3.0;
+
 /// Colours of roles, in their order.
 const COLOURS: [&str; 6] = [
     "#0b6e4f", "#1d4e89", "#b3541e", "#6a3d9a", "#8c2d04", "#2f4858",
@@ -41,7 +44,7 @@ impl Frame {
         Self {
             west: west - MARGIN_M,
             north: north + MARGIN_M,
-            width_m: east - west + 2.0 * MARGIN_M,
+            width_m: east - west + 2.0 * MARGIN_M + LABEL_M,
             height_m: north - south + 2.0 * MARGIN_M,
         }
     }
@@ -91,7 +94,7 @@ pub fn svg(site: &SiteFile, plan: Option<&PlanFile>) -> String {
     }
     places.push(Place::default());
     let frame = Frame::around(&places);
-    let (width, height) = (frame.width_m * SCALE, frame.height_m * SCALE + 40.0);
+    let (width, height) = (frame.width_m * SCALE, frame.height_m * SCALE + 56.0);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
          viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" font-size=\"12\">\n\
@@ -121,12 +124,13 @@ pub fn svg(site: &SiteFile, plan: Option<&PlanFile>) -> String {
 fn draw_lane(out: &mut String, frame: &Frame, lane: &Lane) {
     let ((x1, y1), (x2, y2)) = (frame.at(lane.from), frame.at(lane.to));
     let width = lane.width_m * SCALE;
+    let inside = width - 2.0;
     let _ = writeln!(
         out,
-        "<line class=\"lane\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#c9c9c9\" stroke-width=\"{width:.1}\"/>\n\
-         <line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#fff\" stroke-width=\"1.5\" stroke-dasharray=\"14 10\"/>"
+        "<line class=\"lane\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#fff\" stroke-width=\"{width:.1}\"/>\n\
+         <line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#c9c9c9\" stroke-width=\"{inside:.1}\"/>"
     );
-    // Where the lane leaves the picture or ends there, an arrow says in which direction.
+    // An arrow says in which direction its traffic goes.
     let middle = lane
         .from
         .towards(lane.to, lane.from.distance(lane.to) * 0.5);
@@ -212,16 +216,19 @@ fn draw_way(out: &mut String, frame: &Frame, role: &Role, way: &[(String, Place)
 fn draw_legend(out: &mut String, frame: &Frame, site: &SiteFile, plan: Option<&PlanFile>) {
     let y = frame.height_m * SCALE + 14.0;
     let end = 10.0 + 5.0 * SCALE;
-    let title = plan.map_or(String::new(), |plan| format!(": {}", plan.summary));
-    let title = escaped(&format!("{}{title}", site.name));
+    let title = plan.map_or(String::new(), |plan| format!(", plan {}", plan.name));
+    let title = escaped(&format!("site {}{title}", site.name));
+    let summary = plan.map_or(String::new(), |plan| escaped(&plan.summary));
     let _ = writeln!(
         out,
         "<line x1=\"10\" y1=\"{y:.0}\" x2=\"{end:.0}\" y2=\"{y:.0}\" stroke=\"#000\" stroke-width=\"3\"/>\n\
          <text x=\"{:.0}\" y=\"{:.0}\">5 m; north is up; a circle is {APART_M} m wide</text>\n\
-         <text x=\"10\" y=\"{:.0}\" font-weight=\"bold\">{title}</text>",
+         <text x=\"10\" y=\"{:.0}\" font-weight=\"bold\">{title}</text>\n\
+         <text x=\"10\" y=\"{:.0}\" font-size=\"11\">{summary}</text>",
         end + 8.0,
         y + 4.0,
-        y + 20.0
+        y + 20.0,
+        y + 35.0
     );
 }
 

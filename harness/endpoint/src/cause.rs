@@ -31,6 +31,8 @@ pub enum Layer {
     Protocol,
     /// The robot's own sensors.
     Perception,
+    /// The robot's own body, where that is another process.
+    Body,
     /// The file of the boot counter.
     Storage,
     /// The log.
@@ -41,7 +43,7 @@ pub enum Layer {
 
 impl Layer {
     /// All layers, in order.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Simulated,
         Self::Link,
         Self::Inbox,
@@ -52,6 +54,7 @@ impl Layer {
         Self::Semantics,
         Self::Protocol,
         Self::Perception,
+        Self::Body,
         Self::Storage,
         Self::Log,
         Self::Output,
@@ -71,6 +74,7 @@ impl Layer {
             Self::Semantics => "semantics",
             Self::Protocol => "protocol",
             Self::Perception => "perception",
+            Self::Body => "body",
             Self::Storage => "storage",
             Self::Log => "log",
             Self::Output => "output",
@@ -113,6 +117,12 @@ pub enum Cause {
     Ignored(Ignored),
     /// The robot perceived people and does not know its own position.
     Unplaced,
+    /// The body fell silent, or its connection ended: an emergency stop.
+    BodySilent,
+    /// The body has a fault.
+    BodyFault,
+    /// The body said something that is no line of the port, or of a maneuver that does not run.
+    BodyGarbled,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
     /// The log's reader was too slow, or the log has no room: the record is not in the log.
@@ -136,6 +146,7 @@ impl Cause {
             Self::Contradictory(_) => Layer::Semantics,
             Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
+            Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
             Self::EpochNotRenewed => Layer::Storage,
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
@@ -169,6 +180,9 @@ impl Display for Reason {
             Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",
             Cause::Ignored(why) => return why.fmt(f),
             Cause::Unplaced => "own position unknown",
+            Cause::BodySilent => "silent",
+            Cause::BodyFault => "fault",
+            Cause::BodyGarbled => "not understood",
             Cause::EpochNotRenewed => "boot counter not renewed",
         })
     }

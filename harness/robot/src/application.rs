@@ -1,5 +1,6 @@
 //! The application of a robot: what moves its body, and what it does when it leads.
 
+mod bodily;
 mod detection;
 mod errand;
 mod traits;
@@ -15,6 +16,7 @@ use crossguard_protocol::{
     TaskSet, TaskType, Unavailability,
 };
 
+use self::bodily::Bodily;
 use self::detection::Detection;
 use self::errand::Errand;
 pub use self::traits::Traits;
@@ -69,6 +71,8 @@ pub struct Application {
     detection: Detection,
     traits: Traits,
     availability: Availability,
+    /// Whether its body is there, and what was wrong with it.
+    bodily: Bodily,
     /// Whether it is unavailable because its battery was found to be low.
     was_low: bool,
     /// What its robot still has to do on the road.
@@ -140,6 +144,7 @@ impl Application {
             detection: Detection::default(),
             traits: Traits::default(),
             availability: Availability::Available,
+            bodily: Bodily::default(),
             was_low: false,
             obligation: None,
             maneuver: None,
@@ -200,8 +205,10 @@ impl Application {
         match report {
             Some(Report::InPosition(id)) => self.wish(Wish::Tell(Event::InPosition(id))),
             Some(Report::Completed(id)) => self.waits_for_people = Some(id),
+            Some(report) => self.learn_of_body(report),
             None => {}
         }
+        self.watch_body();
         self.complete();
         if let Road::Own(street) = &self.road {
             let shown = micros(now_s);

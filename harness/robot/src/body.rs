@@ -6,9 +6,11 @@
 //! ```
 //!
 //! [`Simulated`] walks to targets by itself. [`External`] is moved by others: it hands each act to a function
-//! at once, and what that function does not take is a fault that the robot announces.
+//! at once, and what that function does not take is a fault that the robot announces. [`Ported`] is another process, by lines
+//! on a socket.
 
 mod external;
+mod port;
 mod simulated;
 
 use std::fmt;
@@ -22,6 +24,7 @@ use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
 
 pub use self::external::{Driver, External};
+pub use self::port::{BodyPort, PortAddress, Ported, VERSION as PORT_VERSION};
 pub use self::simulated::Simulated;
 use crate::site::{Place, Site};
 
@@ -197,6 +200,18 @@ pub enum Report {
     InPosition(ManeuverId),
     /// It has finished this maneuver.
     Completed(ManeuverId),
+    /// It cannot finish this maneuver.
+    Failed(ManeuverId),
+    /// It is another process, which was not there yet.
+    Absent,
+    /// It is there.
+    Here,
+    /// It fell silent.
+    Silent,
+    /// It has a fault.
+    Fault,
+    /// It said something that was not understood.
+    Garbled,
 }
 
 /// How far a body is with its fallback.

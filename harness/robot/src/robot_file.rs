@@ -1,5 +1,6 @@
 //! The configuration of one robot: a TOML file for `crossguard run`.
 
+mod body;
 mod traits;
 mod zone;
 
@@ -15,7 +16,7 @@ use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
 use crate::application::{Application, Traits};
-use crate::body::{Body, Build, Driver, External, Simulated};
+use crate::body::{Body, BodyPort, Build, Driver, External, Ported, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
 use crate::located::FileError;
@@ -28,6 +29,8 @@ use crate::street::{Road, Street};
 use crate::transport::{Halves, Link, Zenoh};
 use crate::zone::{Watched, Zone};
 
+use self::body::BodyTable;
+pub use self::body::NoBody;
 pub use self::traits::NoTraits;
 use self::traits::{BatteryTable, JobName};
 pub use self::zone::NoZone;
@@ -63,6 +66,8 @@ pub struct RobotFile {
     pub kerbs: Option<[Place; 2]>,
     /// What it does when it leads by itself, if a file says that; otherwise the paper's crossing.
     pub plan_file: Option<PlanFile>,
+    /// Where its body connects, if that is another process.
+    pub body_port: Option<BodyPort>,
     /// Its link.
     pub link: Link,
     /// The protocol's configuration.
@@ -99,6 +104,7 @@ struct RobotTable {
     site: Option<SiteTable>,
     site_file: Option<PathBuf>,
     plan_file: Option<PathBuf>,
+    body: Option<BodyTable>,
     link: LinkTable,
     #[serde(default)]
     protocol: Settings,
@@ -227,6 +233,9 @@ pub enum Impossibility {
     /// No robot is like that.
     #[error(transparent)]
     Traits(#[from] NoTraits),
+    /// No body can be reached like that.
+    #[error("[body] {0}")]
+    Body(#[from] NoBody),
     /// There is no such zone.
     #[error("[zone] {0}")]
     Zone(#[from] NoZone),
@@ -282,6 +291,19 @@ impl RobotFile {
     pub fn body(&self, seed: u64) -> Simulated {
         Simulated::new(self.build, self.site, self.place, self.speed, seed)
             .holding(self.config.settings().holding)
+    }
+
+    /// Its body: another process where the file says so, and simulated otherwise, with this seed of its gait.
+    ///
+    /// # Errors
+    /// When the port of the body cannot be opened.
+    pub fn body_or_port(&self, seed: u64) -> std::io::Result<Box<dyn Body>> {
+        let Some(port) = self.body_port.clone() else {
+            return Ok(Box::new(self.body(seed)));
+        };
+        let holding = self.config.settings().holding;
+        let body = Ported::open(self.build, self.site, self.place, port, holding)?;
+        Ok(Box::new(body))
     }
 
     /// A body that others move, by this driver.
@@ -423,6 +445,7 @@ impl RobotTable {
             zone,
             kerbs: kerbs.flatten(),
             plan_file: plan,
+            body_port: self.body.map(|body| body.check(folder)).transpose()?,
             link: self.link.check(folder)?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,

@@ -443,6 +443,9 @@ impl Loop {
         for effect in self.machine.handle(moment, now_s, stimulus) {
             self.carry_out(effect);
         }
+        while let Some((cause, detail)) = self.machine.application_mut().next_trouble() {
+            self.drop(cause, detail.to_owned(), Vec::new());
+        }
         if let Some(sight) = self.machine.application_mut().next_sight() {
             self.log(Entry::People(sight));
         }

@@ -141,10 +141,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
     let security = arguments.security.of_robot(&file.name)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
+    let body = file.body_or_port(arguments.seed).map_err(|error| {
+        let address = file.body_port.as_ref().map(|port| port.address.to_string());
+        Failure::Input(format!("[body] {}: {error}", address.unwrap_or_default()))
+    })?;
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
     let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
     let counter = boot.counter;
-    let body = Box::new(file.body(arguments.seed));
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     setup.awareness = arguments.etsi.add_to(setup.awareness);
     let running = setup.start();
@@ -164,6 +167,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     console.say(&format!(
         "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
     ));
+    if let Some(port) = &file.body_port {
+        console.say(&format!("Its body connects at {}.", port.address));
+    }
     if let Some(address) = console.watch.metrics {
         console.say(&format!("Metrics are at http://{address}/metrics."));
     }

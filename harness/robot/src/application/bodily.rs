@@ -1,0 +1,77 @@
+//! What is wrong with a body that is another process: one that is silent is an emergency stop of its robot.
+
+use crossguard_endpoint::cause::Cause;
+use crossguard_protocol::{Availability, Event, Unavailability};
+
+use super::{Application, Wish};
+use crate::body::Report;
+
+/// How many troubles wait to be counted; a body that makes more of them at a time is counted for these.
+const TROUBLES: usize = 64;
+
+#[derive(Debug, Default)]
+pub(super) struct Bodily {
+    /// What its robot has to be unavailable for while the body is not there.
+    missing: Option<Unavailability>,
+    troubles: Vec<(Cause, &'static str)>,
+}
+
+impl Application {
+    /// Takes in what the body says besides how maneuvers go.
+    pub(super) fn learn_of_body(&mut self, report: Report) {
+        let trouble = match report {
+            Report::InPosition(_) | Report::Completed(_) => return,
+            Report::Failed(id) => return self.wish(Wish::Tell(Event::ManeuverFailed(id))),
+            // Nothing is wrong with a body that was not started yet, but its robot takes no part.
+            Report::Absent => {
+                self.bodily.missing = Some(Unavailability::LocalFault);
+                return;
+            }
+            Report::Here => {
+                // A stop ends by the word of a person.
+                if self.bodily.missing.take() == Some(Unavailability::LocalFault) {
+                    self.wish_available(Availability::Available);
+                }
+                return;
+            }
+            Report::Silent => {
+                self.waits_for_people = None;
+                self.bodily.missing = Some(Unavailability::EmergencyStop);
+                (
+                    Cause::BodySilent,
+                    "nothing was heard of the body: emergency stop",
+                )
+            }
+            Report::Fault => {
+                self.wish_available(Availability::Unavailable(Unavailability::LocalFault));
+                (Cause::BodyFault, "the body says that it has a fault")
+            }
+            Report::Garbled => (Cause::BodyGarbled, "a line of the body"),
+        };
+        if self.bodily.troubles.len() < TROUBLES {
+            self.bodily.troubles.push(trouble);
+        }
+    }
+
+    /// While the body is not there its robot is unavailable, whatever anybody says.
+    pub(super) fn watch_body(&mut self) {
+        let Some(reason) = self.bodily.missing else {
+            return;
+        };
+        let wanted = Availability::Unavailable(reason);
+        if self.availability != wanted {
+            self.wish_available(wanted);
+        }
+    }
+
+    /// Before anything else that it wants.
+    fn wish_available(&mut self, availability: Availability) {
+        self.wishes
+            .push_front(Wish::Tell(Event::AvailabilityChanged(availability)));
+    }
+
+    /// The next thing that went wrong with the body, to be counted.
+    pub(crate) fn next_trouble(&mut self) -> Option<(Cause, &'static str)> {
+        self.bodily.troubles.pop()
+    }
+}

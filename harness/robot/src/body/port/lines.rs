@@ -1,0 +1,128 @@
+//! The lines of the body port, version 1: one JSON object each, with its kind under `type`.
+
+use crossguard_codec::{Target, TaskParameters};
+use crossguard_protocol::{FallbackPolicy, Maneuver};
+use serde::{Deserialize, Serialize};
+
+use crate::site::{Place, Site};
+
+/// The version that both sides say in `hello`.
+pub const VERSION: u8 = 1;
+
+/// What the kit says to a body.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub(super) enum ToBody {
+    Hello { crossguard: u8 },
+    Start(Start),
+    Stop { id: String, why: String },
+    FallBack { id: String, policy: &'static str },
+    Go { to: At },
+    Halt,
+    Release,
+    Beat,
+    Refused { why: String },
+}
+
+/// A maneuver that begins.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub(super) struct Start {
+    id: String,
+    task: String,
+    /// What the body says when it is there.
+    report: &'static str,
+    to: Option<At>,
+    speed_mps: Option<f64>,
+    heading_deg: Option<f64>,
+    pedestrian_distance_m: Option<f64>,
+}
+
+/// A place, on the site and on earth.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub(super) struct At {
+    east_m: f64,
+    north_m: f64,
+    latitude: f64,
+    longitude: f64,
+}
+
+/// What a body says to the kit. Fields that are not named here are left alone.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub(super) enum FromBody {
+    Hello {
+        crossguard: u8,
+    },
+    Pose {
+        east_m: f64,
+        north_m: f64,
+        #[serde(default)]
+        heading_deg: f64,
+        #[serde(default)]
+        speed_mps: f64,
+    },
+    InPosition {
+        id: String,
+    },
+    Completed {
+        id: String,
+    },
+    Failed {
+        id: String,
+    },
+    FallenBack,
+    Fault {
+        #[serde(default)]
+        text: String,
+    },
+    Beat,
+}
+
+impl At {
+    pub(super) fn of(site: &Site, place: Place) -> Self {
+        let (latitude, longitude) = site.coordinates(place);
+        Self {
+            east_m: place.east,
+            north_m: place.north,
+            latitude,
+            longitude,
+        }
+    }
+}
+
+impl Start {
+    pub(super) fn new(
+        maneuver: Maneuver,
+        parameters: &TaskParameters,
+        site: &Site,
+        holds: bool,
+    ) -> Self {
+        let to = match parameters.target {
+            Some(Target::Position {
+                latitude,
+                longitude,
+                ..
+            }) => Some(At::of(site, site.place(latitude, longitude))),
+            _ => None,
+        };
+        Self {
+            id: maneuver.id.to_string(),
+            task: maneuver.task.to_string(),
+            report: if holds { "in-position" } else { "completed" },
+            to,
+            speed_mps: parameters.maximum_speed,
+            heading_deg: parameters.heading,
+            pedestrian_distance_m: parameters.minimum_pedestrian_distance,
+        }
+    }
+}
+
+/// The name of a policy.
+pub(super) const fn policy(policy: FallbackPolicy) -> &'static str {
+    match policy {
+        FallbackPolicy::StopInPlace => "stop-in-place",
+        FallbackPolicy::HoldUntilClear => "hold-until-clear",
+        FallbackPolicy::GoToSafePosition => "go-to-safe-position",
+        FallbackPolicy::EscortToKerb => "escort-to-kerb",
+    }
+}

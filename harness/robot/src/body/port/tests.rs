@@ -1,0 +1,128 @@
+//! The port by itself: a socket on one side, the trait of bodies on the other.
+
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::net::UnixStream;
+
+use crossguard_codec::TaskParameters;
+use crossguard_protocol::{
+    ManeuverId, RequestId, SessionId, SessionNumber, StationId, StopReason, TaskType, UniqueNumber,
+};
+
+use super::*;
+
+fn maneuver(task: TaskType) -> Maneuver {
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let session = SessionId { leader, number };
+    let request = RequestId(0);
+    let id = ManeuverId { session, request };
+    Maneuver { id, task }
+}
+
+fn open(folder: &std::path::Path) -> (Ported, UnixStream) {
+    let path = folder.join("body.sock");
+    let port = BodyPort {
+        address: PortAddress::Unix(path.clone()),
+        silence: Duration::from_millis(500),
+        stands_m: 0.3,
+    };
+    let holding = TaskSet::of(&[TaskType::BLOCK]);
+    let (build, site) = (Build::Quadruped, Site::default());
+    let body = Ported::open(build, site, Place::default(), port, holding).unwrap();
+    (body, UnixStream::connect(path).unwrap())
+}
+
+/// Lets time pass until the body reports something, at most two seconds in steps of 10 ms.
+fn report(body: &mut Ported) -> Option<Report> {
+    (0..200).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(1));
+        body.advance(0.01)
+    })
+}
+
+fn heard(from: &mut impl BufRead) -> serde_json::Value {
+    let mut line = String::new();
+    from.read_line(&mut line).unwrap();
+    serde_json::from_str(&line).unwrap()
+}
+
+#[test]
+fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut body, mut other) = open(folder.path());
+    assert_eq!(report(&mut body), Some(Report::Absent));
+    let start = BodyAct::Start(
+        maneuver(TaskType::BLOCK),
+        TaskParameters {
+            target: Some(Site::default().target(Place::new(6.0, 5.0))),
+            heading: Some(90.0),
+            ..TaskParameters::default()
+        },
+    );
+    writeln!(
+        other,
+        "{{\"type\": \"hello\", \"crossguard\": 1, \"name\": \"later\"}}"
+    )
+    .unwrap();
+    assert_eq!(report(&mut body), Some(Report::Here));
+    assert_eq!(body.act(start), Ok(()));
+    let mut lines = BufReader::new(other.try_clone().unwrap());
+    assert_eq!(heard(&mut lines)["type"], "hello");
+    let line = std::iter::repeat_with(|| heard(&mut lines)).find(|line| line["type"] != "beat");
+    let line = line.unwrap();
+    assert_eq!(
+        (&line["type"], &line["task"]),
+        (&"start".into(), &"block".into())
+    );
+    assert_eq!(
+        (&line["id"], &line["report"]),
+        (&"1#1.0/0".into(), &"in-position".into())
+    );
+    assert!(
+        (line["to"]["east_m"].as_f64().unwrap() - 6.0).abs() < 1e-6,
+        "{line}"
+    );
+    assert_eq!(line["heading_deg"], 90.0);
+    let said = "{\"type\": \"pose\", \"east_m\": 6.1, \"north_m\": 5}\n{\"type\": \"in-position\", \"id\": \"1#1.0/0\"}";
+    writeln!(other, "{said}").unwrap();
+    let there = Report::InPosition(maneuver(TaskType::BLOCK).id);
+    assert_eq!(report(&mut body), Some(there));
+    assert!(body.stands_at(Place::new(6.0, 5.0)) && !body.stands_at(Place::new(6.5, 5.0)));
+}
+
+#[test]
+fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_silence() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut body, mut other) = open(folder.path());
+    assert_eq!(report(&mut body), Some(Report::Absent));
+    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
+    assert_eq!(report(&mut body), Some(Report::Here));
+    // It hangs.
+    assert_eq!(report(&mut body), Some(Report::Silent));
+    assert_eq!(report(&mut body), None);
+    let stop = BodyAct::Stop(maneuver(TaskType::MOVE), StopReason::Superseded);
+    assert_eq!(body.act(stop), Ok(()), "it was told that it is silent");
+    let start = BodyAct::Start(maneuver(TaskType::MOVE), TaskParameters::default());
+    assert!(body.act(start).is_err());
+    let mut again = UnixStream::connect(folder.path().join("body.sock")).unwrap();
+    writeln!(again, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
+    assert_eq!(report(&mut body), Some(Report::Here));
+    drop(again);
+    assert_eq!(report(&mut body), Some(Report::Silent));
+}
+
+#[test]
+fn another_version_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut body, mut other) = open(folder.path());
+    assert_eq!(report(&mut body), Some(Report::Absent));
+    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
+    assert_eq!(report(&mut body), Some(Report::Garbled));
+    let mut lines = BufReader::new(other);
+    assert_eq!(heard(&mut lines)["type"], "hello");
+    let refused = heard(&mut lines);
+    assert!(
+        refused["why"].as_str().unwrap().starts_with("version 2"),
+        "{refused}"
+    );
+}

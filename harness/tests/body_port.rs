@@ -1,0 +1,268 @@
+//! Bodies that are processes of their own, by the body port: a whole crossing, and what happens when one is killed, stops,
+//! or talks nonsense.
+
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::net::UnixStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crossguard_testkit::command::*;
+use serde_json::{Value, json};
+
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// ARI and Go2 as processes, and a body in Python for each.
+struct Street {
+    _folder: tempfile::TempDir,
+    files: [String; 2],
+    robots: [Child; 2],
+    bodies: [Child; 2],
+}
+
+/// The robot file of a robot with a body port at a UNIX socket beside it.
+fn ported(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> String {
+    let file = robot_file(folder, name, station, port, peer);
+    let body = format!("[body]\nlisten = \"unix:{name}.sock\"\n\n[link]");
+    edit(&file, &[("[link]", &body)]);
+    file
+}
+
+fn socket_of(file: &str) -> String {
+    Path::new(file)
+        .with_extension("sock")
+        .to_str()
+        .unwrap()
+        .to_owned()
+}
+
+/// The example body at a place.
+fn body(file: &str, [east, north]: [f64; 2], faster: f64) -> Child {
+    let socket = socket_of(file);
+    let deadline = Instant::now() + PATIENCE;
+    while !Path::new(&socket).exists() {
+        assert!(Instant::now() < deadline, "{socket} is not there");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/body.py");
+    Command::new("python3")
+        .arg(source)
+        .arg(format!("unix:{socket}"))
+        .args([east, north, faster].map(|number| number.to_string()))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+impl Street {
+    fn begin(faster: f64) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let port = two_free_ports();
+        let files = [
+            ported(folder.path(), "ARI", 1, port, port + 1),
+            ported(folder.path(), "Go2", 2, port + 1, port),
+        ];
+        let robots = [start(&files[0]), start(&files[1])];
+        let bodies = [
+            body(&files[0], [0.0, -1.5], faster),
+            body(&files[1], [1.0, -1.11], faster),
+        ];
+        let mut street = Self {
+            _folder: folder,
+            files,
+            robots,
+            bodies,
+        };
+        type_to(&mut street.robots[0], "wait 1.5\ndetect\n");
+        street
+    }
+
+    /// Waits until the log of a robot has this after this many octets; how long the log is then.
+    fn until(&self, robot: usize, what: &str, from: usize) -> usize {
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            let log = log_of(&self.files[robot]);
+            if let Some(at) = log.get(from..).and_then(|log| log.find(what)) {
+                return from + at + what.len();
+            }
+            assert!(Instant::now() < deadline, "no '{what}' in:\n{log}");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    /// Stops everybody in order; the logs, which are valid.
+    fn end(mut self) -> [String; 2] {
+        for robot in &mut self.robots {
+            type_to(robot, "quit\n");
+        }
+        for robot in &mut self.robots {
+            assert_eq!(wait_for(robot, PATIENCE).code(), Some(0));
+        }
+        let logs = [log_of(&self.files[0]), log_of(&self.files[1])];
+        for log in &logs {
+            crossguard_judge::validate::one(log.as_bytes()).unwrap();
+        }
+        logs
+    }
+}
+
+impl Drop for Street {
+    fn drop(&mut self) {
+        for process in self.robots.iter_mut().chain(&mut self.bodies) {
+            let _ = process.kill();
+            let _ = process.wait();
+        }
+    }
+}
+
+/// The counter of a cause of the body in a robot's last record.
+fn counted(log: &str, reason: &str) -> u64 {
+    let last = records(log).pop().unwrap();
+    last["counters"]["body"][reason].as_u64().unwrap_or(0)
+}
+
+#[test]
+fn two_bodies_in_python_do_a_whole_crossing() {
+    let street = Street::begin(10.0);
+    street.until(0, "taskCompleted", 0);
+    let [ari, go2] = street.end();
+    assert_eq!(ari.matches("\"corridorOpened\"").count(), 1);
+    assert_eq!(go2.matches("\"startManeuver\"").count(), 2);
+    for log in [&ari, &go2] {
+        assert_eq!(
+            counted(log, "silent") + counted(log, "not understood"),
+            0,
+            "{log}"
+        );
+    }
+}
+
+/// What happens to the corridor when a body is lost in the middle of the road, by this signal.
+fn lose(victim: usize, how: &str) {
+    let street = Street::begin(1.5);
+    let opened = street.until(0, "\"corridorOpened\"", 0);
+    std::thread::sleep(Duration::from_millis(500));
+    let began = Instant::now();
+    signal(&street.bodies[victim], how);
+    street.until(0, "\"corridorClosed\"", opened);
+    let closed = began.elapsed();
+    // Half a second of silence, the heartbeat, and what a loaded machine needs; its lease would last 1.9 s.
+    assert!(closed < Duration::from_millis(1_800), "{closed:?}");
+    street.until(victim, "\"unavailable\":\"emergencyStop\"", 0);
+    street.until(0, "sessionEnded", opened);
+    // A body that wakes up, or comes again, does not end the stop.
+    if how == "-STOP" {
+        signal(&street.bodies[victim], "-CONT");
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    let logs = street.end();
+    let stopped = &logs[victim];
+    assert_eq!(counted(stopped, "silent"), 1, "{stopped}");
+    let last = records(stopped).into_iter().rev();
+    let last = last
+        .filter_map(|record| record.get("state").cloned())
+        .next();
+    let availability = &last.unwrap()["availability"];
+    assert_eq!(*availability, json!({"unavailable": "emergencyStop"}));
+}
+
+#[test]
+fn the_corridor_closes_when_the_body_of_the_escort_is_killed() {
+    lose(1, "-KILL");
+}
+
+#[test]
+fn the_corridor_closes_when_the_body_of_the_escort_stops() {
+    lose(1, "-STOP");
+}
+
+#[test]
+fn the_corridor_closes_when_the_body_of_the_leader_is_killed() {
+    lose(0, "-KILL");
+}
+
+#[test]
+fn the_corridor_closes_when_the_body_of_the_leader_stops() {
+    lose(0, "-STOP");
+}
+
+/// What the kit says next, beats left out.
+fn hears(from: &mut impl BufRead) -> Value {
+    loop {
+        let mut line = String::new();
+        assert!(from.read_line(&mut line).unwrap() > 0, "the port is closed");
+        let line: Value = serde_json::from_str(&line).unwrap();
+        if line["type"] != "beat" {
+            return line;
+        }
+    }
+}
+
+#[test]
+fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = two_free_ports();
+    let go2 = ported(folder.path(), "Go2", 2, port, port + 1);
+    let mut robot = start(&go2);
+    let socket = socket_of(&go2);
+    let deadline = Instant::now() + PATIENCE;
+    let mut first = loop {
+        match UnixStream::connect(&socket) {
+            Ok(stream) => break stream,
+            Err(error) => assert!(Instant::now() < deadline, "{error}"),
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    let mut said = BufReader::new(first.try_clone().unwrap());
+    assert_eq!(hears(&mut said), json!({"type": "hello", "crossguard": 1}));
+    for line in [
+        "{\"type\": \"hello\", \"crossguard\": 1}",
+        "{\"type\": \"dance\"}",
+        "no json",
+        "{\"type\": \"pose\", \"east_m\": 1e30, \"north_m\": 0}",
+        "{\"type\": \"completed\", \"id\": \"1#1.0/0\"}",
+        "{\"type\": \"fault\", \"text\": \"hot motor\"}",
+    ] {
+        writeln!(first, "{line}").unwrap();
+    }
+    let second = UnixStream::connect(&socket).unwrap();
+    let refused = hears(&mut BufReader::new(second));
+    assert_eq!(refused["type"], "refused");
+    for _ in 0..10 {
+        writeln!(first, "{{\"type\": \"beat\"}}").unwrap();
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    type_to(&mut robot, "quit\n");
+    assert_eq!(wait_for(&mut robot, PATIENCE).code(), Some(0));
+    let log = log_of(&go2);
+    let counts = ["not understood", "fault", "silent"].map(|reason| counted(&log, reason));
+    assert_eq!(counts, [4, 1, 0], "{log}");
+    assert!(log.contains("\"unavailable\":\"localFault\""), "{log}");
+}
+
+#[test]
+fn a_body_port_that_cannot_be_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = ported(folder.path(), "ARI", 1, 47_000, 47_001);
+    for (from, to, cause) in [
+        (
+            "unix:ARI.sock",
+            "192.0.2.1:4000",
+            "[body] listen: '192.0.2.1:4000'",
+        ),
+        (
+            "192.0.2.1:4000\"",
+            "unix:a.sock\"\nsilence_ms = 10",
+            "[body] silence_ms is 10",
+        ),
+        (
+            "silence_ms = 10",
+            "stands_m = nan",
+            "[body] stands_m is NaN",
+        ),
+    ] {
+        edit(&file, &[(from, to)]);
+        assert_refused(&run(&["run", "--config", &file]), cause);
+    }
+}
