@@ -139,12 +139,9 @@ fn each_shape_has_its_header_type_and_no_other_is_accepted() {
 fn a_wrong_octet_names_its_field() {
     let cases = [
         (0, 0x21, HeaderField::BasicNextHeader),
-        (1, 1, HeaderField::BasicReserved),
         (3, 2, HeaderField::RemainingHopLimit),
         (4, 0x10, HeaderField::CommonNextHeader),
         (5, 0x51, HeaderField::HeaderType),
-        (7, 0x81, HeaderField::Flags),
-        (11, 1, HeaderField::CommonReserved),
     ];
     for (at, octet, wrong) in cases {
         let mut packet = octets(SHB, 59);
@@ -166,6 +163,37 @@ fn a_wrong_octet_names_its_field() {
         short.to_string(),
         "PayloadLength is 63, and 62 octets follow the headers"
     );
+}
+
+#[test]
+fn reserved_bits_are_ignored_whatever_they_are_and_sent_as_zero() {
+    let of_both = [(1, 0xFF), (4, 0x0F), (7, 0x7F), (11, 0xFF)];
+    let of_geo_broadcast = [(14, 0xFF), (15, 0xFF), (54, 0xFF), (55, 0xFF)];
+    for (plain, reserved) in [
+        (octets(SHB, 59), &of_both[..]),
+        (octets(GBC, 51), &[of_both, of_geo_broadcast].concat()[..]),
+    ] {
+        let (expected, rest) = Headers::decode(&plain).unwrap();
+        for &(at, bits) in reserved {
+            for bit in (0..8).map(|bit| 1 << bit).filter(|bit| bits & bit != 0) {
+                let mut packet = plain.clone();
+                packet[at] |= bit;
+                assert_ne!(packet, plain, "octet {at} is not zero as sent");
+                let (headers, payload) = Headers::decode(&packet).unwrap();
+                assert_eq!(
+                    (headers, payload),
+                    (expected, rest),
+                    "octet {at}, bit {bit:#x}"
+                );
+                let again = headers.encode(payload.len()).unwrap();
+                assert!(plain.starts_with(again.as_ref()));
+            }
+        }
+        // The bits beside them count.
+        let mut other = plain.clone();
+        other[7] ^= 0x80;
+        assert_ne!(Headers::decode(&other).unwrap().0, expected);
+    }
 }
 
 #[test]

@@ -2,10 +2,10 @@
 //! machine reaches unless another one is given.
 
 use std::fmt::Write as _;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Role, State};
@@ -16,7 +16,10 @@ use crossguard_robot::tally::Tally;
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The longest request that is read, in octets.
-const REQUEST_MAX: u64 = 8_192;
+const REQUEST_MAX: usize = 8_192;
+
+/// How many clients are served at once; the next one is turned away.
+const CLIENTS_MAX: usize = 32;
 
 /// The type of the text: the Prometheus exposition format.
 const CONTENT_TYPE: &str = "text/plain; version=0.0.4; charset=utf-8";
@@ -32,8 +35,8 @@ impl Shared {
     }
 }
 
-/// Serves `tally` at `address` until the process ends, one client after the other. The address that it is
-/// served at, where the port that was given is 0.
+/// Serves `tally` at `address` until the process ends, each client by a thread of its own, so that one that asks
+/// nothing delays no other. The address that it is served at, where the port that was given is 0.
 ///
 /// # Errors
 /// When nothing can be served there.
@@ -43,40 +46,72 @@ pub fn serve(address: SocketAddr, tally: Shared) -> std::io::Result<SocketAddr> 
     std::thread::Builder::new()
         .name("metrics".to_owned())
         .spawn(move || {
+            // Each client that is served holds a clone.
+            let clients = Arc::new(());
             for client in listener.incoming() {
-                let served = client.and_then(|client| answer(&client, &tally));
+                let served = client.and_then(|client| attend(client, &tally, &clients));
                 if let Err(error) = served {
-                    tracing::debug!(%error, "a client of the metrics went away");
+                    tracing::debug!(%error, "a client of the metrics is not served");
                 }
             }
         })?;
     Ok(address)
 }
 
-fn answer(client: &TcpStream, tally: &Shared) -> std::io::Result<()> {
-    client.set_read_timeout(Some(PATIENCE))?;
-    client.set_write_timeout(Some(PATIENCE))?;
-    let mut request = BufReader::new(client.take(REQUEST_MAX));
-    let mut line = String::new();
-    request.read_line(&mut line)?;
-    let mut header = String::new();
-    // The rest of the request says nothing that matters, and is read so that the client gets the answer.
-    while request.read_line(&mut header)? > 2 {
-        header.clear();
+/// Serves a client in a thread, unless there are too many of them.
+fn attend(client: TcpStream, tally: &Shared, clients: &Arc<()>) -> std::io::Result<()> {
+    if Arc::strong_count(clients) > CLIENTS_MAX {
+        return Err(std::io::Error::other("too many clients at once"));
     }
-    let mut words = line.split_whitespace();
-    let (status, body) = match (words.next(), words.next()) {
+    let (tally, slot) = (tally.clone(), Arc::clone(clients));
+    let serve = move || {
+        if let Err(error) = answer(&client, &tally) {
+            tracing::debug!(%error, "a client of the metrics went away");
+        }
+        drop(slot);
+    };
+    let thread = std::thread::Builder::new().name("metrics client".to_owned());
+    thread.spawn(serve).map(|_| ())
+}
+
+fn answer(mut client: &TcpStream, tally: &Shared) -> std::io::Result<()> {
+    client.set_write_timeout(Some(PATIENCE))?;
+    let request = request(client)?;
+    let mut words = request.split_whitespace();
+    let method = words.next();
+    // A query says nothing that matters.
+    let path = words.next().and_then(|target| target.split('?').next());
+    let (status, body) = match (method, path) {
         (Some("GET"), Some("/metrics" | "/")) => ("200 OK", tally.with(|tally| text(tally))),
         (Some("GET"), _) => ("404 Not Found", "there is /metrics\n".to_owned()),
         _ => ("405 Method Not Allowed", "GET is possible\n".to_owned()),
     };
     let length = body.len();
-    let mut client = client;
     write!(
         client,
         "HTTP/1.1 {status}\r\nContent-Type: {CONTENT_TYPE}\r\nContent-Length: {length}\r\n\
          Connection: close\r\n\r\n{body}"
     )
+}
+
+/// A request up to the empty line that ends it, all of which is read so that the client gets the answer. A client
+/// has [`PATIENCE`] for all of it.
+fn request(mut client: &TcpStream) -> std::io::Result<String> {
+    let until = Instant::now() + PATIENCE;
+    let mut request = Vec::new();
+    let mut part = [0; 1_024];
+    while !request.windows(4).any(|octets| octets == b"\r\n\r\n") && request.len() < REQUEST_MAX {
+        let left = until.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            return Err(ErrorKind::TimedOut.into());
+        }
+        client.set_read_timeout(Some(left))?;
+        match client.read(&mut part)? {
+            0 => break,
+            length => request.extend_from_slice(&part[..length]),
+        }
+    }
+    Ok(String::from_utf8_lossy(&request).into_owned())
 }
 
 /// A tally in the exposition format.
@@ -222,7 +257,26 @@ mod tests {
         assert!(head.contains(&format!("Content-Length: {}", body.len())));
         let line = r#"crossguard_without_effect_total{robot="A \"robot\"\n",layer="protocol",cause="nothing new"} 7"#;
         assert!(body.lines().any(|it| it == line), "{body}");
+        let asked = ask(address, "GET /metrics?x=1&y HTTP/1.1\r\nHost: here\r\n\r\n");
+        assert_eq!(asked, answer);
         assert!(ask(address, "GET /other HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 404"));
         assert!(ask(address, "POST /metrics HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 405"));
+    }
+
+    #[test]
+    fn clients_that_ask_nothing_delay_nobody_and_cannot_become_too_many() {
+        let address = serve("127.0.0.1:0".parse().unwrap(), Shared::default()).unwrap();
+        let connect = |_| TcpStream::connect(address).unwrap();
+        let idle: Vec<_> = (0..5).map(connect).collect();
+        let began = Instant::now();
+        let answer = ask(address, "GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n");
+        assert!(answer.starts_with("HTTP/1.1 200 OK"), "{answer}");
+        assert!(began.elapsed() < PATIENCE, "{:?}", began.elapsed());
+        let more: Vec<_> = (0..2 * CLIENTS_MAX).map(connect).collect();
+        // The last ones are turned away at once, and all of them after a while.
+        let mut last = more.last().unwrap();
+        assert!(!matches!(last.read(&mut [0; 8]), Ok(1..)));
+        assert!(began.elapsed() < PATIENCE, "{:?}", began.elapsed());
+        drop((idle, more));
     }
 }

@@ -175,7 +175,14 @@ fn a_configuration_that_makes_no_sense_is_refused_by_name() {
         with("[zone]\npolygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]\n"),
         "[zone] polygon_m: its sides 1 and 3 cross",
     );
-    refused(good.replace("127.0.0.1", "192.0.2.1"), "192.0.2.1");
+    let elsewhere = good.replace("127.0.0.1", "192.0.2.1");
+    refused(elsewhere, "192.0.2.1");
+    let to_nobody = good.replace("peers = [\"127.0.0.1", "peers = [\"0.0.0.0");
+    refused(to_nobody, "[link] nothing can be sent to 0.0.0.0:");
+    refused(
+        good.replace("peers", "framing = \"vlan\"\npeers"),
+        "unknown variant `vlan`",
+    );
     refused(
         good.replace("peers", "multicast = \"239.1.1.1:4\"\npeers"),
         "[link] wants either",

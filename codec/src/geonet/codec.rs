@@ -1,4 +1,9 @@
 //! Headers from octets and to octets.
+//!
+//! Reserved bits are sent as zero and ignored on reception, as EN 302 636-4-1 wants of fields that a later version
+//! may use: the octet behind the basic header's first, the low bits of the common header's first octet, its flags
+//! but for the mobile one, its last octet, and two octets each behind the sequence number and the area of a
+//! geo-broadcast.
 
 use super::{
     Address, Area, BASIC_LEN, BasicHeader, GeonetError, HEADERS_LEN_MAX, HeaderField, Headers,
@@ -9,8 +14,9 @@ use super::{
 const BASIC_COMMON: u8 = 0x11;
 /// Version 1, secured packet next.
 const BASIC_SECURED: u8 = 0x12;
-/// BTP-B next.
+/// BTP-B next, in the bits that say what is next; the others are reserved.
 const BTP_B: u8 = 0x20;
+const NEXT_HEADER: u8 = 0xF0;
 /// Header types and subtypes.
 const SINGLE_HOP: u8 = 0x50;
 const BROADCAST_CIRCLE: u8 = 0x40;
@@ -66,21 +72,9 @@ impl HeaderReader<'_> {
         self.array(field).map(i32::from_be_bytes)
     }
 
-    /// Octets that are zero.
-    fn zero_u8(&mut self, field: HeaderField) -> Result<(), GeonetError> {
-        expect(field, self.u8(field)?.into(), 0)
-    }
-
-    fn zero_u16(&mut self, field: HeaderField) -> Result<(), GeonetError> {
-        expect(field, self.u16(field)?, 0)
-    }
-}
-
-fn expect(field: HeaderField, found: u16, expected: u16) -> Result<(), GeonetError> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(GeonetError::Value { field, found })
+    /// Reserved octets, whatever they hold.
+    fn reserved<const N: usize>(&mut self, field: HeaderField) -> Result<(), GeonetError> {
+        self.array::<N>(field).map(|_| ())
     }
 }
 
@@ -137,7 +131,7 @@ impl BasicHeader {
                 });
             }
         };
-        reader.zero_u8(HeaderField::BasicReserved)?;
+        reader.reserved::<1>(HeaderField::BasicReserved)?;
         let header = Self {
             next,
             lifetime: Lifetime::of_octet(reader.u8(HeaderField::Lifetime)?),
@@ -196,16 +190,20 @@ impl Headers {
             ..
         } = basic;
         let next = reader.u8(HeaderField::CommonNextHeader)?;
-        expect(HeaderField::CommonNextHeader, next.into(), BTP_B.into())?;
+        if next & NEXT_HEADER != BTP_B {
+            return Err(GeonetError::Value {
+                field: HeaderField::CommonNextHeader,
+                found: next.into(),
+            });
+        }
         let header_type = reader.u8(HeaderField::HeaderType)?;
         let shape = shape_of(header_type)?;
         let traffic_class = TrafficClass::of_octet(reader.u8(HeaderField::TrafficClass)?);
         let flags = reader.u8(HeaderField::Flags)?;
-        expect(HeaderField::Flags, (flags & !MOBILE).into(), 0)?;
         let announced = reader.u16(HeaderField::PayloadLength)?;
         let maximum_hop_limit = reader.u8(HeaderField::MaximumHopLimit)?;
         hops_are_possible(remaining_hop_limit, maximum_hop_limit)?;
-        reader.zero_u8(HeaderField::CommonReserved)?;
+        reader.reserved::<1>(HeaderField::CommonReserved)?;
         let (source, transport) = decode_transport(HeaderReader(reader.0), shape)?;
         // What follows is where the shape says, which is a constant to a proof.
         reader.0 = &reader.0[transport_len(shape)..];
@@ -220,7 +218,7 @@ impl Headers {
             remaining_hop_limit,
             maximum_hop_limit,
             traffic_class,
-            is_mobile: flags == MOBILE,
+            is_mobile: flags & MOBILE != 0,
             source,
             transport,
             port,
@@ -289,7 +287,7 @@ fn decode_transport(
         return Ok((source, Transport::SingleHop { media }));
     };
     let sequence_number = reader.u16(HeaderField::SequenceNumber)?;
-    reader.zero_u16(HeaderField::SequenceReserved)?;
+    reader.reserved::<2>(HeaderField::SequenceReserved)?;
     let source = LongPositionVector::decode(&mut reader)?;
     let area = Area::decode(&mut reader, shape)?;
     let transport = Transport::GeoBroadcast {
@@ -445,7 +443,7 @@ impl Area {
             distance_b: reader.u16(HeaderField::AreaDistances)?,
             angle: reader.u16(HeaderField::AreaAngle)?,
         };
-        reader.zero_u16(HeaderField::AreaReserved)?;
+        reader.reserved::<2>(HeaderField::AreaReserved)?;
         Ok(area)
     }
 

@@ -51,6 +51,14 @@ impl EnvelopeError {
             Self::Rejected(rejected) => rejected.cause(),
         }
     }
+
+    /// Whether the packet is signed with a ticket of the own station, which has heard itself.
+    pub(super) const fn is_own_ticket(self) -> bool {
+        #[cfg(feature = "security")]
+        return matches!(self, Self::Rejected(Rejected::OwnTicket));
+        #[cfg(not(feature = "security"))]
+        return false;
+    }
 }
 
 impl Envelope {

@@ -1,4 +1,4 @@
-//! The laws of the headers: decoding is total, and encoding is its inverse in both directions.
+//! The laws of the headers: decoding is total, and encoding is its inverse in both directions, but for reserved bits.
 //!
 //! Functions that assert, for the `proofs` crate to call. Not part of the stable interface.
 
@@ -6,6 +6,10 @@ use super::{GeonetError, HEADERS_LEN_MAX, HeaderField, Headers, Transport};
 
 /// Octets of the headers of single-hop broadcast.
 const SINGLE_HOP_LEN: usize = 44;
+/// The reserved bits of each octet up to the end of the common header: they are sent as zero and ignored.
+const RESERVED: [u8; 12] = [0, 0xFF, 0, 0, 0x0F, 0, 0, 0x7F, 0, 0, 0, 0xFF];
+/// The reserved octets of a geo-broadcast behind that: those after the sequence number and after the area.
+const RESERVED_IN_GEO_BROADCAST: [usize; 4] = [14, 15, 54, 55];
 
 /// No octets make the decoder panic, and it reads nothing behind them. An error names what is wrong.
 ///
@@ -24,7 +28,8 @@ pub fn decoding_is_total(packet: &[u8]) -> Result<(Headers, &[u8]), GeonetError>
     decoded
 }
 
-/// What the decoder accepts it gives back: the headers encode to the octets that they were read from.
+/// What the decoder accepts it gives back: the headers encode to the octets that they were read from, with zeros in
+/// reserved bits.
 ///
 /// Gives whether it was accepted.
 #[must_use]
@@ -33,7 +38,8 @@ pub fn what_is_accepted_is_canonical(packet: &[u8]) -> bool {
         return false;
     };
     let encoded = headers.encode(payload.len());
-    assert!(encoded.is_ok_and(|encoded| begins_with(packet, encoded.as_ref())));
+    let is_geo_broadcast = matches!(headers.transport, Transport::GeoBroadcast { .. });
+    assert!(encoded.is_ok_and(|encoded| begins_with(packet, encoded.as_ref(), is_geo_broadcast)));
     true
 }
 
@@ -70,14 +76,24 @@ fn length_of(headers: &Headers) -> usize {
     }
 }
 
-/// Whether the packet begins with these octets, none of which is behind the longest headers. Octet by
-/// octet, which is easier to prove than the equality of slices.
-fn begins_with(packet: &[u8], octets: &[u8]) -> bool {
+/// Whether the packet begins with these octets, none of which is behind the longest headers, but for reserved
+/// bits, which the octets have as zero. Octet by octet, which is easier to prove than the equality of slices.
+fn begins_with(packet: &[u8], octets: &[u8], is_geo_broadcast: bool) -> bool {
     (0..HEADERS_LEN_MAX).all(|at| {
-        octets
-            .get(at)
-            .is_none_or(|octet| packet.get(at) == Some(octet))
+        octets.get(at).is_none_or(|octet| {
+            let reserved = reserved_bits(at, is_geo_broadcast);
+            packet.get(at).map(|found| found & !reserved) == Some(*octet)
+        })
     })
+}
+
+/// The reserved bits of the octet at this place.
+fn reserved_bits(at: usize, is_geo_broadcast: bool) -> u8 {
+    match RESERVED.get(at) {
+        Some(reserved) => *reserved,
+        None if is_geo_broadcast && RESERVED_IN_GEO_BROADCAST.contains(&at) => 0xFF,
+        None => 0,
+    }
 }
 
 /// Whether the headers have the fault that the error names.

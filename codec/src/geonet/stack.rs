@@ -269,7 +269,11 @@ impl Stack {
                 (rest, None)
             }
             NextHeader::Secured => {
-                let opened = self.envelope.open(ego, basic, rest)?;
+                let opened = self.envelope.open(ego, basic, rest);
+                let opened = opened.map_err(|error| match error {
+                    error if error.is_own_ticket() => Discarded::OwnPacket,
+                    error => error.into(),
+                })?;
                 let permission = (opened.its_aid, opened.signer, opened.permits);
                 (opened.plain, Some(permission))
             }

@@ -99,6 +99,8 @@ pub enum Cause {
     LinkFailed,
     /// Datagrams arrived faster than they were taken off the link.
     LinkFull,
+    /// A datagram is not framed as the link's datagrams are.
+    Misframed(&'static str),
     /// A datagram waited for longer than `delay_max` between its arrival and its input to the robot.
     WaitedTooLong,
     /// A datagram arrived while the inbox was full.
@@ -137,7 +139,7 @@ impl Cause {
     pub const fn layer(self) -> Layer {
         match self {
             Self::Simulated(_) => Layer::Simulated,
-            Self::NotSent | Self::LinkFailed | Self::LinkFull => Layer::Link,
+            Self::NotSent | Self::LinkFailed | Self::LinkFull | Self::Misframed(_) => Layer::Link,
             Self::WaitedTooLong | Self::InboxFull => Layer::Inbox,
             Self::Discarded(_) => Layer::Packet,
             Self::Rejected(_) => Layer::Security,
@@ -172,7 +174,8 @@ impl Display for Reason {
             Cause::LinkFailed => "failed",
             Cause::LinkFull | Cause::InboxFull | Cause::LogFull | Cause::OutputFull => "full",
             Cause::WaitedTooLong => "waited too long",
-            Cause::Discarded(why)
+            Cause::Misframed(why)
+            | Cause::Discarded(why)
             | Cause::Rejected(why)
             | Cause::Undecodable(why)
             | Cause::Contradictory(why) => why,

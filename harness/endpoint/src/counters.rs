@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 
+use crossguard_codec::geonet::Discarded;
 use serde::{Deserialize, Serialize};
 
 use crate::cause::{Cause, Layer};
@@ -53,7 +54,8 @@ pub struct CauseName {
 impl From<Cause> for CauseName {
     fn from(cause: Cause) -> Self {
         let reason = match cause {
-            Cause::Discarded(why)
+            Cause::Misframed(why)
+            | Cause::Discarded(why)
             | Cause::Rejected(why)
             | Cause::Undecodable(why)
             | Cause::Contradictory(why) => Cow::Borrowed(why),
@@ -61,6 +63,15 @@ impl From<Cause> for CauseName {
         };
         let layer = cause.layer();
         Self { layer, reason }
+    }
+}
+
+impl CauseName {
+    /// Whether it is a matter of course, which counters tell and lines for people do not: a multicast group, and
+    /// a radio that listens to itself, give a robot its own packets.
+    #[must_use]
+    pub fn is_own_packet(&self) -> bool {
+        *self == Self::from(Cause::Discarded(Discarded::OwnPacket.cause()))
     }
 }
 

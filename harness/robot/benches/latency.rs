@@ -22,7 +22,7 @@ use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{
-    Halves, Link, LinkError, Transport, Zenoh, ZenohError, ZenohMode, ZenohRouter,
+    Framing, Halves, Link, LinkError, Transport, Zenoh, ZenohError, ZenohMode, ZenohRouter,
 };
 
 const COMMANDS: usize = 5_000;
@@ -50,6 +50,7 @@ fn udp() -> Result<Street, LinkError> {
     let link = |address, peer| Link::Peers {
         address,
         peers: vec![peer],
+        framing: Framing::default(),
     };
     Ok(Street {
         leader: link(first, second).open()?,

@@ -95,7 +95,7 @@ pub fn entry(entry: &Entry, before: &mut State) {
         } => debug!(message = message.name(), %from, octets = octets.len(), "heard"),
         Entry::Dropped { cause, detail, .. } => {
             let CauseName { layer, reason } = cause;
-            if *layer == Layer::Simulated {
+            if *layer == Layer::Simulated || cause.is_own_packet() {
                 debug!(%layer, cause = %reason, detail, "dropped");
             } else {
                 warn!(%layer, cause = %reason, detail, "dropped");

@@ -26,7 +26,7 @@ use crate::runtime::{Clock, Setup};
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
 use crate::site_file::SiteFile;
 use crate::street::{Road, Street};
-use crate::transport::{Halves, Link, Zenoh};
+use crate::transport::{Framing, Halves, Link, Zenoh};
 use crate::zone::{Watched, Zone};
 
 use self::body::BodyTable;
@@ -160,6 +160,7 @@ struct LinkTable {
     interface: Option<String>,
     ethernet: Option<String>,
     zenoh: Option<Zenoh>,
+    framing: Option<Framing>,
 }
 
 /// What is said beside a robot file, and counts more.
@@ -211,16 +212,13 @@ pub enum Impossibility {
     Identifiers(#[from] IdentifierClash),
     /// There is no link, or there are two.
     #[error(
-        "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', or 'ethernet', or \
-         a table [link.zenoh] with a 'mode'"
+        "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', each with a 'framing' or \
+         without, or 'ethernet', or a table [link.zenoh] with a 'mode'"
     )]
     Link,
-    /// A peer is not on the loopback interface.
-    #[error(
-        "[link] {0} is not a loopback address; to reach other machines, use 'multicast' and \
-         'interface', or [link.zenoh]"
-    )]
-    NotLoopback(SocketAddr),
+    /// No datagram can be sent there.
+    #[error("[link] nothing can be sent to {0}: a peer has an address of its own and a port")]
+    Peer(SocketAddr),
     /// The body's time does not pass, or goes back.
     #[error("speed is {0}: a number from 1 to 100 is wanted")]
     Speed(f64),
@@ -460,7 +458,8 @@ impl RobotTable {
 
 impl LinkTable {
     fn check(self, folder: &Path) -> Result<Link, Impossibility> {
-        match self {
+        let framing = self.framing.unwrap_or_default();
+        let link = match self {
             Self {
                 address: Some(address),
                 peers,
@@ -468,11 +467,16 @@ impl LinkTable {
                 interface: None,
                 ethernet: None,
                 zenoh: None,
+                framing: _,
             } => {
-                let all = std::iter::once(&address).chain(&peers);
-                match all.copied().find(|address| !address.ip().is_loopback()) {
-                    Some(outside) => Err(Impossibility::NotLoopback(outside)),
-                    None => Ok(Link::Peers { address, peers }),
+                let is_nobody = |peer: &&SocketAddr| peer.ip().is_unspecified() || peer.port() == 0;
+                if let Some(nobody) = peers.iter().find(is_nobody) {
+                    return Err(Impossibility::Peer(*nobody));
+                }
+                Link::Peers {
+                    address,
+                    peers,
+                    framing,
                 }
             }
             Self {
@@ -482,7 +486,12 @@ impl LinkTable {
                 interface: Some(interface),
                 ethernet: None,
                 zenoh: None,
-            } if peers.is_empty() => Ok(Link::Multicast { group, interface }),
+                framing: _,
+            } if peers.is_empty() => Link::Multicast {
+                group,
+                interface,
+                framing,
+            },
             Self {
                 address: None,
                 peers,
@@ -490,7 +499,8 @@ impl LinkTable {
                 interface: None,
                 ethernet: Some(interface),
                 zenoh: None,
-            } if peers.is_empty() => Ok(Link::Ethernet { interface }),
+                framing: None,
+            } if peers.is_empty() => Link::Ethernet { interface },
             Self {
                 address: None,
                 peers,
@@ -498,11 +508,13 @@ impl LinkTable {
                 interface: None,
                 ethernet: None,
                 zenoh: Some(part),
-            } if peers.is_empty() => Ok(Link::Zenoh(Zenoh {
+                framing: None,
+            } if peers.is_empty() => Link::Zenoh(Zenoh {
                 config: part.config.map(|file| folder.join(file)),
                 ..part
-            })),
-            _ => Err(Impossibility::Link),
-        }
+            }),
+            _ => return Err(Impossibility::Link),
+        };
+        Ok(link)
     }
 }

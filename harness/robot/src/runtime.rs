@@ -345,6 +345,11 @@ impl Loop {
                     self.machine.endpoint_mut().count(Cause::LinkFull);
                 }
             }
+            Delivery::Arrived(Arrival::Misframed {
+                cause,
+                detail,
+                octets,
+            }) => self.drop(Cause::Misframed(cause), detail, octets),
             Delivery::LinkFailed(cause) => {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }

@@ -5,8 +5,8 @@
 //!                   └─► Receiver  (what comes in, one by one)
 //! ```
 //!
-//! [`Link`] is UDP, to the peers on the loopback interface or to a multicast group, Ethernet, or a zenoh
-//! network ([`Zenoh`], with the feature `zenoh`). [`Air`] joins robots in one process. [`WithFaults`] lays
+//! [`Link`] is UDP, to peers or to a multicast group, with an Ethernet header in its datagrams or without
+//! ([`Framing`]), Ethernet, or a zenoh network ([`Zenoh`], with the feature `zenoh`). [`Air`] joins robots in one process. [`WithFaults`] lays
 //! seeded faults over any of them: what becomes of a datagram is drawn by a [`Channel`], the one place
 //! where faults are made; the simulator draws from it as well. [`Reopening`] opens one again that has
 //! failed.
@@ -15,6 +15,7 @@ mod attention;
 mod error;
 mod ethernet;
 mod faults;
+mod framing;
 mod layer;
 mod link;
 mod memory;
@@ -24,6 +25,7 @@ mod zenoh;
 
 pub use error::{LinkError, ZenohError};
 pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Outage};
+pub use framing::{Framing, FramingError};
 pub use layer::WithFaults;
 pub use link::Link;
 pub use memory::{Air, Port};
@@ -135,4 +137,13 @@ pub enum Arrival {
     },
     /// This many datagrams, at least one, found no place in the transport's own queue.
     Overflow(u64),
+    /// A datagram that is not framed as it should be.
+    Misframed {
+        /// The name of the cause, for counters.
+        cause: &'static str,
+        /// What exactly.
+        detail: String,
+        /// What it held.
+        octets: Vec<u8>,
+    },
 }

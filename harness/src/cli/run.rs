@@ -131,7 +131,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         plan_file: arguments.plan.as_deref(),
     };
     let file = RobotFile::read_with(&arguments.config, besides).map_err(Failure::input)?;
-    let (mut link, address) = open_link(arguments, &file)?;
+    let link = configured_link(arguments, &file);
+    arguments.security.warn_if_unsigned(&link);
+    let (mut link, address) = open_link(arguments, link)?;
     let capture = arguments.pcap.as_deref().map(super::create_capture);
     let capture = capture.transpose()?;
     if let Some(capture) = &capture {
@@ -184,9 +186,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     written
 }
 
-/// The link, and where it is.
-fn open_link(arguments: &Arguments, file: &RobotFile) -> Result<(Halves, String), Failure> {
-    let link = match (
+/// The link of the command line, or else that of the file.
+fn configured_link(arguments: &Arguments, file: &RobotFile) -> Link {
+    match (
         &arguments.multicast,
         &arguments.interface,
         &arguments.ethernet,
@@ -194,12 +196,17 @@ fn open_link(arguments: &Arguments, file: &RobotFile) -> Result<(Halves, String)
         (Some(group), Some(interface), _) => Link::Multicast {
             group: *group,
             interface: interface.clone(),
+            framing: file.link.framing(),
         },
         (_, _, Some(interface)) => Link::Ethernet {
             interface: interface.clone(),
         },
         _ => arguments.zenoh.link().unwrap_or_else(|| file.link.clone()),
-    };
+    }
+}
+
+/// The link, open, and where it is.
+fn open_link(arguments: &Arguments, link: Link) -> Result<(Halves, String), Failure> {
     let faults = Faults {
         loss: arguments.faults.loss.max(arguments.loss),
         ..arguments.faults.clone()
@@ -330,7 +337,9 @@ impl Console<'_> {
                     texts.push(format!("now {:?} ({})", state.state(), state.role()));
                 }
             }
-            Entry::Dropped { cause, detail, .. } if cause.layer != Layer::Simulated => {
+            Entry::Dropped { cause, detail, .. }
+                if cause.layer != Layer::Simulated && !cause.is_own_packet() =>
+            {
                 texts.push(format!("dropped, {cause}: {detail}"));
             }
             Entry::Stopped { counters } => {

@@ -1,11 +1,13 @@
 //! What commands that run robots have for security.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crossguard_codec::Identifiers;
 use crossguard_codec::security::Time64;
 use crossguard_endpoint::station::{Credentials, Mode, Security};
 use crossguard_robot::pki::{self, Pki};
+use crossguard_robot::transport::Link;
 
 use super::{Failure, choices};
 
@@ -28,6 +30,17 @@ pub(super) struct SecurityArguments {
 impl SecurityArguments {
     pub(super) const fn mode(&self) -> Mode {
         self.security
+    }
+
+    /// Says on standard error that anybody can forge what a robot without security hears on this link.
+    pub(super) fn warn_if_unsigned(&self, link: &Link) {
+        if self.security == Mode::Off && link.leaves_machine() {
+            let _ = writeln!(
+                std::io::stderr(),
+                "warning: packets on {link} are neither signed nor verified: anybody in reach can command \
+                 this robot; --security enforce takes signed packets only"
+            );
+        }
     }
 
     pub(super) const fn is_throw_away(&self) -> bool {

@@ -10,7 +10,7 @@ use crossguard_codec::si::timestamp_its;
 use crossguard_evaluation::messages::packet_air_time_us;
 use crossguard_judge::sniffer::{self, Seen, Sniffer};
 use crossguard_robot::capture;
-use crossguard_robot::transport::{Arrival, Link, Transport};
+use crossguard_robot::transport::{Arrival, Framing, Link, Transport};
 
 use super::codec::Version;
 use super::interrupts::interrupts;
@@ -97,12 +97,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn link(arguments: &Arguments) -> Option<Link> {
     if let Some(address) = arguments.address {
-        let peers = Vec::new();
-        return Some(Link::Peers { address, peers });
+        return Some(Link::Peers {
+            address,
+            peers: Vec::new(),
+            framing: Framing::default(),
+        });
     }
     if let (Some(group), Some(interface)) = (arguments.multicast, &arguments.interface) {
         let interface = interface.clone();
-        return Some(Link::Multicast { group, interface });
+        return Some(Link::Multicast {
+            group,
+            interface,
+            framing: Framing::default(),
+        });
     }
     if let Some(interface) = arguments.ethernet.clone() {
         return Some(Link::Ethernet { interface });

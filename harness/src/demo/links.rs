@@ -3,7 +3,7 @@
 use std::net::{Ipv4Addr, SocketAddr};
 
 use crossguard_robot::transport::{
-    Halves, Link, LinkError, Transport, WithFaults, Zenoh, ZenohMode, ZenohRouter,
+    Framing, Halves, Link, LinkError, Transport, WithFaults, Zenoh, ZenohMode, ZenohRouter,
 };
 use serde::Serialize;
 
@@ -63,6 +63,7 @@ fn link(zenoh: Option<Meeting>, addresses: &[SocketAddr], nth: usize) -> Link {
             Link::Peers {
                 address,
                 peers: peers.copied().collect(),
+                framing: Framing::default(),
             }
         }
         // Those before it listen already.

@@ -117,6 +117,13 @@ pub enum ZenohError {
     Session(String),
 }
 
+/// Whether this is the name of a loopback interface.
+pub(super) fn is_loopback(name: &str) -> bool {
+    let interfaces = if_addrs::get_if_addrs().unwrap_or_default();
+    let mut of_that_name = interfaces.iter().filter(|it| it.name == name);
+    of_that_name.any(if_addrs::Interface::is_loopback)
+}
+
 /// The index and the IPv4 address of an interface.
 ///
 /// # Errors

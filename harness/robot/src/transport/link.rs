@@ -3,7 +3,8 @@
 use std::fmt;
 use std::net::{SocketAddr, SocketAddrV4};
 
-use super::{Halves, LinkError, Transport, Zenoh, ethernet, udp};
+use super::error::is_loopback;
+use super::{Framing, Halves, LinkError, Transport, Zenoh, ethernet, udp};
 
 /// A robot's link to others.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -14,6 +15,8 @@ pub enum Link {
         address: SocketAddr,
         /// Those of the others.
         peers: Vec<SocketAddr>,
+        /// How packets lie in datagrams.
+        framing: Framing,
     },
     /// A group that everybody has joined.
     Multicast {
@@ -21,6 +24,8 @@ pub enum Link {
         group: SocketAddrV4,
         /// Name of the interface, like `eth0`.
         interface: String,
+        /// How packets lie in datagrams.
+        framing: Framing,
     },
     /// Frames on an interface, without UDP and IP.
     Ethernet {
@@ -29,6 +34,32 @@ pub enum Link {
     },
     /// A zenoh network.
     Zenoh(Zenoh),
+}
+
+impl Link {
+    /// How packets lie in its datagrams, as far as it has any.
+    #[must_use]
+    pub fn framing(&self) -> Framing {
+        match self {
+            Self::Peers { framing, .. } | Self::Multicast { framing, .. } => *framing,
+            Self::Ethernet { .. } | Self::Zenoh(_) => Framing::default(),
+        }
+    }
+
+    /// Whether others than the processes of this machine hear it, or are heard. Of zenoh nobody knows.
+    #[must_use]
+    pub fn leaves_machine(&self) -> bool {
+        match self {
+            Self::Peers { address, peers, .. } => {
+                let mut all = std::iter::once(address).chain(peers);
+                all.any(|address| !address.ip().is_loopback())
+            }
+            Self::Multicast { interface, .. } | Self::Ethernet { interface } => {
+                !is_loopback(interface)
+            }
+            Self::Zenoh(_) => false,
+        }
+    }
 }
 
 impl fmt::Display for Link {
@@ -46,8 +77,16 @@ impl fmt::Display for Link {
 impl Transport for Link {
     fn open(&self) -> Result<Halves, LinkError> {
         match self {
-            Self::Peers { address, peers } => udp::open(*address, peers.clone()),
-            Self::Multicast { group, interface } => udp::join(*group, interface),
+            Self::Peers {
+                address,
+                peers,
+                framing,
+            } => udp::open(*address, peers.clone(), *framing),
+            Self::Multicast {
+                group,
+                interface,
+                framing,
+            } => udp::join(*group, interface, *framing),
             Self::Ethernet { interface } => ethernet::open(interface),
             Self::Zenoh(zenoh) => zenoh.open(),
         }

@@ -1,4 +1,4 @@
-//! UDP: fan-out to peers on the loopback interface, or a multicast group on a named interface.
+//! UDP: fan-out to peers, or a multicast group on a named interface.
 
 use std::io::ErrorKind;
 use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
@@ -9,13 +9,14 @@ use socket2::{Domain, InterfaceIndexOrAddress, Protocol, SockRef, Socket, Type};
 
 use super::attention::Attention;
 use super::error::interface_of;
-use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
+use super::{Arrival, DATAGRAM_MAX, Framing, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
 /// The sending half of a link.
 #[derive(Debug)]
 struct UdpSender {
     socket: UdpSocket,
     to: Vec<SocketAddr>,
+    framing: Framing,
 }
 
 /// The receiving half of a link.
@@ -28,22 +29,31 @@ struct UdpReceiver {
     /// Whether it waits at all.
     waits: bool,
     attention: Attention,
+    framing: Framing,
 }
 
 /// Opens a socket of this address, with these peers.
 ///
 /// # Errors
 /// When the address is in use, or cannot be used.
-pub(super) fn open(address: SocketAddr, peers: Vec<SocketAddr>) -> Result<Halves, LinkError> {
+pub(super) fn open(
+    address: SocketAddr,
+    peers: Vec<SocketAddr>,
+    framing: Framing,
+) -> Result<Halves, LinkError> {
     let socket = UdpSocket::bind(address).map_err(open_error(address))?;
-    halves(socket, address, peers)
+    halves(socket, address, peers, framing)
 }
 
 /// Joins a group so that several robots on one machine can be in it.
 ///
 /// # Errors
 /// When it is no group, there is no such interface, or the address cannot be used.
-pub(super) fn join(group: SocketAddrV4, interface: &str) -> Result<Halves, LinkError> {
+pub(super) fn join(
+    group: SocketAddrV4,
+    interface: &str,
+    framing: Framing,
+) -> Result<Halves, LinkError> {
     if !group.ip().is_multicast() {
         return Err(LinkError::NotMulticast { group });
     }
@@ -60,7 +70,8 @@ pub(super) fn join(group: SocketAddrV4, interface: &str) -> Result<Halves, LinkE
         socket.set_multicast_ttl_v4(1)?;
         Ok(socket.into())
     };
-    halves(open().map_err(open_error(address))?, address, vec![address])
+    let socket = open().map_err(open_error(address))?;
+    halves(socket, address, vec![address], framing)
 }
 
 /// Both halves of a link over a socket of this address.
@@ -68,6 +79,7 @@ fn halves(
     socket: UdpSocket,
     address: SocketAddr,
     to: Vec<SocketAddr>,
+    framing: Framing,
 ) -> Result<Halves, LinkError> {
     let unusable = |cause| LinkError::Unusable { address, cause };
     let receiver = UdpReceiver {
@@ -76,9 +88,14 @@ fn halves(
         wait: Duration::ZERO,
         waits: true,
         attention: Attention::new(Instant::now()),
+        framing,
     };
     Ok(Halves {
-        sender: Box::new(UdpSender { socket, to }),
+        sender: Box::new(UdpSender {
+            socket,
+            to,
+            framing,
+        }),
         receiver: Box::new(receiver),
     })
 }
@@ -93,7 +110,8 @@ fn open_error(address: SocketAddr) -> impl Fn(std::io::Error) -> LinkError {
 impl Sender for UdpSender {
     fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
         let (socket, now) = (SockRef::from(&self.socket), MsgFlags::MSG_DONTWAIT.bits());
-        let send = |to: &SocketAddr| socket.send_to_with_flags(octets, &(*to).into(), now);
+        let datagram = self.framing.wrap(octets);
+        let send = |to: &SocketAddr| socket.send_to_with_flags(&datagram, &(*to).into(), now);
         let failures = self.to.iter().filter_map(|to| send(to).err());
         let (failed, cause) =
             failures.fold((0, None), |(failed, _), cause| (failed + 1, Some(cause)));
@@ -126,11 +144,22 @@ impl Receiver for UdpReceiver {
         let received = self.socket.recv_from(&mut *self.buffer);
         let now = Instant::now();
         match received {
-            Ok((length, address)) => Ok(Some(Arrival::Datagram {
-                from: Source::Address(address),
-                octets: self.buffer[..length].to_vec(),
-                at: self.attention.took(may_wait, now),
-            })),
+            Ok((length, address)) => {
+                let at = self.attention.took(may_wait, now);
+                let datagram = &self.buffer[..length];
+                Ok(Some(match self.framing.unwrap(datagram) {
+                    Ok(packet) => Arrival::Datagram {
+                        from: Source::Address(address),
+                        octets: packet.to_vec(),
+                        at,
+                    },
+                    Err(error) => Arrival::Misframed {
+                        cause: error.cause(),
+                        detail: error.to_string(),
+                        octets: datagram.to_vec(),
+                    },
+                }))
+            }
             // A peer that is gone answers with ICMP, which shows up as a refused connection.
             Err(error)
                 if matches!(
@@ -173,6 +202,7 @@ mod tests {
         let link = Link::Peers {
             address: any_port(),
             peers,
+            framing: Framing::default(),
         };
         let mut sender = link.open().unwrap().sender;
         sender.send(b"hello").unwrap();
@@ -190,6 +220,7 @@ mod tests {
         let link = Link::Peers {
             address,
             peers: Vec::new(),
+            framing: Framing::default(),
         };
         assert!(matches!(link.open(), Err(LinkError::InUse { .. })));
     }
@@ -200,6 +231,7 @@ mod tests {
             let link = Link::Multicast {
                 group: group.parse().unwrap(),
                 interface: interface.to_owned(),
+                framing: Framing::default(),
             };
             link.open().err().unwrap()
         };
