@@ -63,6 +63,9 @@ def expected(path):
             people = record["people"]
             waiting = sum(it["conduct"] == "waiting" for it in people)
             topics[topic + "/people"].append((at_ns, len(people), waiting))
+        elif entry == "around":
+            kinds = [(it["count"], round(it["oldestMs"] / 1000, 6)) for it in record["kinds"]]
+            topics[topic + "/around"].append((at_ns, kinds))
         elif entry == "stopped":
             counts = record["counters"].items()
             topics[topic + "/stopped"] = {
@@ -149,6 +152,9 @@ def judge_robot(topic, found, log):
     people = [(at_ns, len(value["people"]), value["waiting"])
               for at_ns, value in found.topics.get(topic + "/people", [])]
     same(topic + "/people", people, log[topic + "/people"])
+    around = [(at_ns, [(it["count"], round(it["oldest_age"], 6)) for it in value["kinds"]])
+              for at_ns, value in found.topics.get(topic + "/around", [])]
+    same(topic + "/around", around, log[topic + "/around"])
     roles = [(at_ns, value["role"]) for at_ns, value in found.topics[topic + "/state"]]
     same(topic + "/state", changes(roles), changes(log[topic + "/role"]))
     counted = found.topics[topic + "/counters"]

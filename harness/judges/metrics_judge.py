@@ -19,6 +19,10 @@ def main():
         "crossguard_on_duty": "gauge",
         "crossguard_steps": "counter",
         "crossguard_messages": "counter",
+        "crossguard_stations_heard": "gauge",
+        "crossguard_around": "gauge",
+        "crossguard_around_nearest_metres": "gauge",
+        "crossguard_around_oldest_seconds": "gauge",
         "crossguard_without_effect": "counter",
     }
     assert {name: it.type for name, it in families.items()} == kinds, families.keys()

@@ -1,12 +1,13 @@
 //! What Prometheus wants to know of a running robot: text over HTTP, at an address that nobody but this
 //! machine reaches unless another one is given.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use crossguard_codec::its::Kind;
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Role, State};
 
@@ -186,6 +187,7 @@ pub fn text(tally: &Tally) -> String {
             *count,
         );
     }
+    around(&mut page, robot, tally);
     page.family(
         "crossguard_without_effect_total",
         "counter",
@@ -196,6 +198,44 @@ pub fn text(tally: &Tally) -> String {
         page.value(&labels, count);
     }
     page.text
+}
+
+/// Who was heard, and who is on the map.
+fn around(page: &mut Page, robot: (&str, &str), tally: &Tally) {
+    page.family(
+        "crossguard_stations_heard",
+        "gauge",
+        "How many stations were heard since it booted.",
+    );
+    page.value(&[robot], tally.heard_us.len());
+    page.family(
+        "crossguard_around",
+        "gauge",
+        "How many road users are on its map, by kind.",
+    );
+    for kind in Kind::ALL {
+        let count = tally.around.of_kind(kind).map_or(0, |it| it.count);
+        page.value(&[robot, ("kind", kind.name())], count);
+    }
+    page.family(
+        "crossguard_around_nearest_metres",
+        "gauge",
+        "How far away the nearest on its map is, by kind, where that is known.",
+    );
+    for it in &tally.around.kinds {
+        if let Some(nearest) = it.nearest {
+            page.value(&[robot, ("kind", it.kind.name())], nearest.distance_m);
+        }
+    }
+    page.family(
+        "crossguard_around_oldest_seconds",
+        "gauge",
+        "For how long the one that was told of longest ago has not been told of again, by kind.",
+    );
+    for it in &tally.around.kinds {
+        let age = Duration::from_millis(it.oldest_ms).as_secs_f64();
+        page.value(&[robot, ("kind", it.kind.name())], age);
+    }
 }
 
 #[derive(Default)]
@@ -210,7 +250,7 @@ impl Page {
         let _ = writeln!(self.text, "# HELP {name} {help}\n# TYPE {name} {kind}");
     }
 
-    fn value(&mut self, labels: &[(&str, &str)], value: u64) {
+    fn value(&mut self, labels: &[(&str, &str)], value: impl Display) {
         let labels = labels
             .iter()
             .map(|(name, value)| format!("{name}=\"{}\"", escaped(value)));

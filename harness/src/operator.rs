@@ -89,7 +89,7 @@ unavailable REASON     low-battery, teleoperated, emergency-stop, local-fault, n
 available              take part again
 battery PERCENT [charging]
                        how full the battery is; below the limit of its robot file a robot is unavailable
-status                 what the robot is doing
+status                 what the robot is doing, what it heard, and who is around
 wait SECONDS           before the next line
 until STATE [SECONDS]  wait for idle, help-requested, role-established or maneuver-executing
 {\"id\": N, \"position_m\": [EAST, NORTH], \"velocity_mps\": [1, 0], \"class\": \"pedestrian\",

@@ -70,10 +70,17 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
     }
     let log = path("demo.jsonl");
     let port = command::two_free_ports().to_string();
-    let arguments = [
-        "demo", "--speed", "10", "--loss", "0.1", "--cam", "--quiet", "--port", &port, "--log",
-    ];
-    let demo = command::crossguard(&arguments).arg(&log).output().unwrap();
+    // Somebody stands at the road, so that there are cluster VAM.
+    let people = path("people.jsonl");
+    let lines = (0..30).map(|tenth| {
+        let at_s = f64::from(tenth) / 10.0;
+        format!("{{\"at_s\": {at_s}, \"id\": 1, \"position_m\": [3.0, 2.0]}}\n")
+    });
+    std::fs::write(&people, lines.collect::<String>()).unwrap();
+    let arguments = ["demo", "--speed", "10", "--loss", "0.1", "--quiet"];
+    let mut demo = command::crossguard(&arguments);
+    demo.args(["--cam", "--cluster-vam", "--port", &port, "--perceived"]);
+    let demo = demo.arg(&people).arg("--log").arg(&log).output().unwrap();
     assert!(demo.status.success(), "{}", stderr(&demo));
     let file = path("demo.mcap");
     let export = command::crossguard(&["export", "--mcap"])
@@ -82,6 +89,13 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
         .output()
         .unwrap();
     assert!(export.status.success(), "{}", stderr(&export));
+    let log_text = std::fs::read_to_string(&log).unwrap();
+    for heard in [
+        "\"heard\",\"message\":\"CAM\"",
+        "\"heard\",\"message\":\"VAM\"",
+    ] {
+        assert!(log_text.contains(heard), "{heard}");
+    }
     judge("mcap_judge.py", &[&log, &file], "");
 }
 

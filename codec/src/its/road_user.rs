@@ -1,6 +1,8 @@
 //! Who is on the road, as messages tell, in SI units.
 
-use serde::Serialize;
+use std::fmt::{self, Display, Formatter};
+
+use serde::{Deserialize, Serialize};
 
 use super::{CPM, CpmContainer, ItsMessage};
 use crate::asn1::cam::{CAM, HighFrequencyContainer};
@@ -13,7 +15,7 @@ use crate::si;
 use crate::state::{Position, RobotState, SignalsShown};
 
 /// What somebody on the road is.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Kind {
     /// A robot that sends RAM.
@@ -28,8 +30,37 @@ pub enum Kind {
     Object,
 }
 
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Robot,
+        Self::Vehicle,
+        Self::Vru,
+        Self::RoadSideUnit,
+        Self::Object,
+    ];
+
+    /// Its name for people, and in metrics.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Robot => "robot",
+            Self::Vehicle => "vehicle",
+            Self::Vru => "vulnerable road user",
+            Self::RoadSideUnit => "road-side unit",
+            Self::Object => "object",
+        }
+    }
+}
+
+impl Display for Kind {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
 /// Which one it is.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Identity {
     /// A station, which says of itself where it is.
@@ -41,6 +72,15 @@ pub enum Identity {
         /// Its number for the object, or the cluster's id.
         number: u16,
     },
+}
+
+impl Display for Identity {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Station(id) => write!(f, "station {id}"),
+            Self::Object { by, number } => write!(f, "object {number} of station {by}"),
+        }
+    }
 }
 
 /// Somebody on the road.

@@ -232,9 +232,15 @@ impl Host for Call<'_, '_> {
         });
     }
 
-    fn other(&mut self, _moment: Moment, indication: &Indication<'_>, packet: &[u8]) {
+    fn other(
+        &mut self,
+        _moment: Moment,
+        _me: &Robot,
+        indication: &Indication<'_>,
+        arrived: Arrived<'_>,
+    ) {
         let cause = Cause::NoUse(indication.service);
-        self.dropped(cause, &"the robot does not take it in", packet);
+        self.dropped(cause, &"the robot does not take it in", arrived.octets);
     }
 
     fn dropped(&mut self, cause: Cause, detail: &dyn Display, octets: &[u8]) {

@@ -161,7 +161,7 @@ impl<P: StateMachine> Exchange<P> {
                 Service::Ram | Service::Rmcm => {
                     self.understand(host, moment, packet, Some(&indication));
                 }
-                _ => host.other(moment, &indication, packet.octets),
+                _ => host.other(moment, self.protocol.robot(), &indication, packet),
             },
             Err(discarded) => host.dropped(discarded.into(), &discarded, packet.octets),
         }

@@ -25,6 +25,7 @@ use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::station::listen::{message_of, overhear, service_of};
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
+use crossguard_robot::around::Around;
 use crossguard_robot::sight::{Outline, Sight};
 use crossguard_robot::trace::{Entry, Record};
 
@@ -77,6 +78,8 @@ pub enum Fact {
     Zone(Outline),
     /// Its sensors have these people now, and no others.
     People(Sight),
+    /// These road users are on its map now, and no others.
+    Around(Around),
     /// Its RAM announces this cluster of people, or none any more.
     Cluster(Option<ClusterView>),
     /// One more was dropped or ignored.
@@ -282,13 +285,27 @@ impl Observer {
                 state,
             } => self.step(robot, at_us, input, outputs, state),
             Entry::Sent {
-                trigger, octets, ..
-            } => self.sent(robot, &format!("{trigger:?}"), octets),
-            Entry::Heard { octets, .. } => self
-                .message(robot, Direction::Heard, String::new(), octets)
-                .map(|(_, message)| Fact::Message(message))
-                .into_iter()
-                .collect(),
+                message,
+                trigger,
+                octets,
+            } => {
+                let me = self.robots[robot].view.as_ref().map(|view| view.station);
+                let known = (*message, me.unwrap_or(StationId(0)));
+                self.sent(robot, &format!("{trigger:?}"), known, octets)
+            }
+            Entry::Heard {
+                message,
+                from,
+                octets,
+                ..
+            } => {
+                let read = self.message(robot, Direction::Heard, String::new(), octets);
+                let message = read.map_or_else(
+                    || unread(Direction::Heard, String::new(), (*message, *from), octets),
+                    |(_, message)| message,
+                );
+                vec![Fact::Message(message)]
+            }
             Entry::Dropped { cause, octets, .. } => {
                 let lost = if cause.layer == Layer::Simulated {
                     self.message(robot, Direction::Lost, cause.to_string(), octets)
@@ -304,6 +321,7 @@ impl Observer {
             }
             Entry::Zone(outline) => vec![Fact::Zone(outline.clone())],
             Entry::People(sight) => vec![Fact::People(sight.clone())],
+            Entry::Around(around) => vec![Fact::Around(around.clone())],
             Entry::Stopped { counters } => {
                 let observed = &mut self.robots[robot];
                 let silent = counters.iter();
@@ -360,10 +378,17 @@ impl Observer {
         facts
     }
 
-    fn sent(&mut self, robot: usize, trigger: &str, octets: &[u8]) -> Vec<Fact> {
+    fn sent(
+        &mut self,
+        robot: usize,
+        trigger: &str,
+        known: (Service, StationId),
+        octets: &[u8],
+    ) -> Vec<Fact> {
         let sent = self.message(robot, Direction::Sent, trigger.to_owned(), octets);
         let Some((heard, message)) = sent else {
-            return Vec::new();
+            let message = unread(Direction::Sent, trigger.to_owned(), known, octets);
+            return vec![Fact::Message(message)];
         };
         let mut facts = vec![Fact::Message(message)];
         let Some(heard) = heard else { return facts };
@@ -425,6 +450,23 @@ impl Observer {
             Mark::Arrow { .. } => None,
         };
         notes.filter_map(note).collect()
+    }
+}
+
+/// A message that the robot understood, and that cannot be read here: what its record says of it.
+fn unread(
+    direction: Direction,
+    why: String,
+    (service, from): (Service, StationId),
+    octets: &[u8],
+) -> Message {
+    Message {
+        direction,
+        kind: service.name(),
+        from,
+        text: "not readable with the log's identifiers".to_owned(),
+        why,
+        octets: octets.to_vec(),
     }
 }
 

@@ -13,6 +13,7 @@
 //! | `/ARI/corridor` | `crossguard.Corridor` | it lets the pedestrian cross, or no longer does |
 //! | `/ARI/places` | `foxglove.SceneUpdate` | its commands: where followers go, hold and escort |
 //! | `/ARI/people` | `crossguard.People` | its sensors have other people, or have them elsewhere |
+//! | `/ARI/around` | `crossguard.Around` | once a second: who is on its map |
 //! | `/ARI/crossing` | `foxglove.SceneUpdate` | the same, or its RAM announces a cluster: zone, people and clusters |
 //! | `/robots` | `foxglove.SceneUpdate` | each RAM: boxes with name and state |
 //! | `/tf` | `foxglove.FrameTransform` | each RAM |
@@ -200,6 +201,10 @@ impl<W: Write + Seek> Recording<W> {
                 self.robots[robot].crossing.sight = sight;
                 self.of_robot(robot, "people", at_us, &message)?;
                 self.crossing(at_us, robot)
+            }
+            Fact::Around(around) => {
+                let message = schemas::around(timestamp, name, &around);
+                self.of_robot(robot, "around", at_us, &message)
             }
             Fact::Cluster(cluster) => {
                 let clusters = &mut self.robots[robot].crossing.clusters;

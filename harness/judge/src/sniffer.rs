@@ -4,7 +4,7 @@
 
 use crossguard_codec::geonet::{BasicHeader, LongPositionVector};
 use crossguard_codec::geonet::{Headers, NextHeader, Transport};
-use crossguard_codec::its::{Event, Identity, ItsMessage, Kind, RoadUser};
+use crossguard_codec::its::{Event, Identity, ItsMessage, RoadUser};
 use crossguard_codec::{Identifiers, Service};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counters;
@@ -160,7 +160,7 @@ impl Sniffer {
             }
             _ => parts.extend(users.first().map(|user| match user.identity {
                 Identity::Station(_) if user.cardinality == 1 => {
-                    format!("{}, {}", name(user.kind), place(user))
+                    format!("{}, {}", user.kind, place(user))
                 }
                 _ => cluster(user),
             })),
@@ -178,18 +178,6 @@ fn cluster(user: &RoadUser) -> String {
         Identity::Station(_) => "cluster".to_owned(),
     };
     format!("{id} of {} at {}", user.cardinality, place(user))
-}
-
-/// The name of a kind of road user.
-#[must_use]
-pub const fn name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Robot => "robot",
-        Kind::Vehicle => "vehicle",
-        Kind::Vru => "vulnerable road user",
-        Kind::RoadSideUnit => "road-side unit",
-        Kind::Object => "object",
-    }
 }
 
 /// Where somebody is, and how fast.
@@ -213,15 +201,6 @@ fn place_of_packet(source: &LongPositionVector) -> String {
         degrees(source.latitude),
         degrees(source.longitude)
     )
-}
-
-/// Who somebody on the map is.
-#[must_use]
-pub fn identity(identity: Identity) -> String {
-    match identity {
-        Identity::Station(id) => format!("station {id}"),
-        Identity::Object { by, number } => format!("object {number} of station {by}"),
-    }
 }
 
 impl std::fmt::Display for Seen {

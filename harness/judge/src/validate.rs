@@ -45,6 +45,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fmt;
 use std::io::BufRead;
 
+use crossguard_codec::Service;
 use crossguard_model_check::monitor::Monitor;
 use crossguard_model_check::properties::PropertyId;
 use crossguard_protocol::{Event, Input, StationId};
@@ -333,7 +334,9 @@ impl LoggedRobots {
         let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
         follow.tick(at_us)?;
         match entry {
-            Entry::Started { .. } | Entry::Zone(_) | Entry::People(_) => Ok(None),
+            Entry::Started { .. } | Entry::Zone(_) | Entry::People(_) | Entry::Around(_) => {
+                Ok(None)
+            }
             Entry::Step {
                 input,
                 outputs,
@@ -378,7 +381,8 @@ impl LoggedRobots {
             } => {
                 follow.heard(message, from, reception, &octets)?;
                 self.validated.of_unknown_age += usize::from(reception.is_none());
-                self.match_reception(robot, from, &octets).map(|()| None)
+                self.match_reception(robot, (message, from), &octets)
+                    .map(|()| None)
             }
             Entry::Dropped { cause, .. } => {
                 follow.dropped(&cause);
@@ -424,11 +428,16 @@ impl LoggedRobots {
     fn match_reception(
         &mut self,
         robot: &str,
-        from: StationId,
+        (message, from): (Service, StationId),
         octets: &[u8],
     ) -> Result<(), Fault> {
         if self.sent.contains(octets) {
             self.validated.heard += 1;
+            return Ok(());
+        }
+        // Such messages change nothing in the protocol, and a unit beside a robot may send them in its name.
+        if !matches!(message, Service::Ram | Service::Rmcm) {
+            self.validated.from_strangers += 1;
             return Ok(());
         }
         match self.stations.get(&from) {

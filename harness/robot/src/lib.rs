@@ -13,7 +13,8 @@
 //! - [`transport`] has UDP to peers, UDP multicast, Ethernet, zenoh, queues within a process, and a layer of
 //!   seeded faults over any of them; [`capture`] writes packets to pcap files and reads them.
 //! - [`site`], [`street`], [`zone`] and [`perception`] are what the robot knows of the crossing and the people
-//!   there; [`sight`] is what its log says of them, and [`sign`] what people at the road see.
+//!   there; [`sight`] is what its log says of them, [`around`] what it says of other road users, and [`sign`]
+//!   what people at the road see.
 //! - [`site_file`] and [`plan_file`] are sites and plans as files, which demonstrations and robots read.
 //! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up; [`observe`] hands it to `tracing`.
 //! - [`boot`] is the counter that makes session numbers unique over power failures.
@@ -22,6 +23,7 @@
 //! The feature `zenoh` brings the transport of that name.
 
 pub mod application;
+pub mod around;
 pub mod body;
 pub mod boot;
 pub mod capture;

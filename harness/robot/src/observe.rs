@@ -108,6 +108,7 @@ pub fn entry(entry: &Entry, before: &mut State) {
             on_road = sight.on_road(),
             "perceived"
         ),
+        Entry::Around(around) => debug!(%around, "map"),
         Entry::Stopped { counters } => {
             info!("stopped");
             for (CauseName { layer, reason }, count) in counters.iter() {

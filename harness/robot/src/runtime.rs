@@ -39,6 +39,7 @@ use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 use self::epochs::Epochs;
 use self::reader::{Reader, Waiting};
 use crate::application::{Application, Wish};
+use crate::around::Around;
 use crate::body::Pose;
 use crate::boot::Boot;
 use crate::journal::Journal;
@@ -59,6 +60,9 @@ const LAST_RECORD_WAIT: Duration = Duration::from_secs(1);
 
 /// How often the body moves at least.
 const BODY_PERIOD: Duration = Duration::from_millis(5);
+
+/// How often the log says who is around.
+const AROUND_PERIOD_US: u64 = 1_000_000;
 
 /// A clock that several robots share, so that their logs line up.
 #[derive(Clone, Copy, Debug)]
@@ -206,6 +210,7 @@ impl Setup {
             waiting: Arc::clone(&waiting),
             epochs: Epochs::start(self.boot),
             observed: State::Idle,
+            around: (Around::default(), began_us),
             stopping: false,
             is_dead: false,
         };
@@ -272,6 +277,8 @@ struct Loop {
     epochs: Epochs,
     /// The newest state that observers were told.
     observed: State,
+    /// Who the log says is around, and since when.
+    around: (Around, u64),
     stopping: bool,
     is_dead: bool,
 }
@@ -453,6 +460,22 @@ impl Loop {
         }
         if let Some(sight) = self.machine.application_mut().next_sight() {
             self.log(Entry::People(sight));
+        }
+        self.look_around(shown);
+    }
+
+    /// Says once a second who is on the map.
+    fn look_around(&mut self, now_us: u64) {
+        let (last, last_us) = &self.around;
+        if now_us.saturating_sub(*last_us) < AROUND_PERIOD_US {
+            return;
+        }
+        let own = self.machine.application().state().position;
+        let around = Around::of(self.machine.endpoint().map(), &own, now_us / 1_000);
+        let is_told = !(last.kinds.is_empty() && around.kinds.is_empty());
+        self.around = (around.clone(), now_us);
+        if is_told {
+            self.log(Entry::Around(around));
         }
     }
 

@@ -9,6 +9,7 @@ use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
 
+use crate::around::Around;
 use crate::sight::Sight;
 use crate::trace::{Entry, Record};
 
@@ -33,6 +34,8 @@ pub struct Tally {
     pub has_stopped: bool,
     /// The people that its sensors have.
     pub sight: Sight,
+    /// Who is on its map.
+    pub around: Around,
     /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
     pub go_until: Option<Instant>,
 }
@@ -67,6 +70,7 @@ impl Tally {
         match &record.entry {
             Entry::Started { station, boot, .. } => {
                 self.robot.clone_from(&record.robot);
+                self.around = Around::default();
                 self.state = Some(Robot::new(*station, *boot));
                 self.go_until = None;
             }
@@ -90,6 +94,7 @@ impl Tally {
             }
             Entry::Zone(_) => {}
             Entry::People(sight) => self.sight.clone_from(sight),
+            Entry::Around(around) => self.around.clone_from(around),
             Entry::Stopped { counters } => {
                 self.causes.clone_from(counters);
                 self.has_stopped = true;
@@ -119,6 +124,30 @@ impl Tally {
     pub fn messages(&self, way: Way) -> u64 {
         let those = self.messages.iter().filter(|((it, _), _)| *it == way);
         those.map(|(_, count)| count).sum()
+    }
+
+    /// How many messages of each service went which way, in words: `3 CAM, 12 RAM`.
+    #[must_use]
+    pub fn services(&self, way: Way) -> String {
+        let those = self.messages.iter().filter(|((it, _), _)| *it == way);
+        let counted = those.map(|((_, kind), count)| format!("{count} {}", kind.name()));
+        let counted: Vec<_> = counted.collect();
+        if counted.is_empty() {
+            return "nothing".to_owned();
+        }
+        counted.join(", ")
+    }
+
+    /// What was heard of other stations and who is around, for a person who asks.
+    #[must_use]
+    pub fn surroundings(&self) -> String {
+        format!(
+            "sent {}; heard {} of {} stations; around: {}",
+            self.services(Way::Sent),
+            self.services(Way::Heard),
+            self.heard_us.len(),
+            self.around
+        )
     }
 
     /// Whether the pedestrian may cross: the sign shows go now, whether the robot still runs or not.
@@ -204,6 +233,9 @@ impl Tally {
         }
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());
+        }
+        if !self.around.kinds.is_empty() {
+            let _ = write!(line, ", around: {}", self.around);
         }
         let without_effect = self.causes.total(|_| true);
         let _ = write!(

@@ -14,6 +14,7 @@ use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::{Input, Outputs, Robot, Settings, StationId};
 use serde::{Deserialize, Serialize};
 
+use crate::around::Around;
 use crate::sight::{Outline, Sight};
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
@@ -101,6 +102,9 @@ pub enum Entry {
     Zone(Outline),
     /// Its sensors have these people now, and no others.
     People(Sight),
+    /// These road users are on its map, told once a second while there are some, and once when there are none
+    /// any more.
+    Around(Around),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

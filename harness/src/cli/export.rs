@@ -32,7 +32,7 @@ const AFTER_HELP: &str = "\
 Logs are what --log of run, demo and fuzz writes. Those of several robots become one recording, in the \
 order of the clocks of their machines. Nothing is judged here: that is what validate is for. In the \
 MCAP file all messages are JSON with their schemas; each robot's topics are /NAME/state, /NAME/message, \
-/NAME/step, /NAME/counters, /NAME/location, /NAME/corridor, /NAME/places, /NAME/people and /NAME/crossing, and /robots, /tf and /log \
+/NAME/step, /NAME/counters, /NAME/location, /NAME/corridor, /NAME/places, /NAME/people, /NAME/around and /NAME/crossing, and /robots, /tf and /log \
 are those of all.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {

@@ -416,7 +416,10 @@ impl Console<'_> {
             Some(Line::Order(tell)) => running.order(tell.into()),
             Some(Line::Wait(time)) => self.hold = Some(Hold::Time(now + time)),
             Some(Line::Until(state, time)) => self.hold = Some(Hold::State(state, now + time)),
-            Some(Line::Status) => self.say(&self.robot.to_string()),
+            Some(Line::Status) => {
+                self.say(&self.robot.to_string());
+                self.say(&self.watch.surroundings());
+            }
             Some(Line::Help) => self.say(HELP),
             Some(Line::Quit) => return Ok(true),
             Some(Line::Blank) | None => {}

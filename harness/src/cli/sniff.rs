@@ -187,8 +187,8 @@ impl Printer {
             let user = &neighbour.user;
             print(format_args!(
                 "around: {} {}, {}",
-                sniffer::name(user.kind),
-                sniffer::identity(user.identity),
+                user.kind,
+                user.identity,
                 sniffer::place(user)
             ))?;
         }

@@ -120,6 +120,11 @@ impl Watch {
         self.tally.with(|tally| tally.record(record));
     }
 
+    /// What was heard of other stations, and who is around.
+    pub(super) fn surroundings(&self) -> String {
+        self.tally.with(|tally| tally.surroundings())
+    }
+
     /// Takes in what no record tells.
     pub(super) fn look(&self, running: &Running) {
         let inbox_full = running.inbox_full();

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{EgoPosition, Indication, PACKET_LEN_MAX, Signer};
-use crossguard_codec::{Heard, Identifiers, RobotState, TaskParameters};
+use crossguard_codec::{Heard, Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{Event, Input, Output, Outputs, Robot, StationId};
 
 use super::act::{Act, act};
@@ -78,6 +78,23 @@ impl<'a> Turn<'a> {
         vams.into_iter().map(|(_, vam)| vam).collect()
     }
 
+    /// A message was understood, whoever sent it.
+    fn understood(
+        &mut self,
+        moment: Moment,
+        (kind, from): (Service, StationId),
+        message: Arrived<'_>,
+    ) {
+        let now_ms = moment.now_ms;
+        self.effects.push(Effect::Heard {
+            kind,
+            from,
+            arrived_ms: message.at_ms.unwrap_or(now_ms).min(now_ms),
+            told_ms: now_ms,
+            octets: message.octets.to_vec(),
+        });
+    }
+
     /// A message could not be made.
     pub(super) fn not_sent(&mut self, error: &dyn Display) {
         self.dropped(Cause::NotSent, error, &[]);
@@ -119,13 +136,7 @@ impl Host for Turn<'_> {
 
     fn heard(&mut self, moment: Moment, me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
         let now_ms = moment.now_ms;
-        self.effects.push(Effect::Heard {
-            kind: heard.service,
-            from: heard.from,
-            arrived_ms: arrived.at_ms.unwrap_or(now_ms).min(now_ms),
-            told_ms: now_ms,
-            octets: arrived.octets.to_vec(),
-        });
+        self.understood(moment, (heard.service, heard.from), arrived);
         for input in heard.inputs.iter() {
             if let Input::Ram { ram, .. } = input {
                 self.around.answers.hear(now_ms, ram);
@@ -150,18 +161,27 @@ impl Host for Turn<'_> {
         self.around.neighbours.admit(from, signer, moment.now_ms)
     }
 
-    fn other(&mut self, moment: Moment, indication: &Indication<'_>, packet: &[u8]) {
+    fn other(
+        &mut self,
+        moment: Moment,
+        me: &Robot,
+        indication: &Indication<'_>,
+        arrived: Arrived<'_>,
+    ) {
         let (service, octets) = (indication.service, indication.message);
         let ego = EgoPosition::of(self.state, moment.timestamp_its);
         let neighbours = &mut self.around.neighbours;
-        match neighbours.observe(service, octets, &ego, moment.now_ms) {
-            // An event is nobody for the map, and changes nothing that the robot does.
-            Ok(message) => {
-                if let Some(event) = message.event() {
-                    self.dropped(Cause::NoUse(service), &event, packet);
+        match neighbours.observe(me.station(), (service, octets), &ego, moment.now_ms) {
+            Ok(message) => match message.event() {
+                // An event is nobody for the map, and changes nothing that the robot does.
+                Some(event) => self.dropped(Cause::NoUse(service), &event, arrived.octets),
+                None => {
+                    let from = StationId(message.header().station_id.0);
+                    let message = Arrived { octets, ..arrived };
+                    self.understood(moment, (service, from), message);
                 }
-            }
-            Err(unobserved) => self.dropped((&unobserved).into(), &unobserved, packet),
+            },
+            Err(unobserved) => self.dropped((&unobserved).into(), &unobserved, arrived.octets),
         }
     }
 

@@ -70,8 +70,14 @@ pub trait Host {
         true
     }
 
-    /// A message of another station than a robot arrived in `packet`.
-    fn other(&mut self, moment: Moment, indication: &Indication<'_>, packet: &[u8]);
+    /// A message of another service than those of robots arrived at the robot `me`, in this packet.
+    fn other(
+        &mut self,
+        moment: Moment,
+        me: &Robot,
+        indication: &Indication<'_>,
+        arrived: Arrived<'_>,
+    );
 
     /// The host may add what it knows of the people around.
     fn complete(&mut self, _ram: &mut RAM) {}

@@ -36,6 +36,9 @@ pub enum Unobserved {
         /// The service that it is of.
         found: Option<Service>,
     },
+    /// It goes by the own station id: the robot is not its own neighbour.
+    #[error("a message of the own station {0}")]
+    OwnStation(StationId),
 }
 
 impl From<&Unobserved> for Cause {
@@ -43,6 +46,7 @@ impl From<&Unobserved> for Cause {
         match unobserved {
             Unobserved::Undecodable(error) => error.into(),
             Unobserved::OtherService { .. } => Self::Discarded("message of another port"),
+            Unobserved::OwnStation(_) => Self::Discarded("message of the own station"),
         }
     }
 }

@@ -55,14 +55,14 @@ impl Neighbours {
         }
     }
 
-    /// Puts the road users of another station's message on the map, and returns the message.
+    /// Puts the road users of the message of another station than `me` on the map, and returns the message.
     ///
     /// # Errors
-    /// Why the octets are not the message of this service.
+    /// Why the octets are not the message of this service, or of another station.
     pub(crate) fn observe(
         &mut self,
-        service: Service,
-        octets: &[u8],
+        me: StationId,
+        (service, octets): (Service, &[u8]),
         ego: &EgoPosition,
         now_ms: u64,
     ) -> Result<ItsMessage, Unobserved> {
@@ -70,6 +70,9 @@ impl Neighbours {
         let found = service_of(&message);
         if found != Some(service) {
             return Err(Unobserved::OtherService { service, found });
+        }
+        if message.header().station_id.0 == me.0 {
+            return Err(Unobserved::OwnStation(me));
         }
         for user in message.road_users(ego.timestamp_its) {
             self.map.observe(user, now_ms);

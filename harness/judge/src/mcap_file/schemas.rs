@@ -4,6 +4,7 @@
 //! (<https://docs.foxglove.dev/docs/sdk/schemas>); Foxglove knows them by name and shows them in its map,
 //! 3D and log panels. Nothing is optional, as in messages of ROS: what is not known is empty.
 
+use crossguard_robot::around;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
@@ -37,6 +38,7 @@ kinds!(
     Counters "crossguard.Counters",
     Corridor "crossguard.Corridor",
     People "crossguard.People",
+    Around "crossguard.Around",
     Log "foxglove.Log",
     LocationFix "foxglove.LocationFix",
     FrameTransform "foxglove.FrameTransform",
@@ -116,7 +118,7 @@ pub(super) struct RobotMessage {
     pub(super) robot: String,
     /// `sent`, `heard` or `lost`.
     pub(super) direction: String,
-    /// `RAM` or `RMCM`.
+    /// `RAM`, `RMCM`, `CAM`, `VAM` or `CPM`.
     pub(super) kind: String,
     /// The station that sent it.
     pub(super) from: u32,
@@ -187,6 +189,47 @@ pub(super) struct Person {
     pub(super) class: String,
     /// `elsewhere`, `passing`, `waiting`, `onRoad` or `across`.
     pub(super) conduct: String,
+}
+
+/// Who is on a robot's map.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct Around {
+    pub(super) timestamp: Time,
+    pub(super) robot: String,
+    /// One for each kind of which somebody is there.
+    pub(super) kinds: Vec<AroundOfKind>,
+}
+
+/// The road users of a kind on a robot's map.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct AroundOfKind {
+    /// `robot`, `vehicle`, `vulnerable road user`, `road-side unit` or `object`.
+    pub(super) kind: String,
+    pub(super) count: u32,
+    /// Who is nearest; empty where no distance is known.
+    pub(super) nearest: String,
+    /// Metres; 0 where it is not known.
+    pub(super) nearest_distance: f64,
+    /// For how long the one that was told of longest ago has not been told of again, in seconds.
+    pub(super) oldest_age: f64,
+}
+
+/// The map of a robot, as numbers.
+pub(super) fn around(timestamp: Time, robot: String, around: &around::Around) -> Around {
+    let kinds = around.kinds.iter().map(|it| AroundOfKind {
+        kind: it.kind.name().to_owned(),
+        count: u32::try_from(it.count).unwrap_or(u32::MAX),
+        nearest: it
+            .nearest
+            .map_or_else(String::new, |nearest| nearest.who.to_string()),
+        nearest_distance: it.nearest.map_or(0.0, |nearest| nearest.distance_m),
+        oldest_age: std::time::Duration::from_millis(it.oldest_ms).as_secs_f64(),
+    });
+    Around {
+        timestamp,
+        robot,
+        kinds: kinds.collect(),
+    }
 }
 
 #[derive(Debug, Serialize, JsonSchema)]

@@ -195,7 +195,7 @@ impl RobotRun {
             Fact::People(sight) => self.people.see(at_us, &sight),
             Fact::Cluster(cluster) => self.people.announce(at_us, cluster),
             Fact::Stopped => self.has_stopped = true,
-            Fact::Note { .. } | Fact::Areas(_) => {}
+            Fact::Note { .. } | Fact::Areas(_) | Fact::Around(_) => {}
         }
     }
 

@@ -166,11 +166,9 @@ impl Follow {
     /// A RAM says what the state is, an RMCM what a step has put out. A CAM and a cluster VAM say nothing of
     /// either.
     pub(super) fn sent(&mut self, kind: Service, octets: &[u8]) -> Result<(), Fault> {
-        if matches!(kind, Service::Cam | Service::Vam) {
-            let message = ItsMessage::decode(&self.identifiers, octets);
-            let message = message.map_err(Unheard::from).map_err(Fault::NoMessage)?;
-            return match service_of(&message.message) {
-                Some(found) if found == kind => Ok(()),
+        if !matches!(kind, Service::Ram | Service::Rmcm) {
+            return match self.of_etsi(octets)? {
+                (Some(found), _) if found == kind => Ok(()),
                 _ => Err(Fault::OtherOctets(kind.name().to_owned())),
             };
         }
@@ -214,13 +212,25 @@ impl Follow {
         }
         self.settle_hearing()?;
         self.settle_sending()?;
+        let other = || Fault::OtherOctets(format!("{} of station {from}", kind.name()));
+        if !matches!(kind, Service::Ram | Service::Rmcm) {
+            let is_it = self.of_etsi(octets)? == (Some(kind), from);
+            return is_it.then_some(()).ok_or_else(other);
+        }
         let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
         if (message.service, message.from) != (kind, from) {
-            let says = format!("{} of station {from}", kind.name());
-            return Err(Fault::OtherOctets(says));
+            return Err(other());
         }
         self.heard = message.inputs.iter().copied().collect();
         Ok(())
+    }
+
+    /// The service and the sender of a message that the protocol has no part in.
+    fn of_etsi(&self, octets: &[u8]) -> Result<(Option<Service>, StationId), Fault> {
+        let message = ItsMessage::decode(&self.identifiers, octets);
+        let message = message.map_err(Unheard::from).map_err(Fault::NoMessage)?;
+        let from = StationId(message.message.header().station_id.0);
+        Ok((service_of(&message.message), from))
     }
 
     pub(super) fn dropped(&mut self, cause: &CauseName) {
