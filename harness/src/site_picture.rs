@@ -137,7 +137,7 @@ fn draw_lane(out: &mut String, frame: &Frame, lane: &Lane) {
     let tip = frame.at(middle.towards(lane.to, 0.6));
     let side = |metres: f64| {
         let along = lane.from.bearing(lane.to).to_radians();
-        let (east, north) = ((along + 1.570_8).sin(), (along + 1.570_8).cos());
+        let (east, north) = (along.cos(), -along.sin());
         frame.at(Place::new(
             middle.east + metres * east,
             middle.north + metres * north,

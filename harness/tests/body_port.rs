@@ -159,10 +159,8 @@ fn lose(victim: usize, how: &str) {
     let logs = street.end();
     let stopped = &logs[victim];
     assert_eq!(counted(stopped, "silent"), 1, "{stopped}");
-    let last = records(stopped).into_iter().rev();
-    let last = last
-        .filter_map(|record| record.get("state").cloned())
-        .next();
+    let mut last = records(stopped).into_iter().rev();
+    let last = last.find_map(|record| record.get("state").cloned());
     let availability = &last.unwrap()["availability"];
     assert_eq!(*availability, json!({"unavailable": "emergencyStop"}));
 }

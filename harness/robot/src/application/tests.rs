@@ -1,10 +1,14 @@
 //! What an application does with its body and its plan.
 
-use crossguard_protocol::{Notice, RequestId, SessionId, SessionNumber, StopReason, UniqueNumber};
+use crossguard_codec::Target;
+use crossguard_protocol::{
+    Notice, Rejection, RequestId, SessionId, SessionNumber, StopReason, UniqueNumber,
+};
 
 use super::*;
 use crate::body::{Build, External, NotTaken, Simulated};
 use crate::plan::{Leg, Stage};
+use crate::plan_file::APART_M;
 use crate::site::{Place, Site};
 
 #[test]
@@ -101,4 +105,75 @@ fn a_follower_that_reports_from_elsewhere_is_commanded_again_and_in_the_end_give
     let elsewhere = reports_from(Place::new(6.0, 8.2), 9);
     assert!(!elsewhere.contains(&"open"), "{elsewhere:?}");
     assert_eq!(elsewhere.last(), Some(&"give up"));
+}
+
+/// A leader at a kerb whose plan is the paper's crossing for this many followers, who have just joined; the session.
+fn leading(followers: &[StationId]) -> (Application, SessionId) {
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let session = SessionId { leader, number };
+    let plan = Plan {
+        followers: u8::try_from(followers.len()).unwrap(),
+        ..Plan::crossing(Site::default())
+    };
+    let place = Place::new(0.0, -1.5);
+    let body = Simulated::new(Build::Humanoid, Site::default(), place, 1.0, 1);
+    let mut application = Application::new(Box::new(body), Some(plan));
+    application.act(&Act::Notice(Notice::RolesEstablished(session)));
+    for follower in followers {
+        application.act(&Act::Notice(Notice::FollowerJoined(*follower)));
+    }
+    (application, session)
+}
+
+/// Two dogs were sent to one point.
+#[test]
+fn followers_with_the_same_part_are_sent_to_places_apart() {
+    let team = [2, 3, 4].map(StationId);
+    let (mut application, _) = leading(&team);
+    let mut places: Vec<Place> = Vec::new();
+    while let Some(Wish::Order { parameters, .. }) = application.next_wish() {
+        let Some(Target::Position {
+            latitude,
+            longitude,
+            ..
+        }) = parameters.target
+        else {
+            panic!("no place")
+        };
+        let place = Site::default().place(latitude, longitude);
+        let is_apart = |other: &Place| other.distance(place) >= APART_M;
+        assert!(places.iter().all(is_apart), "{place:?} of {places:?}");
+        places.push(place);
+    }
+    assert_eq!(places.len(), team.len());
+}
+
+#[test]
+fn a_rejected_command_is_repeated_half_a_second_later_and_never_to_who_is_unavailable() {
+    let follower = StationId(2);
+    let (mut application, session) = leading(&[follower]);
+    let orders = |application: &mut Application| {
+        let wishes: Vec<_> = std::iter::from_fn(|| application.next_wish()).collect();
+        let orders = wishes
+            .iter()
+            .filter(|wish| matches!(wish, Wish::Order { .. }));
+        (orders.count(), wishes.len())
+    };
+    assert_eq!(orders(&mut application), (1, 1));
+    let request = RequestId(0);
+    let id = ManeuverId { session, request };
+    let rejected = |why| Act::Notice(Notice::CommandRejected(follower, id, why));
+    application.act(&rejected(Rejection::UnsupportedTask));
+    for step in 1..50 {
+        application.advance(f64::from(step) / 100.0);
+        assert_eq!(orders(&mut application).0, 0, "after {step} hundredths");
+    }
+    application.advance(0.51);
+    assert_eq!(orders(&mut application).0, 1);
+    let stop = Unavailability::EmergencyStop;
+    application.act(&rejected(Rejection::Unavailable(stop)));
+    assert_eq!(orders(&mut application), (0, 1), "it gives up at once");
+    application.advance(2.0);
+    assert_eq!(orders(&mut application), (0, 0));
 }

@@ -80,7 +80,7 @@ fn a_plan_that_does_not_fit_is_refused_with_its_line() {
         (
             "[2.5, -1.0]",
             "\"near-kerb\"",
-            "p.toml:13: roles 'second' and 'first' are 0.00 m apart",
+            "p.toml:12: roles 'first' and 'second' are 0.00 m apart",
         ),
         (
             "[2.5, -1.0]",
