@@ -1,7 +1,7 @@
 //! What Prometheus wants to know of a running robot: text over HTTP, at an address that nobody but this
 //! machine reaches unless another one is given.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Role, State};
 
+use crossguard_robot::channel::ChannelState;
 use crossguard_robot::tally::Tally;
 
 /// How long a client may take to ask, and to take the answer.
@@ -169,6 +170,9 @@ pub fn text(tally: &Tally) -> String {
         "Whether it has a duty on the road that waits for the road to be clear.",
     );
     page.value(&[robot], u64::from(tally.is_on_duty()));
+    if let Some(channel) = tally.channel {
+        page.channel(robot, channel);
+    }
     page.family(
         "crossguard_steps_total",
         "counter",
@@ -210,7 +214,33 @@ impl Page {
         let _ = writeln!(self.text, "# HELP {name} {help}\n# TYPE {name} {kind}");
     }
 
-    fn value(&mut self, labels: &[(&str, &str)], value: u64) {
+    fn channel(&mut self, robot: (&str, &str), channel: ChannelState) {
+        if let Some(ratio) = channel.busy_ratio {
+            self.family(
+                "crossguard_channel_busy_ratio",
+                "gauge",
+                "Channel busy ratio, from 0 to 1, as the link's unit measures it.",
+            );
+            self.value(&[robot], ratio);
+        }
+        if let Some(power) = channel.power_dbm {
+            self.family(
+                "crossguard_reception_power_dbm",
+                "gauge",
+                "Power of the last reception whose power is known.",
+            );
+            self.value(&[robot], power);
+        }
+        self.family(
+            "crossguard_congestion_interval_seconds",
+            "gauge",
+            "How far apart RAM outside of sessions, and CAM, are to be (TS 102 687, reactive).",
+        );
+        #[expect(clippy::cast_precision_loss, reason = "at most a second")]
+        self.value(&[robot], channel.interval_ms as f64 / 1e3);
+    }
+
+    fn value(&mut self, labels: &[(&str, &str)], value: impl Display) {
         let labels = labels
             .iter()
             .map(|(name, value)| format!("{name}=\"{}\"", escaped(value)));

@@ -232,9 +232,11 @@ impl Chart {
                 vec![note(format!("! dropped, {cause}: {detail}"))]
             }
             Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
-            Entry::Started { .. } | Entry::Zone(_) | Entry::People(_) | Entry::Stopped { .. } => {
-                Vec::new()
-            }
+            Entry::Started { .. }
+            | Entry::Zone(_)
+            | Entry::People(_)
+            | Entry::Channel(_)
+            | Entry::Stopped { .. } => Vec::new(),
         }
     }
 

@@ -333,7 +333,9 @@ impl LoggedRobots {
         let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
         follow.tick(at_us)?;
         match entry {
-            Entry::Started { .. } | Entry::Zone(_) | Entry::People(_) => Ok(None),
+            Entry::Started { .. } | Entry::Zone(_) | Entry::People(_) | Entry::Channel(_) => {
+                Ok(None)
+            }
             Entry::Step {
                 input,
                 outputs,

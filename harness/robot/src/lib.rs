@@ -21,9 +21,11 @@
 //! The feature `zenoh` brings the transport of that name.
 
 pub mod application;
+pub mod attachment;
 pub mod body;
 pub mod boot;
 pub mod capture;
+pub mod channel;
 pub mod journal;
 pub mod machine;
 pub mod observe;

@@ -14,6 +14,7 @@ use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::{Input, Outputs, Robot, Settings, StationId};
 use serde::{Deserialize, Serialize};
 
+use crate::channel::ChannelState;
 use crate::sight::{Outline, Sight};
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
@@ -101,6 +102,8 @@ pub enum Entry {
     Zone(Outline),
     /// Its sensors have these people now, and no others.
     People(Sight),
+    /// The radio channel is like this now, where the link measures it.
+    Channel(ChannelState),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

@@ -86,7 +86,11 @@ impl Clocks {
             }
             Entry::Sent { octets, .. } => self.sent(log, at_us, octets),
             Entry::Heard { octets, .. } => self.heard(log, at_us, octets),
-            Entry::Dropped { .. } | Entry::Stopped { .. } | Entry::Zone(_) | Entry::People(_) => {}
+            Entry::Dropped { .. }
+            | Entry::Stopped { .. }
+            | Entry::Zone(_)
+            | Entry::People(_)
+            | Entry::Channel(_) => {}
         }
     }
 

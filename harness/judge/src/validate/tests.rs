@@ -123,6 +123,7 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
         Entry::Started { .. }
         | Entry::Zone(_)
         | Entry::People(_)
+        | Entry::Channel(_)
         | Entry::Dropped { .. }
         | Entry::Stopped { .. } => Vec::new(),
     }
