@@ -439,7 +439,7 @@ mod tests {
             kind,
             length: of_channel,
         };
-        let cases = [
+        let bad_frames = [
             (good[..HEADER_LEN - 1].to_vec(), FrameError::Short(23)),
             (with(1, 0), FrameError::Magic(b'C', 0)),
             (with(2, 2), FrameError::Version(2)),
@@ -450,7 +450,7 @@ mod tests {
             (with(14, 0xF0), FrameError::BusyRatio(0xF040)),
         ];
         let mut causes = std::collections::BTreeSet::new();
-        for (octets, expected) in cases {
+        for (octets, expected) in bad_frames {
             assert_eq!(Frame::decode(&octets, Side::Unit), Err(expected));
             assert!(causes.insert(expected.cause()), "{}", expected.cause());
         }
