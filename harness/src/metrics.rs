@@ -11,6 +11,7 @@ use crossguard_codec::its::Kind;
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Role, State};
 
+use crossguard_robot::channel::ChannelState;
 use crossguard_robot::tally::Tally;
 
 /// How long a client may take to ask, and to take the answer.
@@ -170,6 +171,9 @@ pub fn text(tally: &Tally) -> String {
         "Whether it has a duty on the road that waits for the road to be clear.",
     );
     page.value(&[robot], u64::from(tally.is_on_duty()));
+    if let Some(channel) = tally.channel {
+        page.channel(robot, channel);
+    }
     page.family(
         "crossguard_steps_total",
         "counter",
@@ -248,6 +252,32 @@ impl Page {
     fn family(&mut self, name: &'static str, kind: &str, help: &str) {
         self.name = name;
         let _ = writeln!(self.text, "# HELP {name} {help}\n# TYPE {name} {kind}");
+    }
+
+    fn channel(&mut self, robot: (&str, &str), channel: ChannelState) {
+        if let Some(ratio) = channel.busy_ratio {
+            self.family(
+                "crossguard_channel_busy_ratio",
+                "gauge",
+                "Channel busy ratio, from 0 to 1, as the link's unit measures it.",
+            );
+            self.value(&[robot], ratio);
+        }
+        if let Some(power) = channel.power_dbm {
+            self.family(
+                "crossguard_reception_power_dbm",
+                "gauge",
+                "Power of the last reception whose power is known.",
+            );
+            self.value(&[robot], power);
+        }
+        self.family(
+            "crossguard_congestion_interval_seconds",
+            "gauge",
+            "How far apart RAM outside of sessions, and CAM, are to be (TS 102 687, reactive).",
+        );
+        #[expect(clippy::cast_precision_loss, reason = "at most a second")]
+        self.value(&[robot], channel.interval_ms as f64 / 1e3);
     }
 
     fn value(&mut self, labels: &[(&str, &str)], value: impl Display) {

@@ -46,7 +46,7 @@ fn two_robots_cross_by_multicast_with_and_without_an_ethernet_header() {
             .filter(|it| it.contains("own packet"))
             .collect();
         assert!(
-            matches!(own[..], [line] if line.ends_with(" of packet: own packet")),
+            matches!(own[..], [once] if once.ends_with(" of packet: own packet")),
             "{lines}"
         );
         type_to(&mut follower, "quit\n");

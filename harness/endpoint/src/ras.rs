@@ -13,6 +13,7 @@
 //!
 //! - [`motion`] is where a station is and how it moves, and what counts as a change of that.
 //! - [`generation`] says when a RAM or a CAM is sent, and which trigger caused it.
+//! - [`congestion`] says how far apart they have to be on a channel that is busy.
 //! - [`clustering`] makes clusters of the road users that a robot perceives, [`area`] is what bounds
 //!   them, [`containers`] writes them into a RAM and reads them from one. [`surroundings`] are these
 //!   of one robot, together.
@@ -26,6 +27,7 @@ pub mod area;
 pub mod cam;
 #[cfg(feature = "std")]
 pub mod clustering;
+pub mod congestion;
 #[cfg(feature = "std")]
 pub mod containers;
 #[cfg(feature = "std")]

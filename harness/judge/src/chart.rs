@@ -236,6 +236,7 @@ impl Chart {
             | Entry::Zone(_)
             | Entry::People(_)
             | Entry::Around(_)
+            | Entry::Channel(_)
             | Entry::Stopped { .. } => Vec::new(),
         }
     }

@@ -334,9 +334,11 @@ impl LoggedRobots {
         let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
         follow.tick(at_us)?;
         match entry {
-            Entry::Started { .. } | Entry::Zone(_) | Entry::People(_) | Entry::Around(_) => {
-                Ok(None)
-            }
+            Entry::Started { .. }
+            | Entry::Zone(_)
+            | Entry::People(_)
+            | Entry::Around(_)
+            | Entry::Channel(_) => Ok(None),
             Entry::Step {
                 input,
                 outputs,

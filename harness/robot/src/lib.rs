@@ -24,9 +24,11 @@
 
 pub mod application;
 pub mod around;
+pub mod attachment;
 pub mod body;
 pub mod boot;
 pub mod capture;
+pub mod channel;
 pub mod journal;
 mod located;
 pub mod machine;

@@ -102,6 +102,12 @@ pub fn entry(entry: &Entry, before: &mut State) {
             }
         }
         Entry::Zone(_) => {}
+        Entry::Channel(channel) => debug!(
+            busy_ratio = ?channel.busy_ratio,
+            power_dbm = ?channel.power_dbm,
+            interval_ms = channel.interval_ms,
+            "channel"
+        ),
         Entry::People(sight) => debug!(
             people = sight.people.len(),
             waiting = sight.waiting(),

@@ -16,6 +16,7 @@ use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
 use serde::Deserialize;
 
 use crate::application::{Application, Traits};
+use crate::attachment::Sends;
 use crate::body::{Body, BodyPort, Build, Driver, External, Ported, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
@@ -161,6 +162,8 @@ struct LinkTable {
     ethernet: Option<String>,
     zenoh: Option<Zenoh>,
     framing: Option<Framing>,
+    unit: Option<SocketAddr>,
+    sends: Option<Sends>,
 }
 
 /// What is said beside a robot file, and counts more.
@@ -213,11 +216,13 @@ pub enum Impossibility {
     /// There is no link, or there are two.
     #[error(
         "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', each with a 'framing' or \
-         without, or 'ethernet', or a table [link.zenoh] with a 'mode'"
+         without, or 'unit' with or without 'sends' and an 'address', or 'ethernet', or a table [link.zenoh] with a 'mode'"
     )]
     Link,
     /// No datagram can be sent there.
-    #[error("[link] nothing can be sent to {0}: a peer has an address of its own and a port")]
+    #[error(
+        "[link] nothing can be sent to {0}: peers and units have an address of their own and a port"
+    )]
     Peer(SocketAddr),
     /// The body's time does not pass, or goes back.
     #[error("speed is {0}: a number from 1 to 100 is wanted")]
@@ -459,62 +464,44 @@ impl RobotTable {
 impl LinkTable {
     fn check(self, folder: &Path) -> Result<Link, Impossibility> {
         let framing = self.framing.unwrap_or_default();
-        let link = match self {
-            Self {
-                address: Some(address),
-                peers,
-                multicast: None,
-                interface: None,
-                ethernet: None,
-                zenoh: None,
-                framing: _,
-            } => {
-                let is_nobody = |peer: &&SocketAddr| peer.ip().is_unspecified() || peer.port() == 0;
-                if let Some(nobody) = peers.iter().find(is_nobody) {
-                    return Err(Impossibility::Peer(*nobody));
-                }
-                Link::Peers {
-                    address,
-                    peers,
-                    framing,
-                }
-            }
-            Self {
-                address: None,
-                peers,
-                multicast: Some(group),
-                interface: Some(interface),
-                ethernet: None,
-                zenoh: None,
-                framing: _,
-            } if peers.is_empty() => Link::Multicast {
+        // A peer is none that no datagram can be sent to.
+        let to = self.peers.iter().chain(&self.unit);
+        let is_nobody = |to: &&SocketAddr| to.ip().is_unspecified() || to.port() == 0;
+        if let Some(nobody) = to.into_iter().find(is_nobody) {
+            return Err(Impossibility::Peer(*nobody));
+        }
+        let what = (self.address, self.multicast, self.ethernet, self.zenoh);
+        let more = (self.unit, self.interface, self.peers.is_empty());
+        let link = match (what, more) {
+            ((Some(address), None, None, None), (None, None, _)) => Link::Peers {
+                address,
+                peers: self.peers,
+                framing,
+            },
+            ((None, Some(group), None, None), (None, Some(interface), true)) => Link::Multicast {
                 group,
                 interface,
                 framing,
             },
-            Self {
-                address: None,
-                peers,
-                multicast: None,
-                interface: None,
-                ethernet: Some(interface),
-                zenoh: None,
-                framing: None,
-            } if peers.is_empty() => Link::Ethernet { interface },
-            Self {
-                address: None,
-                peers,
-                multicast: None,
-                interface: None,
-                ethernet: None,
-                zenoh: Some(part),
-                framing: None,
-            } if peers.is_empty() => Link::Zenoh(Zenoh {
-                config: part.config.map(|file| folder.join(file)),
-                ..part
-            }),
+            ((None, None, Some(interface), None), (None, None, true)) if self.framing.is_none() => {
+                Link::Ethernet { interface }
+            }
+            ((None, None, None, Some(part)), (None, None, true)) if self.framing.is_none() => {
+                Link::Zenoh(Zenoh {
+                    config: part.config.map(|file| folder.join(file)),
+                    ..part
+                })
+            }
+            ((address, None, None, None), (Some(unit), None, true)) if self.framing.is_none() => {
+                return Ok(Link::Unit {
+                    unit,
+                    address,
+                    sends: self.sends.unwrap_or_default(),
+                });
+            }
             _ => return Err(Impossibility::Link),
         };
-        Ok(link)
+        // Only a unit may be given something else than packets.
+        self.sends.map_or(Ok(link), |_| Err(Impossibility::Link))
     }
 }

@@ -42,6 +42,7 @@ use crate::application::{Application, Wish};
 use crate::around::Around;
 use crate::body::Pose;
 use crate::boot::Boot;
+use crate::channel::Monitored;
 use crate::journal::Journal;
 use crate::machine::{Machine, stimulus_of};
 use crate::observe;
@@ -209,6 +210,7 @@ impl Setup {
             clock: self.clock,
             waiting: Arc::clone(&waiting),
             epochs: Epochs::start(self.boot),
+            channel: Monitored::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
             stopping: false,
@@ -275,6 +277,8 @@ struct Loop {
     clock: Clock,
     waiting: Arc<Waiting>,
     epochs: Epochs,
+    /// The radio channel, where the link measures it.
+    channel: Monitored,
     /// The newest state that observers were told.
     observed: State,
     /// Who the log says is around, and since when.
@@ -316,6 +320,7 @@ impl Loop {
                 return;
             }
             self.renew_epoch();
+            self.control_congestion();
         }
         self.count_overflow();
         let counters = self.machine.endpoint().counters().named();
@@ -351,6 +356,10 @@ impl Loop {
                 for _ in 0..datagrams {
                     self.machine.endpoint_mut().count(Cause::LinkFull);
                 }
+            }
+            Delivery::Arrived(Arrival::Channel(radio)) => {
+                let now_ms = self.clock.now_us() / 1_000;
+                self.channel.measure(radio, now_ms);
             }
             Delivery::Arrived(Arrival::Misframed {
                 cause,
@@ -417,6 +426,17 @@ impl Loop {
             }
         };
         self.handle(stimulus);
+    }
+
+    /// Holds messages back on a busy channel, where the link measures one.
+    fn control_congestion(&mut self) {
+        let now_ms = self.clock.now_us() / 1_000;
+        if let Some((interval_ms, news)) = self.channel.evaluate(now_ms) {
+            self.machine.endpoint_mut().hold_back(interval_ms);
+            if let Some(state) = news {
+                self.log(Entry::Channel(state));
+            }
+        }
     }
 
     /// Tells the robot of a boot counter that has been persisted meanwhile.

@@ -10,6 +10,7 @@ use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
 
 use crate::around::Around;
+use crate::channel::ChannelState;
 use crate::sight::Sight;
 use crate::trace::{Entry, Record};
 
@@ -36,6 +37,8 @@ pub struct Tally {
     pub sight: Sight,
     /// Who is on its map.
     pub around: Around,
+    /// The radio channel, where the link measures it.
+    pub channel: Option<ChannelState>,
     /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
     pub go_until: Option<Instant>,
 }
@@ -93,6 +96,7 @@ impl Tally {
                 self.causes.add(cause, 1);
             }
             Entry::Zone(_) => {}
+            Entry::Channel(channel) => self.channel = Some(*channel),
             Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Around(around) => self.around.clone_from(around),
             Entry::Stopped { counters } => {
@@ -230,6 +234,13 @@ impl Tally {
                 line,
                 ", sees {people}: {waiting} waiting, {on_road} on the road"
             );
+        }
+        if let Some(channel) = self.channel {
+            let _ = match channel.busy_ratio {
+                Some(ratio) => write!(line, ", channel {:.0} % busy", ratio * 100.0),
+                None => write!(line, ", channel not measured"),
+            };
+            let _ = write!(line, ", RAM at most every {} ms", channel.interval_ms);
         }
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());

@@ -15,6 +15,7 @@ use crossguard_protocol::{Input, Outputs, Robot, Settings, StationId};
 use serde::{Deserialize, Serialize};
 
 use crate::around::Around;
+use crate::channel::ChannelState;
 use crate::sight::{Outline, Sight};
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
@@ -105,6 +106,8 @@ pub enum Entry {
     /// These road users are on its map, told once a second while there are some, and once when there are none
     /// any more.
     Around(Around),
+    /// The radio channel is like this now, where the link measures it.
+    Channel(ChannelState),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

@@ -6,12 +6,13 @@
 //! ```
 //!
 //! [`Link`] is UDP, to peers or to a multicast group, with an Ethernet header in its datagrams or without
-//! ([`Framing`]), Ethernet, or a zenoh network ([`Zenoh`], with the feature `zenoh`). [`Air`] joins robots in one process. [`WithFaults`] lays
+//! ([`Framing`]), an on-board unit ([`attachment`](crate::attachment)), Ethernet, or a zenoh network ([`Zenoh`], with the feature `zenoh`). [`Air`] joins robots in one process. [`WithFaults`] lays
 //! seeded faults over any of them: what becomes of a datagram is drawn by a [`Channel`], the one place
 //! where faults are made; the simulator draws from it as well. [`Reopening`] opens one again that has
 //! failed.
 
 mod attention;
+mod datagrams;
 mod error;
 mod ethernet;
 mod faults;
@@ -20,7 +21,9 @@ mod layer;
 mod link;
 mod memory;
 mod reopening;
+mod stamps;
 mod udp;
+mod unit;
 mod zenoh;
 
 pub use error::{LinkError, ZenohError};
@@ -37,6 +40,8 @@ use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
 use crossguard_endpoint::cause::Loss;
+
+use crate::attachment::Radio;
 
 /// Longer than any datagram that a robot understands, so that a longer one is seen to be too long.
 const DATAGRAM_MAX: usize = 2_048;
@@ -137,6 +142,8 @@ pub enum Arrival {
     },
     /// This many datagrams, at least one, found no place in the transport's own queue.
     Overflow(u64),
+    /// How the channel is, from a transport that measures it.
+    Channel(Radio),
     /// A datagram that is not framed as it should be.
     Misframed {
         /// The name of the cause, for counters.

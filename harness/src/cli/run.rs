@@ -26,6 +26,7 @@ use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
+use crossguard_robot::attachment::Sends;
 use crossguard_robot::boot;
 use crossguard_robot::perception::{Announced, Feed};
 use crossguard_robot::robot_file::{Besides, RobotFile};
@@ -132,7 +133,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let file = RobotFile::read_with(&arguments.config, besides).map_err(Failure::input)?;
     let link = configured_link(arguments, &file);
-    arguments.security.warn_if_unsigned(&link);
+    let signs_by_unit = matches!(
+        link,
+        Link::Unit {
+            sends: Sends::Btp,
+            ..
+        }
+    );
+    if !signs_by_unit {
+        arguments.security.warn_if_unsigned(&link);
+    } else if arguments.security.signs() {
+        return Err(Failure::Input(
+            "[link] sends = \"btp\": a unit signs what it sends itself; leave --security off"
+                .to_owned(),
+        ));
+    }
     let (mut link, address) = open_link(arguments, link)?;
     let capture = arguments.pcap.as_deref().map(super::create_capture);
     let capture = capture.transpose()?;

@@ -43,6 +43,11 @@ impl SecurityArguments {
         }
     }
 
+    /// Whether packets are signed.
+    pub(super) fn signs(&self) -> bool {
+        self.security != Mode::Off
+    }
+
     pub(super) const fn is_throw_away(&self) -> bool {
         self.pki.is_none()
     }

@@ -90,7 +90,8 @@ impl Clocks {
             | Entry::Stopped { .. }
             | Entry::Zone(_)
             | Entry::People(_)
-            | Entry::Around(_) => {}
+            | Entry::Around(_)
+            | Entry::Channel(_) => {}
         }
     }
 

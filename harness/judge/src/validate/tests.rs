@@ -124,6 +124,7 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
         | Entry::Zone(_)
         | Entry::People(_)
         | Entry::Around(_)
+        | Entry::Channel(_)
         | Entry::Dropped { .. }
         | Entry::Stopped { .. } => Vec::new(),
     }

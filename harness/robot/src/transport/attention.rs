@@ -1,10 +1,11 @@
 //! When a datagram arrived that was taken off a socket: not later than the thread that receives can vouch for.
 //!
-//! The kernel's stamps are of the wall clock, which may be put. So the thread vouches for itself: while it
-//! looks at the socket all the time, a datagram arrives when it is taken. A thread that hung, with its
-//! process or alone, finds datagrams that have been waiting for it, and cannot tell since when. They may have
-//! arrived as early as it looked the last time before, and that is what is said of all of them until the
-//! socket was seen empty:
+//! The kernel stamps what arrives, by the wall clock, which may be put. So a stamp is believed within what the
+//! thread vouches for: a datagram did not arrive before the socket was seen empty the last time, and not after it
+//! was taken. Where there is no stamp that fits, the thread vouches alone: while it looks at the socket all the
+//! time, a datagram arrives when it is taken. A thread that hung, with its process or alone, finds datagrams that
+//! have been waiting for it, and cannot tell since when. They may have arrived as early as it looked the last time
+//! before, and that is what is said of all of them until the socket was seen empty:
 //!
 //! ```text
 //!   looks   looks            hangs             takes  takes  finds nothing
@@ -25,6 +26,8 @@ pub(super) struct Attention {
     looked: Instant,
     /// Since when datagrams may be waiting that it has not taken.
     waiting_since: Option<Instant>,
+    /// When the socket was seen empty the last time.
+    empty: Instant,
 }
 
 impl Attention {
@@ -33,6 +36,7 @@ impl Attention {
         Self {
             looked: now,
             waiting_since: None,
+            empty: now,
         }
     }
 
@@ -46,13 +50,23 @@ impl Attention {
         }
     }
 
-    /// A call that was to wait for so long at most took a datagram at `now`. When that arrived at the earliest.
-    pub(super) fn took(&mut self, at_most: Duration, now: Instant) -> Instant {
+    /// A call that was to wait for so long at most took a datagram at `now`, which the kernel had so long before, if
+    /// it says so. When the datagram arrived, or, where the kernel's age is not possible, when at the earliest.
+    pub(super) fn took(
+        &mut self,
+        at_most: Duration,
+        now: Instant,
+        age: Option<Duration>,
+    ) -> Instant {
         let before = std::mem::replace(&mut self.looked, now);
         if now.duration_since(before) > at_most + SLACK {
             self.waiting_since.get_or_insert(before);
         }
-        self.waiting_since.unwrap_or(now)
+        let possible = now.duration_since(self.empty) + SLACK;
+        age.filter(|age| *age <= possible)
+            .and_then(|age| now.checked_sub(age))
+            .or(self.waiting_since)
+            .unwrap_or(now)
     }
 
     /// A call that began at `called`, and was to wait for so long at most, found nothing until `now`. One that
@@ -61,6 +75,7 @@ impl Attention {
     pub(super) fn saw_empty(&mut self, called: Instant, at_most: Duration, now: Instant) {
         let has_hung = now.duration_since(called) > at_most + SLACK;
         self.looked = if has_hung { called } else { now };
+        self.empty = self.looked;
         self.waiting_since = None;
     }
 }
@@ -81,7 +96,7 @@ mod tests {
         let mut attention = Attention::new(began);
         attention.saw_empty(began, AT_MOST, began + ms(10));
         let now = began + ms(17);
-        assert_eq!(attention.took(AT_MOST, now), now);
+        assert_eq!(attention.took(AT_MOST, now, None), now);
         assert_eq!(attention.may_wait(AT_MOST), AT_MOST);
     }
 
@@ -95,13 +110,13 @@ mod tests {
         for n in 0..3 {
             // However long it is held up between two of them.
             let now = looked + ms(2_000 + 3 * n);
-            assert_eq!(attention.took(AT_MOST, now), looked, "{n}");
+            assert_eq!(attention.took(AT_MOST, now, None), looked, "{n}");
             assert_eq!(attention.may_wait(AT_MOST), Duration::ZERO);
         }
         let called = looked + ms(2_010);
         attention.saw_empty(called, Duration::ZERO, called);
         let now = called + ms(3);
-        assert_eq!(attention.took(AT_MOST, now), now);
+        assert_eq!(attention.took(AT_MOST, now, None), now);
     }
 
     #[test]
@@ -109,10 +124,10 @@ mod tests {
         let began = Instant::now();
         let mut attention = Attention::new(began);
         let now = began + ms(300);
-        assert_eq!(attention.took(AT_MOST, now), began);
+        assert_eq!(attention.took(AT_MOST, now, None), began);
         attention.saw_empty(now, AT_MOST, now + ms(10));
         let now = now + ms(11);
-        assert_eq!(attention.took(AT_MOST, now), now);
+        assert_eq!(attention.took(AT_MOST, now, None), now);
     }
 
     #[test]
@@ -122,7 +137,27 @@ mod tests {
         // The call found nothing in its time, and the process was stopped before it could say so.
         let now = began + ms(1_200);
         attention.saw_empty(began, AT_MOST, now);
-        assert_eq!(attention.took(AT_MOST, now), began);
-        assert_eq!(attention.took(AT_MOST, now + ms(1)), began);
+        assert_eq!(attention.took(AT_MOST, now, None), began);
+        assert_eq!(attention.took(AT_MOST, now + ms(1), None), began);
+    }
+
+    #[test]
+    fn the_kernel_is_believed_within_what_the_thread_vouches_for() {
+        let began = Instant::now();
+        let mut attention = Attention::new(began);
+        attention.saw_empty(began, AT_MOST, began + ms(10));
+        // It hung for 2 s, and one datagram arrived just before it went on.
+        let now = began + ms(2_010);
+        let took = |attention: &mut Attention, age| attention.took(AT_MOST, now, Some(age));
+        assert_eq!(took(&mut attention, ms(30)) + ms(30), now);
+        // Nothing can have arrived before the socket was empty: the clock was put.
+        assert_eq!(took(&mut attention, ms(3_600_000)), began + ms(10));
+        // A flood that the thread takes in without a pause waits for it all the same.
+        let mut attention = Attention::new(began);
+        for n in 1..100 {
+            let now = began + ms(5 * n);
+            let at = attention.took(AT_MOST, now, Some(ms(4 * n)));
+            assert_eq!(at + ms(4 * n), now, "{n}");
+        }
     }
 }

@@ -13,12 +13,13 @@ use crossguard_endpoint::station::listen::link_layer_of;
 use nix::errno::Errno;
 use nix::ifaddrs::getifaddrs;
 use nix::sys::socket::{
-    AddressFamily, LinkAddr, MsgFlags, SockFlag, SockProtocol, SockType, bind, recv, send,
-    setsockopt, socket, sockopt::ReceiveTimeout,
+    AddressFamily, LinkAddr, MsgFlags, SockFlag, SockProtocol, SockType, bind, send, setsockopt,
+    socket, sockopt::ReceiveTimeout,
 };
 use nix::sys::time::TimeVal;
 
 use super::attention::Attention;
+use super::stamps::{Stamped, Stamps};
 use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
 /// Opens a raw socket on an interface.
@@ -40,6 +41,7 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
     let socket = Arc::new(socket.map_err(failed)?);
     bind(socket.as_raw_fd(), &address).map_err(failed)?;
     let receiver = EthernetReceiver {
+        stamps: Stamps::of(&*socket),
         socket: Arc::clone(&socket),
         buffer: Box::new([0; DATAGRAM_MAX]),
         wait: Duration::ZERO,
@@ -98,6 +100,7 @@ struct EthernetReceiver {
     /// For how long the socket waits.
     wait: Duration,
     attention: Attention,
+    stamps: Stamps,
 }
 
 impl Receiver for EthernetReceiver {
@@ -110,17 +113,16 @@ impl Receiver for EthernetReceiver {
             setsockopt(&*self.socket, ReceiveTimeout, &time)?;
             self.wait = wait;
         }
-        let fd = self.socket.as_raw_fd();
         let may_wait = self.attention.may_wait(wait);
         let flags = match may_wait {
             Duration::ZERO => MsgFlags::MSG_DONTWAIT,
             _ => MsgFlags::empty(),
         };
         let called = Instant::now();
-        let received = recv(fd, &mut *self.buffer, flags);
+        let received = self.stamps.receive(&*self.socket, &mut *self.buffer, flags);
         let now = Instant::now();
-        let length = match received {
-            Ok(length) => length,
+        let Stamped { length, age, .. } = match received {
+            Ok(stamped) => stamped,
             Err(errno) => {
                 let error = std::io::Error::from(errno);
                 return match error.kind() {
@@ -133,7 +135,7 @@ impl Receiver for EthernetReceiver {
                 };
             }
         };
-        let at = self.attention.took(may_wait, now);
+        let at = self.attention.took(may_wait, now, age);
         // What is not for the service is not looked at, and not worth a count.
         Ok(
             ethernet::packet(&self.buffer[..length]).map(|(source, packet)| Arrival::Datagram {

@@ -4,7 +4,8 @@ use std::fmt;
 use std::net::{SocketAddr, SocketAddrV4};
 
 use super::error::is_loopback;
-use super::{Framing, Halves, LinkError, Transport, Zenoh, ethernet, udp};
+use super::{Framing, Halves, LinkError, Transport, Zenoh, ethernet, udp, unit};
+use crate::attachment::Sends;
 
 /// A robot's link to others.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -32,6 +33,15 @@ pub enum Link {
         /// Name of the interface, like `eth0`.
         interface: String,
     },
+    /// An on-board unit, which sends and receives for the robot.
+    Unit {
+        /// The unit's address.
+        unit: SocketAddr,
+        /// The robot's own; any port, if it is not said.
+        address: Option<SocketAddr>,
+        /// What the robot gives to it.
+        sends: Sends,
+    },
     /// A zenoh network.
     Zenoh(Zenoh),
 }
@@ -42,7 +52,7 @@ impl Link {
     pub fn framing(&self) -> Framing {
         match self {
             Self::Peers { framing, .. } | Self::Multicast { framing, .. } => *framing,
-            Self::Ethernet { .. } | Self::Zenoh(_) => Framing::default(),
+            Self::Unit { .. } | Self::Ethernet { .. } | Self::Zenoh(_) => Framing::default(),
         }
     }
 
@@ -57,6 +67,8 @@ impl Link {
             Self::Multicast { interface, .. } | Self::Ethernet { interface } => {
                 !is_loopback(interface)
             }
+            // That is what a unit is for.
+            Self::Unit { .. } => true,
             Self::Zenoh(_) => false,
         }
     }
@@ -69,6 +81,7 @@ impl fmt::Display for Link {
             Self::Peers { address, .. } => address.fmt(f),
             Self::Multicast { group, .. } => group.fmt(f),
             Self::Ethernet { interface } => write!(f, "{interface}, ethertype 0x8947"),
+            Self::Unit { unit, .. } => write!(f, "the unit at {unit}"),
             Self::Zenoh(zenoh) => zenoh.fmt(f),
         }
     }
@@ -88,6 +101,11 @@ impl Transport for Link {
                 framing,
             } => udp::join(*group, interface, *framing),
             Self::Ethernet { interface } => ethernet::open(interface),
+            Self::Unit {
+                unit,
+                address,
+                sends,
+            } => unit::open(*unit, *address, *sends),
             Self::Zenoh(zenoh) => zenoh.open(),
         }
     }

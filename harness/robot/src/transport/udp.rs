@@ -2,14 +2,14 @@
 
 use std::io::ErrorKind;
 use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use nix::sys::socket::MsgFlags;
 use socket2::{Domain, InterfaceIndexOrAddress, Protocol, SockRef, Socket, Type};
 
-use super::attention::Attention;
+use super::datagrams::Datagrams;
 use super::error::interface_of;
-use super::{Arrival, DATAGRAM_MAX, Framing, Halves, LinkError, NotSent, Receiver, Sender, Source};
+use super::{Arrival, Framing, Halves, LinkError, NotSent, Receiver, Sender};
 
 /// The sending half of a link.
 #[derive(Debug)]
@@ -22,13 +22,7 @@ struct UdpSender {
 /// The receiving half of a link.
 #[derive(Debug)]
 struct UdpReceiver {
-    socket: UdpSocket,
-    buffer: Box<[u8; DATAGRAM_MAX]>,
-    /// For how long the socket waits.
-    wait: Duration,
-    /// Whether it waits at all.
-    waits: bool,
-    attention: Attention,
+    datagrams: Datagrams,
     framing: Framing,
 }
 
@@ -83,11 +77,7 @@ fn halves(
 ) -> Result<Halves, LinkError> {
     let unusable = |cause| LinkError::Unusable { address, cause };
     let receiver = UdpReceiver {
-        socket: socket.try_clone().map_err(unusable)?,
-        buffer: Box::new([0; DATAGRAM_MAX]),
-        wait: Duration::ZERO,
-        waits: true,
-        attention: Attention::new(Instant::now()),
+        datagrams: Datagrams::of(socket.try_clone().map_err(unusable)?),
         framing,
     };
     Ok(Halves {
@@ -100,7 +90,7 @@ fn halves(
     })
 }
 
-fn open_error(address: SocketAddr) -> impl Fn(std::io::Error) -> LinkError {
+pub(super) fn open_error(address: SocketAddr) -> impl Fn(std::io::Error) -> LinkError {
     move |cause| match cause.kind() {
         ErrorKind::AddrInUse => LinkError::InUse { address },
         _ => LinkError::Unusable { address, cause },
@@ -128,56 +118,21 @@ impl Sender for UdpSender {
 
 impl Receiver for UdpReceiver {
     fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
-        // Zero would stand for no limit.
-        let wait = at_most.max(Duration::from_micros(1));
-        if wait != self.wait {
-            self.socket.set_read_timeout(Some(wait))?;
-            self.wait = wait;
-        }
-        let may_wait = self.attention.may_wait(wait);
-        let waits = may_wait > Duration::ZERO;
-        if waits != self.waits {
-            self.socket.set_nonblocking(!waits)?;
-            self.waits = waits;
-        }
-        let called = Instant::now();
-        let received = self.socket.recv_from(&mut *self.buffer);
-        let now = Instant::now();
-        match received {
-            Ok((length, address)) => {
-                let at = self.attention.took(may_wait, now);
-                let datagram = &self.buffer[..length];
-                Ok(Some(match self.framing.unwrap(datagram) {
-                    Ok(packet) => Arrival::Datagram {
-                        from: Source::Address(address),
-                        octets: packet.to_vec(),
-                        at,
-                    },
-                    Err(error) => Arrival::Misframed {
-                        cause: error.cause(),
-                        detail: error.to_string(),
-                        octets: datagram.to_vec(),
-                    },
-                }))
-            }
-            // A peer that is gone answers with ICMP, which shows up as a refused connection.
-            Err(error)
-                if matches!(
-                    error.kind(),
-                    ErrorKind::WouldBlock
-                        | ErrorKind::TimedOut
-                        | ErrorKind::Interrupted
-                        | ErrorKind::ConnectionRefused
-                        | ErrorKind::ConnectionReset
-                ) =>
-            {
-                if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) {
-                    self.attention.saw_empty(called, may_wait, now);
-                }
-                Ok(None)
-            }
-            Err(error) => Err(error),
-        }
+        let Some((from, datagram, at)) = self.datagrams.next(at_most)? else {
+            return Ok(None);
+        };
+        Ok(Some(match self.framing.unwrap(datagram) {
+            Ok(packet) => Arrival::Datagram {
+                from,
+                octets: packet.to_vec(),
+                at,
+            },
+            Err(error) => Arrival::Misframed {
+                cause: error.cause(),
+                detail: error.to_string(),
+                octets: datagram.to_vec(),
+            },
+        }))
     }
 }
 

@@ -1,0 +1,90 @@
+//! Datagrams off a UDP socket, each with the moment of its arrival.
+
+use std::net::{SocketAddr, UdpSocket};
+use std::time::{Duration, Instant};
+
+use nix::errno::Errno;
+use nix::sys::socket::{MsgFlags, SockaddrStorage};
+
+use super::attention::Attention;
+use super::stamps::{Stamped, Stamps};
+use super::{DATAGRAM_MAX, Source};
+
+/// Takes datagrams off a socket.
+#[derive(Debug)]
+pub(super) struct Datagrams {
+    socket: UdpSocket,
+    buffer: Box<[u8; DATAGRAM_MAX]>,
+    /// For how long the socket waits.
+    wait: Duration,
+    /// Whether it waits at all.
+    waits: bool,
+    attention: Attention,
+    stamps: Stamps,
+}
+
+impl Datagrams {
+    /// Those of this socket.
+    pub(super) fn of(socket: UdpSocket) -> Self {
+        Self {
+            stamps: Stamps::of(&socket),
+            socket,
+            buffer: Box::new([0; DATAGRAM_MAX]),
+            wait: Duration::ZERO,
+            waits: true,
+            attention: Attention::new(Instant::now()),
+        }
+    }
+
+    /// Waits for the next one, for so long at most: who sent it, what it holds, and when it arrived.
+    ///
+    /// # Errors
+    /// Those of the operating system that will not go away by themselves.
+    pub(super) fn next(
+        &mut self,
+        at_most: Duration,
+    ) -> std::io::Result<Option<(Source, &[u8], Instant)>> {
+        // Zero would stand for no limit.
+        let wait = at_most.max(Duration::from_micros(1));
+        if wait != self.wait {
+            self.socket.set_read_timeout(Some(wait))?;
+            self.wait = wait;
+        }
+        let may_wait = self.attention.may_wait(wait);
+        let waits = may_wait > Duration::ZERO;
+        if waits != self.waits {
+            self.socket.set_nonblocking(!waits)?;
+            self.waits = waits;
+        }
+        let called = Instant::now();
+        let (socket, flags) = (&self.socket, MsgFlags::empty());
+        let received = self.stamps.receive(socket, &mut *self.buffer, flags);
+        let now = Instant::now();
+        match received {
+            Ok(Stamped { length, from, age }) => {
+                let at = self.attention.took(may_wait, now, age);
+                let from = from.as_ref().map_or(Source::Unknown, source_of);
+                Ok(Some((from, &self.buffer[..length], at)))
+            }
+            // A peer that is gone answers with ICMP, which shows up as a refused connection.
+            Err(Errno::EINTR | Errno::ECONNREFUSED | Errno::ECONNRESET) => Ok(None),
+            Err(Errno::EAGAIN | Errno::ETIMEDOUT) => {
+                self.attention.saw_empty(called, may_wait, now);
+                Ok(None)
+            }
+            Err(errno) => Err(errno.into()),
+        }
+    }
+}
+
+fn source_of(address: &SockaddrStorage) -> Source {
+    let v4 = address
+        .as_sockaddr_in()
+        .map(|it| SocketAddr::V4((*it).into()));
+    let v6 = || {
+        address
+            .as_sockaddr_in6()
+            .map(|it| SocketAddr::V6((*it).into()))
+    };
+    v4.or_else(v6).map_or(Source::Unknown, Source::Address)
+}
