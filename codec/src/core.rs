@@ -35,6 +35,7 @@
 
 pub mod cdd;
 pub mod common;
+mod defaults;
 mod error;
 mod json;
 pub mod laws;

@@ -15,7 +15,7 @@
 //! bounded. The extension containers of a CAM (two-wheelers, paths, lanes and the like, which release 2
 //! adds) are kept as the octets that they are on the wire, and not looked into. What release 2 adds to
 //! a DENM behind its extension markers is skipped and counted like any unknown addition. Causes of
-//! events are those of release 2, 0 to 128; release 1 has assigned no other.
+//! events are named after release 2, which has 0 to 128; others, which only release 1 can tell, are numbers.
 
 mod cause;
 mod cpm;

@@ -109,7 +109,7 @@ fn what_release_2_adds_is_skipped_and_counted() {
 }
 
 #[test]
-fn a_cause_beyond_those_of_release_2_is_refused() {
+fn a_cause_beyond_those_of_release_2_is_read_as_release_1_tells_it() {
     let bits = to_bits(&d1());
     assert_eq!(&bits[CAUSE..CAUSE + 8], format!("{:08b}", 97));
     let with_cause = |cause: u8| {
@@ -119,11 +119,13 @@ fn a_cause_beyond_those_of_release_2_is_refused() {
             &bits[CAUSE + 8..]
         ))
     };
-    assert!(read(&with_cause(128)).is_ok());
-    let (field, fault) = refused(&with_cause(129));
-    assert_eq!(field, "denm.situation.event_type.cause_code");
-    let (number, min, max) = (129, 0, 128);
-    assert_eq!(fault, Fault::Value { number, min, max });
+    for cause in [128, 129, 255] {
+        let octets = with_cause(cause);
+        let received = read(&octets).unwrap().message;
+        let event = received.denm.situation.as_ref().unwrap();
+        assert_eq!(event.event_type.cause_code, cause);
+        assert_eq!(encode(&Identifiers::default(), &received).unwrap(), octets);
+    }
 }
 
 #[test]

@@ -173,3 +173,23 @@ fn the_padding_of_a_bit_string_is_zero() {
     assert!(read("98").is_err());
     assert!(read("9").is_err());
 }
+
+#[test]
+fn a_component_with_a_default_may_be_left_out() {
+    let place = json!({ "latitude": 1, "longitude": 2 });
+    let point = json!({ "deltaLatitude": 1, "deltaLongitude": 2 });
+    let of_core: core::cdd::GeoPosition = serde_json::from_value(place.clone()).unwrap();
+    assert_eq!(of_core.altitude.get(), 800_001);
+    let of_rasn: asn1::cdd::GeoPosition = serde_json::from_value(place).unwrap();
+    assert_eq!(of_rasn.altitude.0, 800_001);
+    let of_core: core::cdd::PathPointPredicted = serde_json::from_value(point.clone()).unwrap();
+    assert_eq!(of_core.delta_altitude.get(), 12_800);
+    assert_eq!(
+        of_core.altitude_confidence,
+        core::cdd::AltitudeConfidence::Unavailable
+    );
+    let of_rasn: asn1::cdd::PathPointPredicted = serde_json::from_value(point).unwrap();
+    assert_eq!(of_rasn.delta_altitude.0, 12_800);
+    // What has no default is wanted.
+    assert!(serde_json::from_value::<core::cdd::GeoPosition>(json!({ "latitude": 1 })).is_err());
+}

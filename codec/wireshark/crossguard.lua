@@ -6,6 +6,10 @@
 -- what follows BTP-B at the ports 2998 and 2999; other ports can be set in the preferences of the
 -- protocol CROSSGUARD. Fields are named crossguard.<name of the field in the ASN.1 modules>.
 --
+-- Packets with a security envelope are shown down to the message as well: the plugin names the ITS-AIDs of
+-- RAM, RMCM and VAM to Wireshark's dissector of IEEE 1609.2. No signature is verified, and the tree says so;
+-- `crossguard sniff --security` verifies.
+--
 -- It shows what is there and is lenient: that exactly the canonical encodings are messages is decided
 -- by the kit, not here. The types at the end follow from codec/asn1/*.asn by generate.py.
 
@@ -14,13 +18,18 @@ local types = {}
 local crossguard = Proto("crossguard", "Crossguard")
 crossguard.prefs.ram = Pref.uint("BTP port of RAM", 2998, "Destination port of RAM")
 crossguard.prefs.rmcm = Pref.uint("BTP port of RMCM", 2999, "Destination port of RMCM")
+crossguard.prefs.ram_aid = Pref.uint("ITS-AID of RAM", 16480, "Permission under which RAM are signed")
+crossguard.prefs.rmcm_aid = Pref.uint("ITS-AID of RMCM", 16481, "Permission under which RMCM are signed")
 
 -- By name: the fields, and which of them are texts.
 local texts = {}
 local fields = { kind = ProtoField.string("crossguard.kind", "Message") }
 local broken = ProtoExpert.new("crossguard.broken", "Not a message of Crossguard",
     expert.group.MALFORMED, expert.severity.ERROR)
-crossguard.experts = { broken }
+local unverified = ProtoExpert.new("crossguard.unverified", "The signature is not verified here",
+    expert.group.SECURITY, expert.severity.NOTE)
+crossguard.experts = { broken, unverified }
+fields.signature = ProtoField.string("crossguard.signature", "Signature")
 
 -- == Unaligned PER (ITU-T X.691) ==
 
@@ -198,6 +207,9 @@ end
 
 -- == The protocol ==
 
+-- There where the packet has a security envelope.
+local psid = Field.new("ieee1609dot2.psid")
+
 function crossguard.dissector(tvb, pinfo, tree)
     local kind = pinfo.dst_port == crossguard.prefs.rmcm and "RMCM" or "RAM"
     -- The port is not always known to a postdissector of BTP; the messageId is.
@@ -207,6 +219,10 @@ function crossguard.dissector(tvb, pinfo, tree)
     pinfo.cols.protocol = kind
     local root = tree:add(crossguard, tvb(), "Crossguard " .. kind)
     root:add(fields.kind, tvb(), kind):set_generated()
+    if psid() then
+        local item = root:add(fields.signature, tvb(0, 0), "not verified"):set_generated()
+        item:add_proto_expert_info(unverified)
+    end
     local r = reader(tvb)
     local good, why = pcall(function()
         for _, field in ipairs(types[kind]) do
@@ -220,6 +236,25 @@ function crossguard.dissector(tvb, pinfo, tree)
         root:add_proto_expert_info(broken, tostring(why))
     end
     return tvb:len()
+end
+
+-- The ITS-AID of VAM, which older versions of Wireshark do not know.
+local VAM_AID = 638
+-- That of CAM, which every version with GeoNetworking knows.
+local CAM_AID = 36
+
+-- Has what is signed under these ITS-AIDs read like a signed CAM: the rest of a GeoNetworking packet.
+local function register_signed()
+    local psids = DissectorTable.get("ieee1609dot2.psid")
+    local geonetworking = psids and psids:get_dissector(CAM_AID)
+    if not geonetworking then
+        return
+    end
+    for _, aid in ipairs({ crossguard.prefs.ram_aid, crossguard.prefs.rmcm_aid, VAM_AID }) do
+        if not psids:get_dissector(aid) then
+            psids:add(aid, geonetworking)
+        end
+    end
 end
 
 local ports = {}
@@ -237,6 +272,7 @@ end
 
 function crossguard.init()
     register()
+    register_signed()
 end
 
 -- == Types, generated ==

@@ -12,6 +12,7 @@ mod export;
 mod fsm;
 mod fuzz;
 mod interrupts;
+mod listening;
 mod pki;
 mod ranges;
 mod records;

@@ -414,3 +414,49 @@ fn what_is_no_message_is_refused_with_the_field_or_the_cause() {
     );
     assert_refused(&run(&["codec", "decode", "no-such-file"]), "no-such-file");
 }
+
+#[test]
+fn a_batch_has_a_line_for_each_line_and_names_those_that_are_bad() {
+    let [one, other] = ["V1", "V3"].map(|name| golden::vector(golden::VAM, name));
+    let text = format!("{one}\n\nxyz\n{other}\n");
+    let decoded = run_with(&["codec", "decode", "--batch"], text.as_bytes());
+    assert_eq!(decoded.status.code(), Some(2));
+    let errors = stderr(&decoded);
+    assert!(
+        errors.contains("line 3: not hexadecimal digits"),
+        "{errors}"
+    );
+    assert!(errors.contains("1 of 3 lines are bad"), "{errors}");
+    let lines = stdout(&decoded);
+    let values: Vec<Value> = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(values.len(), 3);
+    assert_eq!(
+        (&values[1]["line"], &values[0]["octets"]),
+        (&3.into(), &34.into())
+    );
+    // And back: what is no message is an empty line.
+    let encoded = run_with(&["codec", "encode", "--batch"], lines.as_bytes());
+    assert_eq!(stdout(&encoded), format!("{one}\n\n{other}\n"));
+    assert!(stderr(&encoded).contains("line 2: not a message"));
+    assert_eq!(encoded.status.code(), Some(2));
+    let good = run_with(&["codec", "decode", "--batch"], one.as_bytes());
+    assert_eq!(good.status.code(), Some(0));
+}
+
+#[test]
+fn what_has_a_default_need_not_be_given() {
+    let digits = golden::vector(golden::ITS, "D1");
+    let decoded = run(&["codec", "decode", "--hex", digits]);
+    let mut value = json(&decoded);
+    let management = &mut value["message"]["denm"]["denm"]["management"];
+    let given = management
+        .as_object_mut()
+        .unwrap()
+        .remove("validityDuration");
+    assert_eq!(given, Some(600.into()));
+    let encoded = run_with(&["codec", "encode"], value.to_string().as_bytes());
+    assert_eq!(stdout(&encoded).trim(), digits, "{}", stderr(&encoded));
+}

@@ -225,14 +225,15 @@ pub mod crossguard_cam {
         }
     }
     /// What happened: cause and sub cause. CDD CauseCodeV2, which has the bits of release 1 but for the
-    /// causes from 129 on, which nothing has assigned.
+    /// causes from 129 on: nothing has assigned them, and only release 1 can tell them. No header says of which
+    /// release a message is, so they are read.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
     #[rasn(automatic_tags)]
     #[non_exhaustive]
     pub struct CauseCodeV2 {
-        #[rasn(value("0..=128"), identifier = "causeCode")]
+        #[rasn(value("0..=255"), identifier = "causeCode")]
         #[serde(rename = "causeCode")]
         pub cause_code: u8,
         #[rasn(value("0..=255"), identifier = "subCauseCode")]
@@ -1507,6 +1508,7 @@ pub mod crossguard_cdd {
         pub latitude: Latitude,
         pub longitude: Longitude,
         #[rasn(default = "geo_position_altitude_default")]
+        #[serde(default = "geo_position_altitude_default")]
         pub altitude: AltitudeValue,
     }
     impl GeoPosition {
@@ -1623,8 +1625,10 @@ pub mod crossguard_cdd {
             identifier = "laneType"
         )]
         #[serde(rename = "laneType")]
+        #[serde(default = "lane_position_and_type_lane_type_default")]
         pub lane_type: LaneType,
         #[rasn(default = "lane_position_and_type_direction_default")]
+        #[serde(default = "lane_position_and_type_direction_default")]
         pub direction: Direction,
     }
     impl LanePositionAndType {
@@ -1674,8 +1678,10 @@ pub mod crossguard_cdd {
             identifier = "laneType"
         )]
         #[serde(rename = "laneType")]
+        #[serde(default = "lane_position_with_lateral_details_lane_type_default")]
         pub lane_type: LaneType,
         #[rasn(default = "lane_position_with_lateral_details_direction_default")]
+        #[serde(default = "lane_position_with_lateral_details_direction_default")]
         pub direction: Direction,
         #[rasn(identifier = "distanceToLeftBorder")]
         #[serde(rename = "distanceToLeftBorder")]
@@ -1983,12 +1989,14 @@ pub mod crossguard_cdd {
             identifier = "deltaAltitude"
         )]
         #[serde(rename = "deltaAltitude")]
+        #[serde(default = "path_point_predicted_delta_altitude_default")]
         pub delta_altitude: DeltaAltitude,
         #[rasn(
             default = "path_point_predicted_altitude_confidence_default",
             identifier = "altitudeConfidence"
         )]
         #[serde(rename = "altitudeConfidence")]
+        #[serde(default = "path_point_predicted_altitude_confidence_default")]
         pub altitude_confidence: AltitudeConfidence,
         #[rasn(identifier = "pathDeltaTime")]
         #[serde(rename = "pathDeltaTime")]
@@ -3024,12 +3032,14 @@ pub mod crossguard_cdd211 {
             identifier = "deltaAltitude"
         )]
         #[serde(rename = "deltaAltitude")]
+        #[serde(default = "path_point_predicted211_delta_altitude_default")]
         pub delta_altitude: DeltaAltitude,
         #[rasn(
             default = "path_point_predicted211_altitude_confidence_default",
             identifier = "altitudeConfidence"
         )]
         #[serde(rename = "altitudeConfidence")]
+        #[serde(default = "path_point_predicted211_altitude_confidence_default")]
         pub altitude_confidence: AltitudeConfidence,
         #[rasn(identifier = "pathDeltaTime")]
         #[serde(rename = "pathDeltaTime")]
@@ -4985,6 +4995,7 @@ pub mod crossguard_denm {
             identifier = "validityDuration"
         )]
         #[serde(rename = "validityDuration")]
+        #[serde(default = "denm_management_container_validity_duration_default")]
         pub validity_duration: DeltaTimeSecond,
         #[rasn(identifier = "transmissionInterval")]
         #[serde(rename = "transmissionInterval")]

@@ -250,18 +250,22 @@ macro_rules! asn1 {
 
     // SEQUENCE.
     ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)? $($json:literal)?),+ }) => {
-        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?])+] false);
+        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?] [$($($default)?)?])+] false);
     };
     ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)? $($json:literal)?),+, ... }) => {
-        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?])+] true);
+        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?] [$($($default)?)?])+] true);
     };
-    (@sequence [$(#[$meta:meta])*] $name:ident [$($field:ident $kind:tt [$($json:literal)?])+] $extensible:literal) => {
+    (@sequence [$(#[$meta:meta])*] $name:ident [$($field:ident $kind:tt [$($json:literal)?] [$($default:ident)?])+] $extensible:literal) => {
         $(#[$meta])*
         #[allow(missing_docs, reason = "a component is what its type says")]
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
         #[serde(rename_all = "camelCase")]
         pub struct $name {
-            $($(#[serde(rename = $json)])? pub $field: component!(type $kind),)+
+            $(
+                $(#[serde(rename = $json)])?
+                $(#[doc = concat!("`", stringify!($default), "` where JSON leaves it out.")] #[serde(default)])?
+                pub $field: component!(type $kind),
+            )+
         }
 
         const _: () = {

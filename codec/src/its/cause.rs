@@ -10,7 +10,7 @@ use crate::asn1::cam::CauseCodeV2;
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Cause {
-    /// The cause, 0 to 128.
+    /// The cause; those from 129 on are of release 1 and have no name.
     pub code: u8,
     /// Its name, if the dictionary has assigned one.
     pub name: Option<&'static str>,

@@ -9,6 +9,7 @@ use crate::asn1::cam::{CAM, HighFrequencyContainer};
 use crate::asn1::cdd::{BasicContainer, Shape as BoundingShape, Speed, Wgs84AngleValue};
 use crate::asn1::cdd211::ObjectClass211;
 use crate::asn1::cpm::{CartesianCoordinateWithConfidence, ObjectClass, Velocity3dWithConfidence};
+use crate::containers;
 use crate::core::cdd::{CartesianCoordinate, Shape, VruClusterInformation};
 use crate::distance::moved;
 use crate::si;
@@ -120,10 +121,14 @@ const fn kind_of(station_type: u8) -> Kind {
 
 fn position_of(container: &BasicContainer) -> Position {
     let position = &container.reference_position;
-    Position {
-        latitude: si::LATITUDE.decode(position.latitude.0),
-        longitude: si::longitude_degrees(position.longitude.0),
-        ..Position::default()
+    // The core's form of it has the rules of SI units.
+    match crate::core::cdd::BasicContainer::try_from(container) {
+        Ok(container) => containers::position_of(&container),
+        Err(_) => Position {
+            latitude: si::LATITUDE.decode(position.latitude.0),
+            longitude: si::longitude_degrees(position.longitude.0),
+            ..Position::default()
+        },
     }
 }
 

@@ -50,8 +50,11 @@ fn correct(generated: &str) -> String {
             item = rest.fold(item, |item, line| item + "\n" + line) + "\n        )]";
         }
         let rename = identifier(&item).map(|name| format!("        #[serde(rename = \"{name}\")]"));
+        // A component with a DEFAULT may be left out in JSON as well.
+        let default = default(&item).map(|name| format!("        #[serde(default = \"{name}\")]"));
         corrected.push(with_serde_view(&item));
         corrected.extend(rename);
+        corrected.extend(default);
     }
     corrected.join("\n") + "\n"
 }
@@ -86,5 +89,11 @@ fn doc_comment(line: &str) -> Option<String> {
 /// The ASN.1 identifier that an attribute names.
 fn identifier(item: &str) -> Option<&str> {
     let (_, name) = item.split_once("identifier = \"")?;
+    name.split('"').next()
+}
+
+/// The function with the DEFAULT of a component.
+fn default(item: &str) -> Option<&str> {
+    let (_, name) = item.split_once("default = \"")?;
     name.split('"').next()
 }

@@ -24,6 +24,7 @@ pub mod mcap_file;
 pub mod readable;
 pub mod report;
 pub mod sequence;
+pub mod signature;
 pub mod sim;
 pub mod sniffer;
 pub mod timing;

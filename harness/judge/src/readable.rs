@@ -5,12 +5,15 @@
 //!   JSON ────► encode ───► octets
 //! ```
 //!
-//! A signed packet is not taken apart.
+//! A signed packet is taken apart as well, with who signed it; what it takes to make one is not in JSON.
 
-use crossguard_codec::geonet::{BasicHeader, Discarded, GeonetError, Headers};
+use crossguard_codec::geonet::{BasicHeader, Discarded, GeonetError, Headers, NextHeader};
 use crossguard_codec::its::{Event, ItsMessage};
 use crossguard_codec::{DecodeError, EncodeError, Identifiers};
+use crossguard_endpoint::station::listen::peek;
 use serde::Serialize;
+
+use crate::signature::{Signature, Signatures};
 
 /// A message with what is known about its octets.
 #[derive(Clone, Debug, Serialize)]
@@ -25,6 +28,9 @@ pub struct Decoded {
     /// The headers of the packet, if it was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub packet: Option<Headers>,
+    /// Who signed the packet, and whether that was verified.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub signature: Option<Signature>,
     /// What a DENM tells, in SI units and with the names of its causes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub event: Option<Event>,
@@ -46,6 +52,9 @@ pub enum Unreadable {
     /// They begin like a packet and are none.
     #[error("a GeoNetworking packet: {0}")]
     Packet(GeonetError),
+    /// They begin like a signed packet and are none.
+    #[error("a signed GeoNetworking packet: {0}")]
+    Signed(Discarded),
     /// They are no message.
     #[error(transparent)]
     Message(#[from] DecodeError),
@@ -57,19 +66,28 @@ impl Unreadable {
     pub const fn cause(&self) -> &'static str {
         match self {
             Self::Packet(error) => Discarded::Headers(*error).cause(),
+            Self::Signed(discarded) => discarded.cause(),
             Self::Message(error) => error.cause(),
         }
     }
 }
 
 impl Decoded {
-    /// What `octets` say: a message, or a packet with one.
+    /// What `octets` say: a message, or a packet with one, whose signature is looked at.
     ///
     /// # Errors
     /// Why they say nothing.
-    pub fn of(identifiers: &Identifiers, octets: &[u8]) -> Result<Self, Unreadable> {
+    pub fn of(
+        identifiers: &Identifiers,
+        signatures: &mut Signatures,
+        octets: &[u8],
+    ) -> Result<Self, Unreadable> {
         // No message has the protocolVersion that the first octet of a packet would be.
         let (packet, message) = match BasicHeader::decode(octets) {
+            Ok((basic, _)) if basic.next == NextHeader::Secured => {
+                let (headers, message) = peek(octets).map_err(Unreadable::Signed)?;
+                (Some(headers), message)
+            }
             Ok(_) => {
                 let (headers, message) = Headers::decode(octets).map_err(Unreadable::Packet)?;
                 (Some(headers), message)
@@ -82,6 +100,7 @@ impl Decoded {
             extended: received.extended,
             standard: received.message.standard(),
             packet,
+            signature: signatures.of(identifiers, octets, None),
             event: received.message.event(),
             message: received.message,
         })
@@ -100,6 +119,12 @@ pub enum Unwritable {
     /// What stands for the message is none.
     #[error("not a message: {0}")]
     NotAMessage(serde_json::Error),
+    /// It stands for a signed packet.
+    #[error(
+        "the packet was signed, and nobody here has the key; without 'signature' it is made without a \
+         security envelope"
+    )]
+    Signed,
     /// The message has no encoding.
     #[error(transparent)]
     Message(#[from] EncodeError),
@@ -112,10 +137,13 @@ pub enum Unwritable {
 ///
 /// # Errors
 /// Why it has none.
-pub fn encode(json: &[u8]) -> Result<Vec<u8>, Unwritable> {
+pub fn encode(identifiers: &Identifiers, json: &[u8]) -> Result<Vec<u8>, Unwritable> {
     let value: serde_json::Value = serde_json::from_slice(json).map_err(Unwritable::NotJson)?;
     let (packet, message) = match value {
         serde_json::Value::Object(mut object) if object.contains_key("message") => {
+            if object.contains_key("signature") {
+                return Err(Unwritable::Signed);
+            }
             let message = object.remove("message").unwrap_or_default();
             (object.remove("packet"), message)
         }
@@ -126,7 +154,7 @@ pub fn encode(json: &[u8]) -> Result<Vec<u8>, Unwritable> {
         .transpose()
         .map_err(Unwritable::NotHeaders)?;
     let message: ItsMessage = serde_json::from_value(message).map_err(Unwritable::NotAMessage)?;
-    let mut octets = message.encode(&Identifiers::default())?;
+    let mut octets = message.encode(identifiers)?;
     if let Some(packet) = packet {
         let headers = packet.encode(octets.len())?;
         octets.splice(..0, headers.as_ref().iter().copied());

@@ -1,10 +1,11 @@
 //! What is on the channel, for people who listen in: every packet as one line or one JSON object.
 //!
-//! Signatures are not verified here; whether a packet is signed is said.
+//! Whether a packet is signed is said; signatures are verified where roots are given.
 
 use crossguard_codec::geonet::{BasicHeader, LongPositionVector};
 use crossguard_codec::geonet::{Headers, NextHeader, Transport};
 use crossguard_codec::its::{Event, Identity, ItsMessage, RoadUser};
+use crossguard_codec::security::Time64;
 use crossguard_codec::{Identifiers, Service};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counters;
@@ -13,6 +14,7 @@ use crossguard_endpoint::station::listen::{Unobserved, overhear, peek, service_o
 use serde::Serialize;
 
 use crate::chart::text_of;
+use crate::signature::{Signature, Signatures};
 
 /// A packet that was seen.
 #[derive(Clone, Debug, Serialize)]
@@ -27,8 +29,11 @@ pub struct Seen {
     pub station: Option<u32>,
     /// How many octets the packet has.
     pub octets: usize,
-    /// Whether it has a security envelope, which is not verified.
+    /// Whether it has a security envelope.
     pub is_signed: bool,
+    /// Who signed it, and whether that was verified.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub signature: Option<Signature>,
     /// What the message says, or why there is none.
     pub text: String,
     /// Who is on the road, as the message tells.
@@ -45,6 +50,7 @@ pub struct Sniffer {
     identifiers: Identifiers,
     map: LocalDynamicMap,
     counters: Counters,
+    signatures: Signatures,
     began_ms: Option<u64>,
 }
 
@@ -56,6 +62,13 @@ impl Sniffer {
             identifiers,
             ..Self::default()
         }
+    }
+
+    /// The same, and it looks at signatures by these.
+    #[must_use]
+    pub fn with_signatures(mut self, signatures: Signatures) -> Self {
+        self.signatures = signatures;
+        self
     }
 
     /// Who is around.
@@ -85,6 +98,11 @@ impl Sniffer {
             station: None,
             octets: packet.len(),
             is_signed,
+            signature: self.signatures.of(
+                &self.identifiers,
+                packet,
+                Some(Time64::of_timestamp_its(now_its)),
+            ),
             text: String::new(),
             road_users: Vec::new(),
             event: None,
@@ -208,11 +226,17 @@ impl std::fmt::Display for Seen {
         let station = self
             .station
             .map_or_else(|| "-".to_owned(), |id| id.to_string());
-        let signed = if self.is_signed { " signed" } else { "" };
+        let signed = match &self.signature {
+            Some(signature) if signature.is_verified => " verified",
+            _ if self.is_signed => " signed",
+            _ => "",
+        };
         write!(
             f,
             "{:>9.3}  {:<4} {station:>10} {:>5} B{signed}  {}",
             self.at_s, self.kind, self.octets, self.text
-        )
+        )?;
+        let why_not = self.signature.as_ref().and_then(|it| it.why_not.as_ref());
+        why_not.map_or(Ok(()), |why| write!(f, "; not verified: {why}"))
     }
 }

@@ -2,6 +2,7 @@
 
 use crossguard_codec::{Dictionary, Identifiers};
 use crossguard_judge::readable::{self, Decoded};
+use crossguard_judge::signature::Signatures;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -24,7 +25,7 @@ pub(crate) fn decode(octets: &[u8], dictionary: &str) -> PyResult<String> {
         dictionary,
         ..Identifiers::default()
     };
-    match Decoded::of(&identifiers, octets) {
+    match Decoded::of(&identifiers, &mut Signatures::default(), octets) {
         Ok(decoded) => to_json(&decoded),
         Err(error) => Err(DecodeError::new_err((error.to_string(), error.cause()))),
     }
@@ -33,7 +34,7 @@ pub(crate) fn decode(octets: &[u8], dictionary: &str) -> PyResult<String> {
 /// The octets of a message or packet in JSON.
 #[pyfunction]
 pub(crate) fn encode<'py>(py: Python<'py>, message: &str) -> PyResult<Bound<'py, PyBytes>> {
-    match readable::encode(message.as_bytes()) {
+    match readable::encode(&Identifiers::default(), message.as_bytes()) {
         Ok(octets) => Ok(PyBytes::new(py, &octets)),
         Err(error) => Err(EncodeError::new_err(error.to_string())),
     }

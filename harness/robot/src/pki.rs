@@ -454,11 +454,12 @@ pub fn write_ticket(ticket: &Holder, folder: &Path) -> Result<(), PkiError> {
     )
 }
 
-/// What a robot needs, from its folder.
+/// Whom a folder with certificates says to trust, that of a PKI or of a robot: its roots, and the authorities
+/// that they vouch for.
 ///
 /// # Errors
 /// What is wrong with which file.
-pub fn read_credentials(folder: &Path) -> Result<Credentials, PkiError> {
+pub fn read_trust(folder: &Path) -> Result<TrustStore, PkiError> {
     let mut trust = TrustStore::default();
     let certificates: Vec<_> = certificates_in(folder)?
         .iter()
@@ -473,6 +474,15 @@ pub fn read_credentials(folder: &Path) -> Result<Credentials, PkiError> {
     others
         .into_iter()
         .try_for_each(|authority| trust.add_authority(authority))?;
+    Ok(trust)
+}
+
+/// What a robot needs, from its folder.
+///
+/// # Errors
+/// What is wrong with which file.
+pub fn read_credentials(folder: &Path) -> Result<Credentials, PkiError> {
+    let trust = read_trust(folder)?;
     let folder_of_tickets = folder.join("tickets");
     let paths =
         certificates_in(&folder_of_tickets).map_err(|_| PkiError::NoTickets(folder.to_owned()))?;

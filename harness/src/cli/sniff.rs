@@ -12,8 +12,8 @@ use crossguard_judge::sniffer::{self, Seen, Sniffer};
 use crossguard_robot::capture;
 use crossguard_robot::transport::{Arrival, Framing, Link, Transport};
 
-use super::codec::Version;
 use super::interrupts::interrupts;
+use super::listening::ListeningArguments;
 use super::{Failure, print};
 
 /// How long the loop waits before it looks whether it is to stop.
@@ -22,7 +22,7 @@ const TICK: Duration = Duration::from_millis(50);
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct Arguments {
-    /// Read this pcap file instead of listening.
+    /// Read this file, in pcap or pcapng, instead of listening.
     #[arg(value_name = "FILE", group = "link")]
     file: Option<PathBuf>,
     /// Listen on this UDP address; robots send there if it is one of their peers.
@@ -53,9 +53,8 @@ pub(super) struct Arguments {
     /// Write what is heard to this file, for Wireshark.
     #[arg(long, value_name = "FILE", conflicts_with = "file")]
     pcap: Option<PathBuf>,
-    /// The common data dictionary that VAM and CPM are built on; no header tells.
-    #[arg(long, value_enum, default_value = "2.4.1")]
-    dictionary: Version,
+    #[command(flatten)]
+    listening: ListeningArguments,
     /// Print JSON, one object per packet.
     #[arg(long)]
     json: bool,
@@ -64,20 +63,21 @@ pub(super) struct Arguments {
 const AFTER_HELP: &str = "Examples:\n  crossguard sniff demo.pcap\n  \
     crossguard sniff --multicast 239.118.50.1:47400 --interface eth0\n\n\
     A line says: seconds, message, station, size, what the message says. At the end stands who was \
-    around last, and what each kind of message costs a channel of ITS-G5 (6 Mbit/s, 10 MHz). Signatures are not verified.";
+    around last, and what each kind of message costs a channel of ITS-G5 (6 Mbit/s, 10 MHz). Signatures are verified with \
+    --trust only; 'signed' says that they were not, and 'not verified' that they could not be.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut printer = Printer {
-        sniffer: Sniffer::new(arguments.dictionary.identifiers()),
+        sniffer: Sniffer::new(arguments.listening.identifiers()?)
+            .with_signatures(arguments.listening.signatures()?),
         is_json: arguments.json,
         load: Load::default(),
         left: arguments.count.unwrap_or(u64::MAX),
     };
     match (&arguments.file, link(arguments)) {
         (Some(path), _) => {
-            let bad = |error| Failure::Input(format!("{}: {error}", path.display()));
-            for captured in capture::read(path).map_err(bad)? {
-                let captured = captured.map_err(bad)?;
+            for captured in capture::read(path).map_err(Failure::input)? {
+                let captured = captured.map_err(Failure::input)?;
                 if !printer.see(&captured.packet, captured.at)? {
                     break;
                 }
@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(link)) => listen(arguments, &link, &mut printer)?,
         (None, None) => {
             return Err(Failure::Input(
-                "nothing to listen to: name a pcap file, --address, --multicast, --ethernet or --zenoh \
+                "nothing to listen to: name a capture file, --address, --multicast, --ethernet or --zenoh \
                  (see --help)"
                     .to_owned(),
             ));

@@ -18,7 +18,7 @@ def decode(octets: bytes, *, dictionary: str = "2.4.1") -> dict[str, Any]:
     """What octets say: a RAM, RMCM, CAM, DENM, VAM or CPM, or a GeoNetworking packet with one.
 
     `dictionary` is the version of the common data dictionary that VAM and CPM are built on, `2.4.1` or
-    `2.1.1`: no header tells. A signed packet is not taken apart.
+    `2.1.1`: no header tells. The signature of a packet is not verified.
 
     Raises `DecodeError`, a `ValueError`, which names the field and its bit; its `cause` is the name that
     counters have for it.

@@ -1,0 +1,254 @@
+//! Captures of others and of the kit, read: pcap and pcapng.
+
+use std::fs::File;
+use std::io::{self, BufReader, ErrorKind, Read, Seek};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crossguard_codec::geonet::ethernet;
+use pcap_file::pcap::PcapReader;
+use pcap_file::pcapng::blocks::interface_description::{
+    InterfaceDescriptionBlock, InterfaceDescriptionOption,
+};
+use pcap_file::pcapng::{Block, PcapNgReader};
+use pcap_file::{DataLink, PcapError};
+
+/// How a file of pcapng begins.
+const PCAPNG: [u8; 4] = [0x0a, 0x0d, 0x0d, 0x0a];
+
+/// A packet of a file.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Captured {
+    /// When it was on the link, since 1970.
+    pub at: Duration,
+    /// The packet.
+    pub packet: Vec<u8>,
+}
+
+/// Why a capture cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum NoCapture {
+    /// There is no such file.
+    #[error("no such file: {}", .0.display())]
+    Missing(PathBuf),
+    /// The file cannot be read.
+    #[error("{}: {cause}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: io::Error,
+    },
+    /// It ends before its last packet does.
+    #[error("{}: it ends within a packet", .0.display())]
+    CutOff(PathBuf),
+    /// It is no capture, or a damaged one.
+    #[error("{}: neither pcap nor pcapng, or damaged: {cause}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        cause: PcapError,
+    },
+}
+
+impl NoCapture {
+    fn file(path: &Path, cause: io::Error) -> Self {
+        match cause.kind() {
+            ErrorKind::NotFound => Self::Missing(path.to_owned()),
+            ErrorKind::UnexpectedEof => Self::CutOff(path.to_owned()),
+            _ => Self::File {
+                path: path.to_owned(),
+                cause,
+            },
+        }
+    }
+
+    fn pcap(path: &Path, cause: PcapError) -> Self {
+        match cause {
+            PcapError::IoError(cause) => Self::file(path, cause),
+            PcapError::IncompleteBuffer => Self::CutOff(path.to_owned()),
+            cause => Self::Damaged {
+                path: path.to_owned(),
+                cause,
+            },
+        }
+    }
+}
+
+/// The `GeoNetworking` packets in the Ethernet frames of a file in pcap or pcapng; other frames are passed
+/// over.
+///
+/// # Errors
+/// When the file cannot be read or is no capture.
+pub fn read(
+    path: &Path,
+) -> Result<impl Iterator<Item = Result<Captured, NoCapture>> + use<>, NoCapture> {
+    let path = path.to_owned();
+    let mut frames = Frames::open(&path)?;
+    Ok(std::iter::from_fn(move || {
+        loop {
+            let (at, frame) = match frames.next()? {
+                Ok(frame) => frame,
+                Err(error) => return Some(Err(NoCapture::pcap(&path, error))),
+            };
+            if let Some((_, packet)) = ethernet::packet(&frame) {
+                let packet = packet.to_vec();
+                return Some(Ok(Captured { at, packet }));
+            }
+        }
+    }))
+}
+
+/// A frame, and when it was on the link.
+type Frame = (Duration, Vec<u8>);
+
+/// The Ethernet frames of a file.
+enum Frames {
+    Pcap(PcapReader<BufReader<File>>),
+    PcapNg(Box<PcapNgReader<BufReader<File>>>),
+}
+
+impl Frames {
+    fn open(path: &Path) -> Result<Self, NoCapture> {
+        let of_file = |cause| NoCapture::file(path, cause);
+        let mut file = File::open(path).map_err(of_file)?;
+        let mut start = Vec::new();
+        let taken = file.by_ref().take(4).read_to_end(&mut start);
+        taken.map_err(of_file)?;
+        file.rewind().map_err(of_file)?;
+        let file = BufReader::new(file);
+        let frames = if start == PCAPNG {
+            PcapNgReader::new(file).map(|reader| Self::PcapNg(Box::new(reader)))
+        } else {
+            PcapReader::new(file).map(Self::Pcap)
+        };
+        frames.map_err(|cause| NoCapture::pcap(path, cause))
+    }
+
+    fn next(&mut self) -> Option<Result<Frame, PcapError>> {
+        match self {
+            Self::Pcap(reader) => {
+                let packet = reader.next_packet()?;
+                Some(packet.map(|packet| (packet.timestamp, packet.data.to_vec())))
+            }
+            Self::PcapNg(reader) => next_of_pcapng(reader),
+        }
+    }
+}
+
+/// The next Ethernet frame of a pcapng file, which has blocks of other kinds, and frames of other links.
+fn next_of_pcapng(reader: &mut PcapNgReader<impl Read>) -> Option<Result<Frame, PcapError>> {
+    loop {
+        let (interface, ticks, frame) = match reader.next_block()? {
+            // Its reader takes the ticks of the clock for nanoseconds.
+            Ok(Block::EnhancedPacket(block)) => (
+                block.interface_id,
+                block.timestamp.as_nanos(),
+                block.data.to_vec(),
+            ),
+            Ok(_) => continue,
+            Err(error) => return Some(Err(error)),
+        };
+        let Some(link) = reader.interfaces().get(interface as usize) else {
+            return Some(Err(PcapError::InvalidInterfaceId(interface)));
+        };
+        if link.linktype == DataLink::ETHERNET {
+            return Some(Ok((time_of(ticks, link), frame)));
+        }
+    }
+}
+
+/// The time since 1970 that the clock of an interface shows (pcapng, `if_tsresol` and `if_tsoffset`).
+fn time_of(ticks: u128, link: &InterfaceDescriptionBlock<'_>) -> Duration {
+    let (mut resolution, mut offset_s) = (6, 0);
+    for option in &link.options {
+        match option {
+            InterfaceDescriptionOption::IfTsResol(value) => resolution = *value,
+            InterfaceDescriptionOption::IfTsOffset(value) => offset_s = *value,
+            _ => {}
+        }
+    }
+    let exponent = u32::from(resolution & 0x7f);
+    let base: u128 = if resolution & 0x80 == 0 { 10 } else { 2 };
+    let per_second = base.checked_pow(exponent).unwrap_or(u128::MAX);
+    let nanoseconds = ticks.saturating_mul(1_000_000_000) / per_second;
+    let nanoseconds = u64::try_from(nanoseconds).unwrap_or(u64::MAX);
+    Duration::from_nanos(nanoseconds).saturating_add(Duration::from_secs(offset_s))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::borrow::Cow;
+
+    use pcap_file::pcapng::PcapNgWriter;
+    use pcap_file::pcapng::blocks::enhanced_packet::EnhancedPacketBlock;
+
+    use super::*;
+
+    fn link(
+        linktype: DataLink,
+        options: Vec<InterfaceDescriptionOption<'static>>,
+    ) -> InterfaceDescriptionBlock<'static> {
+        InterfaceDescriptionBlock {
+            linktype,
+            snaplen: 0,
+            options,
+        }
+    }
+
+    #[test]
+    fn the_clock_of_an_interface_says_what_its_ticks_are() {
+        let shown = |ticks, options| time_of(ticks, &link(DataLink::ETHERNET, options));
+        let resolution = |value| vec![InterfaceDescriptionOption::IfTsResol(value)];
+        assert_eq!(shown(1_500_000, vec![]), Duration::from_millis(1_500));
+        assert_eq!(shown(1_500, resolution(3)), Duration::from_millis(1_500));
+        assert_eq!(shown(1_500, resolution(9)), Duration::from_nanos(1_500));
+        assert_eq!(shown(3, resolution(0x81)), Duration::from_millis(1_500));
+        let later = vec![InterfaceDescriptionOption::IfTsOffset(7)];
+        assert_eq!(shown(0, later), Duration::from_secs(7));
+        assert_eq!(shown(1, resolution(0x7f)), Duration::ZERO);
+    }
+
+    #[test]
+    fn pcapng_is_read_without_the_frames_of_other_links() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("some.pcapng");
+        let mut writer = PcapNgWriter::new(File::create(&path).unwrap()).unwrap();
+        for linktype in [DataLink::ETHERNET, DataLink::RAW] {
+            let options = vec![InterfaceDescriptionOption::IfTsResol(6)];
+            writer.write_pcapng_block(link(linktype, options)).unwrap();
+        }
+        let frame = [&ethernet::header([2, 0, 0, 0, 0, 1])[..], &[1, 2, 3]].concat();
+        for interface_id in [0, 1] {
+            let block = EnhancedPacketBlock {
+                interface_id,
+                // Ticks of a microsecond.
+                timestamp: Duration::from_nanos(2_500_000),
+                original_len: 17,
+                data: Cow::Borrowed(&frame),
+                options: vec![],
+            };
+            writer.write_pcapng_block(block).unwrap();
+        }
+        let again: Result<Vec<_>, _> = read(&path).unwrap().collect();
+        let packet = vec![1, 2, 3];
+        let at = Duration::from_millis(2_500);
+        assert_eq!(again.unwrap(), [Captured { at, packet }]);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_file_is_said() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("none.pcap");
+        let why = |path: &Path| read(path).err().map(|error| error.to_string());
+        let missing = format!("no such file: {}", path.display());
+        assert_eq!(why(&path), Some(missing));
+        std::fs::write(&path, b"not a capture, but a text that is long enough").unwrap();
+        let text = why(&path).unwrap();
+        assert!(text.contains("neither pcap nor pcapng"), "{text}");
+        std::fs::write(&path, []).unwrap();
+        let text = why(&path).unwrap();
+        assert!(text.contains("it ends within a packet"), "{text}");
+    }
+}
