@@ -1,6 +1,8 @@
 //! `crossguard sniff`.
 
 use std::collections::BTreeMap;
+use std::error::Error;
+use std::io;
 use std::net::{SocketAddr, SocketAddrV4};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -14,7 +16,8 @@ use crossguard_robot::transport::{Arrival, Link, Transport};
 
 use super::codec::Version;
 use super::interrupts::interrupts;
-use super::{Failure, print};
+use super::ranges::{address, group, number, whole};
+use super::{Failure, cause, print};
 
 /// How long the loop waits before it looks whether it is to stop.
 const TICK: Duration = Duration::from_millis(50);
@@ -26,12 +29,13 @@ pub(super) struct Arguments {
     #[arg(value_name = "FILE", group = "link")]
     file: Option<PathBuf>,
     /// Listen on this UDP address; robots send there if it is one of their peers.
-    #[arg(long, value_name = "ADDRESS:PORT", group = "link")]
+    #[arg(long, value_name = "ADDRESS:PORT", value_parser = address::<SocketAddr>, group = "link")]
     address: Option<SocketAddr>,
     /// Listen to this multicast group.
     #[arg(
         long,
         value_name = "GROUP:PORT",
+        value_parser = group,
         requires = "interface",
         group = "link"
     )]
@@ -45,10 +49,10 @@ pub(super) struct Arguments {
     #[command(flatten)]
     zenoh: super::zenoh::ZenohArguments,
     /// Stop after this many packets.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=u64::MAX.into()))]
     count: Option<u64>,
     /// Stop after this many seconds.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = number(0.0..=1e9))]
     seconds: Option<f64>,
     /// Write what is heard to this file, for Wireshark.
     #[arg(long, value_name = "FILE", conflicts_with = "file")]
@@ -75,9 +79,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     match (&arguments.file, link(arguments)) {
         (Some(path), _) => {
-            let bad = |error| Failure::Input(format!("{}: {error}", path.display()));
-            for captured in capture::read(path).map_err(bad)? {
-                let captured = captured.map_err(bad)?;
+            let bad =
+                |error: &dyn Error| Failure::Input(format!("{}: {}", path.display(), why(error)));
+            for captured in capture::read(path).map_err(|error| bad(&error))? {
+                let captured = captured.map_err(|error| bad(&error))?;
                 if !printer.see(&captured.packet, captured.at)? {
                     break;
                 }
@@ -93,6 +98,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     printer.sum_up()
+}
+
+/// Why a capture cannot be read.
+fn why(error: &dyn Error) -> String {
+    let cause = cause(error);
+    let at_end = io::Error::from(io::ErrorKind::UnexpectedEof).to_string();
+    if cause == at_end || cause == "failed to fill whole buffer" {
+        "this is no pcap file, or it ends in the middle of a packet".to_owned()
+    } else {
+        cause
+    }
 }
 
 fn link(arguments: &Arguments) -> Option<Link> {
