@@ -138,6 +138,7 @@ impl Follower {
             settings: Box::new(self.endpoint.config().settings().clone()),
             identifiers: *self.endpoint.identifiers(),
             unix_ms: u64::try_from(unix_ms())?,
+            speed: None,
         })?;
         let mut packet = [0; DATAGRAM_MAX];
         while !self.is_released {

@@ -1,17 +1,20 @@
 //! The command line: subcommands, and how they end.
 //!
-//! Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete.
+//! Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete, also
+//! when it was told to stop before it was done. Told to stop a second time, it ends at once with 130.
 
 mod check;
 mod choices;
 mod codec;
 mod demo;
+mod destinations;
 mod etsi;
 mod explore;
 mod export;
 mod fsm;
 mod fuzz;
 mod interrupts;
+mod junit;
 mod listening;
 mod pki;
 mod ranges;
@@ -32,7 +35,7 @@ use std::io::{BufReader, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crossguard_robot::capture::Capture;
 use crossguard_robot::observe::to_standard_error;
 use crossguard_robot::perception::Feed;
@@ -44,7 +47,9 @@ use crossguard_robot::trace::Log;
     name = "crossguard",
     version,
     max_term_width = 100,
-    after_help = "Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete."
+    after_help = "Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete. \
+        Ctrl-C and SIGTERM end a command in order, with what it has: 3 if that is less than was asked for; a \
+        second Ctrl-C ends it at once, with 130."
 )]
 struct Arguments {
     #[arg(short, long, action = clap::ArgAction::Count, global = true, help = VERBOSE)]
@@ -126,7 +131,9 @@ impl From<std::io::Error> for Failure {
 }
 
 pub(crate) fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let command = ranges::with_negative_numbers(Arguments::command());
+    let arguments = Arguments::from_arg_matches(&command.get_matches());
+    let arguments = arguments.unwrap_or_else(|error| error.exit());
     let _written = to_standard_error(
         arguments.verbose,
         &["crossguard_harness", "crossguard_robot"],
@@ -192,7 +199,15 @@ fn open_logs(paths: &[PathBuf]) -> Result<Vec<Log<'static>>, Failure> {
 
 /// Creates a file for packets.
 fn create_capture(path: &Path) -> Result<Capture, Failure> {
-    Capture::create(path).map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+    destinations::file(path)?;
+    Capture::create(path)
+        .map_err(|error| Failure::Input(format!("{}: {}", path.display(), cause(&error))))
+}
+
+/// What the operating system says, where an error has that as its source, and does not say it itself.
+fn cause(error: &dyn std::error::Error) -> String {
+    let source = error.source().map(ToString::to_string);
+    source.unwrap_or_else(|| error.to_string())
 }
 
 /// Looks whether every packet was written.

@@ -12,6 +12,7 @@ pub use scenario::{NoScenario, Participant, Scenario};
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -74,6 +75,8 @@ pub struct Options {
     pub perceived: Option<Feed>,
     /// How robots announce the people around them.
     pub awareness: Awareness,
+    /// Set when it is to end before all crossings are done.
+    pub stop: Arc<AtomicBool>,
 }
 
 /// What came of a demonstration.
@@ -97,6 +100,8 @@ pub struct Outcome {
     pub crossings: usize,
     /// How many were asked for.
     pub trials: usize,
+    /// Whether it was told to stop before all of them were done.
+    pub stopped: bool,
     /// How many were begun again because something got lost.
     pub retries: usize,
     /// How many times as fast as real the robots moved.
@@ -186,12 +191,16 @@ pub fn run(
 ) -> Result<(Outcome, Vec<u8>), LinkError> {
     let mut demo = start(options, watch)?;
     let (mut crossings, mut retries) = (0, 0);
+    let is_stopped = || options.stop.load(Ordering::Relaxed);
     for _ in 0..options.trials {
+        if is_stopped() {
+            break;
+        }
         for attempt in 0..ATTEMPTS {
             retries += usize::from(attempt > 0);
             let is_done = demo.cross(options);
             crossings += usize::from(is_done);
-            if is_done || demo.has_struck {
+            if is_done || demo.has_struck || is_stopped() {
                 break;
             }
         }
@@ -269,7 +278,7 @@ impl Demo<'_> {
         // The paper's crossing takes about 26 s; commands may have to be given again.
         let patience = Duration::from_secs_f64(60.0 + 120.0 / options.time_scale);
         let deadline = Instant::now() + patience;
-        while Instant::now() < deadline {
+        while Instant::now() < deadline && !options.stop.load(Ordering::Relaxed) {
             self.take_records(Duration::from_millis(50));
             self.strike();
             if let Some(end) = self.end
@@ -407,13 +416,14 @@ impl Demo<'_> {
         };
         let outcome = Outcome {
             scenario: self.scenario.clone(),
-            maneuvers: self.timing.summaries(options.time_scale),
+            maneuvers: self.timing.summaries(None),
             teams: self.timing.teams(),
             trace_valid: validated.is_ok(),
             trace: validated.as_ref().ok().cloned(),
             trace_error: validated.err(),
             crossings,
             trials: options.trials,
+            stopped: options.stop.load(Ordering::Relaxed) && crossings < options.trials,
             retries,
             speed: options.time_scale,
             faults: options.faults.to_string(),

@@ -150,7 +150,10 @@ fn bad_usage_is_refused_with_what_is_wanted() {
         &run(&["demo", "--loss", "1.5"]),
         "a number from 0 to 0.9 is wanted",
     );
-    assert_refused(&run(&["demo", "--trials", "0"]), "0 is not in 1..=1000");
+    assert_refused(
+        &run(&["demo", "--trials", "0"]),
+        "a whole number from 1 to 1000 is wanted",
+    );
     assert_refused(
         &run(&["demo", "--log", "/no/such/folder/log"]),
         "/no/such/folder/log",

@@ -121,7 +121,7 @@ fn sixteen_followers_take_commands_of_one_leader_and_the_pedestrian_crosses() {
     }
     assert_refused(
         &run(&["demo", "--scenario", "team", "--followers", "17"]),
-        "17 is not in 1..=16",
+        "a whole number from 1 to 16 is wanted",
     );
     let (alone, _) = scenario("team", &["--followers", "1", "--speed", "20"]);
     assert_eq!(alone["teams"][0]["followers"], 1, "{alone}");

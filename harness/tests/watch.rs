@@ -55,6 +55,6 @@ fn without_a_terminal_nothing_is_told_that_was_not_asked_for() {
     let arguments = ["run", "--config", &ari, "--metrics", "here"];
     assert_refused(
         &run(&arguments),
-        "a port, or an address and a port, is wanted",
+        "a port from 0 to 65535, or an address and a port like 127.0.0.1:9100, is wanted",
     );
 }

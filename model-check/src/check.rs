@@ -84,18 +84,18 @@ pub fn check(
         assumptions: assumptions(scenario, size.unique_states),
         transitions_taken: model.transitions_taken(),
         seconds: limits.elapsed().as_secs_f64(),
-        cost: meter.read(size.unique_states),
+        // One of the two may have been cut off before it began.
+        cost: meter.read(size.unique_states.max(checked.unique_states)),
     }
 }
 
-fn configure(model: &Model, options: &Options) -> stateright::CheckerBuilder<Model> {
-    let model = model.clone().stopping_at(&options.stop);
+/// Once `drain` is requested nothing happens any more in the model, and all threads end with what they have.
+/// stateright's own time limit is not used: it holds up threads that share work, for minutes.
+fn configure(model: &Model, options: &Options, drain: &Stop) -> stateright::CheckerBuilder<Model> {
+    let model = model.clone().stopping_at(drain);
     let mut builder = model.checker().threads(options.threads.get());
     if let Some(states) = options.states_max {
         builder = builder.target_state_count(states);
-    }
-    if let Some(time) = options.time_max {
-        builder = builder.timeout(time);
     }
     if !options.until_broken.is_empty() {
         let names = options.until_broken.iter().map(|id| id.name()).collect();
@@ -120,9 +120,13 @@ impl Checked {
         limits: &ExplorationLimits,
         watch: &mut dyn FnMut(usize),
     ) -> Self {
-        let checker = configure(model, options).spawn_bfs();
+        let drain = Stop::default();
+        let checker = configure(model, options, &drain).spawn_bfs();
         while !checker.is_done() {
             std::thread::sleep(Duration::from_millis(20));
+            if limits.time_reached().is_some() {
+                drain.request();
+            }
             watch(checker.unique_state_count());
         }
         Self::by(&checker.join(), model, options, limits)

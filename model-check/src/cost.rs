@@ -18,8 +18,8 @@ pub struct Cost {
     /// Distinct states per second of processor time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub states_per_second_per_core: Option<f64>,
-    /// Bytes of memory per distinct state: the peak resident memory, less what the process had before
-    /// it checked anything.
+    /// Bytes of memory per distinct state: the peak resident memory, less what was resident before. Where
+    /// an earlier check has left so much memory behind that this could be wrong by a tenth, it is not told.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bytes_per_state: Option<f64>,
 }
@@ -29,6 +29,7 @@ pub struct Cost {
 pub struct Meter {
     processor_time: Option<Duration>,
     is_peak_reset: bool,
+    resident: Option<usize>,
 }
 
 impl Meter {
@@ -41,6 +42,7 @@ impl Meter {
         Self {
             processor_time: processor_time(Of::Itself),
             is_peak_reset,
+            resident: memory("VmRSS:"),
         }
     }
 
@@ -52,9 +54,9 @@ impl Meter {
             .zip(self.processor_time)
             .map(|(now, before)| now.saturating_sub(before).as_secs_f64());
         let bytes = memory("VmHWM:")
-            .zip(memory_at_first())
+            .zip(memory_at_first().zip(self.resident))
             .filter(|_| self.is_peak_reset)
-            .map(|(peak, before)| peak.saturating_sub(before));
+            .and_then(|(peak, (at_first, before))| grown(peak, at_first, before));
         let states = states as f64;
         Cost {
             processor_seconds: spent,
@@ -65,6 +67,14 @@ impl Meter {
             bytes_per_state: bytes.map(|bytes| bytes as f64 / states),
         }
     }
+}
+
+/// By how much memory has grown to `peak`. The process may use again what was left between `at_first` and
+/// `before` by an earlier check, or not, so the growth is known only where this makes little difference.
+fn grown(peak: usize, at_first: usize, before: usize) -> Option<usize> {
+    let least = peak.saturating_sub(before.max(at_first));
+    let most = peak.saturating_sub(before.min(at_first));
+    (most - least <= least / 10).then_some(least.midpoint(most))
 }
 
 fn memory_at_first() -> Option<usize> {
@@ -109,6 +119,15 @@ pub fn processor_time(of: Of) -> Option<Duration> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn memory_that_an_earlier_check_has_left_behind_is_not_counted_twice() {
+        assert_eq!(grown(1_100, 100, 100), Some(1_000), "the first check");
+        assert_eq!(grown(1_100, 100, 150), Some(975), "little was left");
+        assert_eq!(grown(1_100, 100, 900), None, "most was there before");
+        assert_eq!(grown(900, 100, 900), None, "nothing was taken");
+        assert_eq!(grown(1_100, 150, 100), Some(975), "less than at first");
+    }
 
     #[test]
     #[cfg(target_os = "linux")]

@@ -15,7 +15,7 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 9] = [
+const GENERATED: [Generated; 10] = [
     Generated {
         path: "protocol/src/task.rs: the named tasks, in other languages",
         by: "cargo test -p crossguard-testkit --test named_tasks",
@@ -47,6 +47,10 @@ const GENERATED: [Generated; 9] = [
     Generated {
         path: "protocol/doc/protocol.md: the state diagram",
         by: "cargo test -p crossguard-harness --test pages state_diagram",
+    },
+    Generated {
+        path: "harness/doc/errors.md",
+        by: "cargo test -p crossguard-harness --test bad_inputs",
     },
     Generated {
         path: "README.md: the sum of states",

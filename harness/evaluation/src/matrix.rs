@@ -70,9 +70,9 @@ pub struct CbrCell {
     pub overlapped_percent: Estimate,
 }
 
-/// Coverage in every cell.
+/// Coverage in every cell, as long as `goes_on` says so; those that were not reached are left out.
 #[must_use]
-pub fn obs(traces: &[Traces], axes: &Axes) -> Vec<ObsCell> {
+pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<ObsCell> {
     let mut cells = Vec::new();
     for traces in traces {
         for &robots in &axes.robots {
@@ -80,6 +80,9 @@ pub fn obs(traces: &[Traces], axes: &Axes) -> Vec<ObsCell> {
             let grid = &traces.grid;
             let ways = axes.stationing.robots(grid, robots, duration_ms, sample_ms);
             for &radius_m in &axes.radii_m {
+                if !goes_on() {
+                    return cells;
+                }
                 let runs = traces.runs.iter().take(axes.seeds);
                 let percent = runs.map(|run| 100.0 * coverage(run, &ways, radius_m));
                 cells.push(ObsCell {
@@ -136,7 +139,8 @@ pub struct SilenceInRun {
     pub silence: Silence,
 }
 
-/// Channel load in every cell; `done` is told after every run how many of how many there are.
+/// Channel load in every cell; `done` is told after every run how many of how many there are, and says whether
+/// to go on. If not, cells of which a run is missing are left out.
 ///
 /// # Errors
 /// When a message cannot be encoded.
@@ -145,7 +149,7 @@ pub fn cbr(
     axes: &Axes,
     behaviour: &Behaviour,
     sizes: &Sizes,
-    done: impl Fn(usize, usize) + Sync,
+    done: impl Fn(usize, usize) -> bool + Sync,
 ) -> Result<CbrResults, RobotError> {
     let jobs = jobs(traces, axes);
     let results = Mutex::new(vec![None; jobs.len()]);
@@ -166,7 +170,9 @@ pub fn cbr(
                             return;
                         }
                     }
-                    done(finished.fetch_add(1, Ordering::Relaxed) + 1, jobs.len());
+                    if !done(finished.fetch_add(1, Ordering::Relaxed) + 1, jobs.len()) {
+                        return;
+                    }
                 }
             });
         }
@@ -294,7 +300,9 @@ fn cells(traces: &[Traces], axes: &Axes, find: impl Fn(Job) -> Option<Done>) -> 
                     }
                 };
                 let after: Vec<Done> = (0..runs).filter_map(|run| find(job(run))).collect();
-                cells.push(cell(robots, file.pedestrians(), radius_m, &before, &after));
+                if before.len() == runs && after.len() == runs {
+                    cells.push(cell(robots, file.pedestrians(), radius_m, &before, &after));
+                }
             }
         }
     }

@@ -21,11 +21,16 @@ const LEFT: usize = 10;
 const SPACING: usize = 50;
 const SPACING_OF_MANY: usize = 45;
 
+/// Closer together, the text of an arrow cannot be read.
+const SPACING_MIN: usize = 22;
+
 /// A chart in the making.
 #[derive(Debug, Default)]
 pub struct Chart {
     /// How far apart columns are.
     spacing: usize,
+    /// How long a line may be; 0 for any length.
+    width: usize,
     lanes: Vec<Lane>,
     /// Whether robots get columns as they turn up in the records.
     grows: bool,
@@ -104,6 +109,24 @@ impl Chart {
         }
     }
 
+    /// The same chart, whose lines are at most `width` characters long: columns are closer together, and texts
+    /// that do not fit are cut. `None` where the robots' columns would be too narrow to be read.
+    #[must_use]
+    pub fn within(mut self, width: usize) -> Option<Self> {
+        let room = width.saturating_sub(LEFT) / self.lanes.len().max(1);
+        self.spacing = self.spacing.min(room);
+        self.width = width;
+        (self.spacing >= SPACING_MIN).then_some(self)
+    }
+
+    /// A line that is cut where it is too long.
+    fn fit(&self, line: String) -> String {
+        if self.width == 0 || line.chars().count() <= self.width {
+            return line;
+        }
+        line.chars().take(self.width - 1).chain(['…']).collect()
+    }
+
     /// The names above the columns.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.lanes.iter().map(|lane| lane.name.as_str())
@@ -117,7 +140,7 @@ impl Chart {
             pad(&mut line, LEFT + i * self.spacing);
             let _ = write!(line, "{} (station {})", lane.name, lane.station);
         }
-        line
+        self.fit(line)
     }
 
     /// The lines that a record adds.
@@ -134,7 +157,7 @@ impl Chart {
                 is_lost,
             } => arrow(time, [from, to], spacing, &text, is_lost),
         };
-        marks.map(line).collect()
+        marks.map(line).map(|line| self.fit(line)).collect()
     }
 
     /// The line of something that happens to a robot and that it does not record itself.
@@ -143,7 +166,7 @@ impl Chart {
         let lane = self.lanes.iter().position(|lane| lane.name == robot)?;
         #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
         let time = at_us as f64 / 1e6;
-        Some(note_at(time, LEFT + lane * self.spacing, text))
+        Some(self.fit(note_at(time, LEFT + lane * self.spacing, text)))
     }
 
     /// What a record adds.
@@ -547,6 +570,21 @@ mod tests {
         let back = arrow(1.5, [1, 0], SPACING, "RMCM ack", false);
         assert!(back.contains("◄─") && back.ends_with('─'), "{back}");
         assert!(arrow(0.0, [0, 1], SPACING, "RAM", true).ends_with("─x"));
+    }
+
+    #[test]
+    fn a_chart_fits_a_terminal_or_there_is_none() {
+        let robots = [("ARI", StationId(1)), ("Go2", StationId(2))];
+        let chart = || Chart::new(&robots, Identifiers::default());
+        let narrow = chart().within(80).unwrap();
+        let long = "long ".repeat(40);
+        for line in [narrow.header(), narrow.note(0, "Go2", &long).unwrap()] {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
+        assert!(narrow.note(0, "Go2", &long).unwrap().ends_with('…'));
+        let wide = chart().within(usize::MAX).unwrap();
+        assert_eq!(wide.header(), chart().header());
+        assert!(chart().within(50).is_none());
     }
 
     #[test]

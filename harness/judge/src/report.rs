@@ -26,8 +26,8 @@ pub struct Report<'a> {
     pub verdict: Result<&'a Validated, &'a Invalid>,
     /// What was found to be wrong while it ran, if something was.
     pub finding: Option<&'a str>,
-    /// How many times as fast as real the robots' bodies moved.
-    pub time_scale: f64,
+    /// How many times as fast as real the robots' bodies moved, where the logs do not say it, or wrongly.
+    pub time_scale: Option<f64>,
     /// The command that runs it again, where one does.
     pub reproduce: Option<&'a str>,
 }

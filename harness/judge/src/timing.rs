@@ -34,6 +34,8 @@ pub struct Timing {
     maneuvers: BTreeMap<Key, ManeuverTimes>,
     clocks: Clocks,
     teams: Teams,
+    /// How many times as fast as real each robot's body moves, by its name, where its log says so.
+    speeds: BTreeMap<String, f64>,
 }
 
 /// A maneuver in an order that has no meaning but is one. A leader counts its requests for each follower
@@ -62,6 +64,8 @@ struct ManeuverTimes {
     acknowledged: Option<u64>,
     started: Option<u64>,
     completed: Option<u64>,
+    /// How many times as fast as real the follower's body moves.
+    speed: Option<f64>,
 }
 
 /// The times of one kind of maneuver over several trials.
@@ -148,6 +152,12 @@ impl Timing {
     /// Takes note of a record of a log, at a time on the log's clock in µs.
     pub fn record(&mut self, log: usize, at_us: u64, record: &Record) {
         self.clocks.record(log, at_us, record);
+        if let Entry::Started {
+            speed: Some(speed), ..
+        } = record.entry
+        {
+            self.speeds.insert(record.robot.clone(), speed);
+        }
         let Entry::Step {
             input,
             outputs,
@@ -180,7 +190,11 @@ impl Timing {
                 Output::Notify(Notice::CommandAcknowledged(follower, id)) => {
                     self.times(follower, id).acknowledged = at;
                 }
-                Output::StartManeuver(maneuver) => self.times(own, maneuver.id).started = at,
+                Output::StartManeuver(maneuver) => {
+                    let speed = self.speeds.get(&record.robot).copied();
+                    let times = self.times(own, maneuver.id);
+                    (times.started, times.speed) = (at, speed);
+                }
                 Output::StopManeuver(
                     maneuver,
                     StopReason::Released(ReleaseReason::TaskCompleted),
@@ -196,15 +210,27 @@ impl Timing {
         self.maneuvers.entry(key(follower, id)).or_default()
     }
 
-    /// The times by kind of maneuver, of completed ones between robots whose clocks can be compared. The robots'
-    /// own time passes `time_scale` times as fast as ours.
+    /// How many times as fast as real the bodies move, by the logs; 1 where none says it, and the fastest where
+    /// they differ.
     #[must_use]
-    pub fn summaries(&self, time_scale: f64) -> Vec<Summary> {
+    pub fn time_scale(&self) -> f64 {
+        self.speeds
+            .values()
+            .copied()
+            .reduce(f64::max)
+            .unwrap_or(1.0)
+    }
+
+    /// The times by kind of maneuver, of completed ones between robots whose clocks can be compared. The robots'
+    /// own time passes `time_scale` times as fast as ours, or as its log says of each robot.
+    #[must_use]
+    pub fn summaries(&self, time_scale: Option<f64>) -> Vec<Summary> {
         let mut samples: BTreeMap<TaskType, Vec<Sample>> = BTreeMap::new();
         for (&key, times) in &self.maneuvers {
             let offset = self.logs(key).map(|logs| self.clocks.offset(logs));
             if let Some(Ok(offset)) = offset
-                && let Some((task, sample)) = times.complete(offset, time_scale)
+                && let Some((task, sample)) =
+                    times.complete(offset, time_scale.or(times.speed).unwrap_or(1.0))
             {
                 samples.entry(task).or_default().push(sample);
             }

@@ -142,6 +142,7 @@ impl Endpoint {
             settings,
             identifiers,
             unix_ms,
+            speed: None,
         })?;
         Ok(endpoint)
     }

@@ -173,14 +173,19 @@ impl Application {
 
     /// The same, which tells a listener every act.
     #[must_use]
-    pub fn heard_by(self, listener: Listener) -> Self {
-        let listener = Some(listener);
-        Self { listener, ..self }
+    pub fn heard_by(mut self, listener: Listener) -> Self {
+        self.listener = Some(listener);
+        self
     }
 
     /// What it knows of the road from now on.
     pub fn come_to(&mut self, road: Road) {
         self.road = road;
+    }
+
+    /// How many times as fast as real its body moves.
+    pub(crate) fn time_scale(&self) -> f64 {
+        self.body.time_scale()
     }
 
     /// The outline of its crossing zone, if it has one.

@@ -5,9 +5,14 @@
 //! crash at any moment leaves the old counter or the new one. A counter that is taken and not used is
 //! lost, which does no harm. The text ends with its line: one that was cut off, at whatever byte, is
 //! corrupt and not a smaller counter.
+//!
+//! A counter file that was deleted, or put back from a copy, must not make the counter go back (property I15).
+//! So the file beside it that is locked (`.lock`) has the newest counter as well, and has it first: the next
+//! counter is above both. Only where neither is there does a robot begin at 1. Where the counter file is gone
+//! and the other one cannot be read, the robot does not start.
 
 use std::fs::{File, TryLockError};
-use std::io::{Read, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// What the file begins with.
@@ -40,6 +45,16 @@ pub enum BootError {
         /// How it begins.
         found: String,
     },
+    /// The file is gone, and what is beside it does not tell the counter.
+    #[error(
+        "{} is gone, and {} does not tell how far this robot's boot counter was. Write the line '{MAGIC} N' into \
+         the former, with N larger than at any boot of this robot before",
+        path.display(), beside(path).display()
+    )]
+    Lost {
+        /// The file.
+        path: PathBuf,
+    },
     /// The counter cannot go on.
     #[error("{}: this was the last of 65535 boots; give the robot a new station id and a new file", path.display())]
     Exhausted {
@@ -66,8 +81,8 @@ pub struct Boot {
 #[derive(Debug)]
 struct Kept {
     path: PathBuf,
-    /// Held so that no other process takes the same file.
-    _lock: File,
+    /// Held so that no other process takes the same file; it has the counter, too.
+    lock: File,
 }
 
 impl Boot {
@@ -86,58 +101,125 @@ impl Boot {
     /// Every way in which there is no counter to be had; the robot goes on with the one that it has.
     pub fn renew(&mut self) -> Result<u16, BootError> {
         self.counter = match &self.kept {
-            Some(kept) => take_after(&kept.path, self.counter)?,
+            Some(kept) => take_after(&kept.path, &kept.lock, self.counter)?,
             None => self.counter.saturating_add(1),
         };
         Ok(self.counter)
     }
 }
 
-/// Takes the next boot counter from `path`. A file that does not exist begins at 1.
+/// Takes the next boot counter from `path`. A robot that has no file yet, nor one beside it, begins at 1.
 ///
 /// # Errors
 /// Every way in which there is no counter to be had; the file is then as it was.
 pub fn take(path: &Path) -> Result<Boot, BootError> {
     let lock = lock(path)?;
     Ok(Boot {
-        counter: take_after(path, 0)?,
+        counter: take_after(path, &lock, 0)?,
         kept: Some(Kept {
             path: path.to_owned(),
-            _lock: lock,
+            lock,
         }),
     })
 }
 
-/// Takes the next counter, under the lock: larger than in the file, and than `known`, which this process has
-/// had. A file that is gone or was put back must not make the counter go back.
-fn take_after(path: &Path, known: u16) -> Result<u16, BootError> {
+/// Takes the next counter, under the lock: larger than in the file, in the one beside it, and than `known`, which
+/// this process has had. A file that is gone or was put back must not make the counter go back.
+fn take_after(path: &Path, lock: &File, known: u16) -> Result<u16, BootError> {
     let unusable = |cause| BootError::Unusable {
         path: path.to_owned(),
         cause,
     };
+    let remembered = remembered(lock).map_err(unusable)?;
     let counter = match File::open(path) {
         Ok(file) => next(path, file)?,
-        Err(missing) if missing.kind() == std::io::ErrorKind::NotFound => 1,
+        Err(missing) if missing.kind() == std::io::ErrorKind::NotFound => match remembered {
+            Remembered::Unreadable => {
+                let path = path.to_owned();
+                return Err(BootError::Lost { path });
+            }
+            Remembered::Nothing | Remembered::Counter(_) => 1,
+        },
         Err(cause) => return Err(unusable(cause)),
+    };
+    let known = match remembered {
+        Remembered::Counter(remembered) => known.max(remembered),
+        Remembered::Nothing | Remembered::Unreadable => known,
     };
     let above = known.checked_add(1).ok_or_else(|| BootError::Exhausted {
         path: path.to_owned(),
     })?;
     let counter = counter.max(above);
-    replace(path, counter).map_err(unusable)?;
+    remember(lock, counter).map_err(unusable)?;
+    if let Err(cause) = replace(path, counter) {
+        // Nobody has used it: a robot that is started again and again on a full disk uses no counters up.
+        let _ = match remembered {
+            Remembered::Counter(before) => remember(lock, before),
+            Remembered::Nothing | Remembered::Unreadable => lock.set_len(0),
+        };
+        return Err(unusable(cause));
+    }
     Ok(counter)
 }
 
-/// The counter itself is replaced at every boot, so the lock is on a file beside it.
+/// What the locked file tells of the counter.
+#[derive(Clone, Copy, Debug)]
+enum Remembered {
+    /// The robot has never taken one.
+    Nothing,
+    /// The newest that was taken, or was about to be.
+    Counter(u16),
+    /// It was cut off while it was written, or holds something else.
+    Unreadable,
+}
+
+fn remembered(mut lock: &File) -> std::io::Result<Remembered> {
+    let mut octets = Vec::new();
+    lock.seek(SeekFrom::Start(0))?;
+    lock.take(200).read_to_end(&mut octets)?;
+    if octets.is_empty() {
+        return Ok(Remembered::Nothing);
+    }
+    let text = String::from_utf8_lossy(&octets);
+    Ok(number(&text).map_or(Remembered::Unreadable, Remembered::Counter))
+}
+
+/// Writes over the counter in the locked file, which cannot be replaced while it is locked. A text as long as
+/// any other is on the disk in one piece or not at all.
+fn remember(mut lock: &File, counter: u16) -> std::io::Result<()> {
+    lock.seek(SeekFrom::Start(0))?;
+    let text = format!("{MAGIC} {counter:>5}\n");
+    lock.write_all(text.as_bytes())?;
+    lock.set_len(text.len() as u64)?;
+    lock.sync_all()
+}
+
+/// The counter in a text that is whole.
+fn number(text: &str) -> Option<u16> {
+    text.strip_suffix('\n')?
+        .strip_prefix(MAGIC)?
+        .trim()
+        .parse()
+        .ok()
+}
+
+/// The file that is locked: the counter itself is replaced at every boot.
+fn beside(path: &Path) -> PathBuf {
+    path.with_added_extension("lock")
+}
+
+/// Locks the file beside the counter.
 fn lock(path: &Path) -> Result<File, BootError> {
-    let lock_path = path.with_added_extension("lock");
+    let lock_path = beside(path);
     let unusable = |cause| BootError::Unusable {
         path: lock_path.clone(),
         cause,
     };
     let lock = File::options()
         .create(true)
-        .append(true)
+        .truncate(false)
+        .read(true)
+        .write(true)
         .open(&lock_path)
         .map_err(unusable)?;
     match lock.try_lock() {
@@ -152,13 +234,6 @@ fn lock(path: &Path) -> Result<File, BootError> {
 fn next(path: &Path, file: File) -> Result<u16, BootError> {
     let mut text = String::new();
     let read = file.take(200).read_to_string(&mut text);
-    let number = |text: &str| {
-        text.strip_suffix('\n')?
-            .strip_prefix(MAGIC)?
-            .trim()
-            .parse()
-            .ok()
-    };
     let last: Option<u16> = read.ok().and_then(|_| number(&text));
     let Some(last) = last else {
         let found = text.chars().take(40).collect();
@@ -256,6 +331,44 @@ mod tests {
         let path = folder.path().join("robot.boot");
         fs::write(&path, "crossguard boot counter 41\n").unwrap();
         assert_eq!(take(&path).unwrap().counter, 42);
+    }
+
+    #[test]
+    fn a_counter_that_was_deleted_or_put_back_does_not_begin_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.boot");
+        for expected in 1..=3 {
+            assert_eq!(take(&path).unwrap().counter, expected);
+        }
+        fs::remove_file(&path).unwrap();
+        assert_eq!(take(&path).unwrap().counter, 4);
+        fs::write(&path, format!("{MAGIC} 1\n")).unwrap();
+        assert_eq!(take(&path).unwrap().counter, 5);
+        // What is beside it may be gone, as after an update: the file counts on.
+        fs::remove_file(beside(&path)).unwrap();
+        assert_eq!(take(&path).unwrap().counter, 6);
+        fs::write(beside(&path), "").unwrap();
+        assert_eq!(take(&path).unwrap().counter, 7);
+    }
+
+    #[test]
+    fn where_neither_file_tells_the_counter_the_robot_does_not_start() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.boot");
+        take(&path).unwrap();
+        fs::write(beside(&path), "crossguard boot coun").unwrap();
+        // Alone, a text that was cut off does no harm.
+        assert_eq!(take(&path).unwrap().counter, 2);
+        fs::write(beside(&path), "crossguard boot coun").unwrap();
+        fs::remove_file(&path).unwrap();
+        let error = take(&path).unwrap_err();
+        assert!(matches!(error, BootError::Lost { .. }), "{error}");
+        assert!(
+            error.to_string().contains("N larger than at any boot"),
+            "{error}"
+        );
+        fs::write(&path, format!("{MAGIC} 8\n")).unwrap();
+        assert_eq!(take(&path).unwrap().counter, 9);
     }
 
     #[test]

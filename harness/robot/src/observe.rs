@@ -8,6 +8,7 @@
 //! | debug | what the transition function ignored, with its cause; what the fault layer dropped; messages |
 //! | trace | every step |
 
+use std::ffi::OsString;
 use std::io::IsTerminal;
 
 use crossguard_endpoint::cause::{Cause, Layer};
@@ -52,11 +53,20 @@ pub fn to_standard_error(verbose: u8, crates: &[&str]) -> WorkerGuard {
     let lines = tracing_subscriber::fmt::layer()
         .with_writer(stderr)
         .with_target(false)
-        .with_ansi(std::io::stderr().is_terminal())
+        .with_ansi(is_colored(
+            std::io::stderr().is_terminal(),
+            std::env::var_os("NO_COLOR"),
+        ))
         .with_filter(filter);
     // It can only fail when there is a subscriber already.
     let _ = tracing_subscriber::registry().with(lines).try_init();
     guard
+}
+
+/// Whether lines have colours: on a terminal, unless the environment variable `NO_COLOR` holds something (see
+/// no-color.org).
+fn is_colored(is_terminal: bool, no_color: Option<OsString>) -> bool {
+    is_terminal && no_color.is_none_or(|it| it.is_empty())
 }
 
 /// Tells of an entry of the log. `before` is the state before it.
@@ -154,5 +164,18 @@ fn step(input: &Input, outputs: &Outputs) {
             | Output::LockIdentity
             | Output::UnlockIdentity => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_have_colours_on_a_terminal_unless_no_color_holds_something() {
+        assert!(is_colored(true, None));
+        assert!(is_colored(true, Some(OsString::new())));
+        assert!(!is_colored(true, Some("1".into())));
+        assert!(!is_colored(false, None));
     }
 }

@@ -204,6 +204,10 @@ pub enum RobotFileError {
     },
 }
 
+/// How far from the origin of its site a robot may be, in metres: farther off, its coordinates on the plane are
+/// not true.
+const PLACE_MAX_M: f64 = 10_000.0;
+
 /// What is wrong with a configuration.
 #[derive(Debug, thiserror::Error)]
 pub enum Impossibility {
@@ -227,6 +231,15 @@ pub enum Impossibility {
     /// The body's time does not pass, or goes back.
     #[error("speed is {0}: a number from 1 to 100 is wanted")]
     Speed(f64),
+    /// Nobody could tell it from others.
+    #[error("name: a name with at least one character other than white space is wanted")]
+    Name,
+    /// No place of a site.
+    #[error(
+        "place is [{0}, {1}]: metres east and north of the site's origin are wanted, each from -{max} to {max}",
+        max = PLACE_MAX_M
+    )]
+    Place(f64, f64),
     /// People cannot be clustered so.
     #[error("[people] {0}")]
     People(&'static str),
@@ -402,6 +415,13 @@ impl RobotTable {
     fn check(self, folder: &Path) -> Result<RobotFile, Impossibility> {
         if !(1.0..=100.0).contains(&self.speed) {
             return Err(Impossibility::Speed(self.speed));
+        }
+        if self.name.trim().is_empty() {
+            return Err(Impossibility::Name);
+        }
+        let is_near = |metres: &f64| (-PLACE_MAX_M..=PLACE_MAX_M).contains(metres);
+        if !self.place.iter().all(is_near) {
+            return Err(Impossibility::Place(self.place[0], self.place[1]));
         }
         let layout = self.site()?;
         let crossing = self.crossing.as_deref().map(str::parse);

@@ -299,6 +299,7 @@ impl Loop {
                 settings: Box::new(self.machine.endpoint().config().settings().clone()),
                 identifiers: *self.machine.endpoint().identifiers(),
                 unix_ms: unix_ms().saturating_sub(since_ms),
+                speed: Some(self.machine.application().time_scale()),
             },
         );
         self.put(started);

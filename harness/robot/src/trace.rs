@@ -55,6 +55,9 @@ pub enum Entry {
         identifiers: Identifiers,
         /// Milliseconds since 1970 (UTC), to line up logs of several robots.
         unix_ms: u64,
+        /// How many times as fast as real its body moves, where it is known: the robot's own time passes so fast.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        speed: Option<f64>,
     },
     /// The transition function took a step.
     Step {

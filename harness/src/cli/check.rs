@@ -6,11 +6,12 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_model_check::check::{CheckProgress, Options};
+use crossguard_model_check::check::{CheckProgress, Options, Stop};
 use crossguard_model_check::cost::Cost;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
@@ -24,7 +25,10 @@ use crossguard_model_check::{export, universe};
 use indicatif::{HumanCount, HumanFloatCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
-use super::{Failure, print, print_json, shows_progress};
+use super::interrupts::interrupts_that;
+use super::junit::{self, JunitArguments};
+use super::ranges::{at_least_one, threads, whole};
+use super::{Failure, destinations, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
 #[expect(
@@ -43,13 +47,13 @@ pub(super) struct Arguments {
     #[arg(long)]
     list: bool,
     /// Threads to explore with; as many as there are processors by default.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads)]
     threads: Option<NonZeroUsize>,
     /// Give up a scenario after this many states; its verdict is then 'incomplete'.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = at_least_one(1 << 40))]
     max_states: Option<NonZeroUsize>,
     /// Give up a scenario after this many seconds; its verdict is then 'incomplete'.
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = whole::<u32>(0..=u32::MAX.into()))]
     timeout: Option<u32>,
     /// Write each counterexample to this folder: as a chart in text, Mermaid and SVG, and as JSON for
     /// --replay.
@@ -68,6 +72,8 @@ pub(super) struct Arguments {
     /// The file that the state graph is written to.
     #[arg(long, value_name = "FILE", requires = "export")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    junit: JunitArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -117,24 +123,38 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(Subject::load)
         .collect::<Result<Vec<_>, _>>();
     let scenarios = scenarios.map_err(Failure::input)?;
+    destinations::files([&arguments.output])?;
+    arguments.junit.check()?;
+    destinations::folders([&arguments.charts])?;
+    let stop = Stop::default();
+    let asked = stop.clone();
+    let interrupted = interrupts_that(move || asked.request());
     if let (Some(format), Some(file)) = (arguments.export, &arguments.output) {
-        return export_one(arguments, scenarios, format, file);
+        return export_one(arguments, &stop, scenarios, format, file);
     }
     let mut report = CheckReport {
         scenarios: Vec::new(),
         fsm_coverage: None,
     };
+    let (wanted, mut written) = (scenarios.len(), Ok(()));
     for subject in scenarios {
-        let checked = check_one(arguments, subject);
+        if interrupted.load(Ordering::Relaxed) {
+            break;
+        }
+        let checked = check_one(arguments, &stop, subject);
+        // Where charts cannot be written, the verdicts are told all the same.
         if let Some(folder) = &arguments.charts {
-            write_charts(&checked, folder)?;
+            written = written.and(write_charts(&checked, folder));
         }
         if !arguments.json {
             print_report(&checked)?;
         }
         report.scenarios.push(checked);
     }
-    if arguments.scenarios.is_empty() {
+    let is_all = report.scenarios.len() == wanted;
+    let suites = report.scenarios.iter().map(junit::scenario);
+    written = written.and(arguments.junit.write("check", suites));
+    if arguments.scenarios.is_empty() && is_all {
         report.fsm_coverage = Some(coverage(&report.scenarios));
     }
     if arguments.json {
@@ -142,9 +162,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         summarize(&report)?;
     }
+    if !is_all && !arguments.json {
+        let begun = report.scenarios.len();
+        print(format_args!(
+            "Stopped before it was done: {begun} of {wanted} scenarios were begun."
+        ))?;
+    }
+    written?;
     if report.scenarios.iter().any(Subject::is_wrong) {
         Err(Failure::Wrong)
-    } else if report.scenarios.iter().any(|scenario| !scenario.exhaustive) {
+    } else if !is_all || report.scenarios.iter().any(|scenario| !scenario.exhaustive) {
         Err(Failure::Incomplete)
     } else {
         Ok(())
@@ -159,7 +186,7 @@ fn list() -> Result<(), Failure> {
     print(format_args!("{:<14} {}", paper::NAME, paper::SUMMARY))
 }
 
-fn options(arguments: &Arguments) -> Options {
+fn options(arguments: &Arguments, stop: &Stop) -> Options {
     let defaults = Options::default();
     Options {
         threads: arguments.threads.unwrap_or(defaults.threads),
@@ -167,12 +194,13 @@ fn options(arguments: &Arguments) -> Options {
         time_max: arguments
             .timeout
             .map(|seconds| Duration::from_secs(seconds.into())),
+        stop: stop.clone(),
         ..defaults
     }
 }
 
-fn check_one(arguments: &Arguments, subject: Subject) -> ScenarioReport {
-    let options = options(arguments);
+fn check_one(arguments: &Arguments, stop: &Stop, subject: Subject) -> ScenarioReport {
+    let options = options(arguments, stop);
     let Subject::Scenario(scenario) = &subject else {
         return subject.check(&options, &mut |_| ());
     };
@@ -210,6 +238,7 @@ fn coverage(scenarios: &[ScenarioReport]) -> Coverage {
 
 fn export_one(
     arguments: &Arguments,
+    stop: &Stop,
     subjects: Vec<Subject>,
     format: GraphFormat,
     file: &Path,
@@ -224,7 +253,8 @@ fn export_one(
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
     let model = Model::new(untimed(*scenario)?);
     let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
-    let cut_off = export::export(&model, &options(arguments), format, &mut to).map_err(cannot)?;
+    let cut_off =
+        export::export(&model, &options(arguments, stop), format, &mut to).map_err(cannot)?;
     to.flush().map_err(cannot)?;
     match cut_off {
         None => Ok(()),
@@ -266,7 +296,7 @@ fn progress_bar(is_json: bool, scenario: &Scenario) -> ProgressBar {
         bar.set_draw_target(ProgressDrawTarget::hidden());
     }
     let template = if scenario.expected.is_some() {
-        "{msg} {elapsed} [{bar:30}] {human_pos} of {human_len} states, {per_sec}, {prefix}"
+        "{msg} {elapsed} [{bar:30}] {human_pos} of {human_len} states, {per_sec}, {eta} to go, {prefix}"
     } else {
         "{msg} {elapsed} {spinner} {human_pos} states, {per_sec}, {prefix}"
     };

@@ -1,6 +1,9 @@
 //! `crossguard demo`.
 
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use crossguard_codec::Identifiers;
@@ -10,10 +13,12 @@ use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_judge::chart::Chart;
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::site_file::SiteFile;
+use crossguard_robot::trace::{self, Record};
 use crossguard_robot::transport::Faults;
 
-use super::ranges::{in_range, speed};
-use super::{Failure, print, print_json, timing};
+use super::interrupts::interrupts;
+use super::ranges::{any, in_range, speed, whole};
+use super::{Failure, destinations, print, print_json, timing};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -27,10 +32,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE")]
     site: Option<PathBuf>,
     /// How many followers a team with optional roles has, like that of --scenario team, 1 to 16.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MAX_FOLLOWERS))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=MAX_FOLLOWERS))]
     followers: Option<u8>,
     /// How many crossings.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1_000))]
+    #[arg(long, default_value_t = 1, value_parser = whole::<u16>(1..=1_000))]
     trials: u16,
     /// How many times as fast as real the robots move; the protocol keeps its real timers.
     #[arg(long, default_value_t = 3.0, value_parser = speed)]
@@ -42,14 +47,14 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LIST", default_value = "")]
     faults: Faults,
     /// Seed of the faults and of the robots' gait.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = any)]
     seed: u64,
     /// Meet over zenoh: connected to each other, or through a router that runs beside them. Takes a
     /// program that was built with --features zenoh.
     #[arg(long, value_enum, value_name = "HOW")]
     zenoh: Option<Meeting>,
     /// Port of the first robot, or the router, on 127.0.0.1; the others have the next ones.
-    #[arg(long, default_value_t = 47_401, value_parser = clap::value_parser!(u16).range(1_024..=65_500))]
+    #[arg(long, default_value_t = 47_401, value_parser = whole::<u16>(1_024..=65_500))]
     port: u16,
     #[command(flatten)]
     security: super::security::SecurityArguments,
@@ -75,8 +80,7 @@ pub(super) struct Arguments {
 }
 
 /// How many it can have.
-#[expect(clippy::cast_possible_wrap, reason = "it is at most 16")]
-const MAX_FOLLOWERS: i64 = crossguard_protocol::MAX_FOLLOWERS as i64;
+const MAX_FOLLOWERS: i128 = crossguard_protocol::MAX_FOLLOWERS as i128;
 
 /// With more robots the chart is wider than a screen.
 const CHARTED: usize = 6;
@@ -96,6 +100,14 @@ fn scenario(arguments: &Arguments) -> Result<Scenario, Failure> {
     let shipped = Path::new(&arguments.scenario);
     let plan = PlanFile::open(arguments.plan.as_deref().unwrap_or(shipped), site);
     Scenario::of(plan.map_err(Failure::input)?).map_err(Failure::input)
+}
+
+/// How many columns the chart may have: those of the terminal, or what COLUMNS says. As many as it takes
+/// where neither is known.
+fn columns() -> usize {
+    let said = std::env::var("COLUMNS").ok().and_then(|it| it.parse().ok());
+    let found = || terminal_size::terminal_size().map(|(width, _)| width.0.into());
+    said.or_else(found).unwrap_or(usize::MAX)
 }
 
 fn loss(text: &str) -> Result<f64, String> {
@@ -123,6 +135,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             scenario.name()
         )));
     }
+    arguments.records.check()?;
+    let interrupted = interrupts();
     let participants = scenario.participants(followers);
     let names: Vec<_> = participants.iter().map(|one| &*one.name).collect();
     let options = Options {
@@ -146,29 +160,31 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             .transpose()?,
         perceived: super::open_feed(arguments.perceived.as_deref())?,
         awareness: arguments.etsi.add_to(Awareness::default()),
+        stop: Arc::clone(&interrupted),
     };
-    let mut log_file = match &arguments.log {
-        Some(path) => Some(create(path)?),
-        None => None,
-    };
+    let mut log_file = arguments.log.as_deref().map(LogFile::create).transpose()?;
     let is_told = !arguments.json && !arguments.quiet;
-    let shows_chart = is_told && names.len() <= CHARTED;
     let columns: Vec<_> = participants
         .iter()
         .map(|one| (&*one.name, one.station))
         .collect();
-    let mut chart = Chart::new(&columns, Identifiers::default());
+    let chart = Chart::new(&columns, Identifiers::default()).within(self::columns());
+    let shows_chart = is_told && names.len() <= CHARTED && chart.is_some();
+    let mut chart = chart.unwrap_or_default();
     if is_told {
         introduce(&options, names.len(), arguments.security.is_throw_away())?;
     }
     if shows_chart {
         print(chart.header())?;
     } else if is_told {
-        print("The chart of this many robots is wider than a screen; --report FILE has it.")?;
+        print("The chart of this many robots is wider than the screen; --report FILE has it.")?;
     }
     // If nobody reads the chart any more, the crossing goes on, and the log is complete.
     let mut reads = true;
     let (outcome, log) = demo::run(&options, &mut |seen| {
+        if let (Some(file), Seen::Record(record)) = (&mut log_file, seen) {
+            file.write(record);
+        }
         if shows_chart && reads {
             let lines = match seen {
                 Seen::Record(record) => chart.lines(record),
@@ -188,30 +204,62 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     })
     .map_err(Failure::input)?;
-    if let (Some(file), Some(path)) = (&mut log_file, &arguments.log) {
-        std::io::Write::write_all(file, &log)
-            .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
-    }
-    super::finish_capture(options.capture)?;
-    let (title, speed) = ("Crossguard demo", arguments.speed);
-    arguments
-        .records
-        .write(title, &log, speed, arguments.json)?;
-    if arguments.json {
-        print_json(&outcome)?;
+    // Where one of these cannot be written, the others are.
+    let told = if arguments.json {
+        print_json(&outcome)
     } else {
-        report(&outcome)?;
-    }
-    if outcome.succeeded() {
+        report(&outcome)
+    };
+    let captured = super::finish_capture(options.capture);
+    let title = "Crossguard demo";
+    let written = arguments.records.write(title, &log, arguments.json);
+    told.and(captured).and(written)?;
+    if log_file.is_some_and(|file| file.has_failed) || outcome.stopped && outcome.trace_valid {
+        Err(Failure::Incomplete)
+    } else if outcome.succeeded() {
         Ok(())
     } else {
         Err(Failure::Wrong)
     }
 }
 
-fn create(path: &std::path::Path) -> Result<std::fs::File, Failure> {
-    std::fs::File::create(path)
-        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+/// The log as it is written: at any time all that has happened is in it.
+struct LogFile {
+    path: PathBuf,
+    file: File,
+    line: Vec<u8>,
+    has_failed: bool,
+}
+
+impl LogFile {
+    fn create(path: &Path) -> Result<Self, Failure> {
+        destinations::file(path)?;
+        let file = File::create(path)
+            .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+        Ok(Self {
+            path: path.to_owned(),
+            file,
+            line: Vec::new(),
+            has_failed: false,
+        })
+    }
+
+    /// Writes a record; complains once when that cannot be done any more.
+    fn write(&mut self, record: &Record) {
+        if self.has_failed {
+            return;
+        }
+        self.line.clear();
+        let written = trace::write(&mut self.line, record);
+        if let Err(error) = written.and_then(|()| self.file.write_all(&self.line)) {
+            self.has_failed = true;
+            let _ = writeln!(
+                std::io::stderr(),
+                "crossguard: {}: {error}; the demonstration goes on, and nothing more is written there",
+                self.path.display()
+            );
+        }
+    }
 }
 
 fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<(), Failure> {
@@ -252,6 +300,9 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
         "{} Here they go over loopback.\n",
         timing::LEGEND
     ))?;
+    if outcome.stopped {
+        print("Stopped before it was done; this is what there was until then.")?;
+    }
     for team in &outcome.teams {
         print(format_args!("{team}."))?;
     }

@@ -5,6 +5,8 @@ use std::net::SocketAddr;
 use crossguard_model_check::explore::Explorer;
 use crossguard_model_check::scenario::Scenario;
 
+use super::interrupts::interrupts_that;
+use super::ranges::address;
 use super::{Failure, print};
 
 #[derive(clap::Args)]
@@ -13,7 +15,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "SCENARIO|FILE")]
     scenario: String,
     /// Where to serve it.
-    #[arg(long, default_value = "127.0.0.1:3000")]
+    #[arg(long, default_value = "127.0.0.1:3000", value_parser = address::<SocketAddr>)]
     address: SocketAddr,
 }
 
@@ -26,6 +28,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     print(format_args!(
         "Open http://{address}/ in a browser; Ctrl-C ends it."
     ))?;
+    // Nothing is lost with it.
+    let _ = interrupts_that(|| std::process::exit(0));
     explorer.serve();
     Ok(())
 }

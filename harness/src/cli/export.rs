@@ -4,15 +4,16 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
+use clap::ArgGroup;
 use crossguard_judge::mcap_file;
 use crossguard_judge::sequence::Sequence;
 use crossguard_robot::trace::{Merged, Timed};
 
-use super::{Failure, open_logs, print};
+use super::{Failure, cause, destinations, open_logs, print};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
-#[group(id = "to", required = true, multiple = true, args = ["mcap", "svg", "mermaid"])]
+#[command(group(ArgGroup::new("to").required(true).multiple(true).args(["mcap", "svg", "mermaid"])))]
 pub(super) struct Arguments {
     /// The logs: of one robot or of several, from one machine or from several.
     #[arg(required = true, value_name = "LOG")]
@@ -36,6 +37,7 @@ MCAP file all messages are JSON with their schemas; each robot's topics are /NAM
 are those of all.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    destinations::files([&arguments.mcap, &arguments.svg, &arguments.mermaid])?;
     if let Some(path) = &arguments.mcap {
         print(write_mcap(merged(&arguments.logs)?, path)?)?;
     }
@@ -73,7 +75,7 @@ pub(super) fn write_mcap(logs: Merged, path: &Path) -> Result<String, Failure> {
     let file = File::create(path).map_err(|error| cannot(path, &error))?;
     let written = mcap_file::write(logs, BufWriter::new(file)).map_err(|error| match error {
         mcap_file::ExportError::Log(error) => Failure::input(error),
-        mcap_file::ExportError::Mcap(error) => cannot(path, &error),
+        mcap_file::ExportError::Mcap(error) => cannot(path, &cause(&error)),
     })?;
     Ok(format!(
         "{}: {} messages on {} topics",

@@ -1,41 +1,47 @@
 //! `crossguard fuzz`.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use crossguard_judge::sim::{Files, Fuzz, Longest, Measure, Totals, write_failure};
 use crossguard_robot::transport::Faults;
 use indicatif::{ProgressBar, ProgressStyle};
+use quick_junit::TestSuite;
 use serde::Serialize;
 
-use super::{Failure, print, print_json, shows_progress};
+use super::interrupts::interrupts;
+use super::junit::{self, Ending, JunitArguments};
+use super::ranges::{any, whole};
+use super::{Failure, destinations, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct Arguments {
     /// How many seeds to run.
-    #[arg(long, default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 1_000, value_parser = whole::<u64>(1..=u64::MAX.into()))]
     seeds: u64,
     /// How many robots there are at most.
-    #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u8).range(2..=32))]
+    #[arg(long, default_value_t = 6, value_parser = whole::<u8>(2..=32))]
     robots: u8,
     /// The first seed.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = any)]
     seed: u64,
     /// Faults of every way in place of those drawn, like burst=0.4x8,delay=0..50. Crashes, partitions
     /// and the rest are drawn all the same.
     #[arg(long, value_name = "LIST")]
     faults: Option<Faults>,
     /// How many threads work; by default one for each core.
-    #[arg(long, value_parser = clap::value_parser!(u8).range(1..))]
+    #[arg(long, value_parser = whole::<u8>(1..=255))]
     threads: Option<u8>,
     /// After how many failed seeds it is enough.
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, default_value_t = 10, value_parser = whole::<u16>(1..=65_535))]
     failures: u16,
     /// Write log, packets, sequence chart and report of failed seeds into this folder.
     #[arg(long, value_name = "DIR", default_value = "crossguard-fuzz")]
     out: PathBuf,
+    #[command(flatten)]
+    junit: JunitArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -60,6 +66,8 @@ struct FuzzReport<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    destinations::folder(&arguments.out)?;
+    arguments.junit.check()?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let fuzz = Fuzz {
         first: arguments.seed,
@@ -72,14 +80,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let began = Instant::now();
     let totals = watched(&fuzz, arguments.json);
     let seconds = began.elapsed();
+    // Where files cannot be written, the results are told all the same.
+    let mut kept = Ok(());
     for failure in &totals.failures {
         let written = write_failure(&arguments.out, &fuzz, failure);
         let files = written
-            .map_err(|error| Failure::Input(format!("{}: {error}", arguments.out.display())))?;
+            .map_err(|error| Failure::Input(format!("{}: {error}", arguments.out.display())));
         if !arguments.json {
-            tell_failure(&fuzz, failure, &files)?;
+            tell_failure(&fuzz, failure, files.as_ref().ok())?;
         }
+        kept = kept.and(files.map(|_| ()));
     }
+    let suite = suite(&fuzz, &totals, seconds);
+    kept = kept.and(arguments.junit.write("fuzz", [suite]));
     if arguments.json {
         let failures = totals.failures.iter();
         print_json(&FuzzReport {
@@ -92,6 +105,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         tell(&totals, seconds)?;
     }
+    kept?;
     match totals.violations {
         0 if totals.seeds < arguments.seeds => Err(Failure::Incomplete),
         0 => Ok(()),
@@ -99,11 +113,31 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// A case for each seed that failed, and one for the others.
+fn suite(fuzz: &Fuzz, totals: &Totals, seconds: Duration) -> TestSuite {
+    let mut suite = TestSuite::new("fuzz");
+    suite.set_time(seconds);
+    for failure in &totals.failures {
+        let (finding, again) = (&failure.finding, fuzz.reproduce(failure.seed));
+        let what = format!("{}: {}", finding.property, finding.statement);
+        let (robot, at_ms) = (&finding.robot, finding.at_ms);
+        let at_length = format!("broken by {robot} after {at_ms} ms; again: {again}");
+        let name = format!("seed {}", failure.seed);
+        junit::case(&mut suite, &name, Ending::Wrong(what, at_length));
+    }
+    let ending = if totals.seeds < fuzz.seeds && totals.violations == 0 {
+        Ending::Incomplete(format!("{} of {} seeds were run", totals.seeds, fuzz.seeds))
+    } else {
+        Ending::Well
+    };
+    let name = format!("the other seeds from {} on", fuzz.first);
+    junit::case(&mut suite, &name, ending);
+    suite
+}
+
 /// Runs the seeds, with a progress bar for people. Ctrl-C ends it with what is known.
 fn watched(fuzz: &Fuzz, is_json: bool) -> Totals {
-    static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-    // It can only fail when there is a handler already, and there is none.
-    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+    let interrupted = interrupts();
     let bar = if shows_progress(is_json) {
         ProgressBar::new(fuzz.seeds)
     } else {
@@ -114,7 +148,7 @@ fn watched(fuzz: &Fuzz, is_json: bool) -> Totals {
     let totals = fuzz.run(&|totals: &Totals| {
         bar.set_position(totals.seeds);
         bar.set_message(format!("{} violations", totals.violations));
-        !INTERRUPTED.load(Ordering::Relaxed)
+        !interrupted.load(Ordering::Relaxed)
     });
     bar.finish_and_clear();
     totals
@@ -123,7 +157,7 @@ fn watched(fuzz: &Fuzz, is_json: bool) -> Totals {
 fn tell_failure(
     fuzz: &Fuzz,
     failure: &crossguard_judge::sim::Failure,
-    files: &Files,
+    files: Option<&Files>,
 ) -> Result<(), Failure> {
     let finding = &failure.finding;
     let at = Duration::from_millis(finding.at_ms).as_secs_f64();
@@ -132,6 +166,9 @@ fn tell_failure(
         failure.seed, finding.property, finding.robot, finding.statement
     ))?;
     print(format_args!("  again: {}", fuzz.reproduce(failure.seed)))?;
+    let Some(files) = files else {
+        return Ok(());
+    };
     let files = [
         &files.html,
         &files.log,

@@ -3,8 +3,13 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Set when the process is told to stop.
+/// Set when the process is told to stop, by SIGINT, SIGTERM or SIGHUP.
 pub(super) fn interrupts() -> Arc<AtomicBool> {
+    interrupts_that(|| ())
+}
+
+/// The same; `tell` is called when the process is told to stop.
+pub(super) fn interrupts_that(tell: impl Fn() + Send + 'static) -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&interrupted);
     // A second Ctrl-C should still end a process that does not stop by itself.
@@ -12,6 +17,7 @@ pub(super) fn interrupts() -> Arc<AtomicBool> {
         if set.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
+        tell();
     };
     // It can only fail when there is a handler already, and there is none.
     let _ = ctrlc::set_handler(handler);

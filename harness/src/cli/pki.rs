@@ -1,21 +1,18 @@
 //! `crossguard pki`.
 
+mod shown;
+
 use std::path::{Path, PathBuf};
-use std::time::{Duration as StdDuration, UNIX_EPOCH};
 
+use clap::builder::NonEmptyStringValueParser;
 use clap::{ArgAction, ValueEnum};
-use crossguard_codec::security::{
-    Certificate, Content, Duration, Issuer, Permission, Place, Region, Ssp, Subjects, Time64,
-};
-use crossguard_codec::si::timestamp_its;
-use crossguard_codec::{Identifiers, Part, Service};
+use crossguard_codec::security::{Certificate, Duration, Permission, Place, Region, Ssp, Time64};
+use crossguard_codec::{Identifiers, Part};
 use crossguard_robot::pki::{self, Holder, PkiError, Term};
-use serde::Serialize;
 
-use super::{Failure, print, print_json};
-
-/// 2004-01-01T00:00:00Z, in seconds since 1970.
-const EPOCH_S: u64 = 1_072_915_200;
+use self::shown::Shown;
+use super::ranges::whole;
+use super::{Failure, destinations, print_json};
 
 #[derive(clap::Subcommand)]
 #[command(after_help = AFTER_HELP)]
@@ -87,32 +84,35 @@ pub(super) struct Form {
 #[derive(clap::Args)]
 pub(super) struct Office {
     /// Its name.
-    #[arg(long)]
+    #[arg(long, value_parser = NonEmptyStringValueParser::new())]
     name: Option<String>,
     /// For how many years it is valid.
-    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=50))]
+    #[arg(long, default_value_t = 3, value_parser = whole::<u16>(1..=50))]
     years: u16,
     /// An ITS-AID that pseudonyms below it may be for; by default those of all services.
-    #[arg(long = "its-aid", value_name = "NUMBER", action = ArgAction::Append)]
+    #[arg(long = "its-aid", value_name = "NUMBER", action = ArgAction::Append, value_parser = whole::<u32>(0..=u32::MAX.into()))]
     its_aids: Vec<u32>,
     #[command(flatten)]
     where_valid: Where,
+    /// From when on it is valid, if not from now.
+    #[arg(skip)]
+    from: Option<Time64>,
 }
 
 /// What pseudonyms are for.
 #[derive(clap::Args)]
 pub(super) struct Pseudonyms {
     /// How many.
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1_000))]
+    #[arg(long, default_value_t = 8, value_parser = whole::<u16>(1..=1_000))]
     count: u16,
     /// For how many hours they are valid.
-    #[arg(long, default_value_t = 168, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, default_value_t = 168, value_parser = whole::<u16>(1..=65_535))]
     hours: u16,
     /// In how many hours they begin to be valid; negative for the past.
     #[arg(
         long,
         default_value_t = 0,
-        allow_negative_numbers = true,
+        value_parser = whole::<i32>(-87_600..=87_600),
         value_name = "HOURS"
     )]
     start_in: i32,
@@ -266,6 +266,51 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
 type File = (PathBuf, Certificate);
 
 fn init(folder: &Path, robots: &[String], pseudonyms: &Pseudonyms) -> Result<Vec<File>, Failure> {
+    for robot in robots {
+        check_name(robot)?;
+    }
+    destinations::folder(folder)?;
+    let taken = [
+        "root.cert",
+        "root.key",
+        "authority.cert",
+        "authority.key",
+        "robots",
+    ];
+    if let Some(taken) = taken
+        .map(|it| folder.join(it))
+        .iter()
+        .find(|it| it.exists())
+    {
+        return Err(Failure::input(PkiError::Exists(taken.clone())));
+    }
+    // All is made in a folder of its own, which takes its place only when nothing can go wrong any more: what
+    // is half made would be in the way of the next try.
+    let was_there = folder.exists();
+    let unfinished = folder.join(UNFINISHED);
+    let _ = std::fs::remove_dir_all(&unfinished);
+    let made = init_in(&unfinished, robots, pseudonyms, folder)
+        .and_then(|files| take_place(&unfinished, folder).map(|()| files));
+    let _ = std::fs::remove_dir_all(&unfinished);
+    if made.is_err() && !was_there {
+        // It stays if somebody has put something into it.
+        let _ = std::fs::remove_dir(folder);
+    }
+    made
+}
+
+/// Where a PKI is made, inside of its folder.
+const UNFINISHED: &str = ".unfinished";
+
+/// Makes a PKI in a folder; the names of its files are those in the folder that they will be in.
+fn init_in(
+    folder: &Path,
+    robots: &[String],
+    pseudonyms: &Pseudonyms,
+    in_the_end: &Path,
+) -> Result<Vec<File>, Failure> {
+    // Above pseudonyms that begin in the past are certificates that begin as early.
+    let early = Pseudonyms::from(pseudonyms.start_in.min(0));
     let office = |name: &str, years| Office {
         name: Some(name.to_owned()),
         years,
@@ -274,6 +319,7 @@ fn init(folder: &Path, robots: &[String], pseudonyms: &Pseudonyms) -> Result<Vec
             circle: None,
             rectangle: Vec::new(),
         },
+        from: Some(early),
     };
     let mut files = vec![
         root(folder, &office("test root", 10))?,
@@ -282,7 +328,23 @@ fn init(folder: &Path, robots: &[String], pseudonyms: &Pseudonyms) -> Result<Vec
     for robot in robots {
         files.extend(tickets(folder, robot, pseudonyms)?);
     }
+    for (path, _) in &mut files {
+        if let Ok(inside) = path.strip_prefix(folder) {
+            *path = in_the_end.join(inside);
+        }
+    }
     Ok(files)
+}
+
+/// Moves everything out of a folder into the one that it is in.
+fn take_place(unfinished: &Path, folder: &Path) -> Result<(), Failure> {
+    let moved = std::fs::read_dir(unfinished).and_then(|mut entries| {
+        entries.try_for_each(|entry| {
+            let entry = entry?;
+            std::fs::rename(entry.path(), folder.join(entry.file_name()))
+        })
+    });
+    moved.map_err(|error| Failure::Input(format!("{}: {error}", folder.display())))
 }
 
 impl Office {
@@ -296,7 +358,7 @@ impl Office {
 
     fn term(&self) -> Term {
         Term {
-            from: pki::now(),
+            from: self.from.unwrap_or_else(pki::now),
             duration: Duration::years(self.years),
         }
     }
@@ -333,7 +395,8 @@ fn write(holder: &Holder, folder: &Path, name: &str) -> Result<File, Failure> {
     Ok((path, holder.certificate.clone()))
 }
 
-fn tickets(folder: &Path, robot: &str, wanted: &Pseudonyms) -> Result<Vec<File>, Failure> {
+/// Whether a robot's folder can have its name.
+fn check_name(robot: &str) -> Result<(), Failure> {
     let is_name = !robot.is_empty()
         && robot
             .chars()
@@ -343,25 +406,30 @@ fn tickets(folder: &Path, robot: &str, wanted: &Pseudonyms) -> Result<Vec<File>,
             "'{robot}' cannot be the name of a robot's folder: letters, digits, - and _ can"
         )));
     }
+    Ok(())
+}
+
+fn tickets(folder: &Path, robot: &str, wanted: &Pseudonyms) -> Result<Vec<File>, Failure> {
+    check_name(robot)?;
     let authority = Holder::read(folder, "authority").map_err(Failure::input)?;
     let above = pki::read_certificate(&folder.join("root.cert")).map_err(Failure::input)?;
-    let offset_us = i64::from(wanted.start_in) * 3_600_000_000;
-    let from = Time64(pki::now().0.saturating_add_signed(offset_us));
     let term = Term {
-        from,
+        from: Pseudonyms::from(wanted.start_in),
         duration: Duration::hours(wanted.hours),
     };
     let robot_folder = pki::robot_folder(folder, robot);
     let mut files = Vec::new();
-    for _ in 0..wanted.count {
-        let region = wanted.where_valid.region();
-        let ticket = pki::new_ticket(&authority, term, region, wanted.permissions());
-        let ticket = ticket.map_err(|error| {
-            Failure::Input(format!(
-                "{error}; 'crossguard pki show {}' tells what the authority may issue, and until when",
-                folder.display()
-            ))
-        })?;
+    // All are made before any is written.
+    let region = || wanted.where_valid.region();
+    let ticket = |_| pki::new_ticket(&authority, term, region(), wanted.permissions());
+    let made: Result<Vec<_>, _> = (0..wanted.count).map(ticket).collect();
+    let made = made.map_err(|error| {
+        Failure::Input(format!(
+            "{error}. The authority must be valid for all of the time that pseudonyms are: choose --start-in and \
+             --hours within it ('crossguard pki show FOLDER' tells it)"
+        ))
+    })?;
+    for ticket in made {
         let id = ticket.certificate.id();
         pki::write_ticket(&ticket, &robot_folder).map_err(Failure::input)?;
         let path = robot_folder.join("tickets").join(format!("{id}.cert"));
@@ -374,6 +442,12 @@ fn tickets(folder: &Path, robot: &str, wanted: &Pseudonyms) -> Result<Vec<File>,
 }
 
 impl Pseudonyms {
+    /// When it is in so many hours.
+    fn from(hours: i32) -> Time64 {
+        let offset_us = i64::from(hours) * 3_600_000_000;
+        Time64(pki::now().0.saturating_add_signed(offset_us))
+    }
+
     fn permissions(&self) -> Vec<Permission> {
         if !self.its_aids.is_empty() {
             return self.its_aids.clone();
@@ -400,150 +474,4 @@ fn find(path: &Path, files: &mut Vec<File>) -> Result<(), PkiError> {
         find(&folder, files)?;
     }
     Ok(())
-}
-
-/// A certificate for people and scripts.
-#[derive(Serialize)]
-struct Shown {
-    file: String,
-    kind: &'static str,
-    id: String,
-    name: Option<String>,
-    issuer: Option<String>,
-    valid_from: String,
-    valid_until: String,
-    is_valid_now: bool,
-    region: Option<String>,
-    permissions: Vec<String>,
-    issues: Vec<String>,
-}
-
-impl Shown {
-    fn of(path: &Path, certificate: &Certificate, now: Time64) -> Self {
-        let content = certificate.content();
-        let validity = content.validity;
-        Self {
-            file: path.display().to_string(),
-            kind: kind(content),
-            id: certificate.id().to_string(),
-            name: content.name.clone(),
-            issuer: match content.issuer {
-                Issuer::Certificate(id) => Some(id.to_string()),
-                Issuer::Itself => None,
-            },
-            valid_from: date(validity.from()),
-            valid_until: date(validity.until()),
-            is_valid_now: (validity.from()..validity.until()).contains(&now),
-            region: content.region.as_ref().map(region),
-            permissions: content.permissions.iter().map(permitted).collect(),
-            issues: content
-                .issue_permissions
-                .iter()
-                .flat_map(|issue| match &issue.subjects {
-                    Subjects::All => vec!["all services".to_owned()],
-                    Subjects::These(these) => {
-                        these.iter().map(|(its_aid, _)| service(*its_aid)).collect()
-                    }
-                })
-                .collect(),
-        }
-    }
-
-    fn print(&self) -> Result<(), Failure> {
-        let name = self
-            .name
-            .as_ref()
-            .map_or_else(String::new, |name| format!(" '{name}'"));
-        let validity = if self.is_valid_now {
-            ""
-        } else {
-            ", NOT VALID NOW"
-        };
-        print(format_args!(
-            "{} {}{name}: {}",
-            self.kind, self.id, self.file
-        ))?;
-        let (from, until) = (&self.valid_from, &self.valid_until);
-        print(format_args!("  valid from {from} until {until}{validity}"))?;
-        if let Some(issuer) = &self.issuer {
-            print(format_args!("  issued by {issuer}"))?;
-        }
-        if let Some(region) = &self.region {
-            print(format_args!("  in {region}"))?;
-        }
-        for (what, list) in [("permits", &self.permissions), ("issues", &self.issues)] {
-            if !list.is_empty() {
-                print(format_args!("  {what} {}", list.join(", ")))?;
-            }
-        }
-        Ok(())
-    }
-}
-
-fn kind(content: &Content) -> &'static str {
-    if content.issuer == Issuer::Itself {
-        "root"
-    } else if content.is_ticket() {
-        "ticket"
-    } else if content.issue_permissions.is_empty() {
-        "certificate"
-    } else {
-        "authority"
-    }
-}
-
-fn service(its_aid: u32) -> String {
-    let identifiers = Identifiers::default();
-    let service = Service::ALL
-        .into_iter()
-        .find(|service| service.its_aid(&identifiers) == its_aid);
-    service.map_or_else(
-        || its_aid.to_string(),
-        |service| format!("{} ({its_aid})", service.name()),
-    )
-}
-
-fn permitted(permission: &Permission) -> String {
-    let service = service(permission.its_aid);
-    match &permission.ssp {
-        Ssp::Default => service,
-        Ssp::Opaque(octets) => format!("{service} with octets {}", hex::encode(octets)),
-        Ssp::Bitmap(bits) => format!("{service} with bits {}", hex::encode(bits)),
-    }
-}
-
-fn region(region: &Region) -> String {
-    let degrees = |place: &Place| {
-        let (latitude, longitude) = (f64::from(place.latitude), f64::from(place.longitude));
-        format!("{:.7}, {:.7}", latitude / 1e7, longitude / 1e7)
-    };
-    match region {
-        Region::Circle { centre, radius } => {
-            format!("a circle of {radius} m around {}", degrees(centre))
-        }
-        Region::Rectangles(rectangles) => rectangles
-            .iter()
-            .map(|(north_west, south_east)| {
-                format!(
-                    "a rectangle from {} to {}",
-                    degrees(north_west),
-                    degrees(south_east)
-                )
-            })
-            .collect::<Vec<_>>()
-            .join(" and "),
-    }
-}
-
-/// A time as a date of the common calendar; leap seconds are taken out.
-fn date(time: Time64) -> String {
-    let its_s = time.0 / 1_000_000;
-    let unix_s = (0..=5)
-        .map(|leap| its_s + EPOCH_S - leap)
-        .find(|unix_s| {
-            let unix_ms = i64::try_from(unix_s * 1_000).unwrap_or(i64::MAX);
-            timestamp_its(unix_ms) == its_s * 1_000
-        })
-        .unwrap_or(its_s + EPOCH_S);
-    humantime::format_rfc3339_seconds(UNIX_EPOCH + StdDuration::from_secs(unix_s)).to_string()
 }

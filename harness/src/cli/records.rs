@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crossguard_robot::trace::{Log, Merged};
 
 use super::report::ReportPage;
-use super::{Failure, export, print};
+use super::{Failure, destinations, export, print};
 
 /// What else is written of a log.
 #[derive(clap::Args)]
@@ -20,15 +20,13 @@ pub(super) struct RecordArguments {
 }
 
 impl RecordArguments {
-    /// Writes what is wanted of `log`, in which the bodies of robots moved `time_scale` times as fast as
-    /// real; says so unless the output is for a program.
-    pub(super) fn write(
-        &self,
-        title: &str,
-        log: &[u8],
-        time_scale: f64,
-        is_json: bool,
-    ) -> Result<(), Failure> {
+    /// Whether what is wanted can be written.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        destinations::files([&self.mcap, &self.report])
+    }
+
+    /// Writes what is wanted of `log`; says so unless the output is for a program.
+    pub(super) fn write(&self, title: &str, log: &[u8], is_json: bool) -> Result<(), Failure> {
         let logs = || {
             vec![Log {
                 name: "the log of this run".to_owned(),
@@ -44,7 +42,7 @@ impl RecordArguments {
             let page = ReportPage {
                 title,
                 logs: &["the log of this run".to_owned()],
-                time_scale,
+                time_scale: None,
             };
             // What it says of the log is what the command says of it, too.
             let _ = page.write(path, logs(), logs())?;

@@ -21,9 +21,10 @@ pub(super) struct Arguments {
     /// What stands at the top of the page.
     #[arg(long, value_name = "TEXT", default_value = "Crossguard run")]
     title: String,
-    /// How many times as fast as real the robots' bodies moved, for the table of times.
-    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = super::ranges::speed)]
-    speed: f64,
+    /// How many times as fast as real the robots' bodies moved, for the table of times, where their logs do
+    /// not say it, or wrongly.
+    #[arg(long, value_name = "N", value_parser = super::ranges::speed)]
+    speed: Option<f64>,
 }
 
 const AFTER_HELP: &str = "\
@@ -32,6 +33,7 @@ what validation says, and the sequence chart. It is written for logs that are no
 exit code is 1, and 3 if records are missing.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    super::destinations::file(&arguments.output)?;
     let open = || open_logs(&arguments.logs);
     let names: Vec<_> = arguments
         .logs
@@ -59,8 +61,8 @@ pub(super) struct ReportPage<'a> {
     pub(super) title: &'a str,
     /// The names of the logs.
     pub(super) logs: &'a [String],
-    /// How many times as fast as real the robots' bodies moved.
-    pub(super) time_scale: f64,
+    /// How many times as fast as real the robots' bodies moved, where the logs do not say it.
+    pub(super) time_scale: Option<f64>,
 }
 
 impl ReportPage<'_> {

@@ -35,8 +35,9 @@ use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use output::{Lines, Outputs};
 
-use super::Failure;
 use super::interrupts::interrupts;
+use super::ranges::{any, group, number};
+use super::{Failure, destinations, print};
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);
@@ -60,10 +61,14 @@ pub(super) struct Arguments {
     /// the kit, like bilateral or trio.
     #[arg(long, value_name = "FILE|NAME")]
     plan: Option<PathBuf>,
+    /// Check the configuration, and run nothing.
+    #[arg(long)]
+    check: bool,
     /// Send to and listen on this multicast group instead of the configured link.
     #[arg(
         long,
         value_name = "GROUP:PORT",
+        value_parser = group,
         requires = "interface",
         group = "link"
     )]
@@ -78,13 +83,13 @@ pub(super) struct Arguments {
     #[command(flatten)]
     zenoh: super::zenoh::ZenohArguments,
     /// Probability with which the robot loses a datagram, from 0 to 1.
-    #[arg(long, default_value_t = 0.0)]
+    #[arg(long, default_value_t = 0.0, value_parser = number(0.0..=1.0))]
     loss: f64,
     /// More faults on the way to the robot, like burst=0.4x8,duplication=0.1,delay=5..50.
     #[arg(long, value_name = "LIST", default_value = "")]
     faults: Faults,
     /// Seed of the faults and of the robot's gait.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = any)]
     seed: u64,
     /// People that the robot's sensors report: a file or pipe of JSON lines, see below.
     #[arg(long, value_name = "FILE")]
@@ -121,17 +126,18 @@ when it is read, from a pipe or typed. Who is within the radius of [people] in t
 a person who waits there to cross is detected: nobody has to type 'detect'. Try --config harness/examples/kerb.toml --perceived harness/examples/people.jsonl.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if !(0.0..=1.0).contains(&arguments.loss) {
-        return Err(Failure::Input(format!(
-            "--loss {}: from 0 to 1 is possible",
-            arguments.loss
-        )));
-    }
+    destinations::files([&arguments.log, &arguments.pcap])?;
     let besides = Besides {
         site_file: arguments.site.as_deref(),
         plan_file: arguments.plan.as_deref(),
     };
     let file = RobotFile::read_with(&arguments.config, besides).map_err(Failure::input)?;
+    if arguments.check {
+        let (config, name, station) = (arguments.config.display(), &file.name, file.station);
+        return print(format_args!(
+            "{config}: {name}, station {station}, can be run with this configuration"
+        ));
+    }
     let link = configured_link(arguments, &file);
     let signs_by_unit = matches!(
         link,

@@ -9,6 +9,7 @@ use crossguard_endpoint::station::{Credentials, Mode, Security};
 use crossguard_robot::pki::{self, Pki};
 use crossguard_robot::transport::Link;
 
+use super::ranges::whole;
 use super::{Failure, choices};
 
 /// How many pseudonyms a robot of a demonstration has.
@@ -23,7 +24,7 @@ pub(super) struct SecurityArguments {
     #[arg(long, value_name = "FOLDER")]
     pki: Option<PathBuf>,
     /// After how many seconds a pseudonym changes, outside of sessions; 0 for never.
-    #[arg(long, value_name = "SECONDS", default_value_t = 300)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 300, value_parser = whole::<u32>(0..=u32::MAX.into()))]
     pseudonym_period: u32,
 }
 

@@ -3,7 +3,9 @@
 mod options;
 mod output;
 
+use std::io::Write;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 use crossguard_evaluation::coverage::greedy;
 use crossguard_evaluation::matrix;
@@ -15,7 +17,9 @@ use crossguard_evaluation::trace::{Run, Traces};
 use serde::Serialize;
 
 use self::options::{Air, Matrix, Output, Parameters, Placement, Streets};
-use super::{Failure, print, print_json};
+use super::interrupts::interrupts;
+use super::ranges::whole;
+use super::{Failure, destinations, print, print_json};
 
 #[derive(clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -76,11 +80,12 @@ struct Record {
         long,
         value_delimiter = ',',
         default_value = "20,50,100",
-        value_name = "N,…"
+        value_name = "N,…",
+        value_parser = whole::<usize>(1..=100_000)
     )]
     pedestrians: Vec<usize>,
     /// How many runs a file has; their seeds are 1, 2, 3 and so on.
-    #[arg(long, default_value_t = 10, value_name = "N")]
+    #[arg(long, default_value_t = 10, value_name = "N", value_parser = whole::<usize>(1..=100_000))]
     seeds: usize,
     /// The folder that the files are written to.
     #[arg(long, default_value = ".", value_name = "FOLDER")]
@@ -110,47 +115,90 @@ struct SimulateReport<'a, C> {
 
 fn obs(arguments: &Obs) -> Result<(), Failure> {
     let matrix = &arguments.matrix;
+    arguments.output.check()?;
+    let interrupted = interrupts();
     let traces = matrix.traces(arguments.output.json)?;
-    let cells = matrix::obs(&traces, &matrix.axes());
+    let go_on = || !interrupted.load(Ordering::Relaxed);
+    let cells = matrix::obs(&traces, &matrix.axes(), go_on);
     let parameters = matrix.parameters(&traces, None);
     let assumptions = parameters.in_brief(matrix.preset.name());
-    let charts = [("coverage.svg", paper::coverage_figure(&cells, &assumptions))];
-    output::write_charts(&arguments.output, &charts)?;
-    output::write_csv(&arguments.output, &cells)?;
+    // Where files cannot be written, the figures are printed all the same.
+    let mut written = Ok(());
+    let was_stopped = interrupted.load(Ordering::Relaxed);
+    if !was_stopped {
+        let charts = [("coverage.svg", paper::coverage_figure(&cells, &assumptions))];
+        written = output::write_charts(&arguments.output, &charts);
+    }
+    written = written.and(output::write_csv(&arguments.output, &cells));
     let axes = matrix.axes();
-    let statements = statements::of_coverage(parameters.setting(&axes), &cells);
-    finish(&arguments.output, matrix, &parameters, &cells, &statements)
+    let statements = if was_stopped {
+        Vec::new()
+    } else {
+        statements::of_coverage(parameters.setting(&axes), &cells)
+    };
+    finish(&arguments.output, matrix, &parameters, &cells, &statements)?;
+    written?;
+    whole_matrix(was_stopped)
 }
 
 fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     let matrix = &arguments.matrix;
+    arguments.output.check()?;
+    destinations::files([&arguments.air.silences])?;
     let behaviour = arguments.air.behaviour().map_err(Failure::Input)?;
+    let interrupted = interrupts();
     let traces = matrix.traces(arguments.output.json)?;
     let sizes = Sizes::measure(behaviour.cam_path_points).map_err(Failure::input)?;
     let bar = output::progress(arguments.output.json, "runs");
     let done = |finished: usize, of: usize| {
         bar.set_length(of as u64);
         bar.set_position(finished as u64);
+        !interrupted.load(Ordering::Relaxed)
     };
     let cells = matrix::cbr(&traces, &matrix.axes(), &behaviour, &sizes, done);
     bar.finish_and_clear();
     let results = cells.map_err(Failure::input)?;
     let cells = results.cells;
-    output::write_silences(arguments.air.silences.as_deref(), &results.silences)?;
     let parameters = matrix.parameters(&traces, Some(behaviour));
     let assumptions = parameters.in_brief(matrix.preset.name());
-    let charts = [
-        ("mcbr.svg", paper::load_figure(&cells, &assumptions)),
-        (
-            "reduction.svg",
-            paper::reduction_figure(&cells, &assumptions),
-        ),
-    ];
-    output::write_charts(&arguments.output, &charts)?;
-    output::write_csv(&arguments.output, &cells)?;
+    // Where files cannot be written, the figures are printed all the same.
+    let mut written = Ok(());
+    let was_stopped = interrupted.load(Ordering::Relaxed);
+    if !was_stopped {
+        let charts = [
+            ("mcbr.svg", paper::load_figure(&cells, &assumptions)),
+            (
+                "reduction.svg",
+                paper::reduction_figure(&cells, &assumptions),
+            ),
+        ];
+        written = output::write_charts(&arguments.output, &charts);
+    }
+    written = written.and(output::write_csv(&arguments.output, &cells));
+    let silences = arguments.air.silences.as_deref();
+    written = written.and(output::write_silences(silences, &results.silences));
     let axes = matrix.axes();
-    let statements = statements::of_load(parameters.setting(&axes), &cells);
-    finish(&arguments.output, matrix, &parameters, &cells, &statements)
+    let statements = if was_stopped {
+        Vec::new()
+    } else {
+        statements::of_load(parameters.setting(&axes), &cells)
+    };
+    finish(&arguments.output, matrix, &parameters, &cells, &statements)?;
+    written?;
+    whole_matrix(was_stopped)
+}
+
+/// Says when the matrix is not whole.
+fn whole_matrix(was_stopped: bool) -> Result<(), Failure> {
+    if !was_stopped {
+        return Ok(());
+    }
+    // Standard error may be gone; the exit code says it as well.
+    let _ = writeln!(
+        std::io::stderr(),
+        "crossguard: stopped before it was done; cells with fewer seeds than asked for are left out"
+    );
+    Err(Failure::Incomplete)
 }
 
 /// Prints the cells and what the paper states, as JSON or as tables under the parameters.
@@ -253,11 +301,16 @@ fn record(arguments: &Record) -> Result<(), Failure> {
                 .to_owned(),
         ));
     };
+    destinations::folder(&arguments.output)?;
+    let interrupted = interrupts();
     std::fs::create_dir_all(&arguments.output).map_err(Failure::input)?;
     let sumo = Sumo::in_folder(folder);
     let streets = &arguments.streets;
     let seeds: Vec<u64> = (1..).take(arguments.seeds).collect();
     for &pedestrians in &arguments.pedestrians {
+        if interrupted.load(Ordering::Relaxed) {
+            return Err(Failure::Incomplete);
+        }
         let plan = streets.plan(pedestrians);
         let traces = streets.record(&sumo, &plan, &seeds, false)?;
         let name = format!("{}-{pedestrians}.json.gz", streets.preset_name());

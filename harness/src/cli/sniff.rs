@@ -14,6 +14,7 @@ use crossguard_robot::transport::{Arrival, Framing, Link, Transport};
 
 use super::interrupts::interrupts;
 use super::listening::ListeningArguments;
+use super::ranges::{address, group, number, whole};
 use super::{Failure, print};
 
 /// How long the loop waits before it looks whether it is to stop.
@@ -26,12 +27,13 @@ pub(super) struct Arguments {
     #[arg(value_name = "FILE", group = "link")]
     file: Option<PathBuf>,
     /// Listen on this UDP address; robots send there if it is one of their peers.
-    #[arg(long, value_name = "ADDRESS:PORT", group = "link")]
+    #[arg(long, value_name = "ADDRESS:PORT", value_parser = address::<SocketAddr>, group = "link")]
     address: Option<SocketAddr>,
     /// Listen to this multicast group.
     #[arg(
         long,
         value_name = "GROUP:PORT",
+        value_parser = group,
         requires = "interface",
         group = "link"
     )]
@@ -45,10 +47,10 @@ pub(super) struct Arguments {
     #[command(flatten)]
     zenoh: super::zenoh::ZenohArguments,
     /// Stop after this many packets.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=u64::MAX.into()))]
     count: Option<u64>,
     /// Stop after this many seconds.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = number(0.0..=1e9))]
     seconds: Option<f64>,
     /// Write what is heard to this file, for Wireshark.
     #[arg(long, value_name = "FILE", conflicts_with = "file")]

@@ -19,9 +19,9 @@ pub(super) struct Arguments {
     /// The logs: of one robot or of several, from one machine or from several.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// How many times as fast as real the robots' bodies moved.
-    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = speed)]
-    speed: f64,
+    /// How many times as fast as real the robots' bodies moved, where their logs do not say it, or wrongly.
+    #[arg(long, value_name = "N", value_parser = speed)]
+    speed: Option<f64>,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,

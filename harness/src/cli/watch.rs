@@ -40,8 +40,9 @@ fn address(text: &str) -> Result<SocketAddr, String> {
     if let Ok(port) = text.parse::<u16>() {
         return Ok((Ipv4Addr::LOCALHOST, port).into());
     }
-    text.parse()
-        .map_err(|_| "a port, or an address and a port, is wanted".to_owned())
+    text.parse().map_err(|_| {
+        "a port from 0 to 65535, or an address and a port like 127.0.0.1:9100, is wanted".to_owned()
+    })
 }
 
 /// What is shown of a running robot.

@@ -93,6 +93,7 @@ impl Street {
                 settings,
                 identifiers: Identifiers::default(),
                 unix_ms: 0,
+                speed: None,
             },
         );
     }

@@ -120,6 +120,7 @@ fn verdict(report: &Report) -> Markup {
 
 fn times(report: &Report, run: &Run) -> Markup {
     let summaries = run.timing.summaries(report.time_scale);
+    let time_scale = report.time_scale.unwrap_or(run.timing.time_scale());
     if summaries.is_empty() {
         return html! { p { "No maneuver was completed." } };
     }
@@ -136,7 +137,7 @@ fn times(report: &Report, run: &Run) -> Markup {
         p.faint {
             "T_neg: from the leader's first transmission of the command to its reception at the follower, one way. "
             "Round trip: from that transmission to the acknowledgement. T_exec: from its start at the follower to its "
-            "end, in the robots' own time" @if report.time_scale > 1.0 { ", which passes " (report.time_scale) " times as fast" }
+            "end, in the robots' own time" @if time_scale > 1.0 { ", which passes " (time_scale) " times as fast" }
             ". T_TMCT = T_neg + T_exec. Mean ± standard deviation."
         }
         @for line in offsets_in_words(&run.timing, report.logs) { p.faint { (line) "." } }

@@ -154,7 +154,7 @@ fn write_report(files: &Files, seed: u64, title: &str, again: &str) -> std::io::
         logs: std::slice::from_ref(&name),
         verdict: result.as_ref(),
         finding: Some(title),
-        time_scale: 1.0,
+        time_scale: None,
         reproduce: Some(again),
     };
     let page = Merged::new(open()?).and_then(|logs| report.page(logs));

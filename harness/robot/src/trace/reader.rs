@@ -251,6 +251,7 @@ mod tests {
                 settings: Box::new(Config::default().settings().clone()),
                 identifiers: crossguard_codec::Identifiers::default(),
                 unix_ms,
+                speed: None,
             },
         }
     }

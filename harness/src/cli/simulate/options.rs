@@ -1,6 +1,7 @@
 //! What `crossguard simulate` can be told.
 
 use std::fs::File;
+use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -18,7 +19,8 @@ use crossguard_evaluation::trace::Traces;
 use serde::Serialize;
 
 use super::Failure;
-use crate::cli::choices;
+use crate::cli::ranges::{any, number, threads, whole};
+use crate::cli::{choices, destinations};
 
 /// The streets, and who moves on them.
 #[derive(clap::Args)]
@@ -30,14 +32,22 @@ pub(super) struct Streets {
     #[arg(long, value_name = "FOLDER")]
     pub(super) sumo: Option<PathBuf>,
     /// Intersections along a side of the grid, for --sumo.
-    #[arg(long, value_name = "N", requires = "sumo")]
+    #[arg(long, value_name = "N", requires = "sumo", value_parser = whole::<u32>(2..=26))]
     grid_size: Option<u32>,
     /// Vehicles, for --sumo.
-    #[arg(long, value_name = "N", default_value_t = 20, requires = "sumo")]
+    #[arg(long, value_name = "N", default_value_t = 20, requires = "sumo", value_parser = whole::<usize>(0..=10_000))]
     vehicles: usize,
     /// Length of a run in seconds, for --sumo.
-    #[arg(long, value_name = "SECONDS", default_value_t = 200, requires = "sumo")]
+    #[arg(long, value_name = "SECONDS", default_value_t = 200, requires = "sumo", value_parser = whole::<u32>(10..=3_600))]
     duration: u32,
+}
+
+impl Output {
+    /// Whether what is wanted can be written.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        destinations::files([&self.csv])?;
+        destinations::folders([&self.svg])
+    }
 }
 
 impl Streets {
@@ -76,7 +86,8 @@ pub(super) struct Matrix {
         long,
         value_delimiter = ',',
         default_value = "0,1,9",
-        value_name = "N,…"
+        value_name = "N,…",
+        value_parser = whole::<usize>(0..=10_000)
     )]
     robots: Vec<usize>,
     /// Numbers of people on foot.
@@ -84,7 +95,8 @@ pub(super) struct Matrix {
         long,
         value_delimiter = ',',
         default_value = "20,50,100",
-        value_name = "N,…"
+        value_name = "N,…",
+        value_parser = whole::<usize>(1..=100_000)
     )]
     pedestrians: Vec<usize>,
     /// Perception radii of robots, in metres.
@@ -92,7 +104,8 @@ pub(super) struct Matrix {
         long,
         value_delimiter = ',',
         default_value = "10,15",
-        value_name = "M,…"
+        value_name = "M,…",
+        value_parser = number(0.0..=100.0)
     )]
     pub(super) radius: Vec<f64>,
     /// Where at an intersection robots stand; the preset says it otherwise.
@@ -100,19 +113,19 @@ pub(super) struct Matrix {
     site: Option<Site>,
     /// Robots at an intersection before the next one gets any, each at another corner; their zones may
     /// overlap.
-    #[arg(long, default_value_t = 1, value_name = "1..4")]
+    #[arg(long, default_value_t = 1, value_name = "1..4", value_parser = whole::<usize>(1..=4))]
     per_intersection: usize,
     /// Robots walk around their intersection, over its corners, so fast; they stand by default.
-    #[arg(long, value_name = "M/S")]
+    #[arg(long, value_name = "M/S", value_parser = number(0.0..=10.0))]
     patrol: Option<f64>,
     /// Seeds to take the mean over, at most; with --sumo, this many fresh runs.
-    #[arg(long, default_value_t = 10, value_name = "N")]
+    #[arg(long, default_value_t = 10, value_name = "N", value_parser = whole::<usize>(1..=100_000))]
     pub(super) seeds: usize,
     /// The first seed of fresh runs, for --sumo.
-    #[arg(long, default_value_t = 1_001, value_name = "SEED", requires = "sumo")]
+    #[arg(long, default_value_t = 1_001, value_name = "SEED", requires = "sumo", value_parser = any)]
     first_seed: u64,
     /// Threads; as many as there are processors by default.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads)]
     threads: Option<NonZeroUsize>,
 }
 
@@ -153,7 +166,6 @@ impl Matrix {
 
     /// The traces: files, fresh ones, or the shipped ones.
     pub(super) fn traces(&self, is_json: bool) -> Result<Vec<Traces>, Failure> {
-        self.check()?;
         let traces = if !self.traces.is_empty() {
             self.traces
                 .iter()
@@ -189,23 +201,6 @@ impl Matrix {
             checked.map_err(Failure::input)?;
         }
         Ok(traces)
-    }
-
-    fn check(&self) -> Result<(), Failure> {
-        if let Some(radius_m) = self.radius.iter().find(|it| !(0.0..=100.0).contains(*it)) {
-            return Err(Failure::Input(format!(
-                "a radius is 0 to 100 m, not {radius_m} m"
-            )));
-        }
-        if self.seeds == 0 || self.pedestrians.contains(&0) {
-            return Err(Failure::Input(
-                "at least one seed and one pedestrian are needed".to_owned(),
-            ));
-        }
-        if self.sumo.is_some() && !(10..=3_600).contains(&self.duration) {
-            return Err(Failure::Input("a run takes 10 to 3600 s".to_owned()));
-        }
-        Ok(())
     }
 
     /// Whether a run with these parameters is the one that the evaluation page documents.
@@ -401,7 +396,7 @@ pub(super) struct Air {
     )]
     cam: String,
     /// Points in the path history of CAM, which goes along every half second.
-    #[arg(long, default_value_t = 5, value_name = "0..40", help_heading = "Air")]
+    #[arg(long, default_value_t = 5, value_name = "0..40", help_heading = "Air", value_parser = whole::<usize>(0..=40))]
     cam_path_points: usize,
     /// Which announcements devices understand.
     #[arg(long, value_enum, default_value = "ram", help_heading = "Air")]
@@ -410,22 +405,22 @@ pub(super) struct Air {
     #[arg(long, value_enum, default_value = "strict", help_heading = "Air")]
     suppression: SilenceRule,
     /// Share of people that no robot perceives, as if they were hidden all the time.
-    #[arg(long, default_value_t = 0.0, value_name = "0..1", help_heading = "Air")]
+    #[arg(long, default_value_t = 0.0, value_name = "0..1", help_heading = "Air", value_parser = number(0.0..=1.0))]
     unseen: f64,
     /// Write to this file when each device was silent, as comma-separated values.
     #[arg(long, value_name = "FILE", help_heading = "Air")]
     pub(super) silences: Option<PathBuf>,
     /// Share of people with a device.
-    #[arg(long, default_value_t = 1.0, value_name = "0..1", help_heading = "Air")]
+    #[arg(long, default_value_t = 1.0, value_name = "0..1", help_heading = "Air", value_parser = number(0.0..=1.0))]
     v2x_share: f64,
     /// Vehicles are gone after this many seconds, as when trips end; they stay by default.
-    #[arg(long, value_name = "SECONDS", help_heading = "Air")]
+    #[arg(long, value_name = "SECONDS", help_heading = "Air", value_parser = number(0.0..=1e6))]
     vehicles_leave: Option<f64>,
     /// No contention and no collisions.
     #[arg(long, help_heading = "Air")]
     ideal: bool,
     /// Path loss exponent.
-    #[arg(long, default_value_t = 2.2, value_name = "N", help_heading = "Air")]
+    #[arg(long, default_value_t = 2.2, value_name = "N", help_heading = "Air", value_parser = number(1.0..=6.0))]
     path_loss_exponent: f64,
     /// Packets are signed.
     #[arg(long, help_heading = "Air")]
@@ -438,15 +433,6 @@ pub(super) struct Air {
 impl Air {
     /// The behaviour of all stations.
     pub(super) fn behaviour(&self) -> Result<Behaviour, String> {
-        if !(0.0..=1.0).contains(&self.v2x_share) {
-            return Err("--v2x-share is 0 to 1".to_owned());
-        }
-        if !(0.0..=1.0).contains(&self.unseen) {
-            return Err("--unseen is 0 to 1".to_owned());
-        }
-        if !(1.0..=6.0).contains(&self.path_loss_exponent) {
-            return Err("--path-loss-exponent is 1 to 6".to_owned());
-        }
         let mut behaviour = Behaviour {
             vam: match interval_ms("--vam", &self.vam, "etsi", 0.2)? {
                 None => VamRule::Etsi,
@@ -489,12 +475,31 @@ fn interval_ms(option: &str, text: &str, rules: &str, min_hz: f64) -> Result<Opt
                 reason = "100..5000"
             )]
             let wanted_ms = (1_000.0 / hz).round() as u64;
-            Ok(Some(wanted_ms.div_ceil(CHECK_MS) * CHECK_MS))
+            let interval_ms = wanted_ms.div_ceil(CHECK_MS) * CHECK_MS;
+            if interval_ms != wanted_ms {
+                // Standard error may be gone; the parameters say it as well.
+                let _ = writeln!(
+                    std::io::stderr(),
+                    "crossguard: {option} {text} is not possible: stations check every {CHECK_MS} ms whether \
+                     they send. Taken is {}.",
+                    per_second(interval_ms)
+                );
+            }
+            Ok(Some(interval_ms))
         }
         _ => Err(format!(
             "{option} is '{rules}' or {min_hz} to 10 per second, not {text:?}"
         )),
     }
+}
+
+/// A rate as people write it.
+#[expect(clippy::cast_precision_loss, reason = "100..5000")]
+fn per_second(interval_ms: u64) -> String {
+    let hz = 1_000.0 / interval_ms as f64;
+    let text = format!("{hz:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    format!("{text} per second, one every {interval_ms} ms")
 }
 
 #[cfg(test)]

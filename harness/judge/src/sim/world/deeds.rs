@@ -170,6 +170,7 @@ impl World<'_> {
             settings: Box::new(draw.config.settings().clone()),
             identifiers: Identifiers::default(),
             unix_ms: u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_us / 1_000,
+            speed: Some(draw.time_scale),
         };
         self.record(place, entry);
         self.handle(place, Stimulus::Time)
