@@ -38,8 +38,9 @@ pub(super) struct Stamps {
 }
 
 impl Stamps {
-    /// Has the kernel stamp what arrives at this socket. One that does not is not worth a failure: then ages are
-    /// not known.
+    /// Has the kernel stamp what arrives at this socket; Linux begins with that some milliseconds later, and until
+    /// then stamps when a datagram is taken. A kernel that does not stamp is not worth a failure: then ages are not
+    /// known.
     pub(super) fn of(socket: &impl AsFd) -> Self {
         let _ = setsockopt(socket, ReceiveTimestampns, &true);
         Self {
@@ -110,6 +111,8 @@ mod tests {
     fn the_age_of_a_datagram_is_how_long_it_lay_in_the_kernel() {
         let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
         let mut stamps = Stamps::of(&socket);
+        // Until the kernel has begun to stamp.
+        std::thread::sleep(Duration::from_millis(200));
         let address = socket.local_addr().unwrap();
         let mut ages = Vec::new();
         for wait_ms in [0, 150] {
