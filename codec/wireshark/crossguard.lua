@@ -8,7 +8,7 @@
 --
 -- Packets with a security envelope are shown down to the message as well: the plugin names the ITS-AIDs of
 -- RAM, RMCM and VAM to Wireshark's dissector of IEEE 1609.2. No signature is verified, and the tree says so;
--- `crossguard sniff --security` verifies.
+-- `crossguard sniff --trust FOLDER` verifies.
 --
 -- It shows what is there and is lenient: that exactly the canonical encodings are messages is decided
 -- by the kit, not here. The types at the end follow from codec/asn1/*.asn by generate.py.

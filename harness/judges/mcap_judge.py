@@ -177,8 +177,9 @@ def main():
         judge_robot(robot, found, log)
     frames = [(at_ns, value["child_frame_id"]) for at_ns, value in found.topics["/tf"]]
     same("/tf", frames, log["/tf"])
-    for topic, messages in sorted(found.topics.items()):
-        print(f"{topic}: {len(messages)} {found.names[topic]}", file=sys.stderr)
+    for topic, name in sorted(found.names.items()):
+        messages = found.topics[topic]
+        print(f"{topic}: {len(messages)} {name}", file=sys.stderr)
 
 
 main()

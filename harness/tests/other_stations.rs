@@ -154,9 +154,9 @@ fn in_metrics(scraped: &str) {
         assert!(of("crossguard_messages_total", &labels) >= at_least);
     }
     assert!((value("crossguard_stations_heard{robot=\"ARI\"}") - 4.0).abs() < 0.1);
-    let around = |kind: &str| of("crossguard_around", &format!("kind=\"{kind}\""));
+    let around = |kind: &str| of("crossguard_around", &format!("kind=\"{kind}\"")).to_string();
     let kinds = ["robot", "vehicle", "vulnerable road user", "road-side unit"];
-    assert_eq!(kinds.map(around), [0.0, 2.0, 2.0, 0.0]);
+    assert_eq!(kinds.map(around), ["0", "2", "2", "0"]);
     assert!(of("crossguard_around_nearest_metres", "kind=\"vehicle\"") < 0.1);
     assert!(of("crossguard_around_oldest_seconds", "kind=\"vehicle\"") < 1.0);
 }

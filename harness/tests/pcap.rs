@@ -292,7 +292,7 @@ fn altitude_and_ellipse_of_a_station_are_kept() {
     assert_eq!(position.altitude, Some(260.0));
     let ellipse = position.ellipse.unwrap();
     let axes = [ellipse.semi_major, ellipse.semi_minor, ellipse.orientation];
-    assert_eq!(axes, [1.0, 0.5, 90.0]);
+    assert_eq!(axes.map(|it| it.to_string()), ["1", "0.5", "90"]);
     let json = serde_json::to_value(&seen).unwrap();
     assert!(
         json["roadUsers"][0]["position"]["ellipse"].is_object(),

@@ -97,7 +97,7 @@ impl Signatures {
             longitude: headers.source.longitude,
         });
         let now = now.unwrap_or(message.header.generation_time);
-        let verified = verifier.verify(now, place, message);
-        verified.err().map(|rejected| rejected.to_string())
+        let result = verifier.verify(now, place, message);
+        result.err().map(|rejected| rejected.to_string())
     }
 }

@@ -172,15 +172,15 @@ impl Host for Turn<'_> {
         let ego = EgoPosition::of(self.state, moment.timestamp_its);
         let neighbours = &mut self.around.neighbours;
         match neighbours.observe(me.station(), (service, octets), &ego, moment.now_ms) {
-            Ok(message) => match message.event() {
+            Ok(message) => {
                 // An event is nobody for the map, and changes nothing that the robot does.
-                Some(event) => self.dropped(Cause::NoUse(service), &event, arrived.octets),
-                None => {
-                    let from = StationId(message.header().station_id.0);
-                    let message = Arrived { octets, ..arrived };
-                    self.understood(moment, (service, from), message);
+                if let Some(event) = message.event() {
+                    return self.dropped(Cause::NoUse(service), &event, arrived.octets);
                 }
-            },
+                let from = StationId(message.header().station_id.0);
+                let message = Arrived { octets, ..arrived };
+                self.understood(moment, (service, from), message);
+            }
             Err(unobserved) => self.dropped((&unobserved).into(), &unobserved, arrived.octets),
         }
     }

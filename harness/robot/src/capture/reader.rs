@@ -223,8 +223,8 @@ mod tests {
         for interface_id in [0, 1] {
             let block = EnhancedPacketBlock {
                 interface_id,
-                // Ticks of a microsecond.
-                timestamp: Duration::from_nanos(2_500_000),
+                // 2.5 s in ticks of a microsecond, which the writer takes for nanoseconds.
+                timestamp: Duration::from_micros(2_500),
                 original_len: 17,
                 data: Cow::Borrowed(&frame),
                 options: vec![],
