@@ -101,7 +101,7 @@ pub fn read(
 }
 
 /// A frame, and when it was on the link.
-type Frame = (Duration, Vec<u8>);
+type CapturedFrame = (Duration, Vec<u8>);
 
 /// The Ethernet frames of a file.
 enum Frames {
@@ -126,7 +126,7 @@ impl Frames {
         frames.map_err(|cause| NoCapture::pcap(path, cause))
     }
 
-    fn next(&mut self) -> Option<Result<Frame, PcapError>> {
+    fn next(&mut self) -> Option<Result<CapturedFrame, PcapError>> {
         match self {
             Self::Pcap(reader) => {
                 let packet = reader.next_packet()?;
@@ -138,7 +138,9 @@ impl Frames {
 }
 
 /// The next Ethernet frame of a pcapng file, which has blocks of other kinds, and frames of other links.
-fn next_of_pcapng(reader: &mut PcapNgReader<impl Read>) -> Option<Result<Frame, PcapError>> {
+fn next_of_pcapng(
+    reader: &mut PcapNgReader<impl Read>,
+) -> Option<Result<CapturedFrame, PcapError>> {
     loop {
         let (interface, ticks, frame) = match reader.next_block()? {
             // Its reader takes the ticks of the clock for nanoseconds.
