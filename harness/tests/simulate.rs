@@ -304,8 +304,8 @@ fn intersections_are_ranked_by_what_they_add() {
 fn bad_usage_says_what_to_do() {
     assert!(refusal(&["obs", "--pedestrians", "30"]).contains("--sumo"));
     assert!(refusal(&["obs", "--robots", "10"]).contains("intersections"));
-    assert!(refusal(&["obs", "--per-intersection", "5"]).contains("1 to 4 robots"));
-    assert!(refusal(&["obs", "--patrol", "50"]).contains("0.1 to 5 m/s"));
+    assert!(refusal(&["obs", "--per-intersection", "5"]).contains("from 1 to 4 is wanted"));
+    assert!(refusal(&["obs", "--patrol", "50"]).contains("from 0.1 to 5 is wanted"));
     let plain = ["obs", "--preset", "plain", "--patrol", "1"];
     assert!(refusal(&plain).contains("--site"));
     assert!(refusal(&["obs", "--radius", "500"]).contains("radius"));

@@ -116,7 +116,7 @@ pub(super) struct Matrix {
     #[arg(long, default_value_t = 1, value_name = "1..4", value_parser = whole::<usize>(1..=4))]
     per_intersection: usize,
     /// Robots walk around their intersection, over its corners, so fast; they stand by default.
-    #[arg(long, value_name = "M/S", value_parser = number(0.0..=10.0))]
+    #[arg(long, value_name = "M/S", value_parser = number(0.1..=5.0))]
     patrol: Option<f64>,
     /// Seeds to take the mean over, at most; with --sumo, this many fresh runs.
     #[arg(long, default_value_t = 10, value_name = "N", value_parser = whole::<usize>(1..=100_000))]
