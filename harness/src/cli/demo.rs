@@ -131,8 +131,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let followers = arguments.followers.unwrap_or(usual);
     if !(least..=most).contains(&followers) {
         return Err(Failure::Input(format!(
-            "--followers {followers}: {least} to {most} have a role in plan {}",
-            scenario.name()
+            "--followers {followers}: plan {} has roles for {}",
+            scenario.name(),
+            if least == most {
+                most.to_string()
+            } else {
+                format!("{least} to {most}")
+            }
         )));
     }
     arguments.records.check()?;

@@ -98,6 +98,48 @@ pub(crate) const FILES: &[(&str, &str)] = &[
          [[robots]]\nstation = 2\n[request]\nfollowers = 1\ntasks = ['move']\n[bounds]\ndetections = 1\n\
          [channel]\ndelayed = 0\nloss = true\n",
     ),
+    (
+        "unknown-place.toml",
+        "summary = 'a guard and an escort'\n\
+         [[roles]]\n\
+         name = 'leader'\n\
+         leads = true\n\
+         [[roles]]\n\
+         name = 'guard'\n\
+         [[roles]]\n\
+         name = 'escort'\n\
+         [[stages]]\n\
+         guard = { task = 'initialPos', to = 'nosuch' }\n\
+         escort = { task = 'initialPos', to = [4.0, 0.2] }\n",
+    ),
+    (
+        "unknown-task.toml",
+        "summary = 'a guard and an escort'\n\
+         [[roles]]\n\
+         name = 'leader'\n\
+         leads = true\n\
+         [[roles]]\n\
+         name = 'guard'\n\
+         [[roles]]\n\
+         name = 'escort'\n\
+         [[stages]]\n\
+         guard = { task = 'dance', to = [0.0, 0.0] }\n\
+         escort = { task = 'initialPos', to = [4.0, 0.2] }\n",
+    ),
+    (
+        "too-close.toml",
+        "summary = 'a guard and an escort'\n\
+         [[roles]]\n\
+         name = 'leader'\n\
+         leads = true\n\
+         [[roles]]\n\
+         name = 'guard'\n\
+         [[roles]]\n\
+         name = 'escort'\n\
+         [[stages]]\n\
+         guard = { task = 'initialPos', to = [4.0, 0.5] }\n\
+         escort = { task = 'initialPos', to = [4.0, 0.2] }\n",
+    ),
 ];
 
 type Case = (&'static str, i32);
@@ -180,6 +222,9 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
             ("run --config site.toml", 2),
             ("run --config boot-corrupt.toml", 2),
             ("run --config boot-nowhere.toml", 2),
+            ("run --config robot.toml --site nosuch.toml", 2),
+            ("run --config robot.toml --plan nosuch", 2),
+            ("run --config robot.toml --plan too-close.toml", 2),
             ("run --config robot.toml --loss 2", 2),
             ("run --config robot.toml --loss -1", 2),
             ("run --config robot.toml --seed -1", 2),
@@ -353,9 +398,27 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
             ("sniff text.pcap --pcap copy.pcap", 2),
             ("sniff --address 127.0.0.1:0 --pcap nosuch/heard.pcap", 2),
             ("sniff text.pcap --dictionary 3.0", 2),
+            ("sniff text.pcap --config nosuch.toml", 2),
+            ("sniff text.pcap --trust nosuch", 2),
         ],
     ),
     ("router", &[("router --listen", 2), ("router --nosuch", 2)]),
+    (
+        "site",
+        &[
+            ("site", 2),
+            ("site check --site nosuch.toml", 2),
+            ("site check --site folder", 2),
+            ("site check --site text.toml", 2),
+            ("site check --plan nosuch", 2),
+            ("site check --plan nosuch.toml", 2),
+            ("site check --plan text.toml", 2),
+            ("site check --plan unknown-place.toml", 2),
+            ("site check --plan too-close.toml", 2),
+            ("site draw --plan unknown-task.toml", 2),
+            ("site draw --svg nosuch/site.svg", 2),
+        ],
+    ),
     (
         "codec",
         &[

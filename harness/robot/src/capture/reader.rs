@@ -40,7 +40,7 @@ pub enum NoCapture {
         cause: io::Error,
     },
     /// It ends before its last packet does.
-    #[error("{}: it ends within a packet", .0.display())]
+    #[error("{}: no capture, or it ends within a packet", .0.display())]
     CutOff(PathBuf),
     /// It is no capture, or a damaged one.
     #[error("{}: neither pcap nor pcapng, or damaged: {cause}", path.display())]
