@@ -119,6 +119,42 @@ fn loss(text: &str) -> Result<f64, String> {
     )
 }
 
+/// How many followers the team has.
+fn followers(arguments: &Arguments, scenario: &Scenario) -> Result<u8, Failure> {
+    let (usual, [least, most]) = scenario.followers();
+    let followers = arguments.followers.unwrap_or(usual);
+    if (least..=most).contains(&followers) {
+        return Ok(followers);
+    }
+    let possible = if least == most {
+        most.to_string()
+    } else {
+        format!("{least} to {most}")
+    };
+    let name = scenario.name();
+    Err(Failure::Input(format!(
+        "--followers {followers}: plan {name} has roles for {possible}"
+    )))
+}
+
+/// The lines of the chart for what is seen, by the first of the robots where the pedestrian is seen.
+fn lines(chart: &mut Chart, first: &str, seen: Seen<'_>) -> Vec<String> {
+    match seen {
+        Seen::Record(record) => chart.lines(record),
+        Seen::PowerLoss { at_us, robot } => {
+            Vec::from_iter(chart.note(at_us, robot, "! loses power"))
+        }
+        Seen::Pedestrian { at_us, is_on_road } => {
+            let text = if is_on_road {
+                "~ the pedestrian sees go and steps on the road"
+            } else {
+                "~ the pedestrian is across"
+            };
+            Vec::from_iter(chart.note(at_us, first, text))
+        }
+    }
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scenario = scenario(arguments)?;
     if let Some(victim) = scenario.victim().filter(|_| arguments.trials > 1) {
@@ -127,19 +163,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             arguments.trials
         )));
     }
-    let (usual, [least, most]) = scenario.followers();
-    let followers = arguments.followers.unwrap_or(usual);
-    if !(least..=most).contains(&followers) {
-        return Err(Failure::Input(format!(
-            "--followers {followers}: plan {} has roles for {}",
-            scenario.name(),
-            if least == most {
-                most.to_string()
-            } else {
-                format!("{least} to {most}")
-            }
-        )));
-    }
+    let followers = followers(arguments, &scenario)?;
     arguments.records.check()?;
     let interrupted = interrupts();
     let participants = scenario.participants(followers);
@@ -191,20 +215,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             file.write(record);
         }
         if shows_chart && reads {
-            let lines = match seen {
-                Seen::Record(record) => chart.lines(record),
-                Seen::PowerLoss { at_us, robot } => {
-                    Vec::from_iter(chart.note(at_us, robot, "! loses power"))
-                }
-                Seen::Pedestrian { at_us, is_on_road } => {
-                    let text = if is_on_road {
-                        "~ the pedestrian sees go and steps on the road"
-                    } else {
-                        "~ the pedestrian is across"
-                    };
-                    Vec::from_iter(chart.note(at_us, names[0], text))
-                }
-            };
+            let lines = lines(&mut chart, names[0], seen);
             reads = lines.iter().all(|line| print(line).is_ok());
         }
     })
