@@ -5,7 +5,7 @@ mod support;
 use crossguard_codec::geonet::*;
 use crossguard_codec::{Identifiers, MESSAGE_LEN_MAX, Service};
 use proptest::prelude::*;
-use support::from_hex;
+use support::{from_hex, without_reserved_bits};
 
 const VECTORS: &str = include_str!("golden/packets.txt");
 
@@ -181,19 +181,6 @@ fn packets_are_made_and_taken_without_heap() {
         assert_eq!(*heard.message, *message);
     });
     assert_eq!(used.count_total, 0);
-}
-
-/// The packet with zeros in the reserved bits of its headers, which receivers ignore.
-fn without_reserved_bits(octets: &[u8]) -> Vec<u8> {
-    let mut octets = octets.to_vec();
-    let is_geo_broadcast = octets[5] >> 4 == 4;
-    let of_both: [(usize, u8); 4] = [(1, 0xFF), (4, 0x0F), (7, 0x7F), (11, 0xFF)];
-    let of_geo_broadcast = [14, 15, 54, 55].map(|at| (at, 0xFF));
-    let more = of_geo_broadcast.iter().filter(|_| is_geo_broadcast);
-    for (at, reserved) in of_both.iter().chain(more) {
-        octets[*at] &= !*reserved;
-    }
-    octets
 }
 
 /// What is accepted comes out of its own headers again; what is not has a cause.

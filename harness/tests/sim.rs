@@ -211,7 +211,10 @@ fn a_person_reads_what_was_measured_and_mistakes_are_named() {
     assert!(text.contains("5 seeds with"), "{text}");
     assert!(text.contains("Violations: 0."), "{text}");
     for (arguments, cause) in [
-        (["fuzz", "--robots", "1"], "1 is not in 2..=32"),
+        (
+            ["fuzz", "--robots", "1"],
+            "a whole number from 2 to 32 is wanted",
+        ),
         (["fuzz", "--faults", "rain=1"], "no fault 'rain'"),
         (["fuzz", "--seeds", "0"], "0 is not in"),
     ] {

@@ -66,3 +66,16 @@ pub fn from_bits(text: &str) -> Vec<u8> {
     let octet = |bits: &[u8]| bits.iter().fold(0, |octet, bit| octet << 1 | bit);
     bits.chunks(8).map(octet).collect()
 }
+
+/// The packet with zeros in the reserved bits of its headers, which receivers ignore.
+pub fn without_reserved_bits(octets: &[u8]) -> Vec<u8> {
+    let mut octets = octets.to_vec();
+    let is_geo_broadcast = octets[5] >> 4 == 4;
+    let of_both: [(usize, u8); 4] = [(1, 0xFF), (4, 0x0F), (7, 0x7F), (11, 0xFF)];
+    let of_geo_broadcast = [14, 15, 54, 55].map(|at| (at, 0xFF));
+    let more = of_geo_broadcast.iter().filter(|_| is_geo_broadcast);
+    for (at, reserved) in of_both.iter().chain(more) {
+        octets[*at] &= !*reserved;
+    }
+    octets
+}
