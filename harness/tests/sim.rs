@@ -216,7 +216,7 @@ fn a_person_reads_what_was_measured_and_mistakes_are_named() {
             "a whole number from 2 to 32 is wanted",
         ),
         (["fuzz", "--faults", "rain=1"], "no fault 'rain'"),
-        (["fuzz", "--seeds", "0"], "0 is not in"),
+        (["fuzz", "--seeds", "0"], "a whole number from 1 to"),
     ] {
         assert_refused(&command::run(&arguments), cause);
     }
