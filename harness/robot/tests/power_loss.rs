@@ -30,15 +30,29 @@ fn a_counter_that_was_cut_off_at_any_byte_is_refused_and_never_smaller() {
 
 #[test]
 fn power_that_fails_while_the_next_counter_is_written_leaves_the_old_one() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("robot.boot");
-    let new = folder.path().join("robot.boot.new");
     let next = "crossguard boot counter 8\n";
     for length in 0..=next.len() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.boot");
+        let new = folder.path().join("robot.boot.new");
         fs::write(&path, "crossguard boot counter 7\n").unwrap();
         fs::write(&new, &next[..length]).unwrap();
         assert_eq!(boot::take(&path).unwrap().counter, 8);
         assert!(!new.exists(), "what a crash has left is used up");
+        assert_eq!(boot::take(&path).unwrap().counter, 9);
     }
-    assert_eq!(boot::take(&path).unwrap().counter, 9);
+}
+
+#[test]
+fn power_that_fails_while_the_counter_beside_it_is_written_leaves_that_of_the_file() {
+    let beside = "crossguard boot counter     8\n";
+    for length in 0..=beside.len() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.boot");
+        fs::write(&path, "crossguard boot counter 7\n").unwrap();
+        fs::write(folder.path().join("robot.boot.lock"), &beside[..length]).unwrap();
+        let counter = boot::take(&path).unwrap().counter;
+        // The eighth was about to be taken where all of it is there.
+        assert_eq!(counter, if length == beside.len() { 9 } else { 8 });
+    }
 }
