@@ -89,7 +89,7 @@ def test_progress_is_told_and_other_threads_run() -> None:
 
     counter = threading.Thread(target=count)
     counter.start()
-    report = check("contention", timeout_s=2, progress=told.append)
+    report = check("team-of-four", timeout_s=2, progress=told.append)
     done.set()
     counter.join()
     assert told and told[-1].expected is not None
