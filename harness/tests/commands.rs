@@ -85,7 +85,7 @@ fn a_check_that_is_cut_off_says_so_and_exits_with_3() {
         text.contains("0 of 1 scenarios verified exhaustively"),
         "{text}"
     );
-    let output = run(&["check", "pair-reboot", "--timeout", "1", "--json"]);
+    let output = run(&["check", "team-of-four", "--timeout", "1", "--json"]);
     assert_eq!(output.status.code(), Some(3));
     assert_eq!(json(&output)["scenarios"][0]["exhaustive"], false);
 }
