@@ -10,6 +10,10 @@ use crossguard_robot::plan_file::{APART_M, PlanFile, Role};
 use crossguard_robot::site::Place;
 use crossguard_robot::site_file::{Lane, Purpose, SiteFile};
 
+use labels::{Label, Labels};
+
+mod labels;
+
 /// Pixels for a metre.
 const SCALE: f64 = 32.0;
 
@@ -103,19 +107,29 @@ pub fn svg(site: &SiteFile, plan: Option<&PlanFile>) -> String {
     for lane in &site.lanes {
         draw_lane(&mut out, &frame, lane);
     }
+    let mut labels = Labels::new(width, frame.height_m * SCALE);
     for [from, to] in &site.kerbs {
         let ((x1, y1), (x2, y2)) = (frame.at(*from), frame.at(*to));
+        labels.keep_off_line((x1, y1), (x2, y2));
         let _ = writeln!(
             out,
             "<line class=\"kerb\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#333\" stroke-width=\"5\"/>"
         );
     }
-    for (name, spot) in &site.places {
-        draw_place(&mut out, &frame, name, spot.place, spot.purpose);
-    }
     for ((role, way), colour) in ways.iter().zip(COLOURS.iter().cycle()) {
-        draw_way(&mut out, &frame, role, way, colour);
+        draw_way(&mut out, &mut labels, &frame, role, way, colour);
     }
+    for (name, spot) in &site.places {
+        draw_place(
+            &mut out,
+            &mut labels,
+            &frame,
+            name,
+            spot.place,
+            spot.purpose,
+        );
+    }
+    labels.draw(&mut out);
     draw_legend(&mut out, &frame, site, plan);
     out.push_str("</svg>\n");
     out
@@ -152,27 +166,44 @@ fn draw_lane(out: &mut String, frame: &Frame, lane: &Lane) {
     );
 }
 
-fn draw_place(out: &mut String, frame: &Frame, name: &str, place: Place, purpose: Purpose) {
+fn draw_place(
+    out: &mut String,
+    labels: &mut Labels,
+    frame: &Frame,
+    name: &str,
+    place: Place,
+    purpose: Purpose,
+) {
     let (x, y) = frame.at(place);
     let fill = match purpose {
         Purpose::Wait => "#9aa5b1",
         Purpose::Guard => "#c0392b",
         Purpose::Cross => "#27ae60",
     };
-    let name = escaped(name);
     let _ = writeln!(
         out,
-        "<rect class=\"place\" x=\"{:.1}\" y=\"{:.1}\" width=\"8\" height=\"8\" fill=\"{fill}\"/>\n\
-         <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"10\" fill=\"#444\">{name}</text>",
+        "<rect class=\"place\" x=\"{:.1}\" y=\"{:.1}\" width=\"8\" height=\"8\" fill=\"{fill}\"/>",
         x - 4.0,
         y - 4.0,
-        x + 7.0,
-        y + 12.0
     );
+    labels.keep_off((x, y), 4.0);
+    labels.add(Label {
+        at: (x, y),
+        gap: 6.0,
+        size: 10.0,
+        colour: "#444",
+        text: name.to_owned(),
+    });
 }
 
-fn draw_way(out: &mut String, frame: &Frame, role: &Role, way: &[(String, Place)], colour: &str) {
-    let name = escaped(&role.name);
+fn draw_way(
+    out: &mut String,
+    labels: &mut Labels,
+    frame: &Frame,
+    role: &Role,
+    way: &[(String, Place)],
+    colour: &'static str,
+) {
     let mut points: Vec<_> = role.waits.iter().map(|place| frame.at(*place)).collect();
     points.extend(way.iter().map(|(_, place)| frame.at(*place)));
     let line: Vec<_> = points
@@ -184,32 +215,40 @@ fn draw_way(out: &mut String, frame: &Frame, role: &Role, way: &[(String, Place)
         "<polyline class=\"way\" points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2.5\"/>",
         line.join(" ")
     );
+    for leg in points.windows(2) {
+        labels.keep_off_line(leg[0], leg[1]);
+    }
+    let mut label = |at, gap, text| {
+        labels.keep_off(at, gap - 2.0);
+        labels.add(Label {
+            at,
+            gap,
+            size: 12.0,
+            colour,
+            text,
+        });
+    };
     let radius = APART_M / 2.0 * SCALE;
-    for (nth, (what, place)) in way.iter().enumerate() {
+    for (nth, (_, place)) in way.iter().enumerate() {
         let (x, y) = frame.at(*place);
-        // Several stages at one place stand one below the other.
-        let same = way[..nth]
-            .iter()
-            .filter(|(_, other)| other == place)
-            .count();
-        let below = 14.0 * f64::from(u32::try_from(same).unwrap_or(0));
         let _ = writeln!(
             out,
-            "<circle class=\"target\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\" fill=\"{colour}\" fill-opacity=\"0.15\" stroke=\"{colour}\"/>\n\
-             <text x=\"{:.1}\" y=\"{:.1}\" fill=\"{colour}\">{name}: {}</text>",
-            x + radius + 2.0,
-            y - 4.0 - below,
-            escaped(what)
+            "<circle class=\"target\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\" fill=\"{colour}\" fill-opacity=\"0.15\" stroke=\"{colour}\"/>"
         );
+        // The first stage at a place names the others there.
+        if way[..nth].iter().all(|(_, before)| before != place) {
+            let here = way.iter().filter(|(_, other)| other == place);
+            let here: Vec<_> = here.map(|(what, _)| what.as_str()).collect();
+            let text = format!("{}: {}", role.name, here.join(", "));
+            label((x, y), radius + 2.0, text);
+        }
     }
     if let Some((x, y)) = role.waits.map(|place| frame.at(place)) {
         let _ = writeln!(
             out,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"{colour}\"/>\n\
-             <text x=\"{:.1}\" y=\"{:.1}\" fill=\"{colour}\" text-anchor=\"end\">{name}</text>",
-            x - 9.0,
-            y + 4.0
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"{colour}\"/>"
         );
+        label((x, y), 9.0, role.name.clone());
     }
 }
 
