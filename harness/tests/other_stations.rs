@@ -125,6 +125,7 @@ fn stations_of_others_are_in_status_metrics_log_recording_and_map() {
     let validated = run(&["validate", &log]);
     assert_eq!(validated.status.code(), Some(0), "{}", stderr(&validated));
     in_recording(&log, &folder.path().join("ari.mcap"));
+    in_report(&log, &folder.path().join("ari.html"));
 }
 
 fn in_status(said: &[String]) {
@@ -207,4 +208,14 @@ fn in_recording(log: &str, file: &Path) {
         assert_eq!(count(&heard), times, "{kind}");
     }
     assert!(count("\"kind\":\"vehicle\",\"count\":2") >= 2);
+}
+
+fn in_report(log: &str, file: &Path) {
+    let report = run(&["report", log, "--output", file.to_str().unwrap()]);
+    assert_eq!(report.status.code(), Some(0), "{}", stderr(&report));
+    let page = std::fs::read_to_string(file).unwrap();
+    let section = page.split("Who was around</h2>").nth(1);
+    let section = section.unwrap_or_else(|| panic!("the section is not in:\n{page}"));
+    let vehicles = "<td>vehicle</td><td class=\"n\">2</td><td>station 100, 0.0 m at ";
+    assert!(section.contains(vehicles), "{section}");
 }

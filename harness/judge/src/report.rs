@@ -3,6 +3,7 @@
 //! The page needs nothing but itself: no network, no script. It is light or dark as the reader's system
 //! is, and can be printed.
 
+mod around;
 mod charts;
 mod collect;
 mod crowd;

@@ -21,6 +21,9 @@
 //! | A timer is told later than `delay_max` after it is due; a step is taken later than `delay_max` after the time that the robot was told last | counted, with the longest: a process may hang |
 //! | I10 is broken among robots that share a log, and so a clock | refused, unless a robot was late or silent: its lease then outlasts a safety timer, as the rules say |
 //!
+//! A leader whose followers have accepted commands to places less than a metre apart is refused: two bodies would
+//! meet there.
+//!
 //! W1, W2 and W4 are judged for people who step on the road as soon as a sign shows go.
 //!
 //! And what no log shows: where people are, whether a sign ended when its time was over, and whether a body was
@@ -36,6 +39,7 @@ mod clock;
 mod fault;
 mod road;
 mod robot;
+mod targets;
 mod time;
 
 pub use fault::Fault;

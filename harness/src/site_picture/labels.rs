@@ -85,7 +85,7 @@ pub(super) struct Labels {
     width: f64,
     height: f64,
     taken: Vec<Area>,
-    labels: Vec<Label>,
+    texts: Vec<Label>,
 }
 
 impl Labels {
@@ -95,7 +95,7 @@ impl Labels {
             width,
             height,
             taken: Vec::new(),
-            labels: Vec::new(),
+            texts: Vec::new(),
         }
     }
 
@@ -123,14 +123,14 @@ impl Labels {
     }
 
     pub(super) fn add(&mut self, label: Label) {
-        self.labels.push(label);
+        self.texts.push(label);
     }
 
     /// Where each label stands: off every mark and every label before it, where there is room.
     fn areas(&self) -> Vec<Area> {
         let mut taken = self.taken.clone();
         let mut areas = Vec::new();
-        for label in &self.labels {
+        for label in &self.texts {
             let free = |area: &Area| {
                 area.lies_in(self.width, self.height) && !taken.iter().any(|one| one.meets(area))
             };
@@ -145,7 +145,7 @@ impl Labels {
 
     /// Writes the labels, with a thin line to the point from each that stands away from it.
     pub(super) fn draw(&self, out: &mut String) {
-        for (label, area) in self.labels.iter().zip(self.areas()) {
+        for (label, area) in self.texts.iter().zip(self.areas()) {
             let Label {
                 at: (x, y),
                 colour,

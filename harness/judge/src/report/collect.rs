@@ -7,6 +7,7 @@ use crossguard_model_check::sequence::{ChartPlace, ChartStep};
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{LogError, Merged, Record, Timed};
 
+use super::around::AroundRun;
 use super::crowd::{PeopleRun, Span};
 use crate::facts::{Area, Direction, Fact, Observer, Placed, View};
 use crate::sequence::Sequence;
@@ -50,6 +51,8 @@ pub(super) struct RobotRun {
     pub(super) way: Vec<(f64, f64)>,
     /// The people at its crossing.
     pub(super) people: PeopleRun,
+    /// Who was on its map.
+    pub(super) around: AroundRun,
     pub(super) counters: BTreeMap<CauseName, u64>,
     /// Those of the boots before.
     counters_before: BTreeMap<CauseName, u64>,
@@ -195,7 +198,8 @@ impl RobotRun {
             Fact::People(sight) => self.people.see(at_us, &sight),
             Fact::Cluster(cluster) => self.people.announce(at_us, cluster),
             Fact::Stopped => self.has_stopped = true,
-            Fact::Note { .. } | Fact::Areas(_) | Fact::Around(_) => {}
+            Fact::Around(around) => self.around.see(at_us, &around),
+            Fact::Note { .. } | Fact::Areas(_) => {}
         }
     }
 

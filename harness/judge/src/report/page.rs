@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::time::{Duration, UNIX_EPOCH};
 
 use crossguard_model_check::properties::PropertyId;
+use crossguard_robot::around::Nearest;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::collect::Run;
@@ -26,6 +27,7 @@ pub(super) fn page(report: &Report, run: &Run) -> Markup {
             Some(street.unwrap_or_else(|| html! { p { "No robot says where it is." } })),
         ),
         ("people", "People", people::table(run)),
+        ("around", "Who was around", around(run)),
         ("times", "Times", Some(times(report, run))),
         ("nothing", "Dropped or ignored", Some(counters(run))),
         ("properties", "Properties", properties(report)),
@@ -167,6 +169,42 @@ fn time_row(summary: &Summary) -> Markup {
             }
         }
     }
+}
+
+/// Who was around each robot; nothing where no robot had anybody on its map.
+fn around(run: &Run) -> Option<Markup> {
+    let rows = || {
+        let robots = run.robots.iter();
+        robots.flat_map(|robot| robot.around.0.iter().map(move |of_kind| (robot, of_kind)))
+    };
+    rows().next()?;
+    let seconds = |us: u64| Duration::from_micros(us.saturating_sub(run.from_us)).as_secs_f64();
+    Some(html! {
+        div.scroll tabindex="0" role="group" aria-label="Who was around" {
+            table {
+                thead { tr {
+                    th scope="col" { "robot" } th scope="col" { "kind" } th.n scope="col" { "at a time" }
+                    th scope="col" { "nearest" } th.n scope="col" { "longest without news [s]" }
+                    th scope="col" { "on the map [s]" }
+                } }
+                tbody {
+                    @for (robot, of_kind) in rows() {
+                        tr {
+                            th scope="row" { (robot.name) }
+                            td { (of_kind.kind) }
+                            td.n { (of_kind.most) }
+                            td { @if let Some((Nearest { who, distance_m }, at_us)) = of_kind.nearest {
+                                (who) ", " (format!("{distance_m:.1} m at {:.1} s", seconds(at_us)))
+                            } @else { "no distance is known" } }
+                            td.n { (format!("{:.1}", Duration::from_millis(of_kind.oldest_ms).as_secs_f64())) }
+                            td { (format!("{:.1} to {:.1}", seconds(of_kind.from_us), seconds(of_kind.to_us))) }
+                        }
+                    }
+                }
+            }
+        }
+        p.faint { "From the local dynamic map, once a second: the robots, vehicles, people and clusters that RAM, CAM, VAM and CPM told of. Times are seconds since the begin." }
+    })
 }
 
 fn counters(run: &Run) -> Markup {

@@ -128,6 +128,18 @@ pub enum Fault {
     /// A message was heard that its sender did not send.
     #[error("heard a message of station {0} that is not among those it had sent")]
     NoTransmission(StationId),
+    /// Two followers were sent to one place.
+    #[error(
+        "sent {follower} to a place {metres} m from where it sent {other}, and both accepted; at least 1 m is wanted between bodies"
+    )]
+    SamePlace {
+        /// The follower that accepted last.
+        follower: StationId,
+        /// The other one.
+        other: StationId,
+        /// How far apart the places are.
+        metres: f64,
+    },
     /// What was counted is not what happened.
     #[error("counted '{cause}' {counted} times, and its log has it {logged} times")]
     Counter {

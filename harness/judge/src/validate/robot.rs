@@ -13,6 +13,7 @@ use crossguard_protocol::{
 use crossguard_robot::trace::Reception;
 
 use super::fault::Fault;
+use super::targets::Targets;
 use super::time::ToldTime;
 
 /// A message that a step put out and that is to be sent.
@@ -33,6 +34,7 @@ pub(super) struct Follow {
     owed: VecDeque<Owed>,
     heard: VecDeque<Input>,
     counted: Counts,
+    targets: Targets,
     is_cut_off: bool,
 }
 
@@ -55,6 +57,7 @@ impl Follow {
             owed: VecDeque::new(),
             heard: VecDeque::new(),
             counted: Counts::default(),
+            targets: Targets::default(),
             is_cut_off: false,
         })
     }
@@ -111,6 +114,10 @@ impl Follow {
             _ => self.time.take_in(),
         };
         let expected = self.robot.step(&self.config, input);
+        let is_accepted = !expected
+            .iter()
+            .any(|output| matches!(output, Output::Ignored(_)));
+        let told = input;
         let input = || input.to_string();
         if expected != *outputs {
             return Err(Fault::Outputs {
@@ -131,6 +138,9 @@ impl Follow {
                 }
                 _ => {}
             }
+        }
+        if is_accepted {
+            self.targets.told(told)?;
         }
         Ok(late)
     }
@@ -183,6 +193,9 @@ impl Follow {
             ram: self.robot.ram(),
             distance: Decimetres(0),
         };
+        if kind == Service::Rmcm {
+            self.targets.sent(&self.identifiers, octets);
+        }
         let expected = match (self.owed.pop_front(), found) {
             (Some(Owed::Rmcm(rmcm)), _) => Some(Input::Rmcm(rmcm)),
             (Some(Owed::Ram), _) => Some(ram),

@@ -1,0 +1,100 @@
+//! Where a leader has sent its followers: no two bodies to one place.
+//!
+//! A follower stays where its newest accepted command of a session has led it, until it accepts another one.
+
+use std::collections::BTreeMap;
+
+use crossguard_codec::view::{task_parameters_of, views_of_rmcm};
+use crossguard_codec::{Identifiers, Message, Position, Target, distance};
+use crossguard_endpoint::station::listen::message_of;
+use crossguard_protocol::{Answer, Input, List, RequestId, Rmcm, SessionId, StationId, Verdict};
+use crossguard_robot::plan_file::APART_M;
+
+use super::fault::Fault;
+
+/// By how much two places may be nearer than [`APART_M`], in metres: positions go over the air in steps of 0.1
+/// microdegree, and distances are rounded to decimetres.
+const ROUNDING_M: f64 = 0.1;
+
+/// The targets of one leader's commands.
+#[derive(Debug, Default)]
+pub(super) struct Targets {
+    /// Of its newest command to each follower.
+    commanded: BTreeMap<(SessionId, StationId), (RequestId, Option<Position>)>,
+    /// Of the newest command that each follower has accepted.
+    accepted: BTreeMap<(SessionId, StationId), Position>,
+}
+
+impl Targets {
+    /// The leader has sent an RMCM.
+    pub(super) fn sent(&mut self, identifiers: &Identifiers, octets: &[u8]) {
+        let Ok(received) = Message::decode(identifiers, message_of(octets)) else {
+            return;
+        };
+        let Message::Rmcm(rmcm) = received.message else {
+            return;
+        };
+        for view in views_of_rmcm(&rmcm).iter().flat_map(List::iter) {
+            let Rmcm::Command(command) = view else {
+                continue;
+            };
+            let parameters = task_parameters_of(&rmcm, command.to);
+            let place = parameters.and_then(|parameters| position_of(parameters.target?));
+            let follower = (command.session, command.to);
+            self.commanded.insert(follower, (command.request, place));
+        }
+    }
+
+    /// The leader is told something: a follower that accepts a command goes to its target.
+    pub(super) fn told(&mut self, input: Input) -> Result<(), Fault> {
+        let Input::Rmcm(Rmcm::Answer(Answer {
+            from,
+            session,
+            request,
+            verdict: Verdict::Accepted,
+        })) = input
+        else {
+            return Ok(());
+        };
+        let follower = (session, from);
+        let Some((_, place)) = self
+            .commanded
+            .get(&follower)
+            .filter(|(commanded, _)| *commanded == request)
+        else {
+            return Ok(());
+        };
+        let Some(place) = *place else {
+            self.accepted.remove(&follower);
+            return Ok(());
+        };
+        self.accepted.insert(follower, place);
+        let others = self.accepted.iter().filter(|(other, _)| {
+            let (of, station) = **other;
+            of == session && station != from
+        });
+        for ((_, other), at) in others {
+            let metres = f64::from(distance(&place, at).0) / 10.0;
+            if metres < APART_M - ROUNDING_M {
+                return Err(Fault::SamePlace {
+                    follower: from,
+                    other: *other,
+                    metres,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A position on earth. Where an offset or a lane leads is not in the message.
+fn position_of(target: Target) -> Option<Position> {
+    match target {
+        Target::Position {
+            latitude,
+            longitude,
+            ..
+        } => Some(Position::at(latitude, longitude)),
+        Target::Offset { .. } | Target::Lane(_) => None,
+    }
+}
