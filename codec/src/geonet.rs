@@ -45,7 +45,7 @@ pub use error::{GeonetError, HeaderField};
 pub use opened::{Opened, Permits, Signer};
 pub use request::{Destination, Request};
 #[cfg(feature = "security")]
-pub use secured::{Demand, Secured};
+pub use secured::{Demand, Secured, station_of};
 pub use stack::{Discarded, Indication, SendError, Stack};
 
 /// Octets of the basic header.

@@ -3,8 +3,12 @@
 //! No standard has service specific permissions for RAM and RMCM. Those of the kit are a bitmap of two
 //! octets: the version of the bitmap, 1, and bits for the parts in the order of [`Part`]. A ticket
 //! without the bit of a part says nothing in that part, whatever ITS-AID it is for.
+//!
+//! A bitmap of seven octets names a station id as well: behind the bits there is an octet of zeros, and the id with
+//! its most significant octet first. The holder goes by this id and by no other. A ticket without goes by the first
+//! four octets of its `HashedId8`.
 
-use crossguard_protocol::{Coordination, Farewell, Ram, Rmcm};
+use crossguard_protocol::{Coordination, Farewell, Ram, Rmcm, StationId};
 
 /// Version of the bitmap of service specific permissions.
 pub const SSP_VERSION: u8 = 1;
@@ -30,6 +34,25 @@ impl Part {
     pub fn bitmap(parts: &[Self]) -> [u8; 2] {
         let bits = parts.iter().fold(0, |bits, part| bits | 0x80 >> part.bit());
         [SSP_VERSION, bits]
+    }
+
+    /// The bitmap that permits these parts to the station with this id alone.
+    #[must_use]
+    pub fn bitmap_naming(parts: &[Self], station: StationId) -> [u8; 7] {
+        let [version, bits] = Self::bitmap(parts);
+        let [a, b, c, d] = station.0.to_be_bytes();
+        [version, bits, 0, a, b, c, d]
+    }
+
+    /// The station id that a bitmap names, if it names one.
+    #[must_use]
+    pub const fn named_in(bitmap: &[u8]) -> Option<StationId> {
+        match bitmap {
+            [SSP_VERSION, _, 0, a, b, c, d] => {
+                Some(StationId(u32::from_be_bytes([*a, *b, *c, *d])))
+            }
+            _ => None,
+        }
     }
 
     /// What it is called in messages to people.
@@ -75,5 +98,21 @@ mod tests {
         assert_eq!(Part::bitmap(&[Part::Lead]), [1, 0x80]);
         assert_eq!(Part::bitmap(&[Part::Help]), [1, 0x40]);
         assert_eq!(Part::bitmap(&[Part::Help, Part::Lead]), [1, 0xc0]);
+    }
+
+    #[test]
+    fn a_bitmap_names_a_station_or_none() {
+        let naming = Part::bitmap_naming(&[Part::Help], StationId(0x0102_0304));
+        assert_eq!(naming, [1, 0x40, 0, 1, 2, 3, 4]);
+        assert_eq!(Part::named_in(&naming), Some(StationId(0x0102_0304)));
+        for other in [
+            &[1, 0x40][..],
+            &[1, 0x40, 0, 1, 2, 3],
+            &[1, 0x40, 1, 1, 2, 3, 4],
+            &[2, 0x40, 0, 1, 2, 3, 4],
+            &[1, 0x40, 0, 1, 2, 3, 4, 5],
+        ] {
+            assert_eq!(Part::named_in(other), None);
+        }
     }
 }

@@ -17,7 +17,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use crossguard_endpoint::counters::Counts;
-use crossguard_protocol::{Config, EndReason, Event, Notice, Output};
+use crossguard_protocol::{Config, EndReason, Event, Notice, Output, StationId};
 use serde::Serialize;
 
 use crossguard_codec::Identifiers;
@@ -215,14 +215,24 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     let participants = options.scenario.participants(options.followers);
     // All sockets are open before any robot says anything.
     let links = links::open(options, participants.len())?;
-    let mut securities = options.security.iter().cloned();
+    let securities: Vec<_> = options.security.clone();
+    let stations = stations(&participants, &securities);
+    let mut securities = securities.into_iter();
     let (mut robots, mut signs) = (Vec::new(), Vec::new());
     let street = Street::default();
     for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
         let (site, seed) = (options.scenario.site(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Simulated::new(build, site, place, options.time_scale, seed);
-        let application = Application::new(Box::new(body), participant.plan.clone());
+        let mut plan = participant.plan.clone();
+        for role in plan
+            .iter_mut()
+            .flat_map(|plan| plan.roles.iter_mut())
+            .flatten()
+        {
+            *role = stations.get(role).copied().unwrap_or(*role);
+        }
+        let application = Application::new(Box::new(body), plan);
         let application = application.at(site).on(Road::Known(street.clone()));
         signs.push(application.sign().clone());
         let running = Setup {
@@ -259,6 +269,17 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         _router: links.router,
         watch,
     })
+}
+
+/// The station ids by which participants go, which follow from their tickets, by those of the plan.
+fn stations(
+    participants: &[Participant],
+    securities: &[Security],
+) -> BTreeMap<StationId, StationId> {
+    let ids = Identifiers::default();
+    let pairs = participants.iter().zip(securities);
+    let pairs = pairs.map(|(it, security)| (it.station, security.station_id(&ids, it.station)));
+    pairs.collect()
 }
 
 impl Demo<'_> {

@@ -54,7 +54,11 @@ fn ticket(pki: &Pki, permissions: Vec<Permission>) -> Holder {
 }
 
 fn both_parts() -> Vec<Permission> {
-    pki::robot_permissions(&identifiers(), &[Part::Lead, Part::Help])
+    both_parts_as(GUEST)
+}
+
+fn both_parts_as(station: StationId) -> Vec<Permission> {
+    pki::robot_permissions(&identifiers(), &[Part::Lead, Part::Help], Some(station))
 }
 
 fn guest(pki: &Pki) -> Stack {
@@ -124,9 +128,10 @@ fn expired(pki: &Pki) -> Vec<u8> {
 /// The robots' PKI, in a folder as `--pki` wants it.
 fn written(folder: &Path) -> Pki {
     let pki = Pki::for_a_day(&identifiers(), pki::now()).unwrap();
-    for robot in ["ARI", "Go2"] {
+    for (robot, station) in [("ARI", 1), ("Go2", 2)] {
         let folder = pki::robot_folder(folder, robot);
-        pki::write_ticket(&ticket(&pki, both_parts()), &folder).unwrap();
+        let permissions = both_parts_as(StationId(station));
+        pki::write_ticket(&ticket(&pki, permissions), &folder).unwrap();
         pki::write_certificate(&pki.root.certificate, &folder, "root").unwrap();
         pki::write_certificate(&pki.authority.certificate, &folder, "authority").unwrap();
     }
@@ -151,7 +156,7 @@ impl Attackers {
     fn new(pki: Pki) -> Self {
         let now = pki::now();
         let foreign = Pki::for_a_day(&identifiers(), now).unwrap();
-        let help = pki::robot_permissions(&identifiers(), &[Part::Help]);
+        let help = pki::robot_permissions(&identifiers(), &[Part::Help], Some(StationId(78)));
         let cam = vec![Permission {
             its_aid: 36,
             ssp: Ssp::Bitmap(vec![1, 0, 0]),
@@ -164,7 +169,7 @@ impl Attackers {
             foreign: guest(&foreign),
             helper: of(ticket(&pki, help), StationId(78)),
             other_service: of(ticket(&pki, cam), GUEST),
-            poses_as_ari: of(ticket(&pki, both_parts()), StationId(79)),
+            poses_as_ari: of(ticket(&pki, both_parts_as(StationId(79))), StationId(79)),
             repeated: None,
             old: early
                 .packet(&ego(before), Service::Ram, &ram(GUEST, false))

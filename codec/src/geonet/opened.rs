@@ -1,5 +1,7 @@
 //! What was in an envelope: a packet, who vouches for it, and what it may say.
 
+use crossguard_protocol::StationId;
+
 /// Who vouches for a packet: the digest of its certificate (`HashedId8`).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Signer(pub [u8; 8]);
@@ -7,22 +9,53 @@ pub struct Signer(pub [u8; 8]);
 /// What the sender of a packet may say within its service: the first bits of its service specific
 /// permissions (SSP).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Permits(Option<u16>);
+pub struct Permits {
+    bits: Option<u16>,
+    /// The station id that they are given to.
+    station: Option<StationId>,
+}
+
+impl Signer {
+    /// The station id that goes with a ticket which names none: as random as its name, and gone with it.
+    #[must_use]
+    pub const fn station(self) -> StationId {
+        let [a, b, c, d, ..] = self.0;
+        StationId(u32::from_be_bytes([a, b, c, d]))
+    }
+}
 
 impl Permits {
     /// Everything: that of a packet which nobody vouches for.
-    pub const EVERYTHING: Self = Self(None);
+    pub const EVERYTHING: Self = Self {
+        bits: None,
+        station: None,
+    };
 
     /// What these bits allow, the first being the most significant.
     #[must_use]
     pub const fn of_bits(bits: u16) -> Self {
-        Self(Some(bits))
+        Self {
+            bits: Some(bits),
+            station: None,
+        }
+    }
+
+    /// The same for the station with this id alone, if there is one.
+    #[must_use]
+    pub const fn only_as(self, station: Option<StationId>) -> Self {
+        Self { station, ..self }
+    }
+
+    /// The station id that a sender with this ticket goes by.
+    #[must_use]
+    pub fn station(self, signer: Signer) -> StationId {
+        self.station.unwrap_or_else(|| signer.station())
     }
 
     /// Whether what a bit stands for may be said, 0 being the first and 15 the last.
     #[must_use]
     pub const fn allows(self, bit: u32) -> bool {
-        match self.0 {
+        match self.bits {
             None => true,
             Some(bits) => bit < 16 && bits.wrapping_shl(bit) & 0x8000 != 0,
         }

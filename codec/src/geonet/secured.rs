@@ -1,8 +1,11 @@
 //! Packets that are signed and verified.
 
 use super::{EgoPosition, LongPositionVector, Opened, Permits, Signer};
-use crate::part::SSP_VERSION;
-use crate::security::{HashedId8, Place, Rejected, SignedMessage, Station, Time64, Unsigned};
+use crate::part::{Part, SSP_VERSION};
+use crate::security::{
+    Certificate, HashedId8, Place, Rejected, SignedMessage, Ssp, Station, Time64, Unsigned,
+};
+use crossguard_protocol::StationId;
 
 /// What is demanded of the packets of others.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -31,6 +34,13 @@ impl Secured {
     #[must_use]
     pub const fn station(&self) -> &Station {
         &self.station
+    }
+
+    /// The station id that goes with the ticket in use, in messages under this ITS-AID.
+    #[must_use]
+    pub fn station_id(&self, its_aid: u32) -> StationId {
+        let certificate = self.station.ticket().certificate();
+        station_of(certificate, its_aid).unwrap_or_else(|| Signer(certificate.id().0).station())
     }
 
     /// Changes the pseudonym if that `is_due`, or if its ticket is over within this many milliseconds, to
@@ -78,7 +88,7 @@ impl Secured {
             plain: message.payload,
             its_aid: message.header.its_aid,
             signer: Signer(verified.signer.0),
-            permits: Permits::of_bits(verified.ssp.bits(SSP_VERSION)),
+            permits: permits(&verified.ssp),
         })
     }
 
@@ -88,6 +98,24 @@ impl Secured {
             Demand::Signature => Err(Rejected::Unsecured),
         }
     }
+}
+
+/// The station id that the holder of a ticket goes by in messages under this ITS-AID, if it may send them: the one that
+/// its permissions name, or else the first four octets of its name.
+#[must_use]
+pub fn station_of(ticket: &Certificate, its_aid: u32) -> Option<StationId> {
+    let permissions = &ticket.content().permissions;
+    let permission = permissions.iter().find(|it| it.its_aid == its_aid)?;
+    Some(permits(&permission.ssp).station(Signer(ticket.id().0)))
+}
+
+/// What service specific permissions of the kit say.
+fn permits(ssp: &Ssp) -> Permits {
+    let named = match ssp {
+        Ssp::Bitmap(octets) => Part::named_in(octets),
+        Ssp::Default | Ssp::Opaque(_) => None,
+    };
+    Permits::of_bits(ssp.bits(SSP_VERSION)).only_as(named)
 }
 
 const fn now(ego: &EgoPosition) -> Time64 {

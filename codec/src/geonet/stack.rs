@@ -34,6 +34,16 @@ pub struct Indication<'a> {
     pub permits: Permits,
 }
 
+impl Indication<'_> {
+    /// The station id that the ticket of its signer stands for, in RAM and RMCM; `None` if nobody vouches for the
+    /// packet.
+    #[must_use]
+    pub fn vouched_for(&self) -> Option<StationId> {
+        let signer = self.signer?;
+        Some(self.permits.station(signer))
+    }
+}
+
 /// Why a packet was discarded.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]

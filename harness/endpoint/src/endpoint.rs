@@ -292,8 +292,9 @@ fn renew_pseudonym<P: StateMachine>(
     }
     let lock_ms = u64::from(exchange.config().settings().t_lock.0);
     let ego = EgoPosition::of(turn.state(), moment.timestamp_its);
+    let identifiers = *exchange.identifiers();
     let envelope = exchange.stack_mut().envelope_mut();
-    let renewed = pseudonyms.renew(envelope, &ego, moment.now_ms, lock_ms);
+    let renewed = pseudonyms.renew(envelope, &identifiers, &ego, (moment.now_ms, lock_ms));
     if let Some((station, sequence_number)) = renewed {
         exchange.change_identity(turn, moment, station, sequence_number);
     }

@@ -215,7 +215,7 @@ impl<P: StateMachine> Exchange<P> {
                 let cause = Cause::Discarded("message of another port");
                 return host.dropped(cause, &detail, arrived.octets);
             }
-            if let Err(why) = check_entitled(host, moment, indication, &heard) {
+            if let Err(why) = check_entitled(host, &self.identifiers, moment, indication, &heard) {
                 return host.dropped(why.into(), &why, arrived.octets);
             }
         }

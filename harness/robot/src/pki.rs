@@ -18,12 +18,17 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use crossguard_codec::security::issue::{self, IssueError, Terms};
 use crossguard_codec::security::{
     Certificate, Duration, IssuePermission, Issuer, NoKey, Permission, PrivateKey, Region,
-    Rejected, Ssp, SspRange, Subjects, Ticket, Time64, TrustStore, Unsigned, Untrusted, Validity,
+    Rejected, SspRange, Subjects, Ticket, Time64, TrustStore, Unsigned, Untrusted, Validity,
 };
 use crossguard_codec::si::timestamp_its;
-use crossguard_codec::{Identifiers, Part, Service};
+use crossguard_codec::{Identifiers, Part};
+use crossguard_protocol::StationId;
 
 use crossguard_endpoint::station::Credentials;
+
+mod permissions;
+
+pub use permissions::{its_aids, robot_permissions};
 
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.
 pub const EARLY_S: u64 = 60;
@@ -73,39 +78,6 @@ impl Term {
             duration: self.duration,
         }
     }
-}
-
-/// The ITS-AIDs of all services that the kit knows.
-#[must_use]
-pub fn its_aids(identifiers: &Identifiers) -> Vec<u32> {
-    let its_aids = Service::ALL.map(|service| service.its_aid(identifiers));
-    its_aids.to_vec()
-}
-
-/// Service specific permissions for CAM (EN 302 637-2): version 1, and none of the containers and
-/// causes that only some vehicles may use.
-const CAM_PERMISSIONS: [u8; 3] = [1, 0, 0];
-
-/// Service specific permissions for VAM: version 1 alone.
-const VAM_PERMISSIONS: [u8; 1] = [1];
-
-/// The permissions of a robot that takes these parts in sessions: for RAM and RMCM, and for the CAM and
-/// cluster VAM by which it speaks to stations that know neither.
-#[must_use]
-pub fn robot_permissions(identifiers: &Identifiers, parts: &[Part]) -> Vec<Permission> {
-    let parts = Part::bitmap(parts);
-    let services: [(Service, &[u8]); 4] = [
-        (Service::Ram, &parts),
-        (Service::Rmcm, &parts),
-        (Service::Cam, &CAM_PERMISSIONS),
-        (Service::Vam, &VAM_PERMISSIONS),
-    ];
-    services
-        .map(|(service, bits)| Permission {
-            its_aid: service.its_aid(identifiers),
-            ssp: Ssp::Bitmap(bits.to_vec()),
-        })
-        .to_vec()
 }
 
 fn issues(its_aids: &[u32], min_chain_length: i8) -> Vec<IssuePermission> {
@@ -255,17 +227,18 @@ impl Pki {
         Ok(trust)
     }
 
-    /// What a robot with this many pseudonyms for a day needs.
+    /// What a robot with this many pseudonyms for a day needs. The first one names this station id, if there is one.
     ///
     /// # Errors
     /// None that is to be expected.
     pub fn credentials(
         &self,
         identifiers: &Identifiers,
-        tickets: usize,
+        (tickets, named): (usize, Option<StationId>),
         now: Time64,
     ) -> Result<Credentials, PkiError> {
-        self.credentials_with_keys(identifiers, tickets, now, &mut PrivateKey::generate)
+        let keys = &mut PrivateKey::generate;
+        self.credentials_with_keys(identifiers, (tickets, named), now, keys)
     }
 
     /// [`credentials`](Self::credentials) with these keys, for runs that repeat.
@@ -275,7 +248,7 @@ impl Pki {
     pub fn credentials_with_keys(
         &self,
         identifiers: &Identifiers,
-        tickets: usize,
+        (tickets, named): (usize, Option<StationId>),
         now: Time64,
         keys: &mut dyn FnMut() -> PrivateKey,
     ) -> Result<Credentials, PkiError> {
@@ -283,8 +256,9 @@ impl Pki {
             from: now,
             duration: Duration::hours(23),
         };
-        let ticket = |_| {
-            let permissions = robot_permissions(identifiers, &[Part::Lead, Part::Help]);
+        let ticket = |nth| {
+            let named = named.filter(|_| nth == 0);
+            let permissions = robot_permissions(identifiers, &[Part::Lead, Part::Help], named);
             let Holder { certificate, key } =
                 ticket_with(keys(), &self.authority, term, None, permissions)?;
             Ok(Ticket::new(certificate, key)?)
@@ -555,7 +529,7 @@ mod tests {
             from: now(),
             duration: Duration::hours(1),
         };
-        let permissions = robot_permissions(&identifiers, &[Part::Help]);
+        let permissions = robot_permissions(&identifiers, &[Part::Help], None);
         let ticket = new_ticket(&pki.authority, term, None, permissions).unwrap();
         write_ticket(&ticket, &robot).unwrap();
         write_certificate(&pki.root.certificate, &robot, "root").unwrap();

@@ -149,7 +149,7 @@ enum Delivery {
 pub struct Setup {
     /// Its name in logs.
     pub name: String,
-    /// Its station id.
+    /// Its station id without security; with it, the id is that of its ticket.
     pub station: StationId,
     /// Its boot counter.
     pub boot: Boot,
@@ -195,7 +195,8 @@ impl Setup {
         // The log begins when the robot's clock does.
         let began_us = self.clock.now_us();
         let now_ms = began_us / 1_000;
-        let robot = Robot::new(self.station, self.boot.counter);
+        let station = self.security.station_id(&self.identifiers, self.station);
+        let robot = Robot::new(station, self.boot.counter);
         let mut turn = Loop {
             began_us,
             machine: Machine::new(

@@ -39,15 +39,12 @@ impl Street {
         let now = Time64::of_timestamp_its(EPOCH_ITS);
         let pki = Pki::for_a_day(&identifiers, now).unwrap();
         let robots = [1, 2].map(|id| {
-            let credentials = pki.credentials(&identifiers, 40, now).unwrap();
+            let credentials = pki.credentials(&identifiers, (40, None), now).unwrap();
             let security = Security::new(Mode::Enforce, credentials, Some(PERIOD_MS), now);
-            Endpoint::new(
-                Robot::new(StationId(id), 1),
-                Config::default(),
-                Identifiers::default(),
-                0,
-            )
-            .with_security(security.unwrap())
+            let security = security.unwrap();
+            let id = security.station_id(&identifiers, StationId(id));
+            Endpoint::new(Robot::new(id, 1), Config::default(), identifiers, 0)
+                .with_security(security)
         });
         Self {
             now_ms: 0,

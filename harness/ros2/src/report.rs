@@ -46,6 +46,9 @@ impl Reporter {
     /// Takes a record in.
     pub(crate) fn take(&mut self, record: &Record) {
         self.tally.record(record);
+        if let Entry::Started { station, .. } = &record.entry {
+            self.station = *station;
+        }
         let Entry::Step { outputs, state, .. } = &record.entry else {
             return;
         };

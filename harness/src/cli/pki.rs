@@ -8,6 +8,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{ArgAction, ValueEnum};
 use crossguard_codec::security::{Certificate, Duration, Permission, Place, Region, Ssp, Time64};
 use crossguard_codec::{Identifiers, Part};
+use crossguard_protocol::StationId;
 use crossguard_robot::pki::{self, Holder, PkiError, Term};
 
 use self::shown::Shown;
@@ -21,9 +22,10 @@ pub(super) enum Command {
     Init {
         /// The folder, which is made if need be.
         folder: PathBuf,
-        /// A robot; give the option once for each.
-        #[arg(long = "robot", value_name = "NAME", default_values = ["ARI", "Go2"])]
-        robots: Vec<String>,
+        /// A robot, and the station id that its pseudonyms name, if they are to name one; give the option once for
+        /// each.
+        #[arg(long = "robot", value_name = "NAME[=STATION]", default_values = ["ARI", "Go2"], value_parser = holder)]
+        robots: Vec<Named>,
         #[command(flatten)]
         pseudonyms: Pseudonyms,
         #[command(flatten)]
@@ -52,8 +54,8 @@ pub(super) enum Command {
         /// The folder with the authority.
         folder: PathBuf,
         /// The robot; what it needs is put into robots/NAME.
-        #[arg(long, value_name = "NAME")]
-        robot: String,
+        #[arg(long, value_name = "NAME[=STATION]", value_parser = holder)]
+        robot: Named,
         #[command(flatten)]
         pseudonyms: Pseudonyms,
         #[command(flatten)]
@@ -70,7 +72,9 @@ pub(super) enum Command {
 }
 
 const AFTER_HELP: &str = "The PKI is for tests: keys lie in files, there is no enrolment, and nothing \
-is revoked.\n\nExamples:\n  crossguard pki init pki\n  crossguard demo --security enforce --pki pki\n  \
+is revoked.\n\nA robot goes by the station id that its pseudonym names, or by the first four octets of the \
+pseudonym's digest: such an id changes with the pseudonym, and tells nobody which robot it is. Name ids where plans \
+give roles to stations.\n\nExamples:\n  crossguard pki init pki\n  crossguard demo --security enforce --pki pki\n  \
 crossguard pki tickets pki --robot guest --part help --hours 1\n  crossguard pki show pki --json";
 
 #[derive(clap::Args)]
@@ -173,6 +177,32 @@ fn permission(text: &str) -> Result<Permission, String> {
     Ok(Permission { its_aid, ssp })
 }
 
+/// A robot that gets pseudonyms.
+#[derive(Clone)]
+pub(super) struct Named {
+    name: String,
+    /// The station id that they name, if they name one.
+    station: Option<StationId>,
+}
+
+fn holder(text: &str) -> Result<Named, String> {
+    let Some((name, station)) = text.split_once('=') else {
+        let name = text.to_owned();
+        return Ok(Named {
+            name,
+            station: None,
+        });
+    };
+    let station = station.parse().map(StationId);
+    let station = station.map_err(|_| {
+        format!("'{text}' is no robot with a station id, like ARI=1 (0 to 4294967295)")
+    })?;
+    Ok(Named {
+        name: name.to_owned(),
+        station: Some(station),
+    })
+}
+
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers: Result<Vec<_>, _> = text.split(',').map(|n| n.trim().parse()).collect();
     numbers
@@ -265,9 +295,9 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
 /// A certificate and its file.
 type File = (PathBuf, Certificate);
 
-fn init(folder: &Path, robots: &[String], pseudonyms: &Pseudonyms) -> Result<Vec<File>, Failure> {
+fn init(folder: &Path, robots: &[Named], pseudonyms: &Pseudonyms) -> Result<Vec<File>, Failure> {
     for robot in robots {
-        check_name(robot)?;
+        check_name(&robot.name)?;
     }
     destinations::folder(folder)?;
     let taken = [
@@ -305,7 +335,7 @@ const UNFINISHED: &str = ".unfinished";
 /// Makes a PKI in a folder; the names of its files are those in the folder that they will be in.
 fn init_in(
     folder: &Path,
-    robots: &[String],
+    robots: &[Named],
     pseudonyms: &Pseudonyms,
     in_the_end: &Path,
 ) -> Result<Vec<File>, Failure> {
@@ -409,19 +439,26 @@ fn check_name(robot: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-fn tickets(folder: &Path, robot: &str, wanted: &Pseudonyms) -> Result<Vec<File>, Failure> {
-    check_name(robot)?;
+fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File>, Failure> {
+    check_name(&robot.name)?;
     let authority = Holder::read(folder, "authority").map_err(Failure::input)?;
     let above = pki::read_certificate(&folder.join("root.cert")).map_err(Failure::input)?;
     let term = Term {
         from: Pseudonyms::from(wanted.start_in),
         duration: Duration::hours(wanted.hours),
     };
-    let robot_folder = pki::robot_folder(folder, robot);
+    let robot_folder = pki::robot_folder(folder, &robot.name);
     let mut files = Vec::new();
     // All are made before any is written.
     let region = || wanted.where_valid.region();
-    let ticket = |_| pki::new_ticket(&authority, term, region(), wanted.permissions());
+    let ticket = |_| {
+        pki::new_ticket(
+            &authority,
+            term,
+            region(),
+            wanted.permissions(robot.station),
+        )
+    };
     let made: Result<Vec<_>, _> = (0..wanted.count).map(ticket).collect();
     let made = made.map_err(|error| {
         Failure::Input(format!(
@@ -448,7 +485,7 @@ impl Pseudonyms {
         Time64(pki::now().0.saturating_add_signed(offset_us))
     }
 
-    fn permissions(&self) -> Vec<Permission> {
+    fn permissions(&self, named: Option<StationId>) -> Vec<Permission> {
         if !self.its_aids.is_empty() {
             return self.its_aids.clone();
         }
@@ -457,7 +494,7 @@ impl Pseudonyms {
             PartName::Help => Part::Help,
         };
         let parts: Vec<_> = self.parts.iter().map(part).collect();
-        pki::robot_permissions(&Identifiers::default(), &parts)
+        pki::robot_permissions(&Identifiers::default(), &parts, named)
     }
 }
 

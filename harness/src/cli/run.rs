@@ -173,12 +173,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let counter = boot.counter;
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     setup.awareness = arguments.etsi.add_to(setup.awareness);
+    let station = setup.security.station_id(&setup.identifiers, file.station);
     let running = setup.start();
     let mut console = Console {
         file: &file,
         lines: outputs.lines,
         watch,
-        robot: Robot::new(file.station, counter),
+        robot: Robot::new(station, counter),
         pending: VecDeque::new(),
         hold: None,
         perceived,
@@ -186,7 +187,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         shown: BTreeMap::new(),
         missing: 0,
     };
-    let (name, station) = (&file.name, file.station);
+    let name = &file.name;
     console.say(&format!(
         "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
     ));

@@ -82,7 +82,7 @@ impl SecurityArguments {
         let (identifiers, now) = (Identifiers::default(), pki::now());
         let pki = Pki::for_a_day(&identifiers, now).map_err(Failure::input)?;
         let of_one = |_: &&str| {
-            let credentials = pki.credentials(&identifiers, PSEUDONYMS, now);
+            let credentials = pki.credentials(&identifiers, (PSEUDONYMS, None), now);
             self.with(credentials.map_err(Failure::input)?)
         };
         names.iter().map(of_one).collect()

@@ -157,8 +157,8 @@ impl Host for Turn<'_> {
         }
     }
 
-    fn admits(&mut self, moment: Moment, from: StationId, signer: Signer) -> bool {
-        self.around.neighbours.admit(from, signer, moment.now_ms)
+    fn vouched(&mut self, moment: Moment, from: StationId, signer: Signer) {
+        self.around.neighbours.bind(from, signer, moment.now_ms);
     }
 
     fn other(
@@ -171,7 +171,8 @@ impl Host for Turn<'_> {
         let (service, octets) = (indication.service, indication.message);
         let ego = EgoPosition::of(self.state, moment.timestamp_its);
         let neighbours = &mut self.around.neighbours;
-        match neighbours.observe(me.station(), (service, octets), &ego, moment.now_ms) {
+        let heard = (service, octets, indication.signer);
+        match neighbours.observe(me.station(), heard, &ego, moment.now_ms) {
             Ok(message) => {
                 // An event is nobody for the map, and changes nothing that the robot does.
                 if let Some(event) = message.event() {

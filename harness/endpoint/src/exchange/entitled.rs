@@ -1,9 +1,13 @@
-//! Whether a message may say what it says, by the permissions of its certificate and the name of its sender.
+//! Whether a message may say what it says, by the permissions of its certificate and the station id that goes with it.
+//!
+//! The station id of a robot follows from its ticket, and its address from its station id. So one ticket is one robot:
+//! its holder cannot speak as another one, or as two, and what a session knows of a member is what the member's
+//! own ticket has said. (Without a signature nobody vouches for anything, and nothing is checked.)
 
 use core::fmt::{self, Display, Formatter};
 
-use crossguard_codec::geonet::{Indication, Permits};
-use crossguard_codec::{Heard, Part};
+use crossguard_codec::geonet::{Address, Indication, Permits};
+use crossguard_codec::{Heard, Identifiers, Part};
 use crossguard_protocol::{Input, StationId};
 
 use super::host::{Host, Moment};
@@ -12,8 +16,15 @@ use crate::cause::Cause;
 /// Why a message of a sender that may be relied on is dropped all the same.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum NotEntitled {
-    /// Another certificate goes by this station id.
-    Namesake(StationId),
+    /// The certificate goes by another station id.
+    Namesake {
+        /// The station id in the message.
+        says: StationId,
+        /// That of the certificate.
+        is: StationId,
+    },
+    /// The packet comes from the address of another station.
+    Address(StationId),
     /// The certificate does not permit this part in a session.
     Part(Part),
 }
@@ -21,7 +32,13 @@ pub enum NotEntitled {
 impl Display for NotEntitled {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Namesake(station) => write!(f, "station {station} goes by another certificate"),
+            Self::Namesake { says, is } => {
+                write!(
+                    f,
+                    "speaks as station {says}, with the certificate of station {is}"
+                )
+            }
+            Self::Address(station) => write!(f, "station {station} has another address"),
             Self::Part(part) => write!(f, "the certificate does not permit to {}", part.name()),
         }
     }
@@ -30,7 +47,8 @@ impl Display for NotEntitled {
 impl From<NotEntitled> for Cause {
     fn from(why: NotEntitled) -> Self {
         Self::Rejected(match why {
-            NotEntitled::Namesake(_) => "station id of another certificate",
+            NotEntitled::Namesake { .. } => "station id of another certificate",
+            NotEntitled::Address(_) => "address of another station",
             NotEntitled::Part(_) => "beyond service permissions",
         })
     }
@@ -39,6 +57,7 @@ impl From<NotEntitled> for Cause {
 /// Whether a message may say what it says, in the name of its sender.
 pub(super) fn check_entitled<H: Host>(
     host: &mut H,
+    identifiers: &Identifiers,
     moment: Moment,
     indication: &Indication<'_>,
     heard: &Heard,
@@ -51,12 +70,21 @@ pub(super) fn check_entitled<H: Host>(
             _ => {}
         }
     }
-    match indication.signer {
-        Some(signer) if !host.admits(moment, heard.from, signer) => {
-            Err(NotEntitled::Namesake(heard.from))
-        }
-        _ => Ok(()),
+    let Some(is) = indication.vouched_for() else {
+        return Ok(());
+    };
+    if heard.from != is {
+        let says = heard.from;
+        return Err(NotEntitled::Namesake { says, is });
     }
+    let address = Address::of_station(is.0, identifiers.robot_station_type);
+    if indication.source.address != address {
+        return Err(NotEntitled::Address(is));
+    }
+    if let Some(signer) = indication.signer {
+        host.vouched(moment, is, signer);
+    }
+    Ok(())
 }
 
 fn check_parts(permits: Permits, parts: impl IntoIterator<Item = Part>) -> Result<(), NotEntitled> {

@@ -65,10 +65,8 @@ pub trait Host {
     /// The robot `me` understood a message.
     fn heard(&mut self, moment: Moment, me: &Robot, heard: &Heard, arrived: Arrived<'_>);
 
-    /// Whether the sender of a message may go by its station id: no other certificate does.
-    fn admits(&mut self, _moment: Moment, _from: StationId, _signer: Signer) -> bool {
-        true
-    }
+    /// The certificate of `signer` vouches for the robot with this station id.
+    fn vouched(&mut self, _moment: Moment, _from: StationId, _signer: Signer) {}
 
     /// A message of another service than those of robots arrived at the robot `me`, in this packet.
     fn other(

@@ -6,6 +6,7 @@ use crossguard_codec::security::SignedMessage;
 use crossguard_codec::{DecodeError, Heard, Identifiers, Position, Service, Unheard};
 use crossguard_protocol::StationId;
 
+use super::namesakes::NotAdmitted;
 use crate::cause::Cause;
 
 /// The service that a message is of.
@@ -39,6 +40,9 @@ pub enum Unobserved {
     /// It goes by the own station id: the robot is not its own neighbour.
     #[error("a message of the own station {0}")]
     OwnStation(StationId),
+    /// Its certificate may not go by its station id.
+    #[error(transparent)]
+    NotAdmitted(#[from] NotAdmitted),
 }
 
 impl From<&Unobserved> for Cause {
@@ -47,6 +51,7 @@ impl From<&Unobserved> for Cause {
             Unobserved::Undecodable(error) => error.into(),
             Unobserved::OtherService { .. } => Self::Discarded("message of another port"),
             Unobserved::OwnStation(_) => Self::Discarded("message of the own station"),
+            Unobserved::NotAdmitted(why) => (*why).into(),
         }
     }
 }

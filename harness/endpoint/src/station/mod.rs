@@ -11,7 +11,7 @@ mod neighbours;
 mod security;
 
 pub use map::{LocalDynamicMap, Neighbour, USERS_MAX, lifetime_ms};
-pub use namesakes::NAMES_MAX;
+pub use namesakes::{NAMES_MAX, NotAdmitted};
 pub(crate) use neighbours::Neighbours;
 pub(crate) use security::Pseudonyms;
-pub use security::{Credentials, Mode, NoSuchMode, Security, station_id};
+pub use security::{Credentials, Mode, NoSuchMode, Security};

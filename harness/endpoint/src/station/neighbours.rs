@@ -29,9 +29,9 @@ impl Neighbours {
         }
     }
 
-    /// Whether no other certificate than that of `signer` goes by this station id at `now_ms`.
-    pub(crate) fn admit(&mut self, from: StationId, signer: Signer, now_ms: u64) -> bool {
-        self.namesakes.admit(from, signer, now_ms)
+    /// The robot with this station id, which follows from the ticket of `signer`, is heard at `now_ms`.
+    pub(crate) fn bind(&mut self, from: StationId, signer: Signer, now_ms: u64) {
+        self.namesakes.bind(from, signer, now_ms);
     }
 
     /// Who is around.
@@ -62,7 +62,7 @@ impl Neighbours {
     pub(crate) fn observe(
         &mut self,
         me: StationId,
-        (service, octets): (Service, &[u8]),
+        (service, octets, signer): (Service, &[u8], Option<Signer>),
         ego: &EgoPosition,
         now_ms: u64,
     ) -> Result<ItsMessage, Unobserved> {
@@ -73,6 +73,10 @@ impl Neighbours {
         }
         if message.header().station_id.0 == me.0 {
             return Err(Unobserved::OwnStation(me));
+        }
+        if let Some(signer) = signer {
+            let from = StationId(message.header().station_id.0);
+            self.namesakes.admit(from, signer, now_ms)?;
         }
         for user in message.road_users(ego.timestamp_its) {
             self.map.observe(user, now_ms);

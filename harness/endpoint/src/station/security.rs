@@ -7,6 +7,7 @@ use crossguard_codec::geonet::{Demand, EgoPosition, Envelope, Secured};
 use crossguard_codec::security::{
     HashedId8, Station, Ticket, Time64, Tolerances, TrustStore, Unsigned,
 };
+use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::StationId;
 use serde::{Deserialize, Serialize};
 
@@ -100,13 +101,20 @@ impl Security {
             pseudonym_period_ms,
         })
     }
+
+    /// The station id by which a robot goes that is `configured` to go by another one: that of its ticket, which the
+    /// ticket names, or else the first four octets of its name. Without security, it is the configured one.
+    #[must_use]
+    pub fn station_id(&self, identifiers: &Identifiers, configured: StationId) -> StationId {
+        match &self.envelope {
+            Envelope::Secured(secured) => station_id(secured, identifiers),
+            _ => configured,
+        }
+    }
 }
 
-/// The station id that goes with a pseudonym: as random as its name, and gone with it.
-#[must_use]
-pub fn station_id(pseudonym: HashedId8) -> StationId {
-    let [a, b, c, d, ..] = pseudonym.0;
-    StationId(u32::from_be_bytes([a, b, c, d]))
+fn station_id(secured: &Secured, identifiers: &Identifiers) -> StationId {
+    secured.station_id(Service::Ram.its_aid(identifiers))
 }
 
 /// The number of the first geo-broadcast under a pseudonym.
@@ -138,9 +146,9 @@ impl Pseudonyms {
     pub(crate) fn renew(
         &mut self,
         envelope: &mut Envelope,
+        identifiers: &Identifiers,
         ego: &EgoPosition,
-        now_ms: u64,
-        lock_ms: u64,
+        (now_ms, lock_ms): (u64, u64),
     ) -> Option<(StationId, u16)> {
         let Envelope::Secured(secured) = envelope else {
             return None;
@@ -152,6 +160,7 @@ impl Pseudonyms {
         }
         let pseudonym = secured.renew_pseudonym(ego, is_due, lock_ms)?;
         self.since_ms = now_ms;
-        Some((station_id(pseudonym), sequence_number(pseudonym)))
+        let station = station_id(secured, identifiers);
+        Some((station, sequence_number(pseudonym)))
     }
 }

@@ -6,6 +6,7 @@ use crossguard_codec::Identifiers;
 use crossguard_codec::security::{PrivateKey, Time64};
 use crossguard_codec::si::timestamp_its;
 use crossguard_endpoint::station::{Mode, Security};
+use crossguard_protocol::StationId;
 use crossguard_robot::pki::Pki;
 
 use super::world::EPOCH_UNIX_MS;
@@ -26,8 +27,9 @@ fn keys(first: usize) -> impl FnMut() -> PrivateKey {
     }
 }
 
-/// The security of the robot at this place, `now_ms` milliseconds after the run began.
-pub(super) fn of(place: usize, now_ms: u64) -> Security {
+/// The security of the robot at this place, whose first ticket names this station id, `now_ms` milliseconds after the
+/// run began.
+pub(super) fn of(place: usize, station: StationId, now_ms: u64) -> Security {
     static PKI: OnceLock<Pki> = OnceLock::new();
     let identifiers = Identifiers::default();
     let at = |ms: u64| {
@@ -38,7 +40,8 @@ pub(super) fn of(place: usize, now_ms: u64) -> Security {
         Pki::with_keys(&identifiers, at(0), &mut keys(1)).expect("these are certificates")
     });
     let mut own = keys(3 + place * TICKETS);
-    let credentials = pki.credentials_with_keys(&identifiers, TICKETS, at(0), &mut own);
+    let credentials =
+        pki.credentials_with_keys(&identifiers, (TICKETS, Some(station)), at(0), &mut own);
     let credentials = credentials.expect("these are certificates");
     let security = Security::new(
         Mode::Enforce,

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
+use crossguard_codec::geonet::station_of;
 use crossguard_codec::security::{
     Certificate, Content, Issuer, Permission, Place, Region, Ssp, Subjects, Time64,
 };
@@ -27,6 +28,8 @@ pub(super) struct Shown {
     valid_until: String,
     is_valid_now: bool,
     region: Option<String>,
+    /// The station id that a robot with this ticket goes by.
+    station: Option<u32>,
     permissions: Vec<String>,
     issues: Vec<String>,
 }
@@ -48,6 +51,8 @@ impl Shown {
             valid_until: date(validity.until()),
             is_valid_now: (validity.from()..validity.until()).contains(&now),
             region: content.region.as_ref().map(region),
+            station: station_of(certificate, Service::Ram.its_aid(&Identifiers::default()))
+                .map(|station| station.0),
             permissions: content.permissions.iter().map(permitted).collect(),
             issues: content
                 .issue_permissions
@@ -83,6 +88,9 @@ impl Shown {
         }
         if let Some(region) = &self.region {
             print(format_args!("  in {region}"))?;
+        }
+        if let Some(station) = self.station {
+            print(format_args!("  goes by station {station}"))?;
         }
         for (what, list) in [("permits", &self.permissions), ("issues", &self.issues)] {
             if !list.is_empty() {

@@ -3,6 +3,7 @@
 use crossguard_codec::{Identifiers, TaskParameters};
 use crossguard_protocol::{Availability, Event, Robot, StationId};
 
+use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Endpoint, Stimulus};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::Simulated;
@@ -82,6 +83,8 @@ impl World<'_> {
             // Nobody says that who knows of people on the road.
             Deed::TaskCompleted if !is_clear => return None,
             Deed::TaskCompleted => Event::TaskCompleted,
+            // An id follows from the ticket, which changes in its own time.
+            Deed::ChangeIdentity if self.swarm.is_secured => return None,
             Deed::ChangeIdentity => {
                 seat.changes += 1;
                 let station = seat.draw.station.0 + seat.changes * PSEUDONYM_STEP;
@@ -137,20 +140,20 @@ impl World<'_> {
         }
         let draw = seat.draw;
         seat.boot += 1;
-        let robot = Robot::new(draw.station, seat.boot);
+        let identifiers = Identifiers::default();
+        let security = if self.swarm.is_secured {
+            security::of(place, draw.station, self.now_us / 1_000)
+        } else {
+            Security::default()
+        };
+        let station = security.station_id(&identifiers, draw.station);
+        let robot = Robot::new(station, seat.boot);
         self.monitor.boot(place, &robot, &draw.config);
         let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
         let rules = self.rules;
         let protocol = Ruled { robot, rules };
-        let mut endpoint = Endpoint::new(
-            protocol,
-            draw.config.clone(),
-            Identifiers::default(),
-            now_ms,
-        );
-        if self.swarm.is_secured {
-            endpoint = endpoint.with_security(security::of(place, self.now_us / 1_000));
-        }
+        let endpoint = Endpoint::new(protocol, draw.config.clone(), identifiers, now_ms)
+            .with_security(security);
         let gait = self.swarm.seed.wrapping_add(place as u64);
         let body = Simulated::new(
             draw.build,
@@ -165,10 +168,10 @@ impl World<'_> {
         seat.machine = Some(Machine::new(endpoint, application));
         self.come_to(place, draw.corner);
         let entry = Entry::Started {
-            station: draw.station,
+            station,
             boot: self.seats[place].boot,
             settings: Box::new(draw.config.settings().clone()),
-            identifiers: Identifiers::default(),
+            identifiers,
             unix_ms: u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_us / 1_000,
             speed: Some(draw.time_scale),
         };

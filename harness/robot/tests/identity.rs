@@ -1,0 +1,336 @@
+//! Hazard: the holder of one valid ticket speaks as somebody else.
+//!
+//! What a session believes of a member must come from the member. With the names of a robot open to whoever says them
+//! first, one ticket that may only help could push a follower's entry out of the table of names and speak for it: the
+//! follower was dead, and the leader kept its corridor open.
+
+use std::collections::BTreeMap;
+
+use crossguard_codec::geonet::{Address, EgoPosition, Stack};
+use crossguard_codec::security::{Permission, Ticket, Time64};
+use crossguard_codec::{
+    Identifiers, Part, Position, RobotState, Service, encode, golden, ram_from,
+};
+use crossguard_endpoint::station::{Credentials, Mode, NAMES_MAX, Security};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{Availability, Config, Event, Lease, Phase, Robot, StationId};
+use crossguard_robot::pki::{self, Pki, Term};
+use crossguard_robot::plan::Plan;
+use crossguard_robot::site::Site;
+
+/// 2026-01-05, in milliseconds since 2004.
+const EPOCH_ITS: u64 = 694_694_401_000;
+const LEADER: StationId = StationId(1);
+const FOLLOWER: StationId = StationId(2);
+const LIAR: StationId = StationId(3);
+
+const TAKEN: &str = "station id of another certificate";
+
+fn identifiers() -> Identifiers {
+    Identifiers::default()
+}
+
+fn epoch() -> Time64 {
+    Time64::of_timestamp_its(EPOCH_ITS)
+}
+
+/// A ticket of the PKI, the key with it.
+fn ticket(pki: &Pki, permissions: Vec<Permission>) -> Ticket {
+    let term = Term {
+        from: epoch(),
+        duration: crossguard_codec::security::Duration::hours(1),
+    };
+    let holder = pki::new_ticket(&pki.authority, term, None, permissions).unwrap();
+    Ticket::new(holder.certificate, holder.key).unwrap()
+}
+
+fn security(pki: &Pki, ticket: Ticket) -> Security {
+    let credentials = Credentials {
+        trust: pki.trust().unwrap(),
+        tickets: vec![ticket],
+    };
+    Security::new(Mode::Enforce, credentials, None, epoch()).unwrap()
+}
+
+/// Somebody with one valid ticket who says what it likes, under any name and address.
+struct Liar(Stack);
+
+impl Liar {
+    fn new(pki: &Pki, parts: &[Part], named: Option<StationId>) -> Self {
+        let permissions = pki::robot_permissions(&identifiers(), parts, named);
+        let mut stack = Stack::of_robot(identifiers(), LIAR);
+        *stack.envelope_mut() = security(pki, ticket(pki, permissions)).envelope;
+        Self(stack)
+    }
+
+    /// A packet with this message, from the address of a station.
+    fn say(&mut self, now_ms: u64, service: Service, from: StationId, message: &[u8]) -> Vec<u8> {
+        let address = Address::of_station(from.0, identifiers().robot_station_type);
+        self.0.change_address(address, 0);
+        let ego = EgoPosition {
+            timestamp_its: EPOCH_ITS + now_ms,
+            ..EgoPosition::default()
+        };
+        self.0.packet(&ego, service, message).unwrap()
+    }
+
+    /// The RAM that `robot` would send.
+    fn ram(&mut self, now_ms: u64, robot: &Robot) -> Vec<u8> {
+        let (view, state) = (robot.ram(), RobotState::default());
+        let generated = u16::try_from((EPOCH_ITS + now_ms) % 65_536).unwrap();
+        let available = Availability::Available;
+        let ram = ram_from(&identifiers(), &state, &view, available, generated, false).unwrap();
+        let octets = encode(&identifiers(), &ram).unwrap();
+        self.say(now_ms, Service::Ram, robot.station(), &octets)
+    }
+
+    /// The CAM of a vehicle with this station id.
+    fn cam(&mut self, now_ms: u64, station: StationId) -> Vec<u8> {
+        let mut cam = hex::decode(golden::vector(golden::ITS, "C2")).unwrap();
+        cam[2..6].copy_from_slice(&station.0.to_be_bytes());
+        self.say(now_ms, Service::Cam, station, &cam)
+    }
+}
+
+/// A leader and a follower within reach of each other; what each drops.
+struct Street {
+    pki: Pki,
+    now_ms: u64,
+    robots: Vec<Option<Endpoint>>,
+    dropped: Vec<BTreeMap<String, usize>>,
+    heard: Vec<BTreeMap<StationId, usize>>,
+}
+
+impl Street {
+    /// Robots whose tickets name these ids.
+    fn new(ids: &[StationId]) -> Self {
+        let pki = Pki::for_a_day(&identifiers(), epoch()).unwrap();
+        let mut street = Self {
+            pki,
+            now_ms: 0,
+            robots: Vec::new(),
+            dropped: vec![BTreeMap::new(); ids.len()],
+            heard: vec![BTreeMap::new(); ids.len()],
+        };
+        for id in ids {
+            let robot = street.boot(*id);
+            street.robots.push(Some(robot));
+        }
+        street
+    }
+
+    fn boot(&self, id: StationId) -> Endpoint {
+        let both = [Part::Lead, Part::Help];
+        let permissions = pki::robot_permissions(&identifiers(), &both, Some(id));
+        let security = security(&self.pki, ticket(&self.pki, permissions));
+        let id = security.station_id(&identifiers(), StationId(9));
+        let robot = Robot::new(id, 1);
+        Endpoint::new(robot, Config::default(), identifiers(), self.now_ms).with_security(security)
+    }
+
+    fn tell(&mut self, place: usize, stimulus: Stimulus<'_>) {
+        let moment = Moment {
+            now_ms: self.now_ms,
+            timestamp_its: EPOCH_ITS + self.now_ms,
+        };
+        let state = RobotState {
+            position: Position::at(48.765_432_1, 9.123_456_7),
+            ..RobotState::default()
+        };
+        let Some(robot) = &mut self.robots[place] else {
+            return;
+        };
+        for effect in robot.handle(moment, &state, stimulus) {
+            match effect {
+                Effect::Transmit { packet, .. } => {
+                    for other in (0..self.robots.len()).filter(|other| *other != place) {
+                        self.hear(other, &packet);
+                    }
+                }
+                Effect::Heard { from, .. } => *self.heard[place].entry(from).or_default() += 1,
+                Effect::Dropped { cause, .. } => {
+                    *self.dropped[place]
+                        .entry(cause.reason().to_string())
+                        .or_default() += 1;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn hear(&mut self, place: usize, packet: &[u8]) {
+        let arrived_ms = self.now_ms;
+        self.tell(place, Stimulus::Datagram { packet, arrived_ms });
+    }
+
+    /// Lets time pass; each 10 ms the liar has its turn.
+    fn pass(&mut self, ms: u64, lie: &mut dyn FnMut(&mut Self)) {
+        for _ in 0..ms / 10 {
+            self.now_ms += 10;
+            for place in 0..self.robots.len() {
+                self.tell(place, Stimulus::Time);
+            }
+            lie(self);
+        }
+    }
+
+    /// The first robot leads the second.
+    fn team_up(&mut self) {
+        let request = Plan::crossing(Site::default()).request();
+        self.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
+        self.pass(1_000, &mut |_| {});
+        assert!(self.relies_on(FOLLOWER));
+    }
+
+    /// Whether the first robot may let people cross, as far as this follower goes.
+    fn relies_on(&self, follower: StationId) -> bool {
+        let Phase::Leading(leading) = self.robots[0].as_ref().unwrap().robot().phase() else {
+            return false;
+        };
+        let member = leading.member(follower);
+        member.is_some_and(|member| matches!(member.lease, Lease::Stands(_)))
+    }
+
+    fn dropped(&self, place: usize, cause: &str) -> usize {
+        self.dropped[place].get(cause).copied().unwrap_or(0)
+    }
+
+    fn heard(&self, place: usize, from: StationId) -> usize {
+        self.heard[place].get(&from).copied().unwrap_or(0)
+    }
+}
+
+#[test]
+fn a_helper_cannot_take_over_a_follower_and_the_leader_learns_that_it_is_dead() {
+    let mut street = Street::new(&[LEADER, FOLLOWER]);
+    let mut liar = Liar::new(&street.pki, &[Part::Help], None);
+    street.team_up();
+    // It speaks under more ids than any table of names holds, and then as the follower, which has lost its power.
+    let follower = street.robots[1].take().unwrap().robot().clone();
+    for id in 0..=u32::try_from(NAMES_MAX).unwrap() {
+        let packet = liar.ram(street.now_ms, &Robot::new(StationId(1_000 + id), 1));
+        street.hear(0, &packet);
+    }
+    let heard = street.heard(0, FOLLOWER);
+    let t_safety_ms = u64::from(Config::default().settings().t_safety.0);
+    street.pass(t_safety_ms + 1_000, &mut |street| {
+        let mut spoken = follower.clone();
+        // It repeats the heartbeat of the leader, as the follower would.
+        let leader = street.robots[0].as_ref().unwrap().robot().ram();
+        let input = crossguard_protocol::Input::Ram {
+            ram: leader,
+            distance: crossguard_protocol::Decimetres(20),
+        };
+        spoken.step(&Config::default(), input);
+        let packet = liar.ram(street.now_ms, &spoken);
+        street.hear(0, &packet);
+    });
+    assert_eq!(street.heard(0, FOLLOWER), heard, "the liar was believed");
+    assert!(street.dropped(0, TAKEN) > NAMES_MAX);
+    assert!(
+        !street.relies_on(FOLLOWER),
+        "the leader relies on a robot without power"
+    );
+}
+
+#[test]
+fn one_ticket_is_one_robot() {
+    let mut street = Street::new(&[LEADER]);
+    let mut liar = Liar::new(&street.pki, &[Part::Help], Some(LIAR));
+    for id in [3, 4, 5, 3] {
+        let packet = liar.ram(street.now_ms, &Robot::new(StationId(id), 1));
+        street.hear(0, &packet);
+        street.pass(10, &mut |_| {});
+    }
+    assert_eq!(street.heard(0, LIAR), 2);
+    assert_eq!(street.dropped(0, TAKEN), 2);
+}
+
+#[test]
+fn who_squats_on_an_id_does_not_keep_its_robot_out() {
+    let mut street = Street::new(&[LEADER]);
+    let mut liar = Liar::new(&street.pki, &[Part::Help], None);
+    street.pass(5_000, &mut |street| {
+        let packet = liar.ram(street.now_ms, &Robot::new(FOLLOWER, 1));
+        street.hear(0, &packet);
+        let packet = liar.cam(street.now_ms, FOLLOWER);
+        street.hear(0, &packet);
+    });
+    assert_eq!(
+        street.heard[0].keys().collect::<Vec<_>>(),
+        [&FOLLOWER],
+        "as a vehicle only"
+    );
+    let before = street.heard(0, FOLLOWER);
+    let follower = street.boot(FOLLOWER);
+    street.robots.push(Some(follower));
+    street.heard.push(BTreeMap::new());
+    street.dropped.push(BTreeMap::new());
+    street.team_up();
+    // From then on the id is the robot's in all services.
+    assert!(street.heard(0, FOLLOWER) > before);
+    let packet = liar.cam(street.now_ms, FOLLOWER);
+    let (heard, dropped) = (street.heard(0, FOLLOWER), street.dropped(0, TAKEN));
+    street.hear(0, &packet);
+    assert_eq!(street.heard(0, FOLLOWER), heard);
+    assert_eq!(street.dropped(0, TAKEN), dropped + 1);
+}
+
+#[test]
+fn the_link_address_is_that_of_the_station() {
+    let mut street = Street::new(&[LEADER]);
+    let mut liar = Liar::new(&street.pki, &[Part::Help], Some(LIAR));
+    let view = Robot::new(LIAR, 1).ram();
+    let state = RobotState::default();
+    let ram = ram_from(
+        &identifiers(),
+        &state,
+        &view,
+        Availability::Available,
+        0,
+        false,
+    )
+    .unwrap();
+    let octets = encode(&identifiers(), &ram).unwrap();
+    let packet = liar.say(street.now_ms, Service::Ram, FOLLOWER, &octets);
+    street.hear(0, &packet);
+    assert_eq!(street.heard(0, LIAR), 0);
+    assert_eq!(street.dropped(0, "address of another station"), 1);
+}
+
+#[test]
+fn a_vehicle_has_one_name_and_keeps_it_while_it_is_heard() {
+    let mut street = Street::new(&[LEADER]);
+    let mut vehicle = Liar::new(&street.pki, &[], None);
+    let mut liar = Liar::new(&street.pki, &[], None);
+    let named = StationId(100);
+    let packet = vehicle.cam(street.now_ms, named);
+    street.hear(0, &packet);
+    for id in 0..2 * u32::try_from(NAMES_MAX).unwrap() {
+        let packet = liar.cam(street.now_ms, StationId(1_000 + id));
+        street.hear(0, &packet);
+    }
+    street.pass(100, &mut |_| {});
+    let packet = liar.cam(street.now_ms, named);
+    street.hear(0, &packet);
+    assert_eq!(street.dropped(0, TAKEN), 1);
+    assert_eq!(
+        street.dropped(0, "second station id of a certificate"),
+        2 * NAMES_MAX - 1
+    );
+    let packet = vehicle.cam(street.now_ms, named);
+    street.hear(0, &packet);
+    assert_eq!(street.heard(0, named), 2);
+}
+
+#[test]
+fn a_robot_goes_by_the_id_of_its_ticket_from_the_start() {
+    let pki = Pki::for_a_day(&identifiers(), epoch()).unwrap();
+    let permissions = pki::robot_permissions(&identifiers(), &[Part::Help], None);
+    let ticket = ticket(&pki, permissions);
+    let [a, b, c, d, ..] = ticket.certificate().id().0;
+    let id = security(&pki, ticket).station_id(&identifiers(), StationId(7));
+    assert_eq!(id, StationId(u32::from_be_bytes([a, b, c, d])));
+    let off = Security::default();
+    assert_eq!(off.station_id(&identifiers(), StationId(7)), StationId(7));
+}
