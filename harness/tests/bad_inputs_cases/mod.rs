@@ -462,6 +462,7 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
             ("pki authority nosuch", 2),
             ("pki tickets nosuch --robot ARI", 2),
             ("pki tickets folder", 2),
+            ("pki init new --robot ARI=first", 2),
             ("pki show nosuch.cert", 2),
             ("pki show text.cert", 2),
         ],
