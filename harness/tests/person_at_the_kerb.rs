@@ -14,9 +14,8 @@ use serde_json::Value;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// The crossing of the shipped street, which both pavements belong to.
-const ZONE: &str = "\n[zone]\npolygon_m = [[-3, -2.5], [5, -2.5], [5, 9.5], [-3, 9.5]]\n\
-                    road_m = [[-3, 0], [5, 0], [5, 7], [-3, 7]]\n";
+/// The crossing between the kerbs of the shipped street, with the pavements behind them.
+const ZONE: &str = "\n[zone]\npavement_m = 2.5\n";
 
 /// What the sensors of a robot have, through a pipe.
 struct Sensors {

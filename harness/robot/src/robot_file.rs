@@ -441,6 +441,13 @@ impl RobotTable {
         }
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
+        // A plan is for a robot that leads by itself.
+        let autopilot = self.autopilot || self.plan_file.is_some();
+        let confidence_min = self.people.confidence_min;
+        let zone = self
+            .zone
+            .map(|zone| zone.check(&layout, confidence_min, autopilot));
+        let (zone, kerbs) = zone.transpose()?.unzip();
         // On a site of one's own the crossing is where its places are.
         let crossing = Path::new("crossing");
         let own = (self.autopilot && self.site_file.is_some()).then_some(crossing);
@@ -448,12 +455,7 @@ impl RobotTable {
         let plan = plan
             .map(|name| PlanFile::open(name, layout.at(site)))
             .transpose()?;
-        // A plan is for a robot that leads by itself.
-        let autopilot = self.autopilot || self.plan_file.is_some();
         let traits = traits::check(self.job, self.dimensions_m, &self.battery)?;
-        let confidence_min = self.people.confidence_min;
-        let zone = self.zone.map(|zone| zone.check(confidence_min, autopilot));
-        let (zone, kerbs) = zone.transpose()?.unzip();
         Ok(RobotFile {
             name: self.name,
             station: StationId(self.station),

@@ -10,11 +10,15 @@
 //! approach_s = 3.0
 //! clear_s = 3.0
 //! ```
+//!
+//! Where the site has its kerbs, `pavement_m = 2.5` is enough instead of the shapes: people cross between the kerbs, and
+//! wait up to that far behind them.
 
 use crossguard_endpoint::ras::area::Area;
 use serde::Deserialize;
 
 use crate::site::Place;
+use crate::site_file::{Purpose, SiteFile, Spot};
 use crate::zone::{WaitingRules, Zone};
 
 /// Most corners of a polygon.
@@ -29,6 +33,7 @@ const AREA_MIN_M2: f64 = 0.01;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ZoneTable {
+    pavement_m: Option<f64>,
     polygon_m: Option<Vec<[f64; 2]>>,
     place_m: Option<[f64; 2]>,
     radius_m: Option<f64>,
@@ -45,8 +50,8 @@ pub(super) struct ZoneTable {
 pub enum NoZone {
     /// It has no shape, or two.
     #[error(
-        "wants either 'polygon_m', or 'place_m' and 'radius_m', for where people wait; or 'road_m' alone, to \
-         watch the road and detect nobody"
+        "wants one of 'pavement_m', 'polygon_m', and 'place_m' with 'radius_m', for where people wait; or 'road_m' \
+         alone, to watch the road and detect nobody"
     )]
     Shape,
     /// A polygon with too few or too many corners.
@@ -90,6 +95,16 @@ pub enum NoZone {
         /// What would be possible.
         wanted: &'static str,
     },
+    /// The site does not say between which kerbs people cross.
+    #[error(
+        "pavement_m wants a site with two kerbs, and site '{site}' has {count}; say 'polygon_m' and 'road_m' instead"
+    )]
+    Kerbs {
+        /// The site.
+        site: String,
+        /// How many it has.
+        count: usize,
+    },
     /// A robot that leads by itself does not see when people are across.
     #[error("has no 'road_m': with autopilot one is wanted, to see when everybody is across")]
     NoRoad,
@@ -99,12 +114,44 @@ pub enum NoZone {
 }
 
 impl ZoneTable {
+    /// The shapes between and behind the kerbs of a site, where the table wants them.
+    fn fill_from(&mut self, layout: &SiteFile) -> Result<(), NoZone> {
+        let Some(pavement_m) = self.pavement_m else {
+            return Ok(());
+        };
+        if self.polygon_m.is_some() || self.place_m.is_some() || self.radius_m.is_some() {
+            return Err(NoZone::Shape);
+        }
+        let pavement_m = within("pavement_m", pavement_m, 0.5..=20.0, "0.5 to 20 m")?;
+        let [near, far] = layout.kerbs[..] else {
+            return Err(NoZone::Kerbs {
+                site: layout.name.clone(),
+                count: layout.kerbs.len(),
+            });
+        };
+        self.polygon_m = Some(between(near, far, pavement_m));
+        if self.road_m.is_none() {
+            self.road_m = Some(between(near, far, 0.0));
+        }
+        let crossed = layout.places.values();
+        let crossed = crossed.filter(|spot| spot.purpose == Purpose::Cross);
+        let crossed: Vec<_> = crossed
+            .map(|Spot { place, .. }| [place.east, place.north])
+            .collect();
+        if let ([from, to], None) = (&crossed[..], self.escort_m) {
+            self.escort_m = Some([*from, *to]);
+        }
+        Ok(())
+    }
+
     /// The zone, and the kerbs between which people are escorted, if they are said.
     pub(super) fn check(
-        self,
+        mut self,
+        layout: &SiteFile,
         confidence_min: f64,
         is_autopilot: bool,
     ) -> Result<(Zone, Option<[Place; 2]>), NoZone> {
+        self.fill_from(layout)?;
         let waiting = match (self.polygon_m, self.place_m, self.radius_m) {
             (Some(corners), None, None) => Some(polygon("polygon_m", corners)?),
             (None, Some(place), Some(radius_m)) => Some(Area::Circle {
@@ -162,6 +209,31 @@ impl ZoneTable {
         };
         Ok((zone, kerbs.transpose()?))
     }
+}
+
+/// The area between two kerbs, and so many metres behind them.
+fn between(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
+    let middle =
+        |[a, b]: [Place; 2]| Place::new((a.east + b.east) / 2.0, (a.north + b.north) / 2.0);
+    let behind = |kerb: [Place; 2], other: [Place; 2]| {
+        let [a, b] = kerb;
+        let (along_e, along_n) = (b.east - a.east, b.north - a.north);
+        let length = along_e.hypot(along_n).max(f64::MIN_POSITIVE);
+        let (own, other) = (middle(kerb), middle(other));
+        let (away_e, away_n) = (own.east - other.east, own.north - other.north);
+        // Across the kerb, away from the other one.
+        let side = if along_n * away_e - along_e * away_n < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let (east, north) = (side * along_n / length, -side * along_e / length);
+        kerb.map(|end| [end.east + behind_m * east, end.north + behind_m * north])
+    };
+    let ([a, b], [c, d]) = (behind(near, far), behind(far, near));
+    let runs_alike = (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) > 0.0;
+    let (c, d) = if runs_alike { (d, c) } else { (c, d) };
+    vec![a, b, c, d]
 }
 
 fn within(
@@ -232,7 +304,7 @@ mod tests {
 
     fn zone(text: &str, is_autopilot: bool) -> Result<(Zone, Option<[Place; 2]>), String> {
         let table: ZoneTable = toml::from_str(text).map_err(|error| error.to_string())?;
-        let checked = table.check(0.5, is_autopilot);
+        let checked = table.check(&SiteFile::street(), 0.5, is_autopilot);
         checked.map_err(|error| error.to_string())
     }
 
@@ -262,12 +334,55 @@ mod tests {
     }
 
     #[test]
+    fn the_kerbs_of_a_site_are_a_zone() {
+        let (zone, escort) = zone("pavement_m = 2.5", true).unwrap();
+        let (waiting, road) = (zone.waiting.unwrap(), zone.road.unwrap());
+        for (place, waits, is_on_road) in [
+            ([1.0, -2.4], true, false),
+            ([1.0, 9.4], true, false),
+            ([1.0, 3.0], true, true),
+            ([1.0, -2.6], false, false),
+            ([1.0, 9.6], false, false),
+            ([5.1, 3.0], false, false),
+        ] {
+            let found = (waiting.contains(place), road.contains(place));
+            assert_eq!(found, (waits, is_on_road), "{place:?}");
+        }
+        let escort = escort.unwrap().map(|place| (place.east, place.north));
+        assert_eq!(escort, [(1.0, 8.0), (1.0, -1.0)]);
+    }
+
+    #[test]
+    fn kerbs_in_any_direction_enclose_the_road() {
+        let kerb = |a: [f64; 2], b: [f64; 2]| [Place::new(a[0], a[1]), Place::new(b[0], b[1])];
+        let (near, far) = (kerb([0.0, 0.0], [8.0, 8.0]), kerb([-4.0, 4.0], [4.0, 12.0]));
+        let turned = |[a, b]: [Place; 2]| [b, a];
+        for (near, far) in [
+            (near, far),
+            (turned(near), far),
+            (near, turned(far)),
+            (far, near),
+        ] {
+            let road = polygon("road_m", between(near, far, 0.0)).unwrap();
+            assert!((road.size_m2() - 64.0).abs() < 1e-6, "{road:?}");
+            let wide = polygon("polygon_m", between(near, far, 2.0)).unwrap();
+            let width_m = 32.0_f64.sqrt() + 4.0;
+            assert!((wide.size_m2() - width_m * 128.0_f64.sqrt()).abs() < 1e-6);
+        }
+    }
+
+    #[test]
     fn what_is_no_zone_is_refused_by_the_name_of_its_field() {
         let circle = "place_m = [1, -1.5]\nradius_m = 2\n";
         for (text, cause) in [
-            ("", "wants either 'polygon_m', or 'place_m' and 'radius_m'"),
-            ("place_m = [1, 2]", "wants either 'polygon_m'"),
-            ("radius_m = 2", "wants either 'polygon_m'"),
+            ("", "wants one of 'pavement_m', 'polygon_m', and 'place_m'"),
+            ("place_m = [1, 2]", "wants one of 'pavement_m'"),
+            ("radius_m = 2", "wants one of 'pavement_m'"),
+            ("pavement_m = 2\nradius_m = 2", "wants one of 'pavement_m'"),
+            (
+                "pavement_m = 0.1",
+                "pavement_m is 0.1: 0.5 to 20 m is wanted",
+            ),
             (
                 "polygon_m = [[0, 0], [1, 1]]",
                 "polygon_m has 2 corners: 3 to 64 are possible",
