@@ -213,8 +213,12 @@ impl ZoneTable {
 
 /// The area between two kerbs, and so many metres behind them.
 fn between(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
-    let middle =
-        |[a, b]: [Place; 2]| Place::new((a.east + b.east) / 2.0, (a.north + b.north) / 2.0);
+    let middle = |[a, b]: [Place; 2]| {
+        Place::new(
+            f64::midpoint(a.east, b.east),
+            f64::midpoint(a.north, b.north),
+        )
+    };
     let behind = |kerb: [Place; 2], other: [Place; 2]| {
         let [a, b] = kerb;
         let (along_e, along_n) = (b.east - a.east, b.north - a.north);
