@@ -18,6 +18,7 @@ pub mod commands;
 pub mod contact;
 pub mod farewells;
 pub mod lease;
+pub mod liars;
 pub mod lists;
 pub mod news;
 pub mod numbers;

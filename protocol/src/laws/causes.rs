@@ -1,6 +1,6 @@
 //! Laws of causes: an input that is ignored is counted under a cause that is so.
 
-use crate::id::{SessionId, StationId};
+use crate::id::SessionId;
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Rmcm};
 use crate::output::Ignored;
@@ -15,15 +15,6 @@ pub fn all(step: &Taken) {
     commands_before_the_confirmation_are_early(step);
     offers_to_a_leader_are_late(step);
     requests_that_are_known_are_nothing_new(step);
-}
-
-fn sender(input: &Input) -> Option<StationId> {
-    Some(match input {
-        Input::Ram { ram, .. } => ram.station,
-        Input::Rmcm(Rmcm::Command(command)) => command.session.leader,
-        Input::Rmcm(Rmcm::Answer(answer)) => answer.from,
-        _ => return None,
-    })
 }
 
 /// The session that a message is about.
@@ -47,7 +38,7 @@ fn session(input: &Input) -> Option<SessionId> {
 
 /// I18: a message with the robot's own station id, an echo or a namesake's, is ignored as that.
 pub fn only_the_robots_own_messages_are_its_own(step: &Taken) {
-    let is_own = sender(&step.input) == Some(step.before.station());
+    let is_own = step.sender() == Some(step.before.station());
     assert!((step.said.ignored == Some(Ignored::OwnStation)) == is_own);
 }
 
@@ -108,7 +99,7 @@ pub fn the_cause_is_so(step: &Taken) {
         Some(Ignored::NotAFollower) => {
             let station = match *input {
                 Input::Local(Event::CommandManeuver { follower, .. }) => Some(follower),
-                _ => sender(input),
+                _ => step.sender(),
             };
             let member = station.and_then(|s| leading(before).and_then(|l| l.member(s)));
             assert!(member.is_none());

@@ -15,7 +15,7 @@ use crate::time::Millis;
 use super::arithmetic::{age_ms, beat_is_newer, request_is_newer};
 use super::taken::{Taken, executing, following, is_listed, leading, own_number};
 use super::watch::{Sort, is_open};
-use super::{causes, commands, contact, farewells, news, offers, requests, road, times};
+use super::{causes, commands, contact, farewells, liars, news, offers, requests, road, times};
 
 /// All laws of one step.
 pub fn all(config: &Config, step: &Taken) {
@@ -39,6 +39,7 @@ pub fn all_but_validity(config: &Config, step: &Taken) {
     leases_count_from_the_echoed_heartbeat(config, step);
     farewells_name_what_was_left(step);
     causes::all(step);
+    liars::all(step);
     commands::all(config, step);
     contact::all(config, step);
     farewells::all(step);

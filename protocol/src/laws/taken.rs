@@ -1,9 +1,9 @@
 //! One step, as the laws read it.
 
 use crate::config::Config;
-use crate::id::{OfferNumber, SessionId, UniqueNumber};
+use crate::id::{OfferNumber, SessionId, StationId, UniqueNumber};
 use crate::input::Input;
-use crate::message::Coordination;
+use crate::message::{Coordination, Rmcm};
 use crate::output::Maneuver;
 use crate::state::{Following, Leading, Phase, Requesting, Robot};
 
@@ -35,6 +35,16 @@ impl Taken {
             said,
             after,
         }
+    }
+
+    /// The station that sent the message which is the input.
+    pub(super) const fn sender(&self) -> Option<StationId> {
+        Some(match &self.input {
+            Input::Ram { ram, .. } => ram.station,
+            Input::Rmcm(Rmcm::Command(command)) => command.session.leader,
+            Input::Rmcm(Rmcm::Answer(answer)) => answer.from,
+            _ => return None,
+        })
     }
 
     /// Whether the input was ignored.
