@@ -109,10 +109,13 @@ fn a_body_at_its_port_guards_by_a_plan_of_the_kit_and_its_silence_stops_the_robo
         ..Command::default()
     };
     commands.publish(&detect).unwrap();
-    let told = duties.until("a maneuver", |it| it.kind == Event::START_MANEUVER);
-    assert_eq!(told.last().unwrap().task.r#type, Task::BLOCK);
+    duties.until("the maneuver of a guard", |it| {
+        it.kind == Event::START_MANEUVER && it.task.r#type == Task::BLOCK
+    });
     corridor.until("an open corridor", |it| it.open);
-    news.until("the end", |it| it.kind == Event::SESSION_ENDED);
+    let ended = news.until("the end", |it| it.kind == Event::SESSION_ENDED);
+    let text = &ended.last().unwrap().text;
+    assert!(text.contains("task completed"), "{text}");
     status.until("idle again", |it| it.state == Status::STATE_IDLE);
 
     drop(walking);
