@@ -6,10 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <set>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "crossguard_msgs.h"
 #include "dds/dds.h"
@@ -74,6 +73,8 @@ public:
     const auto made = checked(dds_create_topic(participant, &type<Message>(), topic.c_str(), nullptr, nullptr), topic);
     writer_ = checked(dds_create_writer(participant, made, plain.get(), nullptr), topic);
   }
+  // Waits until the readers that are there have taken all of it, for this long at most.
+  void settle(dds_duration_t at_most) const { (void)dds_wait_for_acks(writer_, at_most); }
   // Whether it was taken.
   bool write(const Message &message) const { return dds_write(writer_, &message) == DDS_RETCODE_OK; }
   // Whether the participant with this handle has a reader of it.
@@ -129,45 +130,6 @@ public:
 
 private:
   dds_entity_t reader_;
-};
-
-// Writers or readers at topics of ours whose type is another one: they never match, and nothing else would say so.
-class Strangers {
-public:
-  Strangers(dds_entity_t participant, dds_entity_t builtin_topic)
-      : reader_{checked(dds_create_reader(participant, builtin_topic, nullptr, nullptr), "built-in topic")} {}
-
-  // What is wrong with each that is new, by what this topic wants.
-  template <class Complain> void look(const std::string &topic, const char *wanted, Complain complain) {
-    seek(wanted, topic, complain);
-  }
-
-  // Takes in who has come and gone.
-  void refresh() {
-    std::array<void *, 32> loaned{};
-    std::array<dds_sample_info_t, 32> infos;
-    const auto count = dds_take(reader_, loaned.data(), infos.data(), loaned.size(), loaned.size());
-    for (dds_return_t nth = 0; nth < count; ++nth) {
-      const auto at = static_cast<std::size_t>(nth);
-      if (!infos[at].valid_data || infos[at].instance_state != DDS_IST_ALIVE) continue;
-      const auto &endpoint = *static_cast<const dds_builtintopic_endpoint_t *>(loaned[at]);
-      found_.push_back({endpoint.topic_name, endpoint.type_name});
-    }
-    if (count > 0) (void)dds_return_loan(reader_, loaned.data(), count);
-  }
-  void forget() { found_.clear(); }
-
-private:
-  struct Found {
-    std::string topic, type;
-  };
-  dds_entity_t reader_;
-  std::vector<Found> found_;
-
-  template <class Complain> void seek(const char *wanted, const std::string &topic, Complain complain) const {
-    for (const Found &it : found_)
-      if (it.topic == topic && it.type != wanted) complain(it.type);
-  }
 };
 
 } // namespace ros
