@@ -87,9 +87,11 @@ std::string Node::topic(const char *name) const {
 }
 
 void Node::count(const std::string &cause, const std::string &more) {
-  ++counters_[cause];
+  const std::uint64_t times = ++counters_[cause];
   ++dropped_;
-  std::cerr << cause << (more.empty() ? "" : ": ") << more << std::endl;
+  // Diagnostics have them all; who floods this node fills no log with it.
+  if ((times & (times - 1)) == 0)
+    std::cerr << cause << (more.empty() ? "" : ": ") << more << std::endl;
 }
 
 bool Node::run() {
