@@ -1,16 +1,17 @@
 """An application of the node on DDS that moves a body: body.py DOMAIN NAMESPACE EAST NORTH TIMES_FASTER. It walks where
-events say, and tells by poses where it is."""
+events say, tells by poses where it is, and stands still when the node is silent."""
 import math
 import sys
 import time
 
-from ros import Command, Event, PoseStamped, Ros, Task
+from ros import Command, Corridor, Event, PoseStamped, Ros, Task
 
 domain, space, east, north, faster = int(sys.argv[1]), sys.argv[2], *map(float, sys.argv[3:])
 ros, node = Ros(domain), f"{space}/crossguard"
-events = ros.hear(Event, f"{node}/event")
+events, beats = ros.hear(Event, f"{node}/event"), ros.hear(Corridor, f"{node}/corridor")
 poses, commands = ros.publisher(PoseStamped, f"{node}/pose"), ros.publisher(Command, f"{node}/command")
-place, begin, target, speed, done, last = (east, north), (east, north), None, 0.0, None, time.monotonic()
+place, begin, target, speed, done = (east, north), (east, north), None, 0.0, None
+last = heard = time.monotonic()
 while True:
     for event in events.new():
         target_of_event = (event.target.x, event.target.y) if event.has_target else place
@@ -26,6 +27,9 @@ while True:
             # Nobody is on this road.
             target, done = min(ends, key=lambda it: math.dist(it, place)), Command.of(kind=Command.ROAD_CLEAR)
     now = time.monotonic()
+    heard = now if beats.new() else heard
+    if now - heard > 0.5:  # nobody commands it any more
+        target = done = None
     if target:
         step, way = (now - last) * speed * faster, math.dist(place, target)
         place = target if way <= step else tuple(a + (b - a) * step / way for a, b in zip(place, target))

@@ -14,7 +14,7 @@ from pathlib import Path
 from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
 from cyclonedds.qos import Policy, Qos
 from cyclonedds.util import duration
-from ros import (DEFAULT, PATIENCE, Command, Corridor, DiagnosticArray, Event, PoseStamped, Ros, Session, Status, Task,
+from ros import (ALL, DEFAULT, PATIENCE, Command, Corridor, DiagnosticArray, Event, PoseStamped, Ros, Session, Status, Task,
                  matched)
 
 NODE, CROSSGUARD = (str(Path(it).resolve()) for it in sys.argv[1:3])
@@ -200,22 +200,19 @@ def lose_the_body_of_a_follower(stack, how):
     else:
         street.body.send_signal(signal.SIGCONT)
     # The body is heard, and the stop stands until a person says otherwise.
-    until("poses", lambda: street.ros is not None and heard_pose(street))
-    late = street.status.until("a second", lambda it: it.availability == Status.EMERGENCY_STOP)
-    assert late[-1].availability == Status.EMERGENCY_STOP
+    walk = street.ros.hear(PoseStamped, "/go2/crossguard/pose")
+    walk.until("poses", lambda it: True)
+    street.status.messages = []
+    street.status.new()
+    # Of the next two seconds.
+    later = [street.status.until("a status", lambda it: True)[-1].availability for _ in range(3)]
+    assert set(later) == {Status.EMERGENCY_STOP}, later
     street.command(Command.SET_AVAILABILITY, availability=Status.AVAILABLE)
     street.status.until("available", lambda it: it.availability == Status.AVAILABLE)
     time.sleep(1.0)  # longer than a silence: a stop would come again by now
     assert {it.availability for it in street.status.new()} <= {Status.AVAILABLE}
     street.command(Command.ROAD_CLEAR)
     street.end()
-
-
-def heard_pose(street):
-    """Whether the body's poses come."""
-    if not hasattr(street, "walks"):
-        street.walks = street.ros.hear(PoseStamped, f"{street.space}/crossguard/pose")
-    return street.walks.new()
 
 
 def a_body_that_is_killed_is_an_emergency_stop(stack):
@@ -257,6 +254,33 @@ def a_node_that_was_held_says_nothing_old(stack):
     street.end()
 
 
+def a_body_stands_when_the_node_is_killed(stack):
+    street = Street(stack, leads=False, faster=0.25)
+    street.type("wait 1.5\ndetect\n")
+    street.events.until("its way", lambda it: it.kind == Event.START_MANEUVER)
+    poses = street.ros.hear(PoseStamped, "/go2/crossguard/pose")
+    walk = poses.until("a pose", lambda it: True)
+    poses.until("a step", lambda it: it.pose.position != walk[-1].pose.position)
+    street.node.kill()
+    last = []
+
+    def stands():
+        last.extend(it.pose.position for it in poses.new())
+        # Nine poses in a row: a quarter of a second.
+        return len(last) > 9 and all(it == last[-1] for it in last[-9:])
+
+    until("the body to stand", stands)
+    # It stopped on its way.
+    assert abs(last[-1].y - 8.0) > 1.0, last[-1]
+
+
+def is_heard(street, commands):
+    """Whether the node hears this writer already: it matches later than the writer does."""
+    commands.write(Command.of(kind=98))
+    time.sleep(0.1)
+    return any("kind 98" in it.text for it in street.events.new())
+
+
 def counted(diagnostics, cause):
     for status in diagnostics.status:
         for it in status.values:
@@ -286,11 +310,18 @@ def what_is_wrong_is_refused_in_words_and_counted(stack):
         street.commands.write(command)
         came = street.events.until(text, lambda it: it.kind == Event.COMMAND_REFUSED)[-1]
         assert text in came.text, came
+    # None of many in one breath is lost, as when a team is ordered about.
+    many = street.ros.publisher(Command, "/go2/crossguard/command", ALL)
+    matched(many)
+    until("the node's match", lambda: is_heard(street, many))
+    for kind in range(100, 140):
+        many.write(Command.of(kind=kind))
+    missing = {f"kind {kind} is no command" for kind in range(100, 140)}
+    until("all", lambda: missing.difference_update(it.text for it in street.events.new()) or not missing)
     # What changes nothing is said, too.
+    street.diagnostics.until("counts", lambda it: counted(it, "ros: impossible command") >= len(wrong) + 40)
     street.commands.write(Command.of(kind=Command.DONE, session=session, request=3))
     street.events.until("a reason", lambda it: it.kind == Event.COMMAND_IGNORED and "reason" in it.text)
-    street.diagnostics.until("counts", lambda it: counted(it, "ros: impossible command") == len(wrong))
-
     # A second body, while there is one; here it is this process, which hears events.
     pose = PoseStamped.of()
     pose.pose.orientation.w = 1.0
@@ -382,6 +413,7 @@ def main():
         a_body_that_hangs_is_an_emergency_stop,
         the_corridor_closes_when_the_leaders_application_is_killed,
         a_node_that_was_held_says_nothing_old,
+        a_body_stands_when_the_node_is_killed,
         what_is_wrong_is_refused_in_words_and_counted,
     ]
     wanted = sys.argv[3:]

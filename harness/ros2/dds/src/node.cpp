@@ -24,6 +24,8 @@ constexpr auto status_period = 1s;
 constexpr auto pose_lasts = 1s;
 constexpr auto farewell = 3s;
 constexpr std::size_t packets_at_a_time = 64;
+// An application may order all followers in one breath.
+constexpr int commands_at_a_time = 100;
 
 std::uint64_t unix_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -72,7 +74,7 @@ Node::Node(const Options &options, dds_entity_t participant, crossguard::Robot r
     : options_{options}, link_{link}, robot_{std::move(robot)},
       corridor_{participant, topic("corridor"), newest(300ms)}, status_{participant, topic("status"), newest(2s)},
       event_{participant, topic("event"), depth(100)}, diagnostics_{participant, "rt/diagnostics", depth(10)},
-      commands_{participant, topic("command"), depth(10), bell_.listener()},
+      commands_{participant, topic("command"), depth(commands_at_a_time), bell_.listener()},
       poses_{participant, topic("pose"), sensor, bell_.listener()} {
   if (!options.log.empty()) log_.open(options.log);
   crossguard::Body &body = turn_.body();
