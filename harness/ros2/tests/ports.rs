@@ -124,6 +124,9 @@ fn a_body_at_its_port_guards_by_a_plan_of_the_kit_and_its_silence_stops_the_robo
     });
     // The port is closed with the robot, and opened again with it.
     assert!(lifecycle.set("deactivate"));
+    // The next activation begins the log anew.
+    let text = std::fs::read_to_string(log).unwrap();
+    assert!(was_at(&text, 48.5, [6.0, 8.2]) && was_at(&text, 48.5, [6.0, 5.0]));
     assert!(lifecycle.set("activate"));
     let _walking = body(port, [6.0, 8.2]);
     status.until("another body", |it| {
@@ -131,8 +134,6 @@ fn a_body_at_its_port_guards_by_a_plan_of_the_kit_and_its_silence_stops_the_robo
     });
     leading.stop().unwrap();
     guarding.stop().unwrap();
-    let text = std::fs::read_to_string(log).unwrap();
-    assert!(was_at(&text, 48.5, [6.0, 8.2]));
 }
 
 #[test]
