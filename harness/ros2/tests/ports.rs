@@ -159,3 +159,23 @@ fn a_plan_that_is_not_there_and_two_who_move_the_body_are_refused_in_words() {
         assert!(error.contains(cause), "{error}");
     }
 }
+
+#[test]
+fn a_robot_whose_body_port_is_taken_is_not_activated_and_takes_no_boot_counter() {
+    let folder = tempfile::tempdir().unwrap();
+    let (first, port) = (free_endpoint(), free_tcp_port());
+    let [_, guard] = robots(folder.path(), port);
+    let running = node(meeting(&first, &[]), "/guard", guard);
+    let observer = Observer::at(&meeting("tcp/127.0.0.1:0", &[&first]));
+    let lifecycle = observer.lifecycle("/guard");
+    assert_eq!(lifecycle.get(), "unconfigured");
+    assert!(lifecycle.set("configure"));
+    let taken = std::net::TcpListener::bind(("127.0.0.1", port)).unwrap();
+    assert!(!lifecycle.set("activate"));
+    assert_eq!(lifecycle.get(), "inactive");
+    assert!(!folder.path().join("ARI-2.boot").exists());
+    drop(taken);
+    assert!(lifecycle.set("activate"));
+    assert!(folder.path().join("ARI-2.boot").exists());
+    running.stop().unwrap();
+}
