@@ -15,7 +15,7 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 10] = [
+const GENERATED: [Generated; 11] = [
     Generated {
         path: "protocol/src/task.rs: the named tasks, in other languages",
         by: "cargo test -p crossguard-testkit --test named_tasks",
@@ -35,6 +35,10 @@ const GENERATED: [Generated; 10] = [
     Generated {
         path: "harness/c/include/crossguard.h",
         by: "cargo test -p crossguard-c --test header",
+    },
+    Generated {
+        path: "harness/ros2/dds/crossguard_msgs.idl",
+        by: "cargo test -p crossguard-ros2 --test dds_idl",
     },
     Generated {
         path: "model-check/doc/paper-literal.md",

@@ -88,11 +88,11 @@ impl Acts {
         Box::new(move |act| acts.hand_on(act.into()))
     }
 
-    /// What hears all other acts, and those of the body too where that is `simulated`.
-    pub(crate) fn listener(&self, simulated: bool) -> Listener {
+    /// What hears all other acts, and those of the body too where no other node moves it (`of_body_too`).
+    pub(crate) fn listener(&self, of_body_too: bool) -> Listener {
         let acts = self.clone();
         Listener(Box::new(move |act| {
-            if simulated || !is_of_body(act) {
+            if of_body_too || !is_of_body(act) {
                 acts.tell(act);
             }
         }))

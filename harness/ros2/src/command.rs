@@ -76,9 +76,9 @@ pub enum Refused {
     /// No battery is as full as that.
     #[error("percentage {0} of the battery: 0 to 1, or NaN where it is not known, are wanted")]
     Battery(f32),
-    /// The body is a simulated one.
-    #[error("the body is simulated; --body external takes poses")]
-    Simulated,
+    /// The body is moved by no other node.
+    #[error("the body is simulated or at its port; --body external takes poses")]
+    NotExternal,
     /// There is no robot to tell it.
     #[error("the node is {0}; it takes commands when it is active")]
     NotActive(&'static str),
@@ -90,7 +90,7 @@ impl Refused {
     pub const fn cause(&self) -> &'static str {
         match self {
             Self::NotActive(_) => "ros: not active",
-            Self::Frame(_) | Self::Orientation | Self::Simulated => "ros: impossible pose",
+            Self::Frame(_) | Self::Orientation | Self::NotExternal => "ros: impossible pose",
             Self::Battery(_) => "ros: impossible battery",
             Self::People(_) | Self::Person(_) => "ros: impossible person",
             _ => "ros: impossible command",
@@ -113,8 +113,8 @@ pub fn order(command: &Command, site: &Site, body: BodyKind) -> Result<Order, Re
             }));
         }
         Command::IN_POSITION => Event::InPosition(maneuver(command)),
-        // Of a simulated body the robot itself knows when it has finished its fallback.
-        Command::ROAD_CLEAR if body == BodyKind::Simulated => return Ok(Order::Clear),
+        // Of a body that is simulated or at its port, the robot itself knows when it has finished its fallback.
+        Command::ROAD_CLEAR if body == BodyKind::Configured => return Ok(Order::Clear),
         Command::ROAD_CLEAR => Event::RoadClear,
         Command::DONE => Event::ManeuverCompleted(maneuver(command)),
         Command::FAIL => Event::ManeuverFailed(maneuver(command)),

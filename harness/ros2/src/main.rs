@@ -22,6 +22,13 @@ struct Arguments {
     /// The robot's configuration, as 'crossguard run' takes it; read when the node is configured.
     #[arg(long, value_name = "FILE")]
     config: PathBuf,
+    /// The site, instead of that of the configuration; see 'crossguard site'.
+    #[arg(long, value_name = "FILE")]
+    site: Option<PathBuf>,
+    /// What the robot does when it leads, instead of the configured plan: a file, or the name of one that comes with
+    /// the kit, like bilateral or trio.
+    #[arg(long, value_name = "FILE|NAME")]
+    plan: Option<PathBuf>,
     /// The ROS domain.
     #[arg(long, env = "ROS_DOMAIN_ID", default_value_t = 0)]
     domain: u32,
@@ -52,8 +59,9 @@ struct Arguments {
     /// Write the robot's log to this file, one JSON object per line; every activation begins it anew.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
-    /// Who moves the body: nobody, it is simulated, or other nodes, by ~/event, ~/pose and ~/command.
-    #[arg(long, value_enum, default_value_t = BodyKind::Simulated)]
+    /// Who moves the body: as 'crossguard run' has it, a process at the port of the table [body] or else nobody, it is
+    /// simulated; or other nodes, by ~/event, ~/pose and ~/command.
+    #[arg(long, value_enum, default_value_t = BodyKind::Configured)]
     body: BodyKind,
     /// Seed of the gait of the simulated body.
     #[arg(long, default_value_t = 1)]
@@ -130,6 +138,8 @@ fn options(arguments: Arguments) -> Result<Options, String> {
         name: name.map_err(|error| error.to_string())?,
         robot: Robot {
             config: arguments.config,
+            site: arguments.site,
+            plan: arguments.plan,
             log: arguments.log,
             security: arguments.security,
             pki: arguments.pki,

@@ -317,8 +317,8 @@ impl Turn {
     fn pose(&mut self, message: PoseStamped) {
         let before = self.pose_before.take();
         let done = self.commanded().and_then(|(active, _)| {
-            if self.robot.body == BodyKind::Simulated {
-                return Err(command::Refused::Simulated);
+            if self.robot.body == BodyKind::Configured {
+                return Err(command::Refused::NotExternal);
             }
             active.order(Order::Moved(command::pose(&message, before.as_ref())?));
             Ok(())
@@ -397,7 +397,7 @@ impl Turn {
     }
 
     fn configure(&mut self) -> Result<(), NoRobot> {
-        let file = RobotFile::read(&self.robot.config)?;
+        let file = self.robot.file()?;
         self.reporter = Some(Self::reporter(&file));
         self.file = Some(file);
         Ok(())

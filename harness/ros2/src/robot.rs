@@ -15,7 +15,7 @@ use crossguard_robot::body::Body;
 use crossguard_robot::boot::{self, BootError};
 use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_robot::pki::{self, PkiError};
-use crossguard_robot::robot_file::{RobotFile, RobotFileError};
+use crossguard_robot::robot_file::{Besides, RobotFile, RobotFileError};
 use crossguard_robot::runtime::{Clock, Order, Running};
 use crossguard_robot::trace::{self, Record};
 use crossguard_robot::transport::{LinkError, Reopening, Transport};
@@ -30,6 +30,10 @@ const PSEUDONYM_PERIOD_MS: u64 = 300_000;
 pub struct Robot {
     /// The configuration, as `crossguard run` takes it.
     pub config: PathBuf,
+    /// The site, instead of that of the configuration.
+    pub site: Option<PathBuf>,
+    /// What it does when it leads, instead of the configured plan: a file, or the name of one that comes with the kit.
+    pub plan: Option<PathBuf>,
     /// Where the log goes, if anywhere: one JSON object per line. Every activation begins it anew.
     pub log: Option<PathBuf>,
     /// Whether packets are signed, and those of others verified.
@@ -45,9 +49,10 @@ pub struct Robot {
 /// Who moves a body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
 pub enum BodyKind {
-    /// It is simulated here: it walks where maneuvers lead and finishes them.
+    /// As `crossguard run` has it: another process at the port of the table `[body]`, if the configuration has one,
+    /// and simulated otherwise.
     #[default]
-    Simulated,
+    Configured,
     /// Others move it, by what `~/event` says, and tell where it is on `~/pose` and when a maneuver ends on
     /// `~/command`.
     External,
@@ -59,6 +64,20 @@ pub enum NoRobot {
     /// Its configuration cannot be used.
     #[error(transparent)]
     Configuration(#[from] RobotFileError),
+    /// Two are to move the body.
+    #[error(
+        "--body external and the table [body] of {}: one of them is wanted; without --body the body connects at the \
+         port of that table", .0.display()
+    )]
+    TwoBodies(PathBuf),
+    /// The port of its body cannot be opened.
+    #[error("[body] {address}: {cause}")]
+    BodyPort {
+        /// Where the body would connect.
+        address: String,
+        /// Why.
+        cause: std::io::Error,
+    },
     /// There is no boot counter.
     #[error(transparent)]
     Boot(#[from] BootError),
@@ -91,6 +110,21 @@ pub(crate) struct Active {
     log: Option<JoinHandle<()>>,
 }
 
+impl Robot {
+    /// Its configuration, with the site and the plan that are said beside it, as `crossguard run` reads them.
+    pub(crate) fn file(&self) -> Result<RobotFile, NoRobot> {
+        let besides = Besides {
+            site_file: self.site.as_deref(),
+            plan_file: self.plan.as_deref(),
+        };
+        let file = RobotFile::read_with(&self.config, besides)?;
+        match (self.body, &file.body_port) {
+            (BodyKind::External, Some(_)) => Err(NoRobot::TwoBodies(self.config.clone())),
+            _ => Ok(file),
+        }
+    }
+}
+
 impl Active {
     /// Has the robot of `file` be there, whose acts go to `acts`. Its records come out of the queue,
     /// which ends with it.
@@ -110,14 +144,18 @@ impl Active {
                 Some(write_log(path, records)?)
             }
         };
-        // The counter is taken last, when nothing else can go wrong, and before anything is sent.
-        let boot = boot::take(&file.boot_file)?;
         let body: Box<dyn Body> = match robot.body {
-            BodyKind::Simulated => Box::new(file.body(robot.seed)),
+            BodyKind::Configured => file.body_or_port(robot.seed).map_err(|cause| {
+                let port = file.body_port.as_ref();
+                let address = port.map_or_else(String::new, |port| port.address.to_string());
+                NoRobot::BodyPort { address, cause }
+            })?,
             BodyKind::External => Box::new(file.external_body(acts.driver())),
         };
+        // The counter is taken last, when nothing else can go wrong, and before anything is sent.
+        let boot = boot::take(&file.boot_file)?;
         let mut setup = file.setup(boot, body, security, link, journal);
-        let listener = acts.listener(robot.body == BodyKind::Simulated);
+        let listener = acts.listener(robot.body == BodyKind::Configured);
         setup.application = setup.application.heard_by(listener);
         let clock = setup.clock;
         let running = setup.start();

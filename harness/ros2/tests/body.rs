@@ -9,7 +9,7 @@ use crossguard_ros2::msgs::{Command, Event, Status};
 use crossguard_ros2::qos::Qos;
 use crossguard_ros2::robot::BodyKind;
 use crossguard_ros2::standard::PoseStamped;
-use support::{Observer, free_endpoint, meeting, node, robot, two_free_ports};
+use support::{Observer, free_endpoint, meeting, node, robot, two_free_ports, was_at};
 
 fn end_of(start: &Event) -> Command {
     Command {
@@ -86,21 +86,5 @@ fn a_follower_with_a_body_of_its_own_helps_a_pedestrian_across() {
     leading.stop().unwrap();
     following.stop().unwrap();
     let (text, place) = (std::fs::read_to_string(log).unwrap(), last.unwrap().target);
-    assert!(was_at(&text, [3.0, 4.0]) && was_at(&text, [place.x, place.y]));
-}
-
-/// Whether the robot told others that it was there, by the RAM in its log.
-fn was_at(log: &str, [east, north]: [f64; 2]) -> bool {
-    use crossguard_judge::facts::{Fact, Observer};
-    use crossguard_robot::site::{Place, Site};
-    let mut observer = Observer::default();
-    let records = log.lines().map(|line| serde_json::from_str(line).unwrap());
-    let facts = records.flat_map(|record| observer.take(&record));
-    let places = facts.filter_map(|fact| match fact {
-        Fact::Place(placed) => Some(Site::default().place(placed.latitude, placed.longitude)),
-        _ => None,
-    });
-    places
-        .into_iter()
-        .any(|it| it.distance(Place::new(east, north)) < 0.1)
+    assert!(was_at(&text, 49.0101, [3.0, 4.0]) && was_at(&text, 49.0101, [place.x, place.y]));
 }

@@ -95,7 +95,7 @@ fn the_end_of_a_maneuver_names_it() {
 fn who_moves_a_body_says_that_it_has_finished_and_the_road_is_clear() {
     let clear = of(Command::ROAD_CLEAR);
     assert_eq!(told(&clear), Ok(Event::RoadClear));
-    let simulated = order(&clear, &Site::default(), BodyKind::Simulated);
+    let simulated = order(&clear, &Site::default(), BodyKind::Configured);
     assert!(matches!(simulated, Ok(Order::Clear)));
 }
 
@@ -111,7 +111,7 @@ fn a_detection_is_at_the_crossing_of_the_site_unless_it_names_another() {
             place,
             ..of(Command::DETECT)
         };
-        let ordered = order(&detect, &site, BodyKind::Simulated);
+        let ordered = order(&detect, &site, BodyKind::Configured);
         let Ok(Order::Wish(Wish::Tell(Event::PedestrianDetected(request)))) = ordered else {
             panic!("{ordered:?}")
         };
@@ -138,7 +138,7 @@ fn an_order_may_lead_somewhere_at_some_speed() {
         follower,
         task,
         parameters,
-    })) = order(&command, &site, BodyKind::Simulated)
+    })) = order(&command, &site, BodyKind::Configured)
     else {
         panic!()
     };
@@ -167,7 +167,7 @@ fn an_order_names_the_place_of_the_map_that_it_says_or_that_of_the_site() {
             map_place: text.to_owned(),
             ..of(Command::ORDER)
         };
-        let ordered = order(&command, &site, BodyKind::Simulated);
+        let ordered = order(&command, &site, BodyKind::Configured);
         let Ok(Order::Wish(Wish::Order { parameters, .. })) = ordered else {
             panic!("{ordered:?}")
         };
@@ -183,7 +183,7 @@ fn a_robot_can_be_told_what_it_shows() {
         signal_means: Command::MEANS_GESTURE | Command::MEANS_SPEECH,
         ..of(Command::SHOW)
     };
-    let ordered = order(&show, &Site::default(), BodyKind::Simulated);
+    let ordered = order(&show, &Site::default(), BodyKind::Configured);
     let Ok(Order::Show(signals)) = ordered else {
         panic!("{ordered:?}")
     };

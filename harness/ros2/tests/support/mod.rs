@@ -25,6 +25,12 @@ pub fn two_free_ports() -> [u16; 2] {
     sockets.map(|socket| socket.local_addr().unwrap().port())
 }
 
+/// A TCP port on 127.0.0.1 that is free.
+pub fn free_tcp_port() -> u16 {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    listener.local_addr().unwrap().port()
+}
+
 /// An endpoint of zenoh on 127.0.0.1 that is free.
 pub fn free_endpoint() -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
@@ -39,7 +45,9 @@ pub fn robot(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> R
         log: Some(folder.join(format!("{name}.jsonl"))),
         security: Mode::Off,
         pki: None,
-        body: BodyKind::Simulated,
+        site: None,
+        plan: None,
+        body: BodyKind::Configured,
         seed: 1,
     }
 }
@@ -164,4 +172,24 @@ impl Lifecycle {
             std::thread::sleep(Duration::from_millis(20));
         }
     }
+}
+
+/// Whether the robot told others that it was there, by the RAM in its log; the site's origin is at this latitude.
+pub fn was_at(log: &str, latitude: f64, [east, north]: [f64; 2]) -> bool {
+    use crossguard_judge::facts::{Fact, Observer};
+    use crossguard_robot::site::{Place, Site};
+    let site = Site {
+        latitude,
+        ..Site::default()
+    };
+    let mut observer = Observer::default();
+    let records = log.lines().map(|line| serde_json::from_str(line).unwrap());
+    let facts = records.flat_map(|record| observer.take(&record));
+    let places = facts.filter_map(|fact| match fact {
+        Fact::Place(placed) => Some(site.place(placed.latitude, placed.longitude)),
+        _ => None,
+    });
+    places
+        .into_iter()
+        .any(|it| it.distance(Place::new(east, north)) < 0.1)
 }

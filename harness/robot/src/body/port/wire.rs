@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// Longest line of a body, in octets.
@@ -100,12 +101,20 @@ enum Bound {
 pub(super) struct Listening {
     pub(super) heard: Receiver<Heard>,
     stop: Arc<AtomicBool>,
+    accepting: Option<JoinHandle<()>>,
     path: Option<PathBuf>,
 }
 
 impl Drop for Listening {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
+        // The address is free when this returns: a robot that is started again takes it.
+        while let Some(accepting) = self.accepting.take_if(|it| !it.is_finished()) {
+            // It may wait for room.
+            while self.heard.try_recv().is_ok() {}
+            std::thread::sleep(Duration::from_millis(1));
+            self.accepting = Some(accepting);
+        }
         if let Some(path) = &self.path {
             // Another start removes it as well.
             let _ = std::fs::remove_file(path);
@@ -136,12 +145,19 @@ pub(super) fn listen(address: &PortAddress) -> std::io::Result<Listening> {
     let (tell, heard) = sync_channel(LINES);
     let stop = Arc::new(AtomicBool::new(false));
     let stopped = Arc::clone(&stop);
-    std::thread::spawn(move || accept(&listener, &tell, &stopped));
+    let accepting = Some(std::thread::spawn(move || {
+        accept(&listener, &tell, &stopped);
+    }));
     let path = match address {
         PortAddress::Unix(path) => Some(path.clone()),
         PortAddress::Tcp(_) => None,
     };
-    Ok(Listening { heard, stop, path })
+    Ok(Listening {
+        heard,
+        stop,
+        accepting,
+        path,
+    })
 }
 
 fn accept(listener: &Bound, tell: &SyncSender<Heard>, stop: &AtomicBool) {
