@@ -3,6 +3,8 @@
 //! The sender of a message is whoever it names, which holds where packets are signed: a ticket is one station. The sender
 //! may say anything, in any state of the robot. With these laws of one step it is so in runs of any length:
 //!
+//! The page of the verification has times for these.
+//!
 //! | who lies | what it can do | what it cannot do |
 //! |---|---|---|
 //! | a stranger | ask for help or lead at the same place, and by that reserve an idle robot, go before a request or a session, or close its corridor | end a session while people are on the road; start, stop or replace a maneuver; take or give a role in another session; open or extend a corridor; speak for a member |
