@@ -60,11 +60,13 @@ PERIOD_MS = 20
 SIGN = """
 import os, select, time
 until_ms, shows_go, rest = 0, False, b""
+def say(sign):
+    os.write(1, f"sign shows {sign}\\n".encode())
 while True:
     left_ms = until_ms - time.monotonic_ns() // 1_000_000
     if (left_ms > 0) is not shows_go:
         shows_go = left_ms > 0
-        print("sign shows", "go" if shows_go else "stop", flush=True)
+        say("go" if shows_go else "stop")
     if select.select([0], [], [], left_ms / 1_000 if shows_go else None)[0]:
         octets = os.read(0, 4096)
         if not octets:
@@ -72,7 +74,7 @@ while True:
         *orders, rest = (rest + octets).split(b"\\n")
         until_ms = int(orders[-1]) if orders else until_ms
 if shows_go:
-    print("sign shows stop", flush=True)
+    say("stop")
 """
 
 
@@ -276,8 +278,8 @@ class Application:
                 self.wish(events.EpochRenewed(self.boot.renew()))
 
     def say(self, what: str) -> None:
-        """Tells people."""
-        print(what, flush=True)
+        """Tells people. A line is one write: the sign, a process of its own, writes to the same place."""
+        print(f"{what}\n", end="", flush=True)
 
 
 class Follower(Application):
