@@ -3,6 +3,7 @@
 //! Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete, also
 //! when it was told to stop before it was done. Told to stop a second time, it ends at once with 130.
 
+mod bounds;
 mod check;
 mod choices;
 mod codec;
@@ -69,6 +70,8 @@ enum Command {
     Run(run::Arguments),
     /// Check scenarios exhaustively against the properties of the protocol.
     Check(check::Arguments),
+    /// Print how long each response takes at most, with a robot's own settings.
+    Bounds(bounds::Arguments),
     /// Walk through the states of a scenario in a browser.
     Explore(explore::Arguments),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.
@@ -142,6 +145,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Bounds(arguments) => bounds::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
