@@ -32,7 +32,7 @@ use crate::zone::{Watched, Zone};
 
 use self::body::BodyTable;
 pub use self::body::NoBody;
-pub use self::traits::NoTraits;
+pub use self::traits::{NoTraits, job_named};
 use self::traits::{BatteryTable, JobName};
 pub use self::zone::NoZone;
 use self::zone::ZoneTable;

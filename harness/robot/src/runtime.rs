@@ -28,7 +28,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::si::timestamp_its;
-use crossguard_codec::{Battery, Identifiers, SignalsShown};
+use crossguard_codec::{Battery, Identifiers, JobRole, MapPlace, SignalsShown};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
@@ -131,6 +131,10 @@ pub enum Order {
     Battery(Battery),
     /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
     Show(SignalsShown),
+    /// Be there for this job.
+    Job(JobRole),
+    /// Serve this road segment or intersection, or none of a map.
+    Serve(Option<MapPlace>),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -415,6 +419,14 @@ impl Loop {
             }
             Order::Show(signals) => {
                 self.machine.application_mut().show(signals);
+                Stimulus::Time
+            }
+            Order::Job(job) => {
+                self.machine.application_mut().set_job(job);
+                Stimulus::Time
+            }
+            Order::Serve(place) => {
+                self.machine.application_mut().serve(place);
                 Stimulus::Time
             }
             Order::Reset => {

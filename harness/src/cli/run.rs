@@ -21,7 +21,7 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_codec::{Service, SignalsShown};
+use crossguard_codec::{MapPlace, Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_harness::operator::{self, HELP, Line};
@@ -184,7 +184,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         hold: None,
         perceived,
         announced: Announced::default(),
-        shown: BTreeMap::new(),
+        described: BTreeMap::new(),
         missing: 0,
     };
     let name = &file.name;
@@ -264,8 +264,8 @@ struct Console<'a> {
     /// The people that the robot's sensors report, from a file.
     perceived: Option<Feed>,
     announced: Announced,
-    /// What the stations around show to people, as they said last.
-    shown: BTreeMap<StationId, SignalsShown>,
+    /// What the stations around show to people, and what they serve, as they said last.
+    described: BTreeMap<StationId, (Option<SignalsShown>, Option<MapPlace>)>,
     /// How many records did not get into a log, by the robot's own account.
     missing: u64,
 }
@@ -398,12 +398,20 @@ impl Console<'_> {
         if let Some(place) = heard.map_place {
             return Some(format!("station {from} commands at {place}"));
         }
-        let shown = heard.state?.slow?.signals?;
-        if self.shown.len() >= STATIONS && !self.shown.contains_key(from) {
+        let slow = heard.state?.slow?;
+        if self.described.len() >= STATIONS && !self.described.contains_key(from) {
             return None;
         }
-        let is_news = self.shown.insert(*from, shown) != Some(shown);
-        is_news.then(|| format!("station {from} shows {shown}"))
+        let now = (slow.signals, slow.area);
+        let before = self.described.insert(*from, now).unwrap_or_default();
+        let shows = now.0.filter(|_| now.0 != before.0);
+        let serves = now.1.filter(|_| now.1 != before.1);
+        let news = [
+            shows.map(|shown| format!("shows {shown}")),
+            serves.map(|place| format!("serves {place}")),
+        ];
+        let news: Vec<_> = news.into_iter().flatten().collect();
+        (!news.is_empty()).then(|| format!("station {from} {}", news.join(" and ")))
     }
 
     fn type_in(&mut self, text: &str) -> Result<(), Failure> {
