@@ -1,8 +1,11 @@
 //! Secured messages: golden vectors, and everything that must not be believed.
 
+mod costs;
+mod forge;
 mod golden;
 mod hostile;
 mod issuing;
 mod pki;
 mod pseudonyms;
 mod receiving;
+mod vectors;

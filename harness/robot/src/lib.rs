@@ -31,6 +31,7 @@ pub mod capture;
 pub mod channel;
 pub mod journal;
 mod located;
+pub mod lines;
 pub mod machine;
 pub mod observe;
 pub mod perception;

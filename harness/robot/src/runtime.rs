@@ -14,13 +14,17 @@
 //! The loop owns the machine, the sending half of the link, and the journal; nothing is locked. It
 //! waits for nobody but the clock: a link that does not take a packet, and a reader that does not take
 //! a record, lose it, and that is counted. The inbox takes a limited number of datagrams and drops the
-//! newest; orders have places of their own in it, so that a flood does not keep a robot from stopping.
+//! newest; robots in the same session have more places in it, and orders places of their own, so that a flood does not
+//! shut out a heartbeat or keep a robot from stopping.
 //!
 //! A robot that is told to stop leaves its session by name, says so for `T_farewell`, and then ends.
 
 mod epochs;
+mod partners;
 mod reader;
+mod sampler;
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, SyncSender, sync_channel};
@@ -38,6 +42,7 @@ use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
 use self::epochs::Epochs;
 use self::reader::{Reader, Waiting};
+use self::sampler::Sampler;
 use crate::application::{Application, Wish};
 use crate::around::Around;
 use crate::body::Pose;
@@ -52,6 +57,9 @@ use crate::transport::{Arrival, Halves, Sender};
 
 /// How many datagrams may wait.
 const DATAGRAMS: usize = 256;
+
+/// How many datagrams of robots in the same session may wait besides.
+const OF_PARTNERS: usize = 64;
 
 /// How many orders may wait besides, before who gives them has to.
 const ORDERS: usize = 16;
@@ -183,7 +191,7 @@ impl Setup {
     /// Starts the robot in threads of its own.
     #[must_use]
     pub fn start(self) -> Running {
-        let (deliveries, inbox) = sync_channel(DATAGRAMS + ORDERS);
+        let (deliveries, inbox) = sync_channel(DATAGRAMS + OF_PARTNERS + ORDERS);
         let stop = Arc::new(AtomicBool::new(false));
         let waiting = Arc::new(Waiting::default());
         let reader = Reader {
@@ -214,6 +222,7 @@ impl Setup {
             channel: Monitored::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
+            sampler: Sampler::default(),
             stopping: false,
             is_dead: false,
         };
@@ -221,8 +230,14 @@ impl Setup {
         let threads = vec![
             std::thread::spawn(move || reader.run()),
             std::thread::spawn(move || {
-                turn.run(&inbox);
+                let ran = catch_unwind(AssertUnwindSafe(|| turn.run(&inbox)));
+                if ran.is_err() {
+                    turn.halt_body();
+                }
                 stopped.store(true, Ordering::Relaxed);
+                if let Err(panic) = ran {
+                    resume_unwind(panic);
+                }
             }),
         ];
         Running {
@@ -253,20 +268,37 @@ impl Running {
     }
 
     /// Tells the robot to stop and waits until it has said farewell.
-    pub fn stop(self) {
+    ///
+    /// # Errors
+    /// When one of its threads has panicked.
+    pub fn stop(self) -> Result<(), Panicked> {
         self.order(Order::Stop);
-        self.wait();
+        self.wait()
     }
 
     /// Waits until the robot has stopped.
-    pub fn wait(self) {
+    ///
+    /// # Errors
+    /// When one of its threads has panicked.
+    pub fn wait(self) -> Result<(), Panicked> {
         drop(self.orders);
-        for thread in self.threads {
-            // A panic has been printed by its thread; there is nothing to add.
-            let _ = thread.join();
+        // All of them are waited for.
+        let ended: Vec<_> = self.threads.into_iter().map(JoinHandle::join).collect();
+        if ended.iter().any(Result::is_err) {
+            tracing::error!("{Panicked}");
+            return Err(Panicked);
         }
+        Ok(())
     }
 }
+
+/// A robot that ended in the middle of what it did, because of a mistake in the kit or in a body. It has said no
+/// farewell; its body was halted, if it could be, and its leases run out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[error(
+    "a thread of the robot panicked: it ended without a farewell, and its body was halted. Report this with the log"
+)]
+pub struct Panicked;
 
 struct Loop {
     /// When the robot's clock began.
@@ -284,11 +316,21 @@ struct Loop {
     observed: State,
     /// Who the log says is around, and since when.
     around: (Around, u64),
+    /// What is dropped more often than the log takes.
+    sampler: Sampler,
     stopping: bool,
     is_dead: bool,
 }
 
 impl Loop {
+    /// The loop has panicked: nothing that it decided can be relied on, and nobody will tell the body anything more.
+    fn halt_body(&mut self) {
+        let halt = || self.machine.application_mut().stop();
+        if catch_unwind(AssertUnwindSafe(halt)).is_err() {
+            tracing::error!("the body cannot be halted");
+        }
+    }
+
     fn run(&mut self, inbox: &Inbox<Delivery>) {
         let _span = tracing::info_span!("robot", name = self.name).entered();
         let since_ms = self.clock.now_us().saturating_sub(self.began_us) / 1_000;
@@ -325,6 +367,9 @@ impl Loop {
             self.control_congestion();
         }
         self.count_overflow();
+        if let Some(counters) = self.sampler.finish() {
+            self.log(Entry::Unrecorded { counters });
+        }
         let counters = self.machine.endpoint().counters().named();
         let last = self.record(Entry::Stopped { counters });
         self.journal.put_last(last, LAST_RECORD_WAIT);
@@ -484,6 +529,9 @@ impl Loop {
             self.log(Entry::People(sight));
         }
         self.look_around(shown);
+        if let Some(counters) = self.sampler.elapse(shown) {
+            self.log(Entry::Unrecorded { counters });
+        }
     }
 
     /// Says once a second who is on the map.
@@ -506,8 +554,13 @@ impl Loop {
             Effect::Transmit { packet, .. } => Some(packet.clone()),
             _ => None,
         };
-        if matches!(effect, Effect::Act(Act::RenewEpoch)) {
-            self.epochs.ask();
+        match &effect {
+            Effect::Act(Act::RenewEpoch) => self.epochs.ask(),
+            Effect::Stepped { state, .. } => {
+                let identifiers = self.machine.endpoint().identifiers();
+                self.waiting.partners.follow(state, identifiers);
+            }
+            _ => {}
         }
         // What is sent is logged first: no receiver logs it before its sender.
         if let Some(entry) = recorded(effect) {
@@ -530,6 +583,11 @@ impl Loop {
     }
 
     fn log(&mut self, entry: Entry) {
+        if let Entry::Dropped { cause, .. } = &entry
+            && !self.sampler.admits(cause)
+        {
+            return;
+        }
         let record = self.record(entry);
         self.put(record);
     }

@@ -13,7 +13,7 @@
 mod output;
 
 use std::collections::{BTreeMap, VecDeque};
-use std::io::{BufRead, IsTerminal};
+use std::io::IsTerminal;
 use std::net::SocketAddrV4;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -28,6 +28,7 @@ use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::attachment::Sends;
 use crossguard_robot::boot;
+use crossguard_robot::lines::lines;
 use crossguard_robot::perception::{Announced, Feed};
 use crossguard_robot::robot_file::{Besides, RobotFile};
 use crossguard_robot::runtime::{Order, Running};
@@ -199,12 +200,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let outcome = console.attend(&running, &outputs.records, &lines_typed());
     running.order(Order::Stop);
-    running.wait();
+    let ended = running.wait();
     let missing = console.missing;
     drop(console);
     let written = outputs.writings.finish(missing);
     super::finish_capture(capture)?;
     outcome?;
+    if let Err(panicked) = ended {
+        super::complain(panicked);
+        return Err(Failure::Wrong);
+    }
     written
 }
 
@@ -242,7 +247,8 @@ fn open_link(arguments: &Arguments, link: Link) -> Result<(Halves, String), Fail
 fn lines_typed() -> Receiver<String> {
     let (send, lines) = sync_channel(TYPED);
     std::thread::spawn(move || {
-        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+        for line in lines(std::io::stdin().lock()).map_while(Result::ok) {
+            let line = String::from_utf8_lossy(&line).into_owned();
             if send.send(line).is_err() {
                 return;
             }
