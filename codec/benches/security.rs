@@ -168,12 +168,28 @@ fn refuse(criterion: &mut Criterion) {
         ("garbage", &knowing, &garbage),
         ("too old, with a certificate", &knowing, &old),
         ("signer unknown", &scene.new, &scene.by_digest),
-        ("signer unknown, with the forged certificate of an authority", &scene.new, &with_authority),
+        (
+            "signer unknown, with the forged certificate of an authority",
+            &scene.new,
+            &with_authority,
+        ),
         ("replayed", &knowing, &scene.replayed),
         ("a forged certificate", &knowing, &forged_certificate),
-        ("a forged certificate, again", &refused_before, &forged_certificate),
-        ("a wrong signature of a known ticket", &knowing, &wrong_signature),
-        ("a wrong signature of a known ticket, again", &refused_before, &wrong_signature),
+        (
+            "a forged certificate, again",
+            &refused_before,
+            &forged_certificate,
+        ),
+        (
+            "a wrong signature of a known ticket",
+            &knowing,
+            &wrong_signature,
+        ),
+        (
+            "a wrong signature of a known ticket, again",
+            &refused_before,
+            &wrong_signature,
+        ),
     ] {
         assert!(hear(&mut receiver.clone(), now, packet).is_err(), "{name}");
         group.bench_function(name, |bencher| {

@@ -65,8 +65,6 @@ def point_of(odd, x):
 def verifies(key, data, signer, signature):
     """IEEE 1609.2, 5.3.1: what is signed is the digest of the digests of data and of the signer's certificate."""
     r, s = signature
-    if not (0 < r < N and 0 < s < N):
-        return False
     e = int.from_bytes(sha256(sha256(data) + sha256(signer)), "big")
     w = pow(s, -1, N)
     point = add(times(e * w % N, G), times(r * w % N, key))
@@ -109,7 +107,10 @@ class Reader:
 
     def signature(self):
         self.expect(0x80, 0x80)
-        return tuple(int.from_bytes(self.take(32), "big") for _ in range(2))
+        r, s = (int.from_bytes(self.take(32), "big") for _ in range(2))
+        if not (0 < r < N and 0 < s < N):
+            raise Malformed("a signature out of range")
+        return r, s
 
 
 class Certificate:

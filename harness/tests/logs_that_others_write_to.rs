@@ -41,8 +41,7 @@ fn counted_and_recorded(log: &[Value]) -> (u64, u64) {
     let of = |it: &Value| it["packet"].as_object().cloned().unwrap_or_default();
     let counted = of(&log.last().unwrap()["counters"]);
     let counted = counted.values().filter_map(Value::as_u64).sum();
-    let is_recorded =
-        |it: &&Value| it["entry"] == "dropped" && it["layer"] == "packet";
+    let is_recorded = |it: &&Value| it["entry"] == "dropped" && it["layer"] == "packet";
     (counted, log.iter().filter(is_recorded).count() as u64)
 }
 
@@ -107,7 +106,10 @@ fn a_log_is_kept_when_the_next_run_begins_and_a_missing_line_is_noticed() {
         std::fs::write(&path, kept.collect::<String>()).unwrap();
         run(&["validate", path.to_str().unwrap()])
     };
-    for (gone, said) in [(0, "line 1: is not the first"), (3, "line 4: does not follow")] {
+    for (gone, said) in [
+        (0, "line 1: is not the first"),
+        (3, "line 4: does not follow"),
+    ] {
         let refused = without(gone);
         assert_eq!(refused.status.code(), Some(1));
         let said_all = stdout(&refused) + &stderr(&refused);

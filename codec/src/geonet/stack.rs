@@ -9,9 +9,9 @@
 use crossguard_protocol::StationId;
 
 use super::{
-    Address, Admitted, BASIC_LEN, BasicHeader, Destination, Discarded, Duplicates, EgoPosition, Envelope, EnvelopeError,
-    GeonetError, HEADERS_LEN_MAX, Headers, LongPositionVector, NextHeader, PACKET_LEN_MAX, Permits,
-    Request, Signer, Transport,
+    Address, Admitted, BASIC_LEN, BasicHeader, Destination, Discarded, Duplicates, EgoPosition,
+    Envelope, EnvelopeError, GeonetError, HEADERS_LEN_MAX, Headers, LongPositionVector, NextHeader,
+    PACKET_LEN_MAX, Permits, Request, Signer, Transport,
 };
 use crate::identifiers::Identifiers;
 use crate::service::Service;

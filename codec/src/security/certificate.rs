@@ -130,7 +130,10 @@ impl Certificate {
 
     /// The point that signatures of its holder are verified with; `None`, if its key is on no curve.
     pub(super) fn point(&self) -> Option<&Verifying> {
-        let point = self.point.0.get_or_init(|| Verifying::of(&self.content.key));
+        let point = self
+            .point
+            .0
+            .get_or_init(|| Verifying::of(&self.content.key));
         point.as_ref()
     }
 

@@ -121,17 +121,23 @@ impl<'a> SignedMessage<'a> {
     /// What TS 103 097, clause 7.1 wants of a service's header.
     fn check_profile(&self) -> Result<(), Rejected> {
         let header = &self.header;
-        if header.expiry_time.is_some_and(|expiry| expiry <= header.generation_time) {
-            return Err(Rejected::ExpiresBeforeGenerated);
-        }
         let against = match header.its_aid {
             CAM | DENM if header.expiry_time.is_some() => "expiryTime",
             CAM if header.generation_location.is_some() => "generationLocation",
             DENM if header.generation_location.is_none() => "no generationLocation",
             DENM if matches!(self.signer, SignerIdentifier::Digest(_)) => "a digest as signer",
-            _ => return Ok(()),
+            _ => return self.check_expiry(),
         };
         Err(Rejected::AgainstProfile(against))
+    }
+
+    fn check_expiry(&self) -> Result<(), Rejected> {
+        match self.header.expiry_time {
+            Some(expiry) if expiry <= self.header.generation_time => {
+                Err(Rejected::ExpiresBeforeGenerated)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The digest of what is signed.

@@ -33,7 +33,8 @@ impl Place {
     /// `Longitude` of IEEE 1609.2, without their values for unknown).
     #[must_use]
     pub const fn is_on_earth(self) -> bool {
-        self.latitude.unsigned_abs() <= 900_000_000 && self.longitude.unsigned_abs() <= 1_800_000_000
+        self.latitude.unsigned_abs() <= 900_000_000
+            && self.longitude.unsigned_abs() <= 1_800_000_000
     }
 
     /// How far away another place is, in metres along the surface of a sphere: also right for the other side of the
@@ -119,10 +120,8 @@ mod tests {
         assert!((9_990..10_020).contains(&HERE.metres_to(north)));
         assert_eq!(HERE.metres_to(HERE), 0);
         // Across the 180th meridian.
-        let [west, east] = [-1_799_999_999, 1_799_999_999].map(|longitude| Place {
-            longitude,
-            ..HERE
-        });
+        let [west, east] =
+            [-1_799_999_999, 1_799_999_999].map(|longitude| Place { longitude, ..HERE });
         assert!(west.metres_to(east) < 2);
     }
 

@@ -91,7 +91,9 @@ pub enum Rejected {
     #[error("the certificate has extensions that are not known here")]
     CertificateExtension,
     /// The position vector of the packet was made at another time than its envelope.
-    #[error("the position vector of the packet is of another time than its envelope, by {by_ms} ms")]
+    #[error(
+        "the position vector of the packet is of another time than its envelope, by {by_ms} ms"
+    )]
     OtherTime {
         /// How much older the position vector is; negative, if it is newer.
         by_ms: i32,

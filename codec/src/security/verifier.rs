@@ -328,7 +328,8 @@ impl Verifier {
         }
         self.missing.retain(|missing| *missing != id);
         self.signatures += 1;
-        let learnt = Certificate::decode(octets).map(|authority| self.trust.add_authority(authority));
+        let learnt =
+            Certificate::decode(octets).map(|authority| self.trust.add_authority(authority));
         if !matches!(learnt, Ok(Ok(()))) {
             self.untrusted.remember(id);
         }

@@ -4,9 +4,7 @@ use crossguard_codec::security::{
     Issuer, Rejected, Station, Ticket, Tolerances, Validity, issue, issue::Terms,
 };
 
-use crate::pki::{
-    NOW, PAYLOAD, Pki, RAM, after_ms, hear, key, ticket_terms, validity,
-};
+use crate::pki::{NOW, PAYLOAD, Pki, RAM, after_ms, hear, key, ticket_terms, validity};
 
 /// A station whose ticket names the authority of `pki` and was signed by somebody else. Each number has another one.
 fn forger(pki: &Pki, number: u32) -> Station {

@@ -19,8 +19,8 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, SessionId, StateMachine, StationId,
-    TaskType, Timer,
+    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, SessionId, StateMachine,
+    StationId, TaskType, Timer,
 };
 
 pub use self::entitled::NotEntitled;

@@ -105,8 +105,8 @@ mod tests {
 
     use crossguard_codec::geonet::{EgoPosition, Stack};
     use crossguard_codec::{Identifiers, Service};
-    use crossguard_protocol::{Coordination, Event, HelpRequest, Input, Place, Ram, Robot};
     use crossguard_protocol::{Config, Decimetres, Heartbeat, SessionNumber, StationId};
+    use crossguard_protocol::{Coordination, Event, HelpRequest, Input, Place, Ram, Robot};
     use crossguard_protocol::{TaskSet, UniqueNumber, Urgency};
 
     use super::*;

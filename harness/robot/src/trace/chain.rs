@@ -28,7 +28,9 @@ pub enum Unchained {
     #[error("does not follow the line before it: lines in between are missing, or one was changed")]
     Gap,
     /// It has no link.
-    #[error("has no link, and the line before it has one: it was added or changed by another program")]
+    #[error(
+        "has no link, and the line before it has one: it was added or changed by another program"
+    )]
     NoLink,
 }
 

@@ -219,7 +219,9 @@ mod tests {
         };
         write(&path, limits, 0..1_000);
         let files = fs::read_dir(folder.path()).unwrap();
-        let lengths: Vec<_> = files.map(|it| it.unwrap().metadata().unwrap().len()).collect();
+        let lengths: Vec<_> = files
+            .map(|it| it.unwrap().metadata().unwrap().len())
+            .collect();
         assert_eq!(lengths.len(), 4);
         assert!(lengths.iter().all(|length| *length < 2_200), "{lengths:?}");
         let gone = open(&path).err().unwrap().to_string();
@@ -240,10 +242,17 @@ mod tests {
         assert!(older(&path, 3).exists());
         assert!(times(&path).unwrap().into_iter().eq(0..60));
         let second = fs::read_to_string(older(&path, 1)).unwrap();
-        let without: Vec<_> = second.lines().skip(1).map(|line| format!("{line}\n")).collect();
+        let without: Vec<_> = second
+            .lines()
+            .skip(1)
+            .map(|line| format!("{line}\n"))
+            .collect();
         fs::write(older(&path, 1), without.concat()).unwrap();
         let found = times(&path);
-        assert!(matches!(found, Err(Unreadable::Unchained(Unchained::Gap))), "{found:?}");
+        assert!(
+            matches!(found, Err(Unreadable::Unchained(Unchained::Gap))),
+            "{found:?}"
+        );
         fs::remove_file(older(&path, 1)).unwrap();
         let gone = open(&path).err().unwrap();
         assert_eq!(gone.kind(), ErrorKind::NotFound);

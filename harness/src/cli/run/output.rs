@@ -159,7 +159,9 @@ impl Lines {
     fn start(bar: ProgressBar) -> (Self, Writing) {
         let (queue, lines) = sync_channel(LINES);
         let name = "standard output".to_owned();
-        let write = move |to: &mut Stdout, line: &String| bar.suspend(|| writeln!(to, "{}", Printable(line)));
+        let write = move |to: &mut Stdout, line: &String| {
+            bar.suspend(|| writeln!(to, "{}", Printable(line)))
+        };
         let writing = Writing::start(name, lines, std::io::stdout(), write, Stdout::flush);
         let lines = Self { queue, left_out: 0 };
         (lines, writing)
