@@ -230,7 +230,9 @@ impl Verifier {
         let fresh = Time64(now.0.saturating_sub(self.tolerances.age_max_us));
         self.cache
             .remember(&ticket, generated, message.to_be_signed(), fresh);
-        self.vouched.retain(|vouched| vouched.id() != id);
+        if is_new {
+            self.vouched.retain(|vouched| vouched.id() != id);
+        }
         Ok(Verified {
             signer: id,
             ssp,

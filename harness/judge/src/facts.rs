@@ -357,7 +357,7 @@ impl Observer {
             });
         }
         if let Some(reason) = outputs.ignored() {
-            facts.push(self.count(robot, Cause::from(reason).into()));
+            facts.push(self.count(robot, Cause::from(reason).into(), 1));
         }
         facts.extend(self.sign(robot, at_us, outputs));
         facts.extend(self.view(robot, state));

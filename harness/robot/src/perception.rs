@@ -23,6 +23,7 @@ use crossguard_codec::core::cdd::VruClusterInformation;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use serde::Deserialize;
 
+use crate::lines::lines;
 use crate::site::Place;
 
 /// Lines that are read ahead at most.

@@ -28,7 +28,6 @@ use crossguard_harness::operator::{self, HELP, Line};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::attachment::Sends;
 use crossguard_robot::boot;
-use crossguard_robot::lines::lines;
 use crossguard_robot::perception::{Announced, Feed};
 use crossguard_robot::robot_file::{Besides, RobotFile};
 use crossguard_robot::runtime::{Order, Running};
@@ -247,7 +246,7 @@ fn open_link(arguments: &Arguments, link: Link) -> Result<(Halves, String), Fail
 fn lines_typed() -> Receiver<String> {
     let (send, lines) = sync_channel(TYPED);
     std::thread::spawn(move || {
-        for line in lines(std::io::stdin().lock()).map_while(Result::ok) {
+        for line in crossguard_robot::lines::lines(std::io::stdin().lock()).map_while(Result::ok) {
             let line = String::from_utf8_lossy(&line).into_owned();
             if send.send(line).is_err() {
                 return;
