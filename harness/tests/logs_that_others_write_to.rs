@@ -108,7 +108,7 @@ fn a_log_is_kept_when_the_next_run_begins_and_a_missing_line_is_noticed() {
     };
     for (gone, said) in [
         (0, "line 1: is not the first"),
-        (3, "line 4: does not follow"),
+        (1, "line 2: does not follow"),
     ] {
         let refused = without(gone);
         assert_eq!(refused.status.code(), Some(1));
