@@ -18,8 +18,8 @@
 //!
 //! Nothing here reads a clock: time is an input. Octets of strangers are read by a reader of this
 //! crate, not by rasn's, which reserves memory for as many elements as the octets announce; the tests
-//! hold the two against each other. Signatures are by the crate `p256`, and the same message and key
-//! give the same signature (RFC 6979).
+//! hold the two against each other. The crate `p256` signs, and the same message and key give the same
+//! signature (RFC 6979); the crate `ring` verifies.
 //!
 //! What is not here: enrolment and authorization requests (TS 102 941), trust lists and revocation
 //! lists, encryption, other curves than NIST P-256, implicit certificates, polygons and countries as
@@ -38,6 +38,7 @@ mod region;
 mod rejected;
 mod signer;
 mod station;
+mod thrift;
 mod time;
 mod trust;
 mod verifier;
@@ -52,6 +53,7 @@ pub use region::{Place, Region};
 pub use rejected::{Malformed, Rejected};
 pub use signer::{Ticket, Unsigned};
 pub use station::Station;
+pub use thrift::REFUSED_MAX;
 pub use time::{Duration, Time64, Unit, Validity};
 pub use trust::{AUTHORITIES_MAX, ROOTS_MAX, TrustStore, Untrusted};
-pub use verifier::{Tolerances, Verified, Verifier};
+pub use verifier::{AUTHORITIES_PER_S, Origin, Tolerances, Verified, Verifier};

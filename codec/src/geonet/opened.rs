@@ -1,6 +1,9 @@
-//! What was in an envelope: a packet, who vouches for it, and what it may say.
+//! What was in a packet, who vouches for it, and what it may say.
 
 use crossguard_protocol::StationId;
+
+use super::Headers;
+use crate::service::Service;
 
 /// Who vouches for a packet: the digest of its certificate (`HashedId8`).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -62,17 +65,24 @@ impl Permits {
     }
 }
 
-/// What was in an envelope.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Opened<'a> {
-    /// Common header, extended header, BTP and message.
-    pub plain: &'a [u8],
-    /// The ITS-AID under which it was sent.
-    pub its_aid: u32,
+/// What is vouched for of a packet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Opened {
     /// Who vouches for it.
     pub signer: Signer,
     /// What it may say.
     pub permits: Permits,
+}
+
+/// A packet for this station, taken apart. Nothing is said of whether it can be relied on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Admitted<'a> {
+    /// Its headers.
+    pub headers: Headers,
+    /// Which service it is for.
+    pub service: Service,
+    /// The message in it.
+    pub message: &'a [u8],
 }
 
 #[cfg(test)]

@@ -1,10 +1,14 @@
 //! Packets that are signed and verified.
 
-use super::{EgoPosition, LongPositionVector, Opened, Permits, Signer};
+use super::{
+    Admitted, Discarded, EgoPosition, EnvelopeError, LongPositionVector, Opened, Permits, Signer,
+};
 use crate::part::{Part, SSP_VERSION};
 use crate::security::{
-    Certificate, HashedId8, Place, Rejected, SignedMessage, Ssp, Station, Time64, Unsigned,
+    Certificate, HashedId8, Origin, Place, Rejected, SignedMessage, Ssp, Station, Time64, Unsigned,
+    Verified,
 };
+use crate::service::Service;
 use crossguard_protocol::StationId;
 
 /// What is demanded of the packets of others.
@@ -71,25 +75,46 @@ impl Secured {
         self.station.seal(now(ego), its_aid, plain)
     }
 
-    /// `source` tells where the sender of a packet is, from its headers, which are signed.
+    /// Opens an envelope. `admit` looks at the headers in it and the ITS-AID under which they were sent, and says what
+    /// they are before the signature is: whatever it refuses costs no signature.
     pub(super) fn open<'a>(
         &mut self,
         ego: &EgoPosition,
         secured: &'a [u8],
-        source: impl FnOnce(&[u8]) -> Option<LongPositionVector>,
-    ) -> Result<Opened<'a>, Rejected> {
-        let message = SignedMessage::decode(secured)?;
-        let place = source(message.payload).map(|source| Place {
-            latitude: source.latitude,
-            longitude: source.longitude,
-        });
-        let verified = self.station.verify(now(ego), place, &message)?;
-        Ok(Opened {
-            plain: message.payload,
-            its_aid: message.header.its_aid,
+        admit: impl FnOnce(&'a [u8], u32) -> Result<Admitted<'a>, Discarded>,
+    ) -> Result<(Admitted<'a>, Opened), Discarded> {
+        let message = SignedMessage::decode(secured).map_err(EnvelopeError::from)?;
+        let admitted = admit(message.payload, message.header.its_aid)?;
+        let verified = self.verify(ego, &admitted, &message);
+        let verified = verified.map_err(|rejected| match rejected {
+            Rejected::OwnTicket => Discarded::OwnPacket,
+            rejected => EnvelopeError::from(rejected).into(),
+        })?;
+        let opened = Opened {
             signer: Signer(verified.signer.0),
             permits: permits(&verified.ssp),
-        })
+        };
+        Ok((admitted, opened))
+    }
+
+    fn verify(
+        &mut self,
+        ego: &EgoPosition,
+        admitted: &Admitted<'_>,
+        message: &SignedMessage<'_>,
+    ) -> Result<Verified, Rejected> {
+        if matches!(admitted.service, Service::Ram | Service::Rmcm) {
+            message.header.check_robot_profile()?;
+        }
+        let origin = origin(&admitted.headers.source);
+        let here = ego.coordinates.map(|(latitude, longitude)| Place {
+            latitude,
+            longitude,
+        });
+        self.station
+            .verifier()
+            .check_origin(here, &origin, message)?;
+        self.station.verify(now(ego), origin.place, message)
     }
 
     pub(super) const fn admit_plain(&self) -> Result<(), Rejected> {
@@ -107,6 +132,21 @@ pub fn station_of(ticket: &Certificate, its_aid: u32) -> Option<StationId> {
     let permissions = &ticket.content().permissions;
     let permission = permissions.iter().find(|it| it.its_aid == its_aid)?;
     Some(permits(&permission.ssp).station(Signer(ticket.id().0)))
+}
+
+/// Where and when a packet says that it was sent. A station that does not know where it is says 0, 0, and that this is
+/// not accurate.
+#[must_use]
+pub fn origin(source: &LongPositionVector) -> Origin {
+    let place = Place {
+        latitude: source.latitude,
+        longitude: source.longitude,
+    };
+    let is_unknown = (place.latitude, place.longitude, source.is_accurate) == (0, 0, false);
+    Origin {
+        place: (!is_unknown).then_some(place),
+        timestamp: source.timestamp,
+    }
 }
 
 /// What service specific permissions of the kit say.

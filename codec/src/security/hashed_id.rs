@@ -11,6 +11,16 @@ pub struct HashedId8(pub [u8; 8]);
 pub struct HashedId3(pub [u8; 3]);
 
 impl HashedId8 {
+    /// The end of a certificate's digest.
+    #[allow(
+        clippy::many_single_char_names,
+        reason = "eight octets, in their order"
+    )]
+    pub(super) const fn of(digest: &[u8; 32]) -> Self {
+        let [.., a, b, c, d, e, f, g, h] = *digest;
+        Self([a, b, c, d, e, f, g, h])
+    }
+
     /// The short form.
     #[must_use]
     pub const fn short(self) -> HashedId3 {

@@ -1,8 +1,13 @@
 //! Secured messages: golden vectors, and everything that must not be believed.
 
+mod costs;
+mod forge;
 mod golden;
 mod hostile;
 mod issuing;
+mod listed;
 mod pki;
 mod pseudonyms;
 mod receiving;
+mod scene;
+mod vectors;

@@ -19,8 +19,8 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine, StationId,
-    TaskType, Timer,
+    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, SessionId, StateMachine,
+    StationId, TaskType, Timer,
 };
 
 pub use self::entitled::NotEntitled;
@@ -219,6 +219,10 @@ impl<P: StateMachine> Exchange<P> {
                 return host.dropped(why.into(), &why, arrived.octets);
             }
         }
+        if let Some(session) = asked_of_another(me, &heard) {
+            let detail = format_args!("session {session}");
+            return host.dropped(Cause::AnsweringAnother, &detail, arrived.octets);
+        }
         let arrived = Arrived {
             octets: message,
             ..arrived
@@ -382,4 +386,15 @@ impl<P: StateMachine> Exchange<P> {
         };
         (state, status)
     }
+}
+
+/// The session of `me` that a message claims a part in although it is over, while another one is being named as such.
+/// Whoever makes up numbers gets one answer in the time of a farewell, which is three RAM periods at least, and cannot
+/// put an answer in the place of what followers have to hear.
+fn asked_of_another(me: &Robot, heard: &Heard) -> Option<SessionId> {
+    me.farewell()?;
+    heard.inputs.iter().find_map(|input| match input {
+        Input::Ram { ram, .. } => me.asked_of_over(ram),
+        _ => None,
+    })
 }

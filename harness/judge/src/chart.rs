@@ -254,6 +254,10 @@ impl Chart {
             Entry::Dropped { cause, detail, .. } => {
                 vec![note(format!("! dropped, {cause}: {detail}"))]
             }
+            Entry::Unrecorded { counters } => counters
+                .iter()
+                .map(|(cause, count)| note(format!("! dropped, {cause}: {count} more")))
+                .collect(),
             Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
             Entry::Started { .. }
             | Entry::Zone(_)

@@ -68,6 +68,8 @@ pub struct Validated {
     pub robots: usize,
     /// How many records.
     pub records: usize,
+    /// How many records had a link to the record before, which fits: between those no piece is missing.
+    pub linked: usize,
     /// How many steps of the transition function.
     pub steps: usize,
     /// How many messages were sent.
@@ -155,6 +157,7 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
             let judged = cursor.clock.finish();
             judged.map_err(|broken| cursor.refused(Refusal::Clock(broken)))?;
             robots.end(cursor);
+            robots.validated.linked += cursor.records.linked();
         }
     }
     Ok(robots.finish(cursors.iter().map(|cursor| &cursor.clock)))
@@ -193,9 +196,10 @@ impl<'a> Cursor<'a> {
     fn advance(&mut self) -> Result<(), Invalid> {
         self.head = self.records.take().map_err(|unreadable| {
             let fault = match unreadable {
-                Unreadable::Io(cause) => Fault::Unreadable(cause),
+                Unreadable::Line(cause) => Fault::Unreadable(cause),
                 Unreadable::Empty => Fault::Empty,
                 Unreadable::NotARecord(cause) => Fault::NotARecord(cause),
+                Unreadable::Unchained(cause) => Fault::Unchained(cause),
             };
             self.invalid(None, fault)
         })?;
@@ -392,6 +396,10 @@ impl LoggedRobots {
             }
             Entry::Dropped { cause, .. } => {
                 follow.dropped(&cause);
+                Ok(None)
+            }
+            Entry::Unrecorded { counters } => {
+                follow.unrecorded(&counters);
                 Ok(None)
             }
             Entry::Stopped { counters } => {

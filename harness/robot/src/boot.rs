@@ -12,8 +12,11 @@
 //! and the other one cannot be read, the robot does not start.
 
 use std::fs::{File, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
+use std::os::unix::fs::OpenOptionsExt as _;
 use std::path::{Path, PathBuf};
+
+use nix::fcntl::OFlag;
 
 /// What the file begins with.
 const MAGIC: &str = "crossguard boot counter";
@@ -215,11 +218,13 @@ fn lock(path: &Path) -> Result<File, BootError> {
         path: lock_path.clone(),
         cause,
     };
+    // Whoever may write in the folder must not have another file written through a link.
     let lock = File::options()
         .create(true)
         .truncate(false)
         .read(true)
         .write(true)
+        .custom_flags(OFlag::O_NOFOLLOW.bits())
         .open(&lock_path)
         .map_err(unusable)?;
     match lock.try_lock() {
@@ -253,9 +258,14 @@ fn replace(path: &Path, counter: u16) -> std::io::Result<()> {
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    // Nobody else writes it, under the lock; one that a crash has left is written over.
+    // Nobody else writes it, under the lock; one that a crash has left is removed, and so is a link that somebody
+    // else has put there. What is opened then is a file that did not exist.
     let new_path = path.with_added_extension("new");
-    let mut new = File::create(&new_path)?;
+    match std::fs::remove_file(&new_path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    let mut new = File::create_new(&new_path)?;
     new.write_all(format!("{MAGIC} {counter}\n").as_bytes())?;
     new.sync_all()?;
     std::fs::rename(new_path, path)?;
@@ -377,6 +387,25 @@ mod tests {
         let path = folder.path().join("robot.boot");
         fs::write(&path, format!("{MAGIC} 65535\n")).unwrap();
         assert!(matches!(take(&path), Err(BootError::Exhausted { .. })));
+    }
+
+    #[test]
+    fn nothing_is_written_through_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, other] = ["robot.boot", "other"].map(|name| folder.path().join(name));
+        fs::write(&other, "of somebody else").unwrap();
+        let link_to_other = |link: &Path| std::os::unix::fs::symlink(&other, link).unwrap();
+        link_to_other(&path.with_added_extension("new"));
+        assert_eq!(take(&path).unwrap().counter, 1);
+        assert_eq!(fs::read_to_string(&other).unwrap(), "of somebody else");
+        assert!(!fs::symlink_metadata(&path).unwrap().is_symlink());
+        // A temporary file that a crash has left stands in nobody's way.
+        fs::write(path.with_added_extension("new"), "cut o").unwrap();
+        assert_eq!(take(&path).unwrap().counter, 2);
+        fs::remove_file(beside(&path)).unwrap();
+        link_to_other(&beside(&path));
+        assert!(matches!(take(&path), Err(BootError::Unusable { .. })));
+        assert_eq!(fs::read_to_string(&other).unwrap(), "of somebody else");
     }
 
     #[test]

@@ -30,6 +30,7 @@ pub mod boot;
 pub mod capture;
 pub mod channel;
 pub mod journal;
+pub mod lines;
 mod located;
 pub mod machine;
 pub mod observe;

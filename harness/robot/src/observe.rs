@@ -111,6 +111,11 @@ pub fn entry(entry: &Entry, before: &mut State) {
                 warn!(%layer, cause = %reason, detail, "dropped");
             }
         }
+        Entry::Unrecorded { counters } => {
+            for (CauseName { layer, reason }, count) in counters.iter() {
+                warn!(%layer, cause = %reason, count, "dropped, and not recorded one by one");
+            }
+        }
         Entry::Zone(_) => {}
         Entry::Channel(channel) => debug!(
             busy_ratio = ?channel.busy_ratio,

@@ -345,7 +345,10 @@ impl Holder {
         #[cfg(unix)]
         std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
         let mut file = options.open(&path).map_err(at(&path))?;
-        file.write_all(pem.as_ref().as_bytes()).map_err(at(&path))?;
+        let written = file.write_all(pem.as_ref().as_bytes());
+        // A key that a power failure leaves empty could not be made again.
+        let synced = written.and_then(|()| file.sync_all());
+        synced.map_err(at(&path))?;
         write_certificate(&self.certificate, folder, name)
     }
 
@@ -395,8 +398,13 @@ pub fn write_certificate(
         return Ok(());
     }
     let file = OpenOptions::new().write(true).create_new(true).open(&path);
-    let written = file.and_then(|mut file| file.write_all(certificate.octets()));
-    written.map_err(at(&path))
+    let written = file.and_then(|mut file| {
+        file.write_all(certificate.octets())?;
+        file.sync_all()
+    });
+    // The names of certificate and key are on the disk only when the folder is.
+    let synced = written.and_then(|()| fs::File::open(folder)?.sync_all());
+    synced.map_err(at(&path))
 }
 
 /// Reads a certificate.

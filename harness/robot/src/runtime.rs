@@ -14,17 +14,21 @@
 //! The loop owns the machine, the sending half of the link, and the journal; nothing is locked. It
 //! waits for nobody but the clock: a link that does not take a packet, and a reader that does not take
 //! a record, lose it, and that is counted. The inbox takes a limited number of datagrams and drops the
-//! newest; orders have places of their own in it, so that a flood does not keep a robot from stopping.
+//! newest; robots in the same session have more places in it, and orders places of their own, so that a flood does not
+//! shut out a heartbeat or keep a robot from stopping.
 //!
 //! A robot that is told to stop leaves its session by name, says so for `T_farewell`, and then ends.
 
 mod epochs;
+mod partners;
 mod reader;
+mod running;
+mod sampler;
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, SyncSender, sync_channel};
-use std::thread::JoinHandle;
+use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::si::timestamp_its;
@@ -38,6 +42,8 @@ use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
 use self::epochs::Epochs;
 use self::reader::{Reader, Waiting};
+pub use self::running::{Panicked, Running};
+use self::sampler::Sampler;
 use crate::application::{Application, Wish};
 use crate::around::Around;
 use crate::body::Pose;
@@ -52,6 +58,9 @@ use crate::transport::{Arrival, Halves, Sender};
 
 /// How many datagrams may wait.
 const DATAGRAMS: usize = 256;
+
+/// How many datagrams of robots in the same session may wait besides.
+const OF_PARTNERS: usize = 64;
 
 /// How many orders may wait besides, before who gives them has to.
 const ORDERS: usize = 16;
@@ -175,19 +184,11 @@ pub struct Setup {
     pub clock: Clock,
 }
 
-/// A robot that runs.
-pub struct Running {
-    orders: SyncSender<Delivery>,
-    waiting: Arc<Waiting>,
-    threads: Vec<JoinHandle<()>>,
-    stop: Arc<AtomicBool>,
-}
-
 impl Setup {
     /// Starts the robot in threads of its own.
     #[must_use]
     pub fn start(self) -> Running {
-        let (deliveries, inbox) = sync_channel(DATAGRAMS + ORDERS);
+        let (deliveries, inbox) = sync_channel(DATAGRAMS + OF_PARTNERS + ORDERS);
         let stop = Arc::new(AtomicBool::new(false));
         let waiting = Arc::new(Waiting::default());
         let reader = Reader {
@@ -218,6 +219,7 @@ impl Setup {
             channel: Monitored::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
+            sampler: Sampler::default(),
             stopping: false,
             is_dead: false,
         };
@@ -225,8 +227,14 @@ impl Setup {
         let threads = vec![
             std::thread::spawn(move || reader.run()),
             std::thread::spawn(move || {
-                turn.run(&inbox);
+                let ran = catch_unwind(AssertUnwindSafe(|| turn.run(&inbox)));
+                if ran.is_err() {
+                    turn.halt_body();
+                }
                 stopped.store(true, Ordering::Relaxed);
+                if let Err(panic) = ran {
+                    resume_unwind(panic);
+                }
             }),
         ];
         Running {
@@ -234,40 +242,6 @@ impl Setup {
             waiting,
             threads,
             stop,
-        }
-    }
-}
-
-impl Running {
-    /// Tells the robot something. It has no effect on a robot that has stopped.
-    pub fn order(&self, order: Order) {
-        let _ = self.orders.send(Delivery::Order(order));
-    }
-
-    /// Whether the robot has stopped, of its own accord or because it was told to.
-    #[must_use]
-    pub fn has_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    /// How many datagrams have been dropped so far because the inbox was full.
-    #[must_use]
-    pub fn inbox_full(&self) -> u64 {
-        self.waiting.dropped_in_all.load(Ordering::Relaxed)
-    }
-
-    /// Tells the robot to stop and waits until it has said farewell.
-    pub fn stop(self) {
-        self.order(Order::Stop);
-        self.wait();
-    }
-
-    /// Waits until the robot has stopped.
-    pub fn wait(self) {
-        drop(self.orders);
-        for thread in self.threads {
-            // A panic has been printed by its thread; there is nothing to add.
-            let _ = thread.join();
         }
     }
 }
@@ -288,11 +262,21 @@ struct Loop {
     observed: State,
     /// Who the log says is around, and since when.
     around: (Around, u64),
+    /// What is dropped more often than the log takes.
+    sampler: Sampler,
     stopping: bool,
     is_dead: bool,
 }
 
 impl Loop {
+    /// The loop has panicked: nothing that it decided can be relied on, and nobody will tell the body anything more.
+    fn halt_body(&mut self) {
+        let halt = || self.machine.application_mut().stop();
+        if catch_unwind(AssertUnwindSafe(halt)).is_err() {
+            tracing::error!("the body cannot be halted");
+        }
+    }
+
     fn run(&mut self, inbox: &Inbox<Delivery>) {
         let _span = tracing::info_span!("robot", name = self.name).entered();
         let since_ms = self.clock.now_us().saturating_sub(self.began_us) / 1_000;
@@ -329,6 +313,9 @@ impl Loop {
             self.control_congestion();
         }
         self.count_overflow();
+        if let Some(counters) = self.sampler.finish() {
+            self.log(Entry::Unrecorded { counters });
+        }
         let counters = self.machine.endpoint().counters().named();
         let last = self.record(Entry::Stopped { counters });
         self.journal.put_last(last, LAST_RECORD_WAIT);
@@ -496,6 +483,9 @@ impl Loop {
             self.log(Entry::People(sight));
         }
         self.look_around(shown);
+        if let Some(counters) = self.sampler.elapse(shown) {
+            self.log(Entry::Unrecorded { counters });
+        }
     }
 
     /// Says once a second who is on the map.
@@ -518,8 +508,13 @@ impl Loop {
             Effect::Transmit { packet, .. } => Some(packet.clone()),
             _ => None,
         };
-        if matches!(effect, Effect::Act(Act::RenewEpoch)) {
-            self.epochs.ask();
+        match &effect {
+            Effect::Act(Act::RenewEpoch) => self.epochs.ask(),
+            Effect::Stepped { state, .. } => {
+                let identifiers = self.machine.endpoint().identifiers();
+                self.waiting.partners.follow(state, identifiers);
+            }
+            _ => {}
         }
         // What is sent is logged first: no receiver logs it before its sender.
         if let Some(entry) = recorded(effect) {
@@ -542,6 +537,11 @@ impl Loop {
     }
 
     fn log(&mut self, entry: Entry) {
+        if let Entry::Dropped { cause, .. } = &entry
+            && !self.sampler.admits(cause)
+        {
+            return;
+        }
         let record = self.record(entry);
         self.put(record);
     }

@@ -95,6 +95,11 @@ impl Tally {
             Entry::Dropped { cause, .. } => {
                 self.causes.add(cause, 1);
             }
+            Entry::Unrecorded { counters } => {
+                for (cause, count) in counters.iter() {
+                    self.causes.add(&cause, count);
+                }
+            }
             Entry::Zone(_) => {}
             Entry::Channel(channel) => self.channel = Some(*channel),
             Entry::People(sight) => self.sight.clone_from(sight),

@@ -4,8 +4,12 @@
 //! every message. `validate` of `crossguard-judge` replays it; so a log proves that the robot did what the
 //! verified transition function does, or shows the first record that does not fit.
 
+mod chain;
+mod file;
 mod reader;
 
+pub use chain::Unchained;
+pub use file::{LogFile, LogLimits, open};
 pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Timed, Unreadable};
 
 use std::io::Write;
@@ -101,6 +105,11 @@ pub enum Entry {
         /// The datagram, if there was one.
         #[serde(with = "hex::serde", default)]
         octets: Vec<u8>,
+    },
+    /// So many were dropped, by cause, and have no record of their own, because more came than the log takes.
+    Unrecorded {
+        /// How often each cause occurred since the last such record.
+        counters: Counts,
     },
     /// It watches this crossing zone from now on.
     Zone(Outline),

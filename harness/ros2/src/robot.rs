@@ -1,7 +1,5 @@
 //! The robot of an active node: its endpoint, link, body and log.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
@@ -17,7 +15,7 @@ use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_robot::pki::{self, PkiError};
 use crossguard_robot::robot_file::{Besides, RobotFile, RobotFileError};
 use crossguard_robot::runtime::{Clock, Order, Running};
-use crossguard_robot::trace::{self, Record};
+use crossguard_robot::trace::{LogFile, LogLimits, Record};
 use crossguard_robot::transport::{LinkError, Reopening, Transport};
 
 use crate::acts::Acts;
@@ -189,7 +187,8 @@ impl Active {
 
     /// Waits until the robot, which has stopped, has put everything away.
     pub(crate) fn put_away(self) {
-        self.running.wait();
+        // A panic has been logged.
+        let _ = self.running.wait();
         if let Some(log) = self.log {
             // A panic has been printed by its thread; there is nothing to add.
             let _ = log.join();
@@ -214,14 +213,15 @@ fn security(robot: &Robot, name: &str) -> Result<Security, NoRobot> {
 
 /// Writes records to a file, in a thread that ends with them.
 fn write_log(path: &Path, records: Receiver<Arc<Record>>) -> Result<JoinHandle<()>, NoRobot> {
-    let file = File::create(path).map_err(|cause| NoRobot::Log {
+    let file = LogFile::create(path, LogLimits::default()).map_err(|cause| NoRobot::Log {
         path: path.to_owned(),
         cause,
     })?;
     let path = path.to_owned();
     Ok(std::thread::spawn(move || {
-        let write = |to: &mut _, record: &Arc<_>| trace::write(to, record);
-        if let Err(error) = journal::write_out(&records, &mut BufWriter::new(file), write) {
+        let mut file = file;
+        let write = |to: &mut LogFile, record: &Arc<Record>| to.write(record);
+        if let Err(error) = journal::write_out(&records, &mut file, write, LogFile::flush) {
             tracing::error!(path = %path.display(), %error, "the log ends");
         }
     }))

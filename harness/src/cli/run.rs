@@ -13,7 +13,7 @@
 mod output;
 
 use std::collections::{BTreeMap, VecDeque};
-use std::io::{BufRead, IsTerminal};
+use std::io::IsTerminal;
 use std::net::SocketAddrV4;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -199,12 +199,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let outcome = console.attend(&running, &outputs.records, &lines_typed());
     running.order(Order::Stop);
-    running.wait();
+    let ended = running.wait();
     let missing = console.missing;
     drop(console);
     let written = outputs.writings.finish(missing);
     super::finish_capture(capture)?;
     outcome?;
+    if let Err(panicked) = ended {
+        super::complain(panicked);
+        return Err(Failure::Wrong);
+    }
     written
 }
 
@@ -242,7 +246,8 @@ fn open_link(arguments: &Arguments, link: Link) -> Result<(Halves, String), Fail
 fn lines_typed() -> Receiver<String> {
     let (send, lines) = sync_channel(TYPED);
     std::thread::spawn(move || {
-        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+        for line in crossguard_robot::lines::lines(std::io::stdin().lock()).map_while(Result::ok) {
+            let line = String::from_utf8_lossy(&line).into_owned();
             if send.send(line).is_err() {
                 return;
             }

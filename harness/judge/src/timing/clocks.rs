@@ -87,6 +87,7 @@ impl Clocks {
             Entry::Sent { octets, .. } => self.sent(log, at_us, octets),
             Entry::Heard { octets, .. } => self.heard(log, at_us, octets),
             Entry::Dropped { .. }
+            | Entry::Unrecorded { .. }
             | Entry::Stopped { .. }
             | Entry::Zone(_)
             | Entry::People(_)

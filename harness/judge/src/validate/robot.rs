@@ -254,6 +254,13 @@ impl Follow {
         self.counted.add(cause, 1);
     }
 
+    /// So many were dropped without records of their own.
+    pub(super) fn unrecorded(&mut self, counters: &Counts) {
+        for (cause, count) in counters.iter() {
+            self.counted.add(&cause, count);
+        }
+    }
+
     /// The robot has stopped. How many records are missing by its own account.
     pub(super) fn stopped(&self, counters: &Counts) -> Result<u64, Fault> {
         self.settle_hearing()?;
