@@ -43,6 +43,16 @@ impl Secured {
         station_of(certificate, its_aid).unwrap_or_else(|| Signer(certificate.id().0).station())
     }
 
+    /// Takes up the time from before a restart, in microseconds since 2004.
+    pub fn remember_time(&mut self, known: Time64) {
+        self.station.remember_time(known);
+    }
+
+    /// Looks at the clock, when one that never leaps shows `steady_ms`.
+    pub fn look_at_clock(&mut self, ego: &EgoPosition, steady_ms: u64) {
+        self.station.look_at_clock(now(ego), steady_ms);
+    }
+
     /// Changes the pseudonym if that `is_due`, or if its ticket is over within this many milliseconds, to
     /// one that is valid for longer; its name, if there is one. The address and the station id must
     /// change with it, and all of that only while the identity is not locked.

@@ -12,6 +12,7 @@ use super::region::Place;
 use super::rejected::Rejected;
 use super::time::Time64;
 use super::trust::{TrustStore, check_validity};
+use super::trusted_time::TrustedTime;
 
 /// How old and how new a message may be, in microseconds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,6 +37,8 @@ impl Default for Tolerances {
 pub struct Verifier {
     trust: TrustStore,
     tolerances: Tolerances,
+    /// The time, which does not go back although the clock may.
+    time: TrustedTime,
     cache: Cache,
     /// Certificates of which only the digest was heard, to ask for.
     wanted: Vec<HashedId3>,
@@ -65,6 +68,25 @@ impl Verifier {
             own,
             ..Self::default()
         }
+    }
+
+    /// The same from `now` on: what was generated before may have been heard before, and is refused.
+    #[must_use]
+    pub fn starting(self, now: Time64) -> Self {
+        Self {
+            time: TrustedTime::starting(now, self.tolerances.ahead_max_us),
+            ..self
+        }
+    }
+
+    /// The time, as far as the clock can be trusted.
+    #[must_use]
+    pub const fn time(&self) -> &TrustedTime {
+        &self.time
+    }
+
+    pub(super) const fn time_mut(&mut self) -> &mut TrustedTime {
+        &mut self.time
     }
 
     /// The authorities that it trusts.
@@ -99,6 +121,7 @@ impl Verifier {
         if self.own.contains(&id) {
             return Err(Rejected::OwnTicket);
         }
+        let now = self.time.read(now)?;
         self.check_time(now, message)?;
         self.learn_authority(message);
         let known = self.cache.ticket(id).cloned();
@@ -127,6 +150,7 @@ impl Verifier {
 
     fn check_time(&self, now: Time64, message: &SignedMessage) -> Result<(), Rejected> {
         let generated = message.header.generation_time;
+        self.time.check(generated)?;
         let age_us = now.0.saturating_sub(generated.0);
         if age_us > self.tolerances.age_max_us {
             return Err(Rejected::TooOld { age_us });

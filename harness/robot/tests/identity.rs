@@ -25,6 +25,7 @@ const FOLLOWER: StationId = StationId(2);
 const LIAR: StationId = StationId(3);
 
 const TAKEN: &str = "station id of another certificate";
+const UNPINNED: &str = "another certificate than in the session";
 
 fn identifiers() -> Identifiers {
     Identifiers::default()
@@ -231,6 +232,40 @@ fn a_helper_cannot_take_over_a_follower_and_the_leader_learns_that_it_is_dead() 
         !street.relies_on(FOLLOWER),
         "the leader relies on a robot without power"
     );
+}
+
+/// Two tickets that name one id, as of an authority that has made a mistake.
+#[test]
+fn a_member_and_a_leader_keep_the_ticket_under_which_they_joined() {
+    let mut street = Street::new(&[LEADER, FOLLOWER]);
+    let mut second_follower = Liar::new(&street.pki, &[Part::Help], Some(FOLLOWER));
+    let mut second_leader = Liar::new(&street.pki, &[Part::Lead], Some(LEADER));
+    // Outside of a session, whoever holds a ticket with this name goes by it.
+    let packet = second_follower.ram(street.now_ms, &Robot::new(FOLLOWER, 1));
+    street.hear(0, &packet);
+    assert_eq!(street.heard(0, FOLLOWER), 1);
+    street.pass(100, &mut |_| {});
+    street.team_up();
+
+    let robots = [0, 1].map(|place| street.robots[place].as_ref().unwrap().robot().clone());
+    let heard = [street.heard(0, FOLLOWER), street.heard(1, LEADER)];
+    let packet = second_follower.ram(street.now_ms, &robots[1]);
+    street.hear(0, &packet);
+    let packet = second_leader.ram(street.now_ms, &robots[0]);
+    street.hear(1, &packet);
+    for place in [0, 1] {
+        assert_eq!(street.dropped(place, UNPINNED), 1, "{:?}", street.dropped[place]);
+    }
+    assert_eq!([street.heard(0, FOLLOWER), street.heard(1, LEADER)], heard);
+    street.pass(1_000, &mut |_| {});
+    assert!(street.relies_on(FOLLOWER));
+    // When the session is over and the robot is gone, its name is free again.
+    street.tell(0, Stimulus::Event(Event::TaskCompleted));
+    street.pass(3_000, &mut |_| {});
+    let packet = second_follower.ram(street.now_ms, &Robot::new(FOLLOWER, 1));
+    let heard = street.heard(0, FOLLOWER);
+    street.hear(0, &packet);
+    assert_eq!(street.heard(0, FOLLOWER), heard + 1);
 }
 
 #[test]

@@ -76,7 +76,7 @@ impl Street {
                     self.tell(1 - robot, datagram);
                 }
                 Effect::Stepped { input, state, .. } => {
-                    if let Input::Local(Event::IdentityChanged(_)) = input {
+                    if let Input::Local(Event::IdentityChanged(..)) = input {
                         assert_eq!(identity, Identity::Unlocked);
                     }
                     identity = state.identity();

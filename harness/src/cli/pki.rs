@@ -109,7 +109,7 @@ pub(super) struct Pseudonyms {
     /// How many.
     #[arg(long, default_value_t = 8, value_parser = whole::<u16>(1..=1_000))]
     count: u16,
-    /// For how many hours they are valid.
+    /// For how many hours they are valid. Each begins at another moment, up to a tenth of that time early.
     #[arg(long, default_value_t = 168, value_parser = whole::<u16>(1..=65_535))]
     hours: u16,
     /// In how many hours they begin to be valid; negative for the past.
@@ -341,6 +341,8 @@ fn init_in(
 ) -> Result<Vec<File>, Failure> {
     // Above pseudonyms that begin in the past are certificates that begin as early.
     let early = Pseudonyms::from(pseudonyms.start_in.min(0));
+    let early_us = pki::early_us(Duration::hours(pseudonyms.hours));
+    let early = Time64(early.0.saturating_sub(early_us));
     let office = |name: &str, years| Office {
         name: Some(name.to_owned()),
         years,
@@ -452,9 +454,10 @@ fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File
     // All are made before any is written.
     let region = || wanted.where_valid.region();
     let ticket = |_| {
+        let from = pki::drawn_start(&authority.certificate, term.from, term.duration);
         pki::new_ticket(
             &authority,
-            term,
+            Term { from, ..term },
             region(),
             wanted.permissions(robot.station),
         )

@@ -27,6 +27,8 @@ pub enum NotEntitled {
     Address(StationId),
     /// The certificate does not permit this part in a session.
     Part(Part),
+    /// The station has its part in the session under another certificate.
+    Unpinned(StationId),
 }
 
 impl Display for NotEntitled {
@@ -39,6 +41,10 @@ impl Display for NotEntitled {
                 )
             }
             Self::Address(station) => write!(f, "station {station} has another address"),
+            Self::Unpinned(station) => write!(
+                f,
+                "station {station} has its part in the session under another certificate"
+            ),
             Self::Part(part) => write!(f, "the certificate does not permit to {}", part.name()),
         }
     }
@@ -50,6 +56,7 @@ impl From<NotEntitled> for Cause {
             NotEntitled::Namesake { .. } => "station id of another certificate",
             NotEntitled::Address(_) => "address of another station",
             NotEntitled::Part(_) => "beyond service permissions",
+            NotEntitled::Unpinned(_) => "another certificate than in the session",
         })
     }
 }
@@ -82,7 +89,7 @@ pub(super) fn check_entitled<H: Host>(
         return Err(NotEntitled::Address(is));
     }
     if let Some(signer) = indication.signer {
-        host.vouched(moment, is, signer);
+        host.vouched(moment, is, (signer, address));
     }
     Ok(())
 }
