@@ -121,11 +121,13 @@ pub fn station_of(ticket: &Certificate, its_aid: u32) -> Option<StationId> {
 
 /// What service specific permissions of the kit say.
 fn permits(ssp: &Ssp) -> Permits {
-    let named = match ssp {
-        Ssp::Bitmap(octets) => Part::named_in(octets),
-        Ssp::Default | Ssp::Opaque(_) => None,
+    let (named, place) = match ssp {
+        Ssp::Bitmap(octets) => (Part::named_in(octets), Part::place_in(octets)),
+        Ssp::Default | Ssp::Opaque(_) => (None, None),
     };
-    Permits::of_bits(ssp.bits(SSP_VERSION)).only_as(named)
+    Permits::of_bits(ssp.bits(SSP_VERSION))
+        .only_as(named)
+        .only_at(place)
 }
 
 const fn now(ego: &EgoPosition) -> Time64 {

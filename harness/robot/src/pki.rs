@@ -29,7 +29,7 @@ use crossguard_endpoint::station::Credentials;
 mod permissions;
 mod starts;
 
-pub use permissions::{its_aids, robot_permissions};
+pub use permissions::{its_aids, robot_permissions, robot_permissions_at};
 pub use starts::{drawn_start, early_us};
 
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.
