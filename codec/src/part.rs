@@ -140,9 +140,13 @@ mod tests {
         assert_eq!(Part::place_in(&naming), None);
         let at = Part::bitmap_at(&[Part::Help], Place(0x0506_0708));
         assert_eq!(at, [1, 0x40, 1, 5, 6, 7, 8]);
-        let both = Part::bitmap_naming_at(&[Part::Help], StationId(0x0102_0304), Place(0x0506_0708));
+        let both =
+            Part::bitmap_naming_at(&[Part::Help], StationId(0x0102_0304), Place(0x0506_0708));
         assert_eq!(both, [1, 0x40, 2, 1, 2, 3, 4, 5, 6, 7, 8]);
-        assert_eq!((Part::named_in(&at), Part::named_in(&both)), (None, Part::named_in(&naming)));
+        assert_eq!(
+            (Part::named_in(&at), Part::named_in(&both)),
+            (None, Part::named_in(&naming))
+        );
         assert_eq!(Part::place_in(&at), Some(Place(0x0506_0708)));
         assert_eq!(Part::place_in(&both), Part::place_in(&at));
         for other in [

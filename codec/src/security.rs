@@ -54,6 +54,6 @@ pub use rejected::{Malformed, Rejected};
 pub use signer::{Ticket, Unsigned};
 pub use station::Station;
 pub use time::{Duration, Time64, Unit, Validity};
-pub use trusted_time::{Doubt, TrustedTime};
 pub use trust::{AUTHORITIES_MAX, ROOTS_MAX, TrustStore, Untrusted};
+pub use trusted_time::{Doubt, TrustedTime};
 pub use verifier::{Tolerances, Verified, Verifier};

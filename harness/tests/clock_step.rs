@@ -180,7 +180,10 @@ fn step_with_security(ahead_s: i64, library: &Path) {
     assert!(go2.contains(by_go2), "{by_go2}");
     assert!(ari.contains(NOT_TRUSTED));
     // It says so, and says when it trusts its clock again.
-    let clocks: Vec<_> = ari.lines().filter(|line| line.contains("\"clock\"")).collect();
+    let clocks: Vec<_> = ari
+        .lines()
+        .filter(|line| line.contains("\"clock\""))
+        .collect();
     let told = clocks.iter().map(|line| line.contains("\"trusted\""));
     assert_eq!(told.collect::<Vec<_>>(), [true, false, true], "{clocks:?}");
     for expected in ["leaseExpired", "\"noFollowers\"", "\"taskCompleted\""] {
@@ -224,7 +227,15 @@ fn a_robot_that_is_started_with_an_older_clock_does_not_trust_it_and_says_so() {
     assert_eq!(init.unwrap().status.code(), Some(0));
     let run_once = |ahead_s: i64| {
         clock.set(ahead_s);
-        let arguments = ["run", "--config", &config, "--security", "enforce", "--pki", pki];
+        let arguments = [
+            "run",
+            "--config",
+            &config,
+            "--security",
+            "enforce",
+            "--pki",
+            pki,
+        ];
         let mut robot = clock
             .rules(crossguard(&arguments))
             .stdin(Stdio::piped())

@@ -13,7 +13,9 @@ fn an_idle_robot_may_change_its_pseudonym() {
     let same = street.tell(ARI, Event::IdentityChanged(ARI, None));
     assert_eq!(same.ignored(), Some(Ignored::NothingNew));
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS, None)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         None
     );
     assert_eq!(street[ARI].station(), ALIAS);
@@ -27,7 +29,10 @@ fn numbers_begin_anew_with_a_pseudonym_where_the_event_says_so() {
     street.pass(400);
     street.tell(ARI, Event::TaskCompleted);
     street.pass(1_000);
-    let next = UniqueNumber { boot: 40_213, count: 0 };
+    let next = UniqueNumber {
+        boot: 40_213,
+        count: 0,
+    };
     let changed = street.tell(ARI, Event::IdentityChanged(ALIAS, Some(next)));
     assert_eq!(changed.ignored(), None);
     assert_eq!(street[ARI].next_number(), next);
@@ -51,7 +56,9 @@ fn the_lock_holds_from_the_request_or_offer_until_the_farewell_is_over() {
     for who in [ARI, GO2] {
         assert!(street.has_put_out(who, Output::LockIdentity));
         assert_eq!(
-            street.tell(who, Event::IdentityChanged(ALIAS, None)).ignored(),
+            street
+                .tell(who, Event::IdentityChanged(ALIAS, None))
+                .ignored(),
             locked
         );
     }
@@ -60,18 +67,24 @@ fn the_lock_holds_from_the_request_or_offer_until_the_farewell_is_over() {
     // The follower is free at once; the leader still says farewell.
     assert!(street.has_put_out(GO2, Output::UnlockIdentity));
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS, None)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         locked
     );
     street.pass(999);
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS, None)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         locked
     );
     street.pass(1);
     assert!(street.has_put_out(ARI, Output::UnlockIdentity));
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS, None)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         None
     );
     // Once each: a lock is not locked again.

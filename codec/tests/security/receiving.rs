@@ -1,9 +1,9 @@
 //! What is believed, and what is rejected under which cause.
 
 use crossguard_codec::security::{
-    Certificate, Doubt, Duration, HashedId8, Issuer, Permission, Place, Region, Rejected, SignedMessage,
-    SignerIdentifier, Ssp, Station, TICKETS_MAX, Ticket, Tolerances, TrustStore, Unsigned,
-    Untrusted, issue, issue::Terms,
+    Certificate, Doubt, Duration, HashedId8, Issuer, Permission, Place, Region, Rejected,
+    SignedMessage, SignerIdentifier, Ssp, Station, TICKETS_MAX, Ticket, Tolerances, TrustStore,
+    Unsigned, Untrusted, issue, issue::Terms,
 };
 
 use crate::pki::{
@@ -119,7 +119,9 @@ fn nobody_who_is_heard_is_forgotten_for_somebody_new() {
     let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
     hear(&mut receiver, NOW, &envelope).unwrap();
     let say = |receiver: &mut Station, number: usize, ms: u64| {
-        let envelope = other(&pki, number).seal(after_ms(ms), RAM, PAYLOAD).unwrap();
+        let envelope = other(&pki, number)
+            .seal(after_ms(ms), RAM, PAYLOAD)
+            .unwrap();
         hear(receiver, after_ms(ms), &envelope).map(|_| ())
     };
     for number in 1..TICKETS_MAX {
@@ -183,12 +185,16 @@ fn what_was_heard_before_a_restart_is_not_heard_again() {
     let mut receiver = restarted(after_ms(1_100), after_ms(1_000));
     let again = hear(&mut receiver, after_ms(1_100), &ahead);
     assert_eq!(again, Err(Rejected::BeforeStart));
-    let newer = sender.seal(after_ms(1_300), RAM, PAYLOAD).unwrap();
-    assert!(hear(&mut receiver, after_ms(1_300), &newer).is_ok());
+    // A second later, the certificate comes along again.
+    let newer = sender.seal(after_ms(2_300), RAM, PAYLOAD).unwrap();
+    assert!(hear(&mut receiver, after_ms(2_300), &newer).is_ok());
     // With a clock that was put back meanwhile, it believes nobody.
     let mut receiver = restarted(NOW, after_ms(5_000));
     let heard = hear(&mut receiver, after_ms(1_000), &ahead);
-    assert!(matches!(heard, Err(Rejected::TimeNotTrusted(_))), "{heard:?}");
+    assert!(
+        matches!(heard, Err(Rejected::TimeNotTrusted(_))),
+        "{heard:?}"
+    );
 }
 
 #[test]

@@ -135,7 +135,8 @@ impl Hour {
                 continue;
             };
             let at_ms = u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_ms;
-            self.capture.record_at(Duration::from_millis(at_ms), &packet);
+            self.capture
+                .record_at(Duration::from_millis(at_ms), &packet);
             let partner = place ^ 1;
             // What nobody needs to hear is not verified, which would take hours.
             let robots = [place, partner].map(|it| self.seats[it].endpoint.robot());
@@ -175,7 +176,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     while hour.now_ms < HOUR_MS {
         hour.step();
     }
-    let robots: BTreeMap<_, _> = hour.seats.iter().map(|seat| &seat.stations).enumerate().collect();
+    let robots: BTreeMap<_, _> = hour
+        .seats
+        .iter()
+        .map(|seat| &seat.stations)
+        .enumerate()
+        .collect();
     serde_json::to_writer(File::create(truth)?, &robots)?;
     hour.capture.finish()?;
     Ok(())

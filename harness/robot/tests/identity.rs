@@ -244,7 +244,7 @@ fn a_member_and_a_leader_keep_the_ticket_under_which_they_joined() {
     // Outside of a session, whoever holds a ticket with this name goes by it.
     let packet = second_follower.ram(street.now_ms, &Robot::new(FOLLOWER, 1));
     street.hear(0, &packet);
-    assert_eq!(street.heard(0, FOLLOWER), 1);
+    assert_eq!(street.heard(0, FOLLOWER), 2, "each of them once");
     street.pass(100, &mut |_| {});
     street.team_up();
 
@@ -255,7 +255,12 @@ fn a_member_and_a_leader_keep_the_ticket_under_which_they_joined() {
     let packet = second_leader.ram(street.now_ms, &robots[0]);
     street.hear(1, &packet);
     for place in [0, 1] {
-        assert_eq!(street.dropped(place, UNPINNED), 1, "{:?}", street.dropped[place]);
+        assert_eq!(
+            street.dropped(place, UNPINNED),
+            1,
+            "{:?}",
+            street.dropped[place]
+        );
     }
     assert_eq!([street.heard(0, FOLLOWER), street.heard(1, LEADER)], heard);
     street.pass(1_000, &mut |_| {});

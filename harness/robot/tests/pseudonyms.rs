@@ -7,9 +7,9 @@ use crossguard_codec::geonet::{Address, BasicHeader, Headers};
 use crossguard_codec::security::{PrivateKey, SignedMessage, Time64};
 use crossguard_codec::{Identifiers, Position, RobotState, TaskParameters};
 
-use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::ras::surroundings::Awareness;
+use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::station::{Mode, Secret, Security};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
@@ -166,7 +166,10 @@ fn a_pseudonym_changes_outside_of_sessions_only_and_as_a_whole() {
     // The names of sessions do not tell that they are one leader's: no boot counter, and no running count.
     let epochs: BTreeSet<_> = sessions.iter().map(|it| it.number.0.boot).collect();
     assert_eq!(epochs.len(), sessions.len(), "{sessions:?}");
-    assert!(sessions.iter().all(|it| it.number.0.count == 0), "{sessions:?}");
+    assert!(
+        sessions.iter().all(|it| it.number.0.count == 0),
+        "{sessions:?}"
+    );
     for heard_as in &street.heard_as {
         let signers: BTreeSet<_> = heard_as.iter().map(|(signer, _)| signer).collect();
         let stations: BTreeSet<_> = heard_as.iter().map(|(_, id)| id).collect();
@@ -276,7 +279,10 @@ fn a_robot_is_silent_before_a_new_pseudonym_and_changes_when_all_do() {
         assert!(silence_ms < 10_100, "{silence_ms}");
         silences.insert(silence_ms);
     }
-    assert!(silences.len() == 4 && silences.last() > Some(&1_500), "{silences:?}");
+    assert!(
+        silences.len() == 4 && silences.last() > Some(&1_500),
+        "{silences:?}"
+    );
 }
 
 /// A secret with a silence that is long enough to be broken.
@@ -288,7 +294,10 @@ fn who_needs_the_robot_breaks_its_silence() {
     let mut alone = Alone::new(SILENT);
     let changed_ms = alone.change();
     alone.pass(200);
-    assert!(!alone.has_sent_since(changed_ms), "this secret is silent for too short");
+    assert!(
+        !alone.has_sent_since(changed_ms),
+        "this secret is silent for too short"
+    );
     let request = Plan::crossing(Site::default()).request();
     alone.tell(Stimulus::Event(Event::PedestrianDetected(request)));
     assert!(alone.has_sent_since(alone.now_ms));

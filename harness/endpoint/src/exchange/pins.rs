@@ -33,7 +33,8 @@ impl Pins {
         }
         // There is a place for each who has a part, when those who have none any more are gone.
         let place = self.0.iter_mut().find(|pin| {
-            pin.as_ref().is_none_or(|(station, _)| !has_part(robot, *station))
+            pin.as_ref()
+                .is_none_or(|(station, _)| !has_part(robot, *station))
         });
         if let Some(place) = place {
             *place = Some((from, signer));

@@ -72,7 +72,13 @@ impl Namesakes {
     /// A robot was heard at `now_ms`, whose id follows from its ticket: the id is its own, whoever had it before.
     /// With more robots around than can be remembered, a new one is not: others may then go by its id, and its RAM
     /// are its own all the same.
-    pub(super) fn bind(&mut self, station: StationId, signer: Signer, address: Address, now_ms: u64) {
+    pub(super) fn bind(
+        &mut self,
+        station: StationId,
+        signer: Signer,
+        address: Address,
+        now_ms: u64,
+    ) {
         self.others.remove(&station);
         if !self.robots.contains_key(&station) {
             self.robots.retain(|_, owner| owner.is_heard(now_ms));

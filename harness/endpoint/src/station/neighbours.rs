@@ -1,10 +1,10 @@
 //! Who is around a robot, and who goes by which station id.
 
+use crossguard_codec::Heard;
 use crossguard_codec::Identifiers;
 use crossguard_codec::geonet::{Address, EgoPosition, Indication, Signer};
 use crossguard_codec::its::{ItsMessage, RoadUser};
 use crossguard_codec::si::rebuild_timestamp;
-use crossguard_codec::Heard;
 use crossguard_protocol::StationId;
 
 use super::listen::{Unobserved, service_of};

@@ -22,7 +22,12 @@ pub fn drawn_start(issuer: &Certificate, from: Time64, duration: Duration) -> Ti
 }
 
 /// [`drawn_start`] by this number.
-pub(super) fn start_of(issuer: &Certificate, from: Time64, duration: Duration, drawn: u64) -> Time64 {
+pub(super) fn start_of(
+    issuer: &Certificate,
+    from: Time64,
+    duration: Duration,
+    drawn: u64,
+) -> Time64 {
     let earliest = issuer.content().validity.from().0 + EARLY_S * 1_000_000;
     let span_us = early_us(duration).min(from.0.saturating_sub(earliest));
     Time64(from.0 - drawn % (span_us + 1))
