@@ -2,7 +2,7 @@
 
 Usage: python3 linking.py PACKETS.pcap TRUTH.json PAGE.md [TABLE.csv]
 
-PACKETS and TRUTH are of `cargo run -p crossguard-robot --example hour`: ten robots that change their pseudonyms for an
+PACKETS and TRUTH are of `../robot/tests/hour.rs`: ten robots that change their pseudonyms for an
 hour. tshark takes the packets apart, with its own dissectors for Ethernet, GeoNetworking, IEEE 1609.2 and BTP, and with
 the kit's for RAM and RMCM. So the fields are those that Wireshark shows, and nobody has chosen them.
 

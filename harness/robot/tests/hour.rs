@@ -1,12 +1,8 @@
 //! An hour of ten robots that change their pseudonyms, as packets: for `harness/judges/linking`, which tries to tell
 //! which pseudonyms are one robot.
 //!
-//! ```console
-//! cargo run -p crossguard-robot --example hour -- PACKETS.pcap TRUTH.json
-//! ```
-//!
 //! Time is virtual, and everything is drawn from one seed. Robots stand in pairs and now and then help somebody across
-//! together. `TRUTH.json` has the station ids of each robot, in order.
+//! together. `hour.json` has the station ids of each robot, in order.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -167,22 +163,20 @@ impl Hour {
     }
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    let [packets, truth] = &paths[..] else {
-        return Err("give the files for the packets and for the truth".into());
-    };
-    let mut hour = Hour::new(Capture::create(packets)?)?;
+/// Writes the packets to `hour.pcap` and the truth to `hour.json`, in the folder that `CROSSGUARD_LINKING` names.
+#[test]
+#[ignore = "harness/judges/linking runs it"]
+fn an_hour_of_ten_robots() -> Result<(), Box<dyn Error>> {
+    let folder =
+        std::env::var_os("CROSSGUARD_LINKING").ok_or("CROSSGUARD_LINKING names no folder")?;
+    let folder = PathBuf::from(folder);
+    let mut hour = Hour::new(Capture::create(&folder.join("hour.pcap"))?)?;
     while hour.now_ms < HOUR_MS {
         hour.step();
     }
-    let robots: BTreeMap<_, _> = hour
-        .seats
-        .iter()
-        .map(|seat| &seat.stations)
-        .enumerate()
-        .collect();
-    serde_json::to_writer(File::create(truth)?, &robots)?;
+    let stations = hour.seats.iter().map(|seat| &seat.stations);
+    let robots: BTreeMap<_, _> = stations.enumerate().collect();
+    serde_json::to_writer(File::create(folder.join("hour.json"))?, &robots)?;
     hour.capture.finish()?;
     Ok(())
 }
