@@ -190,7 +190,7 @@ def listed(page):
     block = re.search(r"<!-- fields that link -->\n```text\n(.*?)```", text, re.S)
     if not block:
         sys.exit(f"{page} has no list of fields that link")
-    return block[1].split()
+    return [line for line in block[1].splitlines() if line]
 
 
 def main():
