@@ -47,6 +47,16 @@ impl Secured {
         station_of(certificate, its_aid).unwrap_or_else(|| Signer(certificate.id().0).station())
     }
 
+    /// Takes up the time from before a restart, in microseconds since 2004.
+    pub fn remember_time(&mut self, known: Time64) {
+        self.station.remember_time(known);
+    }
+
+    /// Looks at the clock, when one that never leaps shows `steady_ms`.
+    pub fn look_at_clock(&mut self, ego: &EgoPosition, steady_ms: u64) {
+        self.station.look_at_clock(now(ego), steady_ms);
+    }
+
     /// Changes the pseudonym if that `is_due`, or if its ticket is over within this many milliseconds, to
     /// one that is valid for longer; its name, if there is one. The address and the station id must
     /// change with it, and all of that only while the identity is not locked.
@@ -151,11 +161,13 @@ pub fn origin(source: &LongPositionVector) -> Origin {
 
 /// What service specific permissions of the kit say.
 fn permits(ssp: &Ssp) -> Permits {
-    let named = match ssp {
-        Ssp::Bitmap(octets) => Part::named_in(octets),
-        Ssp::Default | Ssp::Opaque(_) => None,
+    let (named, place) = match ssp {
+        Ssp::Bitmap(octets) => (Part::named_in(octets), Part::place_in(octets)),
+        Ssp::Default | Ssp::Opaque(_) => (None, None),
     };
-    Permits::of_bits(ssp.bits(SSP_VERSION)).only_as(named)
+    Permits::of_bits(ssp.bits(SSP_VERSION))
+        .only_as(named)
+        .only_at(place)
 }
 
 const fn now(ego: &EgoPosition) -> Time64 {

@@ -311,3 +311,16 @@ mod tests {
         }
     }
 }
+
+/// 32 octets that nobody can guess.
+#[must_use]
+pub fn random_octets() -> [u8; 32] {
+    sha256(&PrivateKey::generate().0.to_bytes())
+}
+
+/// 32 octets that follow from others, and that nobody can guess who does not know the key.
+#[must_use]
+pub fn keyed_digest(key: &[u8; 32], octets: &[u8]) -> [u8; 32] {
+    // Two digests, so that nobody can go on from a shorter text to a longer one.
+    sha256(&[&key[..], &sha256(&[&key[..], octets].concat())].concat())
+}

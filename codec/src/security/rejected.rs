@@ -1,6 +1,7 @@
 //! Why a secured packet is not relied on.
 
 use super::hashed_id::HashedId8;
+use super::trusted_time::Doubt;
 
 /// Octets that are not the canonical encoding of an envelope or certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
@@ -113,6 +114,12 @@ pub enum Rejected {
     /// The own station signed it, under this or an earlier pseudonym.
     #[error("signed with an own ticket")]
     OwnTicket,
+    /// The own clock was put back or ahead: what is verified by it may have been heard before.
+    #[error("the own clock is {0}, and is not trusted")]
+    TimeNotTrusted(Doubt),
+    /// Generated before this station started, which may have heard it before.
+    #[error("generated before this station started, which may have heard it before")]
+    BeforeStart,
     /// Generated too long ago.
     #[error("generated {age_us} us ago")]
     TooOld {
@@ -155,6 +162,9 @@ pub enum Rejected {
     /// The sender is outside of the region of its certificate, or does not say where it is.
     #[error("the sender is outside of the region of its certificate")]
     OutsideRegion,
+    /// As many stations are heard as can be remembered, and nobody who is heard is forgotten for somebody new.
+    #[error("so many stations are heard that no more can be remembered")]
+    TooManyStations,
     /// It was received before, or cannot be told from one that was.
     #[error("received before")]
     Replayed,
@@ -193,6 +203,8 @@ impl Rejected {
             Self::LocationElsewhere { .. } => "generation location elsewhere",
             Self::TooFar { .. } => "too far away",
             Self::OwnTicket => "own ticket",
+            Self::TimeNotTrusted(_) => "time not trusted",
+            Self::BeforeStart => "before the start",
             Self::TooOld { .. } => "too old",
             Self::FromTheFuture { .. } => "from the future",
             Self::MessageExpired => "message expired",
@@ -205,6 +217,7 @@ impl Rejected {
             Self::IssuerNotPermitted(_) => "issuer not permitted",
             Self::NotPermitted(_) => "not permitted",
             Self::OutsideRegion => "outside region",
+            Self::TooManyStations => "too many stations",
             Self::Replayed => "replayed",
             Self::RefusedBefore => "refused before",
             Self::TooManyNew => "too many new certificates",

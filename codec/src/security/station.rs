@@ -33,7 +33,7 @@ impl Station {
         let sealer = Sealer::new(tickets, now)?;
         let own = sealer.ids().collect();
         Ok(Self {
-            verifier: Verifier::new(trust, tolerances, own),
+            verifier: Verifier::new(trust, tolerances, own).starting(now),
             sealer,
         })
     }
@@ -54,6 +54,18 @@ impl Station {
     #[must_use]
     pub const fn verifier(&self) -> &Verifier {
         &self.verifier
+    }
+
+    /// Takes up the time from before a restart: the newest that was known to have been.
+    pub fn remember_time(&mut self, known: Time64) {
+        let time = self.verifier.time_mut();
+        *time = time.since(known);
+    }
+
+    /// Looks at the clock, which shows `now`, when a clock that never leaps shows `steady_ms`. Also while nobody is heard,
+    /// it is known then whether it leaps.
+    pub fn look_at_clock(&mut self, now: Time64, steady_ms: u64) {
+        self.verifier.time_mut().look(now, steady_ms);
     }
 
     /// Puts a payload into an envelope, under the permission `its_aid`.

@@ -23,6 +23,7 @@ use super::rejected::Rejected;
 use super::thrift::{Budget, Refused};
 use super::time::Time64;
 use super::trust::{TrustStore, check_validity};
+use super::trusted_time::TrustedTime;
 
 /// How many certificates of authorities that were asked for are verified in a second.
 pub const AUTHORITIES_PER_S: u32 = 4;
@@ -70,6 +71,8 @@ pub struct Origin {
 pub struct Verifier {
     trust: TrustStore,
     tolerances: Tolerances,
+    /// The time, which does not go back although the clock may.
+    time: TrustedTime,
     cache: Cache,
     /// Certificates of which only the digest was heard, to ask for.
     wanted: Vec<HashedId3>,
@@ -111,6 +114,25 @@ impl Verifier {
             own,
             ..Self::default()
         }
+    }
+
+    /// The same from `now` on: what was generated before may have been heard before, and is refused.
+    #[must_use]
+    pub fn starting(self, now: Time64) -> Self {
+        Self {
+            time: TrustedTime::starting(now, self.tolerances.ahead_max_us),
+            ..self
+        }
+    }
+
+    /// The time, as far as the clock can be trusted.
+    #[must_use]
+    pub const fn time(&self) -> &TrustedTime {
+        &self.time
+    }
+
+    pub(super) const fn time_mut(&mut self) -> &mut TrustedTime {
+        &mut self.time
     }
 
     /// The authorities that it trusts.
@@ -198,6 +220,7 @@ impl Verifier {
         if self.own.contains(&id) {
             return Err(Rejected::OwnTicket);
         }
+        let now = self.time.read(now)?;
         self.check_time(now, message)?;
         self.learn_authority(now, message);
         let known = self.cache.ticket(id).cloned();
@@ -242,6 +265,7 @@ impl Verifier {
 
     fn check_time(&self, now: Time64, message: &SignedMessage) -> Result<(), Rejected> {
         let generated = message.header.generation_time;
+        self.time.check(generated)?;
         let age_us = now.0.saturating_sub(generated.0);
         if age_us > self.tolerances.age_max_us {
             return Err(Rejected::TooOld { age_us });

@@ -353,7 +353,8 @@ enum CrossguardEventKind
   CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR = 10,
   // The leader's application wants to hold the pedestrian back again.
   CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR = 11,
-  // The robot has changed its pseudonym: `station`. Only while the identity is not locked.
+  // The robot has changed its pseudonym: `station`. Only while the identity is not locked. Its numbers begin anew
+  // at `session.number`, which it must never have given out under this station id; 0 to go on counting.
   CROSSGUARD_EVENT_KIND_IDENTITY_CHANGED = 12,
   // A larger boot counter has been persisted, as an output `RenewEpoch` asked: `boot`.
   CROSSGUARD_EVENT_KIND_EPOCH_RENEWED = 13,

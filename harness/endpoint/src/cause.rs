@@ -33,7 +33,7 @@ pub enum Layer {
     Perception,
     /// The robot's own body, where that is another process.
     Body,
-    /// The file of the boot counter.
+    /// The files of the boot counter and of the time.
     Storage,
     /// The log.
     Log,
@@ -129,6 +129,8 @@ pub enum Cause {
     BodyGarbled,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
+    /// The time could not be persisted; a robot that loses power now may trust a clock that was put back.
+    TimeNotKept,
     /// The log's reader was too slow, or the log has no room: the record is not in the log.
     LogFull,
     /// A reader of records that need not have all of them was too slow.
@@ -151,7 +153,7 @@ impl Cause {
             Self::AnsweringAnother | Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
-            Self::EpochNotRenewed => Layer::Storage,
+            Self::EpochNotRenewed | Self::TimeNotKept => Layer::Storage,
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
         }
@@ -190,6 +192,7 @@ impl Display for Reason {
             Cause::BodyFault => "fault",
             Cause::BodyGarbled => "not understood",
             Cause::EpochNotRenewed => "boot counter not renewed",
+            Cause::TimeNotKept => "time not kept",
         })
     }
 }

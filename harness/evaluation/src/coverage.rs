@@ -39,13 +39,7 @@ pub struct Places {
 
 /// Where people are on a grid, and where robots on these ways see them, from samples `sample_ms` apart.
 #[must_use]
-pub fn places(
-    run: &Run,
-    grid: &Grid,
-    robots: &[Track],
-    radius_m: f64,
-    sample_ms: u64,
-) -> Places {
+pub fn places(run: &Run, grid: &Grid, robots: &[Track], radius_m: f64, sample_ms: u64) -> Places {
     let (mut all, mut at, mut between, mut seen, mut seen_at) = (0_u32, 0_u32, 0_u32, 0_u32, 0_u32);
     for track in &run.pedestrians {
         for (index, motion) in track.samples().iter().enumerate() {
@@ -146,7 +140,12 @@ mod tests {
             covered_at_intersections: 0.5,
         };
         assert_eq!(found, expected);
-        assert!(places(&run, &grid, &[], 15.0, 500).covered_at_intersections.abs() < 1e-12);
+        assert!(
+            places(&run, &grid, &[], 15.0, 500)
+                .covered_at_intersections
+                .abs()
+                < 1e-12
+        );
     }
 
     #[test]

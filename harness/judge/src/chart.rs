@@ -234,7 +234,7 @@ impl Chart {
                 outputs,
                 state,
             } => {
-                if let Input::Local(Event::IdentityChanged(station)) = input {
+                if let Input::Local(Event::IdentityChanged(station, _)) = input {
                     self.lanes[lane].station = *station;
                 }
                 self.keep_sign(lane, record.at_us, outputs);
@@ -264,6 +264,7 @@ impl Chart {
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
+            | Entry::Clock(_)
             | Entry::Stopped { .. } => Vec::new(),
         }
     }

@@ -256,6 +256,7 @@ impl Observer {
             Entry::Started {
                 station,
                 boot,
+                epoch,
                 settings,
                 identifiers,
                 ..
@@ -275,7 +276,8 @@ impl Observer {
                         why: String::new(),
                     });
                 }
-                facts.extend(self.view(robot, &Robot::new(*station, *boot)));
+                let epoch = epoch.unwrap_or(*boot);
+                facts.extend(self.view(robot, &Robot::new(*station, epoch)));
                 self.areas.guarding(*station, settings.guarding);
                 facts
             }
@@ -323,7 +325,7 @@ impl Observer {
                 .iter()
                 .map(|(cause, count)| self.count(robot, cause, count))
                 .collect(),
-            Entry::Channel(_) => Vec::new(),
+            Entry::Channel(_) | Entry::Clock(_) => Vec::new(),
             Entry::Zone(outline) => vec![Fact::Zone(outline.clone())],
             Entry::People(sight) => vec![Fact::People(sight.clone())],
             Entry::Around(around) => vec![Fact::Around(around.clone())],

@@ -346,7 +346,8 @@ impl LoggedRobots {
             | Entry::Zone(_)
             | Entry::People(_)
             | Entry::Around(_)
-            | Entry::Channel(_) => Ok(None),
+            | Entry::Channel(_)
+            | Entry::Clock(_) => Ok(None),
             Entry::Step {
                 input,
                 outputs,
@@ -359,7 +360,7 @@ impl LoggedRobots {
                 if let Some(late_us) = late_us {
                     self.validated.late.count(late_us);
                 }
-                if let Input::Local(Event::IdentityChanged(station)) = input {
+                if let Input::Local(Event::IdentityChanged(station, _)) = input {
                     self.stations.insert(station, robot.to_owned());
                 }
                 let broken = self.monitor.step(follow.place(), input, &outputs, &state);
@@ -415,6 +416,7 @@ impl LoggedRobots {
         let Entry::Started {
             station,
             boot,
+            epoch,
             settings,
             identifiers,
             ..
@@ -430,7 +432,7 @@ impl LoggedRobots {
             Some(before) => before.place(),
             None => self.monitor.add(station),
         };
-        let follow = Follow::started(place, at_us, station, boot, *settings, identifiers)?;
+        let follow = Follow::started(place, at_us, station, (boot, epoch), *settings, identifiers)?;
         self.monitor.boot(place, follow.robot(), follow.config());
         self.stations.insert(station, robot.to_owned());
         self.running.insert(robot.to_owned());

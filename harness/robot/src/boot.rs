@@ -1,4 +1,4 @@
-//! The boot counter: the only thing that a robot persists.
+//! The boot counter: the only thing of the protocol that a robot persists.
 //!
 //! Session and offer numbers are built from it, so it must never go back. It is written before the
 //! robot takes part in anything, into a file beside it (`.new`) that then takes its name, so that a
@@ -10,6 +10,12 @@
 //! So the file beside it that is locked (`.lock`) has the newest counter as well, and has it first: the next
 //! counter is above both. Only where neither is there does a robot begin at 1. Where the counter file is gone
 //! and the other one cannot be read, the robot does not start.
+//!
+//! A robot that signs keeps two things more beside it, for its security: see [`Memory`].
+
+mod memory;
+
+pub use memory::{AHEAD_US, Memory};
 
 use std::fs::{File, TryLockError};
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
@@ -58,6 +64,12 @@ pub enum BootError {
         /// The file.
         path: PathBuf,
     },
+    /// A file beside the counter holds something else.
+    #[error("{} cannot be read. If you know that the clock of this robot is right, delete it", path.display())]
+    Forgotten {
+        /// The file.
+        path: PathBuf,
+    },
     /// The counter cannot go on.
     #[error("{}: this was the last of 65535 boots; give the robot a new station id and a new file", path.display())]
     Exhausted {
@@ -79,6 +91,8 @@ pub struct Boot {
     pub counter: u16,
     /// Where it is kept; nowhere, for robots of which nothing outlives the process.
     kept: Option<Kept>,
+    /// What a robot that signs remembers besides.
+    memory: Option<Memory>,
 }
 
 #[derive(Debug)]
@@ -95,7 +109,24 @@ impl Boot {
         Self {
             counter: 1,
             kept: None,
+            memory: None,
         }
+    }
+
+    /// The same for a robot that signs, which remembers more than the counter.
+    ///
+    /// # Errors
+    /// When that cannot be read or kept: the robot had better not start.
+    pub fn remembering(mut self) -> Result<Self, BootError> {
+        if let Some(kept) = &self.kept {
+            self.memory = Some(Memory::beside(&kept.path)?);
+        }
+        Ok(self)
+    }
+
+    /// What a robot that signs remembers; nothing from before this start, unless it is [`Boot::remembering`].
+    pub(crate) fn take_memory(&mut self) -> Memory {
+        self.memory.take().unwrap_or_else(Memory::nowhere)
     }
 
     /// Takes the next counter while the robot runs: the numbers of this one are half used up.
@@ -123,6 +154,7 @@ pub fn take(path: &Path) -> Result<Boot, BootError> {
             path: path.to_owned(),
             lock,
         }),
+        memory: None,
     })
 }
 
@@ -154,7 +186,7 @@ fn take_after(path: &Path, lock: &File, known: u16) -> Result<u16, BootError> {
     })?;
     let counter = counter.max(above);
     remember(lock, counter).map_err(unusable)?;
-    if let Err(cause) = replace(path, counter) {
+    if let Err(cause) = replace(path, &format!("{MAGIC} {counter}\n")) {
         // Nobody has used it: a robot that is started again and again on a full disk uses no counters up.
         let _ = match remembered {
             Remembered::Counter(before) => remember(lock, before),
@@ -252,8 +284,8 @@ fn next(path: &Path, file: File) -> Result<u16, BootError> {
     })
 }
 
-/// Writes the counter so that at any moment the file holds the old one or the new one.
-fn replace(path: &Path, counter: u16) -> std::io::Result<()> {
+/// Writes a file so that at any moment it holds the old text or the new one.
+pub(crate) fn replace(path: &Path, text: &str) -> std::io::Result<()> {
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
@@ -266,7 +298,7 @@ fn replace(path: &Path, counter: u16) -> std::io::Result<()> {
         _ => {}
     }
     let mut new = File::create_new(&new_path)?;
-    new.write_all(format!("{MAGIC} {counter}\n").as_bytes())?;
+    new.write_all(text.as_bytes())?;
     new.sync_all()?;
     std::fs::rename(new_path, path)?;
     // The name itself is on the disk only when the folder is.

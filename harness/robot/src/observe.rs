@@ -117,6 +117,8 @@ pub fn entry(entry: &Entry, before: &mut State) {
             }
         }
         Entry::Zone(_) => {}
+        Entry::Clock(clock) if clock.is_trusted() => info!("{clock}"),
+        Entry::Clock(clock) => warn!("{clock}"),
         Entry::Channel(channel) => debug!(
             busy_ratio = ?channel.busy_ratio,
             power_dbm = ?channel.power_dbm,

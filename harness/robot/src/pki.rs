@@ -27,8 +27,10 @@ use crossguard_protocol::StationId;
 use crossguard_endpoint::station::Credentials;
 
 mod permissions;
+mod starts;
 
-pub use permissions::{its_aids, robot_permissions};
+pub use permissions::{its_aids, robot_permissions, robot_permissions_at};
+pub use starts::{drawn_start, early_us};
 
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.
 pub const EARLY_S: u64 = 60;
@@ -205,9 +207,10 @@ impl Pki {
         now: Time64,
         keys: &mut dyn FnMut() -> PrivateKey,
     ) -> Result<Self, IssueError> {
+        let pseudonyms = Duration::hours(23);
         let term = Term {
-            from: now,
-            duration: Duration::hours(24),
+            from: Time64(now.0.saturating_sub(early_us(pseudonyms))),
+            duration: Duration::hours(27),
         };
         let its_aids = its_aids(identifiers);
         let root = root_with(keys(), "test root", term, None, &its_aids)?;
@@ -252,15 +255,20 @@ impl Pki {
         now: Time64,
         keys: &mut dyn FnMut() -> PrivateKey,
     ) -> Result<Credentials, PkiError> {
-        let term = Term {
-            from: now,
-            duration: Duration::hours(23),
-        };
+        let duration = Duration::hours(23);
         let ticket = |nth| {
             let named = named.filter(|_| nth == 0);
             let permissions = robot_permissions(identifiers, &[Part::Lead, Part::Help], named);
-            let Holder { certificate, key } =
-                ticket_with(keys(), &self.authority, term, None, permissions)?;
+            let key = keys();
+            let issued = |from, permissions| {
+                let term = Term { from, duration };
+                ticket_with(key.clone(), &self.authority, term, None, permissions)
+            };
+            // The digest of a first one draws when it begins, so that the same keys give the same pseudonyms.
+            let [a, b, c, d, ..] = issued(now, permissions.clone())?.certificate.id().0;
+            let drawn = u64::from(u32::from_be_bytes([a, b, c, d])) * 1_000_000;
+            let from = starts::start_of(&self.authority.certificate, now, duration, drawn);
+            let Holder { certificate, key } = issued(from, permissions)?;
             Ok(Ticket::new(certificate, key)?)
         };
         Ok(Credentials {

@@ -19,7 +19,7 @@
 //!
 //! A robot that is told to stop leaves its session by name, says so for `T_farewell`, and then ends.
 
-mod epochs;
+mod keeper;
 mod partners;
 mod reader;
 mod running;
@@ -40,7 +40,7 @@ use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
-use self::epochs::Epochs;
+use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
 pub use self::running::{Panicked, Running};
 use self::sampler::Sampler;
@@ -49,6 +49,7 @@ use crate::around::Around;
 use crate::body::Pose;
 use crate::boot::Boot;
 use crate::channel::Monitored;
+use crate::clock::ClockState;
 use crate::journal::Journal;
 use crate::machine::{Machine, stimulus_of};
 use crate::observe;
@@ -187,7 +188,7 @@ pub struct Setup {
 impl Setup {
     /// Starts the robot in threads of its own.
     #[must_use]
-    pub fn start(self) -> Running {
+    pub fn start(mut self) -> Running {
         let (deliveries, inbox) = sync_channel(DATAGRAMS + OF_PARTNERS + ORDERS);
         let stop = Arc::new(AtomicBool::new(false));
         let waiting = Arc::new(Waiting::default());
@@ -200,13 +201,18 @@ impl Setup {
         // The log begins when the robot's clock does.
         let began_us = self.clock.now_us();
         let now_ms = began_us / 1_000;
-        let station = self.security.station_id(&self.identifiers, self.station);
-        let robot = Robot::new(station, self.boot.counter);
+        let memory = self.boot.take_memory();
+        let security = self.security.with_secret(memory.secret());
+        let security = security.since(memory.known());
+        let station = security.station_id(&self.identifiers, self.station);
+        let boot = self.boot.counter;
+        let epoch = security.epoch(station, boot);
+        let robot = Robot::new(station, epoch);
         let mut turn = Loop {
             began_us,
             machine: Machine::new(
                 Endpoint::new(robot, self.config, self.identifiers, now_ms)
-                    .with_security(self.security)
+                    .with_security(security)
                     .with_awareness(self.awareness),
                 self.application,
             ),
@@ -215,7 +221,9 @@ impl Setup {
             journal: self.journal,
             clock: self.clock,
             waiting: Arc::clone(&waiting),
-            epochs: Epochs::start(self.boot),
+            boot,
+            keeper: Keeper::start(self.boot, memory),
+            clock_state: None,
             channel: Monitored::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
@@ -255,7 +263,11 @@ struct Loop {
     journal: Journal,
     clock: Clock,
     waiting: Arc<Waiting>,
-    epochs: Epochs,
+    /// The boot counter that it started with.
+    boot: u16,
+    keeper: Keeper,
+    /// What the log says of the clock.
+    clock_state: Option<ClockState>,
     /// The radio channel, where the link measures it.
     channel: Monitored,
     /// The newest state that observers were told.
@@ -284,7 +296,9 @@ impl Loop {
             self.began_us,
             Entry::Started {
                 station: self.machine.endpoint().robot().station(),
-                boot: self.machine.endpoint().robot().boot(),
+                boot: self.boot,
+                epoch: Some(self.machine.endpoint().robot().boot())
+                    .filter(|epoch| *epoch != self.boot),
                 settings: Box::new(self.machine.endpoint().config().settings().clone()),
                 identifiers: *self.machine.endpoint().identifiers(),
                 unix_ms: unix_ms().saturating_sub(since_ms),
@@ -310,7 +324,11 @@ impl Loop {
                 return;
             }
             self.renew_epoch();
+            self.keep_time();
             self.control_congestion();
+        }
+        if let Some(time) = self.machine.endpoint().trusted_time() {
+            self.keeper.keep_last(time.mark());
         }
         self.count_overflow();
         if let Some(counters) = self.sampler.finish() {
@@ -442,7 +460,7 @@ impl Loop {
 
     /// Tells the robot of a boot counter that has been persisted meanwhile.
     fn renew_epoch(&mut self) {
-        match self.epochs.answer() {
+        match self.keeper.answer() {
             None => {}
             Some(Ok(boot)) => self.handle(Stimulus::Event(Event::EpochRenewed(boot))),
             // The robot asks again with the next number that it gives out.
@@ -450,6 +468,24 @@ impl Loop {
                 tracing::error!(%error, "the boot counter is not renewed");
                 self.drop(Cause::EpochNotRenewed, error.to_string(), Vec::new());
             }
+        }
+    }
+
+    /// Remembers the time for the next boot, and says whether the clock can be relied on.
+    fn keep_time(&mut self) {
+        let Some(time) = self.machine.endpoint().trusted_time().copied() else {
+            return;
+        };
+        let state = ClockState::of(&time);
+        if state.is_trusted()
+            && let Some(error) = self.keeper.keep(time.mark())
+        {
+            tracing::error!(%error, "the time is not kept");
+            self.drop(Cause::TimeNotKept, error.to_string(), Vec::new());
+        }
+        if self.clock_state.map(ClockState::is_trusted) != Some(state.is_trusted()) {
+            self.clock_state = Some(state);
+            self.log(Entry::Clock(state));
         }
     }
 
@@ -509,7 +545,7 @@ impl Loop {
             _ => None,
         };
         match &effect {
-            Effect::Act(Act::RenewEpoch) => self.epochs.ask(),
+            Effect::Act(Act::RenewEpoch) => self.keeper.ask(),
             Effect::Stepped { state, .. } => {
                 let identifiers = self.machine.endpoint().identifiers();
                 self.waiting.partners.follow(state, identifiers);

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::around::Around;
 use crate::channel::ChannelState;
+use crate::clock::ClockState;
 use crate::sight::{Outline, Sight};
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
@@ -52,6 +53,9 @@ pub enum Entry {
         station: StationId,
         /// Its boot counter.
         boot: u16,
+        /// What its first session and offer numbers have for the boot counter, where that is told to nobody.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        epoch: Option<u16>,
         /// Its configuration.
         settings: Box<Settings>,
         /// What no standard has assigned; without it its messages are not understood.
@@ -120,6 +124,8 @@ pub enum Entry {
     Around(Around),
     /// The radio channel is like this now, where the link measures it.
     Channel(ChannelState),
+    /// It trusts its clock from now on, or no longer. Of a robot that does not trust it nothing that is signed is heard.
+    Clock(ClockState),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

@@ -151,7 +151,10 @@ impl Active {
             BodyKind::External => Box::new(file.external_body(acts.driver())),
         };
         // The counter is taken last, when nothing else can go wrong, and before anything is sent.
-        let boot = boot::take(&file.boot_file)?;
+        let mut boot = boot::take(&file.boot_file)?;
+        if security.signs() {
+            boot = boot.remembering()?;
+        }
         let mut setup = file.setup(boot, body, security, link, journal);
         let listener = acts.listener(robot.body == BodyKind::Configured);
         setup.application = setup.application.heard_by(listener);
@@ -201,7 +204,7 @@ fn security(robot: &Robot, name: &str) -> Result<Security, NoRobot> {
         return Ok(Security::default());
     }
     let folder = robot.pki.as_deref().ok_or(NoRobot::NoPki)?;
-    let credentials = pki::credentials_of(folder, name)?;
+    let credentials = pki::credentials_of(folder, name)?.shuffled();
     let period = Some(PSEUDONYM_PERIOD_MS);
     Ok(Security::new(
         robot.security,

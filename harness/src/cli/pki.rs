@@ -109,7 +109,7 @@ pub(super) struct Pseudonyms {
     /// How many.
     #[arg(long, default_value_t = 8, value_parser = whole::<u16>(1..=1_000))]
     count: u16,
-    /// For how many hours they are valid.
+    /// For how many hours they are valid. Each begins at another moment, up to a tenth of that time early.
     #[arg(long, default_value_t = 168, value_parser = whole::<u16>(1..=65_535))]
     hours: u16,
     /// In how many hours they begin to be valid; negative for the past.
@@ -123,6 +123,9 @@ pub(super) struct Pseudonyms {
     /// The parts that the robot may take in sessions.
     #[arg(long = "part", value_enum, default_values = ["lead", "help"])]
     parts: Vec<PartName>,
+    /// The only crossing where it may take them, as 'place' in robot files has it.
+    #[arg(long, value_name = "NUMBER", value_parser = whole::<u32>(1..=u32::MAX.into()))]
+    place: Option<u32>,
     /// Instead of RAM, RMCM, CAM and VAM: an ITS-AID, with its service specific permissions as a bitmap in
     /// hexadecimal digits if it has some.
     #[arg(long = "its-aid", value_name = "NUMBER[:DIGITS]", action = ArgAction::Append,
@@ -341,6 +344,8 @@ fn init_in(
 ) -> Result<Vec<File>, Failure> {
     // Above pseudonyms that begin in the past are certificates that begin as early.
     let early = Pseudonyms::from(pseudonyms.start_in.min(0));
+    let early_us = pki::early_us(Duration::hours(pseudonyms.hours));
+    let early = Time64(early.0.saturating_sub(early_us));
     let office = |name: &str, years| Office {
         name: Some(name.to_owned()),
         years,
@@ -452,9 +457,10 @@ fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File
     // All are made before any is written.
     let region = || wanted.where_valid.region();
     let ticket = |_| {
+        let from = pki::drawn_start(&authority.certificate, term.from, term.duration);
         pki::new_ticket(
             &authority,
-            term,
+            Term { from, ..term },
             region(),
             wanted.permissions(robot.station),
         )
@@ -494,7 +500,8 @@ impl Pseudonyms {
             PartName::Help => Part::Help,
         };
         let parts: Vec<_> = self.parts.iter().map(part).collect();
-        pki::robot_permissions(&Identifiers::default(), &parts, named)
+        let place = self.place.map(crossguard_protocol::Place);
+        pki::robot_permissions_at(&Identifiers::default(), &parts, named, place)
     }
 }
 

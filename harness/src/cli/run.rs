@@ -169,7 +169,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Failure::Input(format!("[body] {}: {error}", address.unwrap_or_default()))
     })?;
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
-    let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
+    let boot = boot::take(&file.boot_file).and_then(|boot| {
+        if security.signs() {
+            boot.remembering()
+        } else {
+            Ok(boot)
+        }
+    });
+    let boot = boot.map_err(Failure::input)?;
     let counter = boot.counter;
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     setup.awareness = arguments.etsi.add_to(setup.awareness);
@@ -180,6 +187,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         lines: outputs.lines,
         watch,
         robot: Robot::new(station, counter),
+        doubts_clock: false,
         pending: VecDeque::new(),
         hold: None,
         perceived,
@@ -264,6 +272,8 @@ struct Console<'a> {
     watch: super::watch::Watch,
     /// The robot as its newest record shows it.
     robot: Robot,
+    /// Whether it does not trust its clock.
+    doubts_clock: bool,
     pending: VecDeque<Line>,
     hold: Option<Hold>,
     /// The people that the robot's sensors report, from a file.
@@ -328,6 +338,7 @@ impl Console<'_> {
         }
         match &record.entry {
             Entry::Step { state, .. } => self.robot = (**state).clone(),
+            Entry::Clock(clock) => self.doubts_clock = !clock.is_trusted(),
             Entry::Stopped { counters } => {
                 self.missing = counters.of(&Cause::LogFull.into());
             }
@@ -368,6 +379,10 @@ impl Console<'_> {
                 if cause.layer != Layer::Simulated && !cause.is_own_packet() =>
             {
                 texts.push(format!("dropped, {cause}: {detail}"));
+            }
+            // That it trusts its clock goes without saying, unless it did not.
+            Entry::Clock(clock) if self.doubts_clock || !clock.is_trusted() => {
+                texts.push(clock.to_string());
             }
             Entry::Stopped { counters } => {
                 texts.push("stopped".to_owned());

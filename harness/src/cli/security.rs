@@ -66,7 +66,8 @@ impl SecurityArguments {
                     .to_owned(),
             )),
             (_, Some(folder)) => {
-                self.with(pki::credentials_of(folder, name).map_err(Failure::input)?)
+                let credentials = pki::credentials_of(folder, name).map_err(Failure::input)?;
+                self.with(credentials.shuffled())
             }
         }
     }

@@ -232,7 +232,7 @@ pub struct TakesItsLeadersPseudonym;
 
 impl Rules for TakesItsLeadersPseudonym {
     fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Following(following), Input::Local(Event::IdentityChanged(_))) =
+        if let (Phase::Following(following), Input::Local(Event::IdentityChanged(..))) =
             (robot.phase(), input)
         {
             let mut state = serde_json::to_value(&*robot).unwrap();

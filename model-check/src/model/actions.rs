@@ -182,9 +182,8 @@ impl Model {
             push(Event::AvailabilityChanged(Availability::Available));
         }
         if left.disturbances > 0 {
-            push(Event::IdentityChanged(StationId(
-                robot.station().0 + PSEUDONYM_STEP,
-            )));
+            let alias = StationId(robot.station().0 + PSEUDONYM_STEP);
+            push(Event::IdentityChanged(alias, None));
         }
         match robot.phase() {
             Phase::Idle => {}

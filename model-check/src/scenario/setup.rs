@@ -72,7 +72,7 @@ impl Bounds {
             Event::ManeuverFailed(_)
             | Event::LeaveRequested
             | Event::AvailabilityChanged(Availability::Unavailable(_))
-            | Event::IdentityChanged(_) => &mut self.disturbances,
+            | Event::IdentityChanged(..) => &mut self.disturbances,
             Event::InPosition(_)
             | Event::ManeuverCompleted(_)
             | Event::TaskCompleted

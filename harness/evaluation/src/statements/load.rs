@@ -5,9 +5,7 @@ use super::super::paper::PAPER;
 use super::super::statistics::Estimate;
 use super::setup::{on_the_air, setup};
 use super::text::{list, spread, words};
-use super::{
-    Comparison, LOW_MCBR, Setting, Statement, compare, is_of, over_densities, same,
-};
+use super::{Comparison, LOW_MCBR, Setting, Statement, compare, is_of, over_densities, same};
 
 /// How much of the silence may be of devices that no robot perceives, in percent.
 const WRONG_MAX_PERCENT: f64 = 5.0;
@@ -121,12 +119,25 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
         "the largest of all cells, and the figure within two standard deviations of a run",
     ));
     let of_robots = |robots| {
-        let pair = |people| Some([find(robots, people, small_m)?, find(robots, people, large_m)?]);
-        PAPER.pedestrians.into_iter().map(pair).collect::<Option<Pairs<'_>>>()
+        let pair = |people| {
+            Some([
+                find(robots, people, small_m)?,
+                find(robots, people, large_m)?,
+            ])
+        };
+        PAPER
+            .pedestrians
+            .into_iter()
+            .map(pair)
+            .collect::<Option<Pairs<'_>>>()
     };
-    let pairs = of_robots(one).zip(of_robots(nine)).map(|(one, nine)| [one, nine].concat());
+    let pairs = of_robots(one)
+        .zip(of_robots(nine))
+        .map(|(one, nine)| [one, nine].concat());
     lines.extend(by_radius(pairs.as_ref()));
-    lines.push(by_robots(reductions(one, large_m).zip(reductions(nine, large_m))));
+    lines.push(by_robots(
+        reductions(one, large_m).zip(reductions(nine, large_m)),
+    ));
     lines.push(conservative(cells));
     lines
 }

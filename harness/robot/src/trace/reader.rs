@@ -260,6 +260,7 @@ mod tests {
             entry: Entry::Started {
                 station: StationId(1),
                 boot: 1,
+                epoch: None,
                 settings: Box::new(Config::default().settings().clone()),
                 identifiers: crossguard_codec::Identifiers::default(),
                 unix_ms,
