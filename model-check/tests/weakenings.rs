@@ -342,6 +342,21 @@ fn without_positions_in_ram_nobody_ever_crosses() {
     assert_breaks_alone("crossing", ReadsNoProgress, &[L7, W7]);
 }
 
+#[test]
+fn an_insider_moves_a_robot_that_obeys_commands_of_any_session() {
+    assert_breaks("lying-bystander", ObeysCommandsOfAnySession, &[C1]);
+}
+
+#[test]
+fn a_follower_that_lies_speaks_for_the_others_where_one_counts_for_all() {
+    assert_breaks("lying-follower", CountsOneForAll, &[C2]);
+}
+
+#[test]
+fn a_corridor_rests_on_a_stranger_where_who_says_so_follows() {
+    assert_breaks("lying-bystander", AdmitsWhoSaysThatItFollows, &[C3]);
+}
+
 /// Removed from the protocol, three of the checks that an open corridor needs went unnoticed once.
 #[test]
 fn each_check_of_an_open_corridor_is_missed() {
