@@ -13,7 +13,11 @@ use crossguard_testkit::rules::*;
 
 /// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
 fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
-    let model = Model::with_rules(Scenario::load(scenario).unwrap(), rules);
+    assert_breaks_in(Scenario::load(scenario).unwrap(), rules, properties);
+}
+
+fn assert_breaks_in(scenario: Scenario, rules: impl Rules + 'static, properties: &[PropertyId]) {
+    let model = Model::with_rules(scenario, rules);
     let options = Options {
         until_broken: properties.to_vec(),
         ..Options::default()
@@ -349,7 +353,10 @@ fn an_insider_moves_a_robot_that_obeys_commands_of_any_session() {
 
 #[test]
 fn a_follower_that_lies_speaks_for_the_others_where_one_counts_for_all() {
-    assert_breaks("lying-follower", CountsOneForAll, &[C2]);
+    // C3 is broken first, and nothing is explored beyond that.
+    let mut scenario = Scenario::load("lying-follower").unwrap();
+    (scenario.properties, scenario.expected) = (vec![C2], None);
+    assert_breaks_in(scenario, CountsOneForAll, &[C2]);
 }
 
 #[test]
