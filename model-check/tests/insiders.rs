@@ -10,7 +10,8 @@ const LYING: [(&str, &[Insider]); 4] = [
     ("lying-follower", &[Insider::Follower, Insider::Stranger]),
     ("lying-helper", &[Insider::Stranger]),
     ("lying-leader", &[Insider::Leader, Insider::Stranger]),
-    ("lying-bystander", &[Insider::Stranger]),
+    // Who joins it is led by it.
+    ("lying-bystander", &[Insider::Stranger, Insider::Leader]),
 ];
 
 fn can_break(id: PropertyId, insiders: &[Insider]) -> bool {
