@@ -19,6 +19,7 @@
 
 mod clock;
 mod fuzz;
+mod insider;
 mod report;
 mod road;
 mod ruled;
@@ -29,6 +30,7 @@ mod times;
 mod world;
 
 pub use fuzz::{Failure, Fuzz, Totals};
+pub use insider::InsiderDraw;
 pub use report::{Files, write_failure, write_failure_with};
 pub use script::{Deed, Happening};
 pub use swarm::{Hazard, Replay, RobotDraw, Swarm};

@@ -16,6 +16,7 @@ use crossguard_robot::transport::Faults;
 
 use self::draws::Draws;
 pub use self::hazards::Hazard;
+use super::insider::InsiderDraw;
 use super::script::Happening;
 
 /// By how much a station id grows when the robot changes its pseudonym.
@@ -47,6 +48,8 @@ pub struct Swarm {
     pub replays: Vec<Replay>,
     /// Whether robots sign what they send, and take in nothing without a signature.
     pub is_secured: bool,
+    /// The insider that lies, if there is one.
+    pub insider: Option<InsiderDraw>,
     /// The corner at which somebody waits once the network is healed, where a team can exist.
     pub waits_at: Option<usize>,
 }
