@@ -1,5 +1,7 @@
 //! Packets that are signed and verified.
 
+use std::collections::BTreeSet;
+
 use super::{EgoPosition, LongPositionVector, Opened, Permits, Signer};
 use crate::part::{Part, SSP_VERSION};
 use crate::security::{
@@ -34,6 +36,11 @@ impl Secured {
     #[must_use]
     pub const fn station(&self) -> &Station {
         &self.station
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.station.set_revoked(revoked);
     }
 
     /// The station id that goes with the ticket in use, in messages under this ITS-AID.

@@ -112,6 +112,12 @@ impl PrivateKey {
 }
 
 impl PublicKey {
+    /// The key in an uncompressed or compressed point of SEC 1, as tokens tell it; `None` where there is none.
+    #[must_use]
+    pub fn of_sec1(octets: &[u8]) -> Option<Self> {
+        VerifyingKey::from_sec1_bytes(octets).map(Self).ok()
+    }
+
     /// Reads an `EccP256CurvePoint` in compressed form, the canonical one.
     pub(super) fn read(reader: &mut OerReader, field: &'static str) -> Result<Self, Rejected> {
         let parity = match reader.octet(field)? {
@@ -140,6 +146,12 @@ impl PublicKey {
 }
 
 impl Signature {
+    /// The signature of r and s, 32 octets each, big-endian, as tokens tell it; `None` where they are out of range.
+    #[must_use]
+    pub fn of_octets(octets: &[u8; 64]) -> Option<Self> {
+        ecdsa::Signature::from_slice(octets).map(Self).ok()
+    }
+
     /// Reads a `Signature`. Of `rSig` only the form x-only is taken, the canonical one.
     pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         match reader.octet("signature")? {
@@ -197,6 +209,13 @@ mod tests {
         assert_eq!(format!("{key:?}"), "PrivateKey");
         assert_eq!(PrivateKey::of_pem("no key").unwrap_err(), NoKey);
         assert_eq!(PrivateKey::of_octets(&[0; 32]).unwrap_err(), NoKey);
+    }
+
+    /// Wiped from memory when dropped: the compiler holds that, here.
+    #[test]
+    fn a_private_key_is_wiped_when_it_is_dropped() {
+        fn is_wiped<T: p256::elliptic_curve::zeroize::ZeroizeOnDrop>(_: &T) {}
+        is_wiped(&PrivateKey::generate().0);
     }
 
     #[test]

@@ -69,6 +69,9 @@ pub enum Rejected {
     /// The own station signed it, under this or an earlier pseudonym.
     #[error("signed with an own ticket")]
     OwnTicket,
+    /// Signed with a certificate that is revoked, or below one.
+    #[error("certificate {0} is revoked")]
+    Revoked(HashedId8),
     /// Generated too long ago.
     #[error("generated {age_us} us ago")]
     TooOld {
@@ -133,6 +136,7 @@ impl Rejected {
             Self::Unsupported(_) => "unsupported",
             Self::AgainstProfile(_) => "against profile",
             Self::OwnTicket => "own ticket",
+            Self::Revoked(_) => "revoked",
             Self::TooOld { .. } => "too old",
             Self::FromTheFuture { .. } => "from the future",
             Self::MessageExpired => "message expired",

@@ -1,5 +1,7 @@
 //! One station's security: its pseudonyms, and the authorities that it trusts.
 
+use std::collections::BTreeSet;
+
 use super::envelope::SignedMessage;
 use super::hashed_id::HashedId8;
 use super::region::Place;
@@ -54,6 +56,11 @@ impl Station {
     #[must_use]
     pub const fn verifier(&self) -> &Verifier {
         &self.verifier
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.verifier.set_revoked(revoked);
     }
 
     /// Puts a payload into an envelope, under the permission `its_aid`.

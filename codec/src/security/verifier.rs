@@ -3,6 +3,8 @@
 //! Checks that cost little come first, signatures last; nothing is remembered of a message that fails
 //! one. Time and place are inputs.
 
+use std::collections::BTreeSet;
+
 use super::cache::Cache;
 use super::certificate::Certificate;
 use super::envelope::{REQUESTS_MAX, SignedMessage, SignerIdentifier};
@@ -73,6 +75,11 @@ impl Verifier {
         &self.trust
     }
 
+    /// Trusts none of these certificates from now on; see [`TrustStore::set_revoked`].
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.trust.set_revoked(revoked);
+    }
+
     /// How many tickets of others it remembers.
     #[must_use]
     pub fn known_tickets(&self) -> usize {
@@ -99,8 +106,11 @@ impl Verifier {
         if self.own.contains(&id) {
             return Err(Rejected::OwnTicket);
         }
+        if self.trust.is_revoked(id) {
+            return Err(Rejected::Revoked(id));
+        }
         self.check_time(now, message)?;
-        self.learn_authority(message);
+        self.learn_authority(now, message);
         let known = self.cache.ticket(id).cloned();
         let is_new = known.is_none();
         let ticket = match (known, &message.signer) {
@@ -193,14 +203,14 @@ impl Verifier {
 
     /// An authority's certificate that comes with a message vouches for itself, by its root. One
     /// that does not is no reason to reject the message.
-    fn learn_authority(&mut self, message: &SignedMessage) {
+    fn learn_authority(&mut self, now: Time64, message: &SignedMessage) {
         let Some(octets) = message.header.requested_certificate else {
             return;
         };
         if let Ok(authority) = Certificate::decode(octets)
             && self.trust.authority(authority.id().short()).is_none()
         {
-            let _ = self.trust.add_authority(authority);
+            let _ = self.trust.learn_authority(authority, now);
         }
     }
 

@@ -6,3 +6,4 @@ mod issuing;
 mod pki;
 mod pseudonyms;
 mod receiving;
+mod revoking;

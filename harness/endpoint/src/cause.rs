@@ -33,7 +33,7 @@ pub enum Layer {
     Perception,
     /// The robot's own body, where that is another process.
     Body,
-    /// The file of the boot counter.
+    /// The files of the boot counter and of the revocation list.
     Storage,
     /// The log.
     Log,
@@ -127,6 +127,8 @@ pub enum Cause {
     BodyGarbled,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
+    /// The revocation list cannot be read any more; the robot keeps the one that it has.
+    RevokedUnread,
     /// The log's reader was too slow, or the log has no room: the record is not in the log.
     LogFull,
     /// A reader of records that need not have all of them was too slow.
@@ -149,7 +151,7 @@ impl Cause {
             Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
-            Self::EpochNotRenewed => Layer::Storage,
+            Self::EpochNotRenewed | Self::RevokedUnread => Layer::Storage,
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
         }
@@ -187,6 +189,7 @@ impl Display for Reason {
             Cause::BodyFault => "fault",
             Cause::BodyGarbled => "not understood",
             Cause::EpochNotRenewed => "boot counter not renewed",
+            Cause::RevokedUnread => "revocation list not read",
         })
     }
 }

@@ -7,7 +7,10 @@ mod act;
 mod answers;
 mod turn;
 
-use crossguard_codec::geonet::EgoPosition;
+use std::collections::BTreeSet;
+
+use crossguard_codec::geonet::{EgoPosition, Envelope};
+use crossguard_codec::security::HashedId8;
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
     Config, Event, Identity, Input, Outputs, Robot, StateMachine, StationId, TaskType, Timer,
@@ -170,6 +173,13 @@ impl<P: StateMachine> Endpoint<P> {
         self.pseudonyms = Pseudonyms::new(security.pseudonym_period_ms, now_ms);
         *self.exchange.stack_mut().envelope_mut() = security.envelope;
         self
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        if let Envelope::Secured(secured) = self.exchange.stack_mut().envelope_mut() {
+            secured.set_revoked(revoked);
+        }
     }
 
     /// The protocol state.

@@ -20,6 +20,7 @@
 
 mod epochs;
 mod reader;
+mod revoked;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -143,6 +144,7 @@ enum Delivery {
     Arrived(Arrival),
     Order(Order),
     LinkFailed(std::io::Error),
+    Revoked(revoked::Read),
 }
 
 /// A robot that can be run.
@@ -310,6 +312,7 @@ impl Loop {
         while !self.is_done() {
             match inbox.recv_timeout(self.patience()) {
                 Ok(Delivery::Order(order)) => self.obey(order),
+                Ok(Delivery::Revoked(list)) => self.revoke(list),
                 Ok(delivery) => {
                     self.waiting.datagrams.fetch_sub(1, Ordering::Relaxed);
                     self.take(delivery);
@@ -372,6 +375,7 @@ impl Loop {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }
             Delivery::Order(order) => return self.obey(order),
+            Delivery::Revoked(list) => return self.revoke(list),
         }
         self.handle(Stimulus::Time);
     }
