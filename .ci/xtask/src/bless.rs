@@ -15,7 +15,7 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 11] = [
+const GENERATED: [Generated; 12] = [
     Generated {
         path: "protocol/src/task.rs: the named tasks, in other languages",
         by: "cargo test -p crossguard-testkit --test named_tasks",
@@ -55,6 +55,10 @@ const GENERATED: [Generated; 11] = [
     Generated {
         path: "harness/doc/errors.md",
         by: "cargo test -p crossguard-harness --test bad_inputs",
+    },
+    Generated {
+        path: "harness/doc/safety-case.md",
+        by: "cargo test -p crossguard-harness --test safety_case",
     },
     Generated {
         path: "README.md: the sum of states",

@@ -84,5 +84,12 @@ fn run(module: &Path, label: &str, pin: &Path, name: &str) -> Result<(), Box<dyn
     }
     let each = began.elapsed() / PACKETS;
     println!("{PACKETS} packets signed by the token and verified, {each:.1?} each");
-    Ok(())
+    token.log_out()?;
+    match robot.seal(now, its_aid, b"a packet") {
+        Ok(_) => Err("the token signs although nobody is logged in".into()),
+        Err(error) => {
+            println!("after the logout: {error}");
+            Ok(())
+        }
+    }
 }

@@ -157,7 +157,11 @@ impl SigningKey for TokenKey {
 
 const fn why(error: &Error) -> &'static str {
     match error {
-        Error::Pkcs11(RvError::UserNotLoggedIn, _) => "nobody is logged in to the token",
+        // Without a login, SoftHSM knows no private key.
+        Error::Pkcs11(
+            RvError::UserNotLoggedIn | RvError::KeyHandleInvalid | RvError::ObjectHandleInvalid,
+            _,
+        ) => "nobody is logged in to the token",
         Error::Pkcs11(
             RvError::DeviceRemoved | RvError::TokenNotPresent | RvError::SessionHandleInvalid,
             _,
