@@ -32,7 +32,7 @@ pub(crate) fn of(case: &Case, repository: &Repository) -> String {
         "What an integrator has to bring",
         &said(&case.bring),
     );
-    let text = "The kit follows none of them and was assessed by none of them. They say where to look.\n\n";
+    let text = "The kit was assessed by none of them. They say where to look.\n\n";
     let standards = case.orientation.iter();
     let standards = standards.map(|it| format!("- **{}**: {}\n", it.standard, it.what.trim()));
     section(
