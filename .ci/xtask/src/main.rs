@@ -57,7 +57,7 @@ enum Command {
         /// A clone of https://github.com/rustsec/advisory-db.
         database: PathBuf,
     },
-    /// Writes what goes with a release: the bill of materials (CycloneDX) and the notices of others.
+    /// Writes what goes with a release: the bill of materials (`CycloneDX`) and the notices of others.
     Papers {
         /// The folder, which is made if need be.
         folder: PathBuf,

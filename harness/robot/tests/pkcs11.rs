@@ -1,4 +1,4 @@
-//! A robot whose key is in a token: SoftHSM, where it is installed.
+//! A robot whose key is in a token: `SoftHSM`, where it is installed.
 
 #[path = "../examples/pkcs11/token.rs"]
 mod token;
@@ -21,7 +21,7 @@ const NOW_S: u32 = 694_694_401;
 const NOW: Time64 = Time64(NOW_S as u64 * 1_000_000);
 const PIN: &str = "5678";
 
-/// The module of SoftHSM, where Debian and Fedora have it.
+/// The module of `SoftHSM`, where Debian and Fedora have it.
 fn module() -> Option<PathBuf> {
     let places = [
         "/usr/lib/softhsm/libsofthsm2.so",
@@ -31,7 +31,7 @@ fn module() -> Option<PathBuf> {
     places.find(|place| place.is_file())
 }
 
-/// SoftHSM takes its tokens from where its environment says, so the test is another process.
+/// `SoftHSM` takes its tokens from where its environment says, so the test is another process.
 #[test]
 fn a_key_in_a_token_signs_and_does_not_leave_it() {
     if module().is_none()

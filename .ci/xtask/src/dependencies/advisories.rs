@@ -1,5 +1,5 @@
 //! Known advisories on packages of the lock files: a list with a date, which `cargo xtask advisories` takes from a
-//! clone of RustSec's database.
+//! clone of `RustSec`'s database.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! The bill of materials, in the form of CycloneDX 1.5: what every package is, where it comes from, and who needs it.
+//! The bill of materials, in the form of `CycloneDX` 1.5: what every package is, where it comes from, and who needs it.
 
 use cargo_metadata::Package;
 use serde_json::{Value, json};

@@ -10,6 +10,7 @@
 //! while it is written is not all there.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -111,7 +112,7 @@ pub fn add_revoked(path: &Path, ids: &[HashedId8]) -> Result<(), PkiError> {
         text.push('\n');
     }
     for id in ids.iter().filter(|id| !there.contains(id)) {
-        text.push_str(&format!("{id}\n"));
+        let _ = writeln!(text, "{id}");
     }
     replace(path, text.as_bytes()).map_err(at(path))
 }
