@@ -61,6 +61,10 @@ const GENERATED: [Generated; 12] = [
         by: "cargo test -p crossguard-harness --test bad_inputs",
     },
     Generated {
+        path: "harness/doc/safety-case.md",
+        by: "cargo test -p crossguard-harness --test safety_case",
+    },
+    Generated {
         path: "README.md: the sum of states",
         by: "cargo test -p crossguard-harness --test pages sum_of_states",
     },

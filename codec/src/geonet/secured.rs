@@ -1,5 +1,7 @@
 //! Packets that are signed and verified.
 
+use std::collections::BTreeSet;
+
 use super::{
     Admitted, Discarded, EgoPosition, EnvelopeError, LongPositionVector, Opened, Permits, Signer,
 };
@@ -38,6 +40,11 @@ impl Secured {
     #[must_use]
     pub const fn station(&self) -> &Station {
         &self.station
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.station.set_revoked(revoked);
     }
 
     /// The station id that goes with the ticket in use, in messages under this ITS-AID.

@@ -133,6 +133,12 @@ impl PrivateKey {
 }
 
 impl PublicKey {
+    /// The key in an uncompressed or compressed point of SEC 1, as tokens tell it; `None` where there is none.
+    #[must_use]
+    pub fn of_sec1(octets: &[u8]) -> Option<Self> {
+        VerifyingKey::from_sec1_bytes(octets).map(Self).ok()
+    }
+
     /// Reads an `EccP256CurvePoint` in compressed form, the canonical one.
     pub(super) fn read(reader: &mut OerReader, field: &'static str) -> Result<Self, Rejected> {
         let parity = match reader.octet(field)? {
@@ -173,6 +179,12 @@ impl Verifying {
 }
 
 impl Signature {
+    /// The signature of r and s, 32 octets each, big-endian, as tokens tell it; `None` where they are out of range.
+    #[must_use]
+    pub fn of_octets(octets: &[u8; 64]) -> Option<Self> {
+        ecdsa::Signature::from_slice(octets).map(Self).ok()
+    }
+
     /// Reads a `Signature`. Of `rSig` only the form x-only is taken, the canonical one.
     pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         match reader.octet("signature")? {
@@ -237,6 +249,13 @@ mod tests {
 
     fn verifying(key: &PrivateKey) -> Verifying {
         Verifying::of(&key.public_key()).unwrap()
+    }
+
+    /// Wiped from memory when dropped: the compiler holds that, here.
+    #[test]
+    fn a_private_key_is_wiped_when_it_is_dropped() {
+        fn is_wiped<T: p256::elliptic_curve::zeroize::ZeroizeOnDrop>(_: &T) {}
+        is_wiped(&PrivateKey::generate().0);
     }
 
     #[test]

@@ -120,6 +120,9 @@ pub enum Rejected {
     /// Generated before this station started, which may have heard it before.
     #[error("generated before this station started, which may have heard it before")]
     BeforeStart,
+    /// Signed with a certificate that is revoked, or below one.
+    #[error("certificate {0} is revoked")]
+    Revoked(HashedId8),
     /// Generated too long ago.
     #[error("generated {age_us} us ago")]
     TooOld {
@@ -205,6 +208,7 @@ impl Rejected {
             Self::OwnTicket => "own ticket",
             Self::TimeNotTrusted(_) => "time not trusted",
             Self::BeforeStart => "before the start",
+            Self::Revoked(_) => "revoked",
             Self::TooOld { .. } => "too old",
             Self::FromTheFuture { .. } => "from the future",
             Self::MessageExpired => "message expired",

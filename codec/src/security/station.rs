@@ -1,5 +1,7 @@
 //! One station's security: its pseudonyms, and the authorities that it trusts.
 
+use std::collections::BTreeSet;
+
 use super::envelope::SignedMessage;
 use super::hashed_id::HashedId8;
 use super::region::Place;
@@ -66,6 +68,11 @@ impl Station {
     /// it is known then whether it leaps.
     pub fn look_at_clock(&mut self, now: Time64, steady_ms: u64) {
         self.verifier.time_mut().look(now, steady_ms);
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.verifier.set_revoked(revoked);
     }
 
     /// Puts a payload into an envelope, under the permission `its_aid`.

@@ -10,7 +10,7 @@
 //! | signature of a new ticket, and of its first message | up to two signatures | [`Tolerances::new_per_s`] times a second |
 //! | signature of a message of a ticket that is known | one signature | with every packet that names such a ticket |
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 use super::cache::Cache;
 use super::certificate::Certificate;
@@ -147,6 +147,11 @@ impl Verifier {
         &self.tolerances
     }
 
+    /// Trusts none of these certificates from now on; see [`TrustStore::set_revoked`].
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.trust.set_revoked(revoked);
+    }
+
     /// How many tickets of others it remembers.
     #[must_use]
     pub fn known_tickets(&self) -> usize {
@@ -221,6 +226,9 @@ impl Verifier {
             return Err(Rejected::OwnTicket);
         }
         let now = self.time.read(now)?;
+        if self.trust.is_revoked(id) {
+            return Err(Rejected::Revoked(id));
+        }
         self.check_time(now, message)?;
         self.learn_authority(now, message);
         let known = self.cache.ticket(id).cloned();
@@ -355,7 +363,7 @@ impl Verifier {
         self.missing.retain(|missing| *missing != id);
         self.signatures += 1;
         let learnt =
-            Certificate::decode(octets).map(|authority| self.trust.add_authority(authority));
+            Certificate::decode(octets).map(|authority| self.trust.learn_authority(authority, now));
         if !matches!(learnt, Ok(Ok(()))) {
             self.untrusted.remember(id);
         }

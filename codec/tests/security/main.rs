@@ -9,5 +9,6 @@ mod listed;
 mod pki;
 mod pseudonyms;
 mod receiving;
+mod revoking;
 mod scene;
 mod vectors;

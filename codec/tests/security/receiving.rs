@@ -79,7 +79,7 @@ fn an_unknown_authority_is_asked_for_and_sent() {
     assert!(second.len() > first.len());
     let unknown = Err(Rejected::UnknownSigner(sender.pseudonym()));
     assert_eq!(hear(&mut receiver, after_ms(200), &second), unknown);
-    assert_eq!(receiver.verifier().trust().authorities().len(), 1);
+    assert_eq!(receiver.verifier().trust().authorities().count(), 1);
     assert_eq!(
         hear(&mut receiver, after_ms(201), &first).unwrap().signer,
         sender.pseudonym()

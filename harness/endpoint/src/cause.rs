@@ -33,7 +33,7 @@ pub enum Layer {
     Perception,
     /// The robot's own body, where that is another process.
     Body,
-    /// The files of the boot counter and of the time.
+    /// The files of the boot counter, of the time and of the revocation list.
     Storage,
     /// The log.
     Log,
@@ -131,6 +131,8 @@ pub enum Cause {
     EpochNotRenewed,
     /// The time could not be persisted; a robot that loses power now may trust a clock that was put back.
     TimeNotKept,
+    /// The revocation list cannot be read any more; the robot keeps the one that it has.
+    RevokedUnread,
     /// The log's reader was too slow, or the log has no room: the record is not in the log.
     LogFull,
     /// A reader of records that need not have all of them was too slow.
@@ -153,7 +155,7 @@ impl Cause {
             Self::AnsweringAnother | Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
-            Self::EpochNotRenewed | Self::TimeNotKept => Layer::Storage,
+            Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread => Layer::Storage,
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
         }
@@ -193,6 +195,7 @@ impl Display for Reason {
             Cause::BodyGarbled => "not understood",
             Cause::EpochNotRenewed => "boot counter not renewed",
             Cause::TimeNotKept => "time not kept",
+            Cause::RevokedUnread => "revocation list not read",
         })
     }
 }

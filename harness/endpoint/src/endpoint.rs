@@ -7,8 +7,10 @@ mod act;
 mod answers;
 mod turn;
 
+use std::collections::BTreeSet;
+
 use crossguard_codec::geonet::{EgoPosition, Envelope};
-use crossguard_codec::security::TrustedTime;
+use crossguard_codec::security::{HashedId8, TrustedTime};
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
     Config, Event, Identity, Input, Outputs, Robot, StateMachine, StationId, TaskType, Timer,
@@ -178,6 +180,13 @@ impl<P: StateMachine> Endpoint<P> {
         match self.exchange.stack().envelope() {
             Envelope::Secured(secured) => Some(secured.station().verifier().time()),
             _ => None,
+        }
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        if let Envelope::Secured(secured) = self.exchange.stack_mut().envelope_mut() {
+            secured.set_revoked(revoked);
         }
     }
 

@@ -77,6 +77,10 @@ pub struct RobotFile {
     pub identifiers: Identifiers,
     /// How it announces the people around it, and itself to stations that do not know RAM.
     pub awareness: Awareness,
+    /// The file with the certificates that it does not trust any more, if there is one.
+    pub revoked: Option<PathBuf>,
+    /// Whether it takes what a ROS graph says, which nobody signs, where all packets have to be signed.
+    pub trust_ros_graph: bool,
 }
 
 #[derive(Deserialize)]
@@ -117,6 +121,9 @@ struct RobotTable {
     cluster_vam: bool,
     #[serde(default)]
     cam: bool,
+    revoked: Option<PathBuf>,
+    #[serde(default)]
+    trust_ros_graph: bool,
 }
 
 /// By what a robot shows signals to people.
@@ -479,6 +486,8 @@ impl RobotTable {
                 cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
                 cam: self.cam,
             },
+            revoked: self.revoked.map(|list| folder.join(list)),
+            trust_ros_graph: self.trust_ros_graph,
         })
     }
 }

@@ -22,6 +22,7 @@
 mod keeper;
 mod partners;
 mod reader;
+mod revoked;
 mod running;
 mod sampler;
 
@@ -157,6 +158,7 @@ enum Delivery {
     Arrived(Arrival),
     Order(Order),
     LinkFailed(std::io::Error),
+    Revoked(revoked::Read),
 }
 
 /// A robot that can be run.
@@ -312,6 +314,7 @@ impl Loop {
         while !self.is_done() {
             match inbox.recv_timeout(self.patience()) {
                 Ok(Delivery::Order(order)) => self.obey(order),
+                Ok(Delivery::Revoked(list)) => self.revoke(list),
                 Ok(delivery) => {
                     self.waiting.datagrams.fetch_sub(1, Ordering::Relaxed);
                     self.take(delivery);
@@ -381,6 +384,7 @@ impl Loop {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }
             Delivery::Order(order) => return self.obey(order),
+            Delivery::Revoked(list) => return self.revoke(list),
         }
         self.handle(Stimulus::Time);
     }

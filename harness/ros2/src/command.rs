@@ -82,6 +82,12 @@ pub enum Refused {
     /// The body is moved by no other node.
     #[error("the body is simulated or at its port; --body external takes poses")]
     NotExternal,
+    /// The robot takes signed packets only, and nobody signs what a ROS graph says.
+    #[error(
+        "the robot takes nothing from the ROS graph with --security enforce; 'trust_ros_graph = true' in its robot \
+         file lets every node command it"
+    )]
+    Untrusted,
     /// There is no robot to tell it.
     #[error("the node is {0}; it takes commands when it is active")]
     NotActive(&'static str),
@@ -92,6 +98,7 @@ impl Refused {
     #[must_use]
     pub const fn cause(&self) -> &'static str {
         match self {
+            Self::Untrusted => "ros: graph not trusted",
             Self::NotActive(_) => "ros: not active",
             Self::Frame(_) | Self::Orientation | Self::NotExternal => "ros: impossible pose",
             Self::Battery(_) => "ros: impossible battery",

@@ -76,6 +76,18 @@ pub enum NoRobot {
         /// Why.
         cause: std::io::Error,
     },
+    /// Its body is moved by a graph that it does not trust.
+    #[error(
+        "--security enforce takes nothing from the ROS graph, and --body external is moved by it: write \
+         'trust_ros_graph = true' into {} if every node that can publish on ~/command and ~/pose may move this robot",
+        .0.display()
+    )]
+    UntrustedBody(PathBuf),
+    /// A revocation list without anything that is signed.
+    #[error(
+        "'revoked' in {} is of no use without --security sign or --security enforce", .0.display()
+    )]
+    NothingToRevoke(PathBuf),
     /// There is no boot counter.
     #[error(transparent)]
     Boot(#[from] BootError),
@@ -116,10 +128,23 @@ impl Robot {
             plan_file: self.plan.as_deref(),
         };
         let file = RobotFile::read_with(&self.config, besides)?;
+        let path = || self.config.clone();
         match (self.body, &file.body_port) {
-            (BodyKind::External, Some(_)) => Err(NoRobot::TwoBodies(self.config.clone())),
+            (BodyKind::External, Some(_)) => Err(NoRobot::TwoBodies(path())),
+            (BodyKind::External, _) if !self.trusts_graph(&file) => {
+                Err(NoRobot::UntrustedBody(path()))
+            }
+            _ if self.security == Mode::Off && file.revoked.is_some() => {
+                Err(NoRobot::NothingToRevoke(path()))
+            }
             _ => Ok(file),
         }
+    }
+
+    /// Whether what comes over ROS topics, which nobody signs, reaches the robot: not where all packets have to be
+    /// signed, unless its file says so.
+    pub(crate) fn trusts_graph(&self, file: &RobotFile) -> bool {
+        self.security != Mode::Enforce || file.trust_ros_graph
     }
 }
 
@@ -132,7 +157,7 @@ impl Active {
         acts: &Acts,
     ) -> Result<(Self, Receiver<Arc<Record>>), NoRobot> {
         let link = Reopening(file.link.clone()).open()?;
-        let security = security(robot, &file.name)?;
+        let security = security(robot, file)?;
         let mut journal = Journal::new();
         let records = journal.reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
         let log = match &robot.log {
@@ -159,7 +184,10 @@ impl Active {
         let listener = acts.listener(robot.body == BodyKind::Configured);
         setup.application = setup.application.heard_by(listener);
         let clock = setup.clock;
-        let running = setup.start();
+        let mut running = setup.start();
+        if let Some(list) = &file.revoked {
+            running.keep_revoked(list.clone());
+        }
         let active = Self {
             running,
             clock,
@@ -199,12 +227,12 @@ impl Active {
     }
 }
 
-fn security(robot: &Robot, name: &str) -> Result<Security, NoRobot> {
+fn security(robot: &Robot, file: &RobotFile) -> Result<Security, NoRobot> {
     if robot.security == Mode::Off {
         return Ok(Security::default());
     }
     let folder = robot.pki.as_deref().ok_or(NoRobot::NoPki)?;
-    let credentials = pki::credentials_of(folder, name)?.shuffled();
+    let credentials = pki::credentials_but(folder, &file.name, file.revoked.as_deref())?.shuffled();
     let period = Some(PSEUDONYM_PERIOD_MS);
     Ok(Security::new(
         robot.security,

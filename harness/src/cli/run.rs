@@ -162,7 +162,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let watch = arguments.watch.begin()?;
     let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
-    let security = arguments.security.of_robot(&file.name)?;
+    let revoked = file.revoked.as_deref();
+    let security = arguments.security.of_robot(&file.name, revoked)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
     let body = file.body_or_port(arguments.seed).map_err(|error| {
         let address = file.body_port.as_ref().map(|port| port.address.to_string());
@@ -181,7 +182,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     setup.awareness = arguments.etsi.add_to(setup.awareness);
     let station = setup.security.station_id(&setup.identifiers, file.station);
-    let running = setup.start();
+    let mut running = setup.start();
+    if let Some(list) = &file.revoked {
+        running.keep_revoked(list.clone());
+    }
     let mut console = Console {
         file: &file,
         lines: outputs.lines,
