@@ -119,10 +119,7 @@ impl PrivateKey {
     /// Its public key.
     #[must_use]
     pub fn public_key(&self) -> PublicKey {
-        let point = self.0.verifying_key().as_affine().to_sec1_point(true);
-        let mut octets = [0; 33];
-        octets.copy_from_slice(point.as_bytes());
-        PublicKey(octets)
+        PublicKey::compressed(self.0.verifying_key())
     }
 
     /// Signs a digest. The same key and digest give the same signature (RFC 6979).
@@ -136,7 +133,14 @@ impl PublicKey {
     /// The key in an uncompressed or compressed point of SEC 1, as tokens tell it; `None` where there is none.
     #[must_use]
     pub fn of_sec1(octets: &[u8]) -> Option<Self> {
-        VerifyingKey::from_sec1_bytes(octets).map(Self).ok()
+        let key = VerifyingKey::from_sec1_bytes(octets).ok()?;
+        Some(Self::compressed(&key))
+    }
+
+    fn compressed(key: &VerifyingKey) -> Self {
+        let mut octets = [0; 33];
+        octets.copy_from_slice(key.as_affine().to_sec1_point(true).as_bytes());
+        Self(octets)
     }
 
     /// Reads an `EccP256CurvePoint` in compressed form, the canonical one.
@@ -227,6 +231,19 @@ impl Signature {
         let (r, s) = self.0.split_bytes();
         (r.into(), s.into())
     }
+}
+
+/// 32 octets that nobody can guess.
+#[must_use]
+pub fn random_octets() -> [u8; 32] {
+    sha256(&PrivateKey::generate().0.to_bytes())
+}
+
+/// 32 octets that follow from others, and that nobody can guess who does not know the key.
+#[must_use]
+pub fn keyed_digest(key: &[u8; 32], octets: &[u8]) -> [u8; 32] {
+    // Two digests, so that nobody can go on from a shorter text to a longer one.
+    sha256(&[&key[..], &sha256(&[&key[..], octets].concat())].concat())
 }
 
 #[cfg(test)]
@@ -329,17 +346,4 @@ mod tests {
             assert_eq!(signature, Err(Malformed::NotOnCurve { field }.into()));
         }
     }
-}
-
-/// 32 octets that nobody can guess.
-#[must_use]
-pub fn random_octets() -> [u8; 32] {
-    sha256(&PrivateKey::generate().0.to_bytes())
-}
-
-/// 32 octets that follow from others, and that nobody can guess who does not know the key.
-#[must_use]
-pub fn keyed_digest(key: &[u8; 32], octets: &[u8]) -> [u8; 32] {
-    // Two digests, so that nobody can go on from a shorter text to a longer one.
-    sha256(&[&key[..], &sha256(&[&key[..], octets].concat())].concat())
 }
