@@ -60,9 +60,11 @@ impl Part {
     #[must_use]
     pub fn bitmap_naming_at(parts: &[Self], station: StationId, place: Place) -> [u8; 11] {
         let [version, bits] = Self::bitmap(parts);
-        let [a, b, c, d] = station.0.to_be_bytes();
-        let [e, f, g, h] = place.0.to_be_bytes();
-        [version, bits, 2, a, b, c, d, e, f, g, h]
+        let mut bitmap = [0; 11];
+        bitmap[..3].copy_from_slice(&[version, bits, 2]);
+        bitmap[3..7].copy_from_slice(&station.0.to_be_bytes());
+        bitmap[7..].copy_from_slice(&place.0.to_be_bytes());
+        bitmap
     }
 
     /// The station id that a bitmap names, if it names one.

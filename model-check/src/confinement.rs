@@ -106,6 +106,24 @@ pub struct Confinement {
     pub at_most: Option<Millis>,
 }
 
+const fn row(
+    harm: Harm,
+    part: LyingPart,
+    can: &'static str,
+    from_to: &'static str,
+    formula: &'static str,
+    at_most: Option<Millis>,
+) -> Confinement {
+    Confinement {
+        harm,
+        part,
+        can,
+        from_to,
+        formula,
+        at_most,
+    }
+}
+
 /// The table of robots with these settings.
 #[must_use]
 pub fn table(config: &Config) -> [Confinement; 11] {
@@ -115,14 +133,6 @@ pub fn table(config: &Config) -> [Confinement; 11] {
     let timer = |timer: Millis| Some(longest(timer, settings));
     let exec = settings.t_exec[usize::from(TaskType::BLOCK.value())];
     let stopped = longest(settings.t_safety, settings);
-    let row = |harm, part, can, from_to, formula, at_most| Confinement {
-        harm,
-        part,
-        can,
-        from_to,
-        formula,
-        at_most,
-    };
     [
         row(
             H::SaysThatItGuards,

@@ -15,7 +15,7 @@ use crossguard_model_check::utterances::Utterances;
 use crossguard_protocol::{
     Config, Confirmation, Contact, Coordination, Corridor, Countdown, Event, Following, Heartbeat,
     HelpRequest, Identity, Input, Job, Leading, Lease, List, Member, OfferNumber, Offering, Output,
-    Outputs, Phase, Ram, RequestId, Requesting, Rmcm, Robot, SessionNumber, StandingFarewell,
+    Outputs, Phase, Ram, RequestId, Requesting, Robot, SessionNumber, StandingFarewell,
     StateMachine, StationId, TaskSet, TaskType, UniqueNumber,
 };
 use crossguard_robot::site::{Place, Site};
