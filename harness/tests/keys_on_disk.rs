@@ -56,9 +56,9 @@ fn each_file_is_on_the_disk_before_it_has_its_name() {
         let path = root.join(name);
         let length = i64::try_from(fs::metadata(&path).unwrap().len()).unwrap();
         // All of it, under another name in the same folder; and then the folder, which has the name.
-        let at = notes.iter().position(|(noted, noted_length)| {
-            let noted = Path::new(noted);
-            noted.parent() == Some(&shown) && noted != path && *noted_length == length
+        let at = notes.iter().position(|(synced, synced_length)| {
+            let synced = Path::new(synced);
+            synced.parent() == Some(&shown) && synced != path && *synced_length == length
         });
         let at = at.unwrap_or_else(|| panic!("{name} was not put on the disk: {notes:?}"));
         assert!(
@@ -106,7 +106,9 @@ fn count_in_memory(needle: &[u8]) -> Option<usize> {
             continue;
         }
         // What is looked through is hidden at once: the copy would be found in the next region.
-        octets.iter_mut().for_each(|octet| *octet ^= MASK);
+        for octet in &mut octets {
+            *octet ^= MASK;
+        }
         count += octets
             .windows(needle.len())
             .filter(|it| *it == needle)

@@ -54,7 +54,7 @@ enum Command {
     Dependencies,
     /// Writes .ci/advisories.json, the advisories on packages of the lock files, anew.
     Advisories {
-        /// A clone of https://github.com/rustsec/advisory-db.
+        /// A clone of `RustSec`'s advisory-db.
         database: PathBuf,
     },
     /// Writes what goes with a release: the bill of materials (`CycloneDX`) and the notices of others.

@@ -85,6 +85,10 @@ pub struct RobotFile {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "the switches of a file, each by its name"
+)]
 struct RobotTable {
     name: String,
     station: u32,

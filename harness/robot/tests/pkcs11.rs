@@ -133,7 +133,7 @@ fn inside() {
         );
     }
     // The authority's key may be in a token as well.
-    let root = token.key("root").unwrap();
+    let of_root = token.key("root").unwrap();
     let terms = Terms {
         name: Some("root in a token".to_owned()),
         validity: Validity {
@@ -144,11 +144,11 @@ fn inside() {
         region: None,
         permissions: Vec::new(),
     };
-    issue::root(&root, &terms).unwrap();
+    issue::root(&of_root, &terms).unwrap();
 
     token.log_out().unwrap();
     let failed = robot.seal(NOW, its_aid, b"a packet").unwrap_err();
     let nobody = KeyFailure("nobody is logged in to the token");
     assert_eq!(failed, Unsigned::Key(nobody));
-    assert!(issue::root(&root, &terms).is_err());
+    assert!(issue::root(&of_root, &terms).is_err());
 }

@@ -18,7 +18,8 @@ pub(crate) struct Claim {
     pub(crate) situation: String,
     pub(crate) causes: Vec<String>,
     pub(crate) controls: Vec<String>,
-    pub(crate) claim: String,
+    #[serde(rename = "claim")]
+    pub(crate) says: String,
     pub(crate) argument: String,
     pub(crate) evidence: Vec<String>,
     pub(crate) assumes: Vec<String>,
@@ -175,7 +176,7 @@ impl Case {
                     "{id}: no claim needs it, and 'beside' does not say why"
                 )),
                 (true, true) => {
-                    found.push(format!("{id}: a claim needs it; take it out of 'beside'"))
+                    found.push(format!("{id}: a claim needs it; take it out of 'beside'"));
                 }
                 _ => {}
             }
@@ -209,7 +210,7 @@ impl Claim {
         let texts = [
             ("title", &self.title),
             ("situation", &self.situation),
-            ("claim", &self.claim),
+            ("claim", &self.says),
             ("argument", &self.argument),
             ("residual", &self.residual),
         ];

@@ -94,7 +94,7 @@ fn a_claim_without_evidence_control_residual_risk_or_assumption_is_found() {
         "H1: nothing said as 'residual'",
     );
     assert_found(
-        &changed(|it| it.claim = " ".to_owned()),
+        &changed(|it| it.says = " ".to_owned()),
         "H1: nothing said as 'claim'",
     );
     assert_found(

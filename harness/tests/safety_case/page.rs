@@ -140,7 +140,7 @@ fn told(claim: &Claim, repository: &Repository) -> String {
     let who = claim.who.as_ref().map(|who| format!("Who: {who}. "));
     let causes = claim.causes.join("; ");
     let _ = writeln!(text, "{}Causes: {causes}.\n", who.unwrap_or_default());
-    let _ = writeln!(text, "- **Claim.** {}", claim.claim.trim());
+    let _ = writeln!(text, "- **Claim.** {}", claim.says.trim());
     let _ = writeln!(text, "- **Argument.** {}", claim.argument.trim());
     let controls: Vec<_> = claim.controls.iter().map(|it| control(it)).collect();
     let _ = writeln!(text, "- **Controls.** {}", controls.join(", "));

@@ -25,7 +25,8 @@ pub(crate) struct Advisories {
     commit: String,
     /// The packages that were looked up.
     pub(crate) looked_up: BTreeSet<String>,
-    advisories: Vec<Advisory>,
+    #[serde(rename = "advisories")]
+    known: Vec<Advisory>,
 }
 
 /// An advisory on a package of the lock files, also where it is about other versions.
@@ -74,10 +75,7 @@ impl Advisories {
 
     /// Those that are about a version of a package.
     pub(crate) fn of(&self, package: &str, version: &Version) -> impl Iterator<Item = &Advisory> {
-        let of_package = self
-            .advisories
-            .iter()
-            .filter(move |it| it.package == package);
+        let of_package = self.known.iter().filter(move |it| it.package == package);
         of_package.filter(move |it| it.is_of(version))
     }
 
@@ -86,7 +84,7 @@ impl Advisories {
         let mut text = String::new();
         let quoted = |it: &String| serde_json::to_string(it);
         let names: Result<Vec<_>, _> = self.looked_up.iter().map(quoted).collect();
-        let lines: Result<Vec<_>, _> = self.advisories.iter().map(serde_json::to_string).collect();
+        let lines: Result<Vec<_>, _> = self.known.iter().map(serde_json::to_string).collect();
         let _ = write!(
             text,
             "{{\n\"as_of\": {}, \"commit\": {},\n\"looked_up\": [\n{}\n],\n\"advisories\": [\n{}\n]\n}}\n",
@@ -121,7 +119,7 @@ pub(crate) fn look_up(root: &Path, database: &Path) -> Result<usize, Error> {
         as_of: as_of.to_owned(),
         commit: commit.to_owned(),
         looked_up,
-        advisories,
+        known: advisories,
     };
     let path = root.join(LIST);
     let text = list.text().map_err(|cause| Error::Content {
@@ -129,7 +127,7 @@ pub(crate) fn look_up(root: &Path, database: &Path) -> Result<usize, Error> {
         cause: cause.to_string(),
     })?;
     fs::write(&path, text).map_err(|cause| Error::Io { path, cause })?;
-    Ok(list.advisories.len())
+    Ok(list.known.len())
 }
 
 /// The advisory in a file of the database, unless it was withdrawn: a table in front of its text.
@@ -228,7 +226,7 @@ mod tests {
             as_of: "2026-01-01".to_owned(),
             commit: "abc".to_owned(),
             looked_up: BTreeSet::from(["a".to_owned(), "b".to_owned()]),
-            advisories: parse("a.md", TEXT).unwrap().into_iter().collect(),
+            known: parse("a.md", TEXT).unwrap().into_iter().collect(),
         };
         let again: Advisories = serde_json::from_str(&list.text().unwrap()).unwrap();
         assert_eq!(again.looked_up, list.looked_up);
