@@ -6,6 +6,7 @@
 mod check;
 mod choices;
 mod codec;
+mod conform;
 mod demo;
 mod destinations;
 mod etsi;
@@ -73,6 +74,8 @@ enum Command {
     Explore(explore::Arguments),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.
     Fuzz(fuzz::Arguments),
+    /// Test anybody's robot from outside, over its link: play the others, and say for each rule whether it was kept.
+    Conform(Box<conform::Arguments>),
     /// Tell whether logs of one or several robots are of something that could have happened.
     Validate(validate::Arguments),
     /// Write a page about a run: states, map, times, verdicts, sequence chart.
@@ -143,6 +146,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
+        Command::Conform(arguments) => conform::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Timing(arguments) => timing::run(&arguments),
