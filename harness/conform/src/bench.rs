@@ -3,12 +3,12 @@
 use crossguard_codec::geonet::{EgoPosition, Envelope, Stack};
 use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{
-    ExecutionStatus, Heard, Identifiers, Position, RobotState, Service, TaskParameters,
-    TaskProgression, Target, encode, ram_from, rmcm_from_answer, rmcm_from_commands,
+    ExecutionStatus, Heard, Identifiers, Position, RobotState, Service, Target, TaskParameters,
+    TaskProgression, encode, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Answer, Availability, Command, Coordination, Heartbeat, Input, OfferNumber, Ram, RequestId, Rmcm, Settings,
-    StationId, TaskType,
+    Answer, Availability, Command, Coordination, Heartbeat, Input, OfferNumber, Ram, RequestId,
+    Rmcm, Settings, StationId, TaskType,
 };
 
 use crate::exchange::{Exchange, Happening, Message, Player, RamSeen, Seen};
@@ -80,6 +80,8 @@ pub(crate) struct Bench<S> {
     pub(crate) command: Option<Command>,
     /// The number of an offer that Ada could have made before the one that she made.
     pub(crate) older_offer: Option<OfferNumber>,
+    /// Whether it listens no longer than it must, for there is much to try.
+    pub(crate) generates: bool,
 }
 
 impl<S: Subject> Bench<S> {
@@ -119,6 +121,7 @@ impl<S: Subject> Bench<S> {
             next_request: RequestId(10),
             command: None,
             older_offer: None,
+            generates: false,
         }
     }
 
@@ -197,7 +200,14 @@ impl<S: Subject> Bench<S> {
         let (state, time) = (self.state_of(player), self.subject.timestamp_its());
         let ids = self.terms.identifiers;
         let available = Availability::Available;
-        let message = ram_from(&ids, &state, &ram, available, generation_delta_time(time), true);
+        let message = ram_from(
+            &ids,
+            &state,
+            &ram,
+            available,
+            generation_delta_time(time),
+            true,
+        );
         let message = message.map_err(|error| Gone::Link(error.to_string()))?;
         let octets = encode(&ids, &message).map_err(|error| Gone::Link(error.to_string()))?;
         let seen = RamSeen {

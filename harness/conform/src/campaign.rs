@@ -140,7 +140,11 @@ impl Campaign {
     #[must_use]
     pub fn cases(&self) -> Vec<Case> {
         let names: Vec<_> = self.statements.iter().map(|it| it.name).collect();
-        let is_asked = |case: &Case| case.statements.iter().any(|it| names.contains(&it.as_str()));
+        let is_asked = |case: &Case| {
+            case.statements
+                .iter()
+                .any(|it| names.contains(&it.as_str()))
+        };
         Case::generated().into_iter().filter(is_asked).collect()
     }
 
@@ -196,7 +200,9 @@ impl Campaign {
             let Some(rule) = self.rules.iter_mut().find(|it| it.rule == statement.rule) else {
                 continue;
             };
-            let counts = confirmed.as_ref().is_none_or(|it| it.contains(&statement.name));
+            let counts = confirmed
+                .as_ref()
+                .is_none_or(|it| it.contains(&statement.name));
             let mut told = false;
             for met in statement.judge(&played.exchange, &table.terms) {
                 if !self.met.contains(&statement.name) {

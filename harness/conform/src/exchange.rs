@@ -2,8 +2,8 @@
 
 use crossguard_codec::PublicSignal;
 use crossguard_protocol::{
-    Answer, Availability, Command, Coordination, OfferNumber, Ram, Report, SessionId, SessionNumber,
-    StationId,
+    Answer, Availability, Command, Coordination, OfferNumber, Ram, Report, SessionId,
+    SessionNumber, StationId,
 };
 
 use crate::subject::Local;

@@ -19,8 +19,8 @@ use crate::bench::{Bench, Terms};
 use crate::case::Case;
 use crate::in_process::Reference;
 use crate::play::{Performed, Play, Span};
-use crate::station::Beating;
 use crate::statements::Statement;
+use crate::station::Beating;
 
 /// The robot that cases are generated with.
 const ROBOT: StationId = StationId(1);
@@ -68,12 +68,14 @@ pub fn generate() -> Generated {
     let subject = Reference::reference(ROBOT, Config::default());
     let envelopes = [Envelope::Off, Envelope::Off];
     let mut bench = Bench::new(subject, ROBOT, terms.clone(), envelopes, 1);
+    bench.generates = true;
     bench.pass(1_100).expect("it is here");
     let statements = Statement::all();
     let mut broken = Vec::new();
     let mut candidates = Vec::new();
     let mut seen: BTreeSet<String> = [bench.key()].into_iter().collect();
-    let mut todo: VecDeque<(Bench<Reference>, Vec<Play>)> = [(bench, Vec::new())].into_iter().collect();
+    let mut todo: VecDeque<(Bench<Reference>, Vec<Play>)> =
+        [(bench, Vec::new())].into_iter().collect();
     while let Some((bench, plays)) = todo.pop_front() {
         for play in Play::all() {
             if !is_sensible(&plays, play) {
@@ -126,10 +128,9 @@ fn is_sensible(plays: &[Play], next: Play) -> bool {
     let last = plays.last().copied();
     let waits = plays.iter().any(|play| matches!(play, P::Wait(_)));
     match next {
-        P::Wait(Span::Farewell) => matches!(
-            last,
-            Some(P::EndCompleted | P::Leave | P::TaskCompleted)
-        ),
+        P::Wait(Span::Farewell) => {
+            matches!(last, Some(P::EndCompleted | P::Leave | P::TaskCompleted))
+        }
         P::Wait(Span::Help) => last == Some(P::Detect) && plays.len() == 1,
         P::Wait(Span::Repeats) => matches!(last, Some(P::OrderMove)) && !waits,
         P::Wait(_) => matches!(last, Some(P::Beat(beating)) if beating != Beating::Newer) && !waits,

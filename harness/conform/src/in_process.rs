@@ -92,7 +92,11 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> InProcess<P, F> {
         };
         RobotState {
             position: Position::at(49.01, 8.41),
-            speed: Some(Measurement::from(if self.body.moves { PACE_MPS } else { 0.0 })),
+            speed: Some(Measurement::from(if self.body.moves {
+                PACE_MPS
+            } else {
+                0.0
+            })),
             slow: Some(SlowState {
                 signals: Some(shows(signal)),
                 ..SlowState::default()

@@ -150,7 +150,10 @@ impl Subject for Live {
     fn send(&mut self, packet: &[u8]) -> Result<(), Gone> {
         match self.link.sender.send(packet) {
             // Nobody may be there yet.
-            Err(error) if !error.is_passing() && error.cause.kind() != std::io::ErrorKind::ConnectionRefused => {
+            Err(error)
+                if !error.is_passing()
+                    && error.cause.kind() != std::io::ErrorKind::ConnectionRefused =>
+            {
                 Err(Gone::Link(error.to_string()))
             }
             _ => Ok(()),

@@ -112,17 +112,32 @@ pub enum Play {
 /// Each play, the words for it, and what it means.
 const WORDS: &[(Play, &str)] = &[
     (Play::Ask, "Ada asks for help"),
-    (Play::AskForUnsupported, "Ada asks for a task that nobody can do"),
+    (
+        Play::AskForUnsupported,
+        "Ada asks for a task that nobody can do",
+    ),
     (Play::BoAsks, "Bo asks for help"),
     (Play::Confirm, "Ada leads and lists the robot's offer"),
-    (Play::ConfirmOtherOffer, "Ada leads and lists an offer that the robot did not make"),
+    (
+        Play::ConfirmOtherOffer,
+        "Ada leads and lists an offer that the robot did not make",
+    ),
     (Play::ConfirmNobody, "Ada leads and lists Bo alone"),
-    (Play::ConfirmElsewhere, "Ada leads another session and lists the robot's offer in it"),
-    (Play::BoConfirms, "Bo leads and lists the robot's offer to Ada"),
+    (
+        Play::ConfirmElsewhere,
+        "Ada leads another session and lists the robot's offer in it",
+    ),
+    (
+        Play::BoConfirms,
+        "Bo leads and lists the robot's offer to Ada",
+    ),
     (Play::CommandMove, "Ada commands a move"),
     (Play::CommandBlock, "Ada commands a block"),
     (Play::CommandInitialPos, "Ada commands initialPos"),
-    (Play::CommandUnsupported, "Ada commands a task that the robot did not offer"),
+    (
+        Play::CommandUnsupported,
+        "Ada commands a task that the robot did not offer",
+    ),
     (Play::CommandElsewhere, "Ada commands in another session"),
     (Play::CommandToOther, "Ada commands Bo"),
     (Play::Repeat, "Ada repeats her newest command"),
@@ -134,40 +149,85 @@ const WORDS: &[(Play, &str)] = &[
     (Play::BareNone, "Ada says none, and ends nothing"),
     (Play::Beat(Beating::Newer), "Ada beats again"),
     (Play::Beat(Beating::Same), "Ada's heartbeat stands still"),
-    (Play::Beat(Beating::Older), "Ada's heartbeats of long before arrive"),
+    (
+        Play::Beat(Beating::Older),
+        "Ada's heartbeats of long before arrive",
+    ),
     (Play::Beat(Beating::Mute), "Ada falls silent"),
     (Play::Offer, "Ada offers"),
     (Play::OfferUnfit, "Ada offers with a t_safety of 1 ms"),
-    (Play::OfferElsewhere, "Ada offers for a session that does not exist"),
-    (Play::OfferOlder, "Ada's older offer arrives after the newer one"),
+    (
+        Play::OfferElsewhere,
+        "Ada offers for a session that does not exist",
+    ),
+    (
+        Play::OfferOlder,
+        "Ada's older offer arrives after the newer one",
+    ),
     (Play::BoSpeaks, "Bo is there and has no part"),
     (Play::BoOffers, "Bo offers and is nearer"),
     (Play::Join, "Ada follows"),
     (Play::BoJoins, "Bo follows"),
     (Play::Ack, "Ada acknowledges"),
-    (Play::AckOther, "Ada acknowledges commands that are not outstanding"),
+    (
+        Play::AckOther,
+        "Ada acknowledges commands that are not outstanding",
+    ),
     (Play::AckElsewhere, "Ada acknowledges in another session"),
     (Play::BoAcks, "Bo acknowledges Ada's command"),
     (Play::Reject, "Ada rejects"),
     (Play::ReportExecuting, "Ada reports that she executes"),
-    (Play::ReportInPosition, "Ada reports that she is in position"),
+    (
+        Play::ReportInPosition,
+        "Ada reports that she is in position",
+    ),
     (Play::ReportCompleted, "Ada reports that she has completed"),
     (Play::ReportFailed, "Ada reports that she has failed"),
-    (Play::ReportOther, "Ada reports another command as completed"),
+    (
+        Play::ReportOther,
+        "Ada reports another command as completed",
+    ),
     (Play::AdaLeaves, "Ada leaves"),
     (Play::BoLeaves, "Bo leaves"),
-    (Play::BoClaims, "Bo follows the robot in a session that is over"),
-    (Play::BoAsksFirst, "Bo asks for the same place and goes before"),
-    (Play::BoAsksFirstOnce, "Bo asks for the same place and goes before, without a heartbeat"),
-    (Play::BoAsksLater, "Bo asks for the same place and goes behind"),
-    (Play::BoLeadsFirst, "Bo leads at the same place and goes before"),
-    (Play::BoLeadsFirstOnce, "Bo leads at the same place and goes before, without a heartbeat"),
-    (Play::BoLeadsLater, "Bo leads at the same place and goes behind"),
+    (
+        Play::BoClaims,
+        "Bo follows the robot in a session that is over",
+    ),
+    (
+        Play::BoAsksFirst,
+        "Bo asks for the same place and goes before",
+    ),
+    (
+        Play::BoAsksFirstOnce,
+        "Bo asks for the same place and goes before, without a heartbeat",
+    ),
+    (
+        Play::BoAsksLater,
+        "Bo asks for the same place and goes behind",
+    ),
+    (
+        Play::BoLeadsFirst,
+        "Bo leads at the same place and goes before",
+    ),
+    (
+        Play::BoLeadsFirstOnce,
+        "Bo leads at the same place and goes before, without a heartbeat",
+    ),
+    (
+        Play::BoLeadsLater,
+        "Bo leads at the same place and goes behind",
+    ),
     (Play::Noise, "packets arrive that mean nothing"),
     (Play::OwnName, "somebody speaks under the robot's name"),
     (Play::Restart, "the robot loses power and starts again"),
-    (Play::Detect, "the robot detects a pedestrian and needs one follower"),
-    (Play::DetectTwo, "the robot detects a pedestrian and needs two followers"),
+    (
+        Play::Detect,
+        "the robot detects a pedestrian and needs one follower",
+    ),
+    (
+        Play::DetectTwo,
+        "the robot detects a pedestrian and needs two followers",
+    ),
     (Play::OrderMove, "the robot orders Ada to move"),
     (Play::OrderBlock, "the robot orders Ada to block"),
     (Play::OrderInitialPos, "the robot orders Ada to initialPos"),
@@ -266,9 +326,7 @@ impl Play {
             Span::Leave => lost_ms + soon_ms,
             Span::Lease => ms(|s| s.t_lease) + 600 + soon_ms,
             Span::Lost => ms(|s| s.t_lease) + lost_ms + soon_ms,
-            Span::Repeats => {
-                ms(|s| s.t_ack) * (u64::from(terms.settings.n_ack) + 1) + soon_ms
-            }
+            Span::Repeats => ms(|s| s.t_ack) * (u64::from(terms.settings.n_ack) + 1) + soon_ms,
             Span::Farewell => ms(|s| s.t_farewell) + soon_ms,
         })
     }
@@ -297,7 +355,12 @@ impl<S: Subject> Bench<S> {
         if let Some(span_ms) = play.span_ms(&self.terms) {
             self.pass(span_ms)?;
         } else if is_last || play == Play::Restart {
-            self.pass(soon_ms + 100)?;
+            let more_ms = if self.generates {
+                100
+            } else {
+                self.terms.ms(|s| s.t_ack) + 150
+            };
+            self.pass(soon_ms + more_ms)?;
         } else {
             let before = self.essence();
             let answers = self.exchange.answers().count() + self.exchange.commands().count();
@@ -371,7 +434,9 @@ impl<S: Subject> Bench<S> {
 
     /// Whether such a thing can happen at the robot, by what it says of itself.
     fn can_be_told(&self, play: Play) -> bool {
-        let Some(said) = self.said() else { return false };
+        let Some(said) = self.said() else {
+            return false;
+        };
         let part = said.ram.coordination;
         let leads = matches!(part, Coordination::Leader { .. });
         let follows = matches!(part, Coordination::Follower { .. });
@@ -390,7 +455,9 @@ impl<S: Subject> Bench<S> {
             | Play::Open
             | Play::Close => leads,
             Play::InPosition => executes(Progress::Executing),
-            Play::Done | Play::Fail => executes(Progress::Executing) || executes(Progress::InPosition),
+            Play::Done | Play::Fail => {
+                executes(Progress::Executing) || executes(Progress::InPosition)
+            }
             Play::Clear => said.ram.on_duty || leads,
             Play::TaskCompleted => leads || matches!(part, Coordination::NeedHelp { .. }),
             Play::Leave => part != Coordination::None,
@@ -436,7 +503,12 @@ impl<S: Subject> Bench<S> {
                 true
             }
             Play::AskForUnsupported if is_free(self, Player::Ada) => {
-                self.asks(Player::Ada, TaskSet(1 << UNSUPPORTED), Urgency::Medium, Place::UNKNOWN);
+                self.asks(
+                    Player::Ada,
+                    TaskSet(1 << UNSUPPORTED),
+                    Urgency::Medium,
+                    Place::UNKNOWN,
+                );
                 true
             }
             Play::BoAsks if is_free(self, Player::Bo) => {
@@ -812,7 +884,16 @@ impl<S: Subject> Bench<S> {
             Play::Ack => (Player::Ada, vec![accepted; 3]),
             Play::Reject => {
                 let verdict = Verdict::Rejected(Rejection::UnsupportedTask);
-                (Player::Ada, vec![Answer { verdict, ..accepted }; 3])
+                (
+                    Player::Ada,
+                    vec![
+                        Answer {
+                            verdict,
+                            ..accepted
+                        };
+                        3
+                    ],
+                )
             }
             Play::AckOther => {
                 let of = |by| Answer {
@@ -826,9 +907,27 @@ impl<S: Subject> Bench<S> {
                     number: other_number(session.number),
                     ..session
                 };
-                (Player::Ada, vec![Answer { session, ..accepted }; 3])
+                (
+                    Player::Ada,
+                    vec![
+                        Answer {
+                            session,
+                            ..accepted
+                        };
+                        3
+                    ],
+                )
             }
-            Play::BoAcks => (Player::Bo, vec![Answer { from: bo, ..accepted }; 3]),
+            Play::BoAcks => (
+                Player::Bo,
+                vec![
+                    Answer {
+                        from: bo,
+                        ..accepted
+                    };
+                    3
+                ],
+            ),
             _ => {
                 let (request, progress) = match play {
                     Play::ReportExecuting => (command.request, Progress::Executing),
@@ -910,7 +1009,11 @@ impl<S: Subject> Bench<S> {
                     last: Some(last), ..
                 } => crate::words::progress(last.progress),
             };
-            let beating = if station.speaks() { station.beating } else { Beating::Mute };
+            let beating = if station.speaks() {
+                station.beating
+            } else {
+                Beating::Mute
+            };
             key.push_str(&format!(" | {part} {beating:?}"));
         }
         let newest = self.exchange.commands().next_back();

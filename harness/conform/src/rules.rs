@@ -26,7 +26,9 @@ pub const RULES: &[Rule] = &[
     Rule {
         id: "R3",
         says: "Offers are ordered by number, lapse on both sides without a heartbeat, and fit the lease.",
-        unjudged: Some("the lapse of an offer at the requester: who is chosen afterwards does not show it"),
+        unjudged: Some(
+            "the lapse of an offer at the requester: who is chosen afterwards does not show it",
+        ),
     },
     Rule {
         id: "R4",
@@ -46,7 +48,9 @@ pub const RULES: &[Rule] = &[
     Rule {
         id: "R7",
         says: "A follower acknowledges a command before it starts.",
-        unjudged: Some("the start of the body itself: the air tells the report of it, and that comes after"),
+        unjudged: Some(
+            "the start of the body itself: the air tells the report of it, and that comes after",
+        ),
     },
     Rule {
         id: "R8",
@@ -66,7 +70,9 @@ pub const RULES: &[Rule] = &[
     Rule {
         id: "R11",
         says: "Completion and position are read from a RAM that names session, command and progress.",
-        unjudged: Some("what the leader's application makes of it, but for the sign, where RAM tell what it shows"),
+        unjudged: Some(
+            "what the leader's application makes of it, but for the sign, where RAM tell what it shows",
+        ),
     },
     Rule {
         id: "R12",
@@ -76,7 +82,9 @@ pub const RULES: &[Rule] = &[
     Rule {
         id: "R13",
         says: "A lease counts from when the echoed heartbeat was sent, and ends before the follower's safety timer.",
-        unjudged: Some("the lease itself, but for the sign that ends with it and the follower that is dropped after it"),
+        unjudged: Some(
+            "the lease itself, but for the sign that ends with it and the follower that is dropped after it",
+        ),
     },
     Rule {
         id: "R14",
@@ -91,17 +99,23 @@ pub const RULES: &[Rule] = &[
     Rule {
         id: "R16",
         says: "The corridor opens only over guards in position with time enough to cross, and closes with a reason.",
-        unjudged: Some("the sign, where RAM do not tell what it shows; the reason; the time that is left to cross"),
+        unjudged: Some(
+            "the sign, where RAM do not tell what it shows; the reason; the time that is left to cross",
+        ),
     },
     Rule {
         id: "R17",
         says: "*Go* is a lease that ends by itself.",
-        unjudged: Some("the sign, where RAM do not tell what it shows; the sign of a leader that hangs, for it sends no RAM"),
+        unjudged: Some(
+            "the sign, where RAM do not tell what it shows; the sign of a leader that hangs, for it sends no RAM",
+        ),
     },
     Rule {
         id: "R18",
         says: "While people may be on the road no guard is commanded away and no session is renewed.",
-        unjudged: Some("whether people are on the road, where RAM do not tell what the sign shows; the renewal after 127 commands"),
+        unjudged: Some(
+            "whether people are on the road, where RAM do not tell what the sign shows; the renewal after 127 commands",
+        ),
     },
     Rule {
         id: "R19",
@@ -126,7 +140,9 @@ pub const RULES: &[Rule] = &[
     Rule {
         id: "R23",
         says: "The identity is locked while a session knows the robot by it, for at most `t_lock`.",
-        unjudged: Some("all of it: nothing that is sent or told makes a robot change its pseudonym, and `t_lock` is five minutes"),
+        unjudged: Some(
+            "all of it: nothing that is sent or told makes a robot change its pseudonym, and `t_lock` is five minutes",
+        ),
     },
     Rule {
         id: "R24",
@@ -155,6 +171,7 @@ impl Rule {
     /// Whether nothing of it can be judged.
     #[must_use]
     pub fn is_beyond(&self) -> bool {
-        self.unjudged.is_some_and(|why| why.starts_with("all of it"))
+        self.unjudged
+            .is_some_and(|why| why.starts_with("all of it"))
     }
 }

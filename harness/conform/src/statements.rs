@@ -123,7 +123,9 @@ fn due(
     is_it: impl Fn(&Seen) -> bool,
 ) -> Option<Met> {
     let seen = reaction(exchange, at_ms, limit_ms, is_it)?;
-    let broken = seen.is_none().then(|| format!("within {limit_ms} ms {what}"));
+    let broken = seen
+        .is_none()
+        .then(|| format!("within {limit_ms} ms {what}"));
     Some(met(exchange, at_ms, broken))
 }
 
@@ -187,7 +189,9 @@ fn is_in_contact(exchange: &Exchange, at_ms: u64) -> bool {
         };
         (session_of(&played.ram) == Some(session) && at <= at_ms).then_some((at, heartbeat))
     });
-    news(beats).last().is_some_and(|(at, _)| at + 1_000 >= at_ms)
+    news(beats)
+        .last()
+        .is_some_and(|(at, _)| at + 1_000 >= at_ms)
 }
 
 /// When each heartbeat that was newer than all before was played: `(at, heartbeat)`, of RAM that give one.

@@ -18,7 +18,10 @@ fn the_cases_are_those_that_are_generated() {
     let mut broken: Vec<_> = generated.broken.iter().collect();
     broken.sort();
     broken.dedup_by_key(|text| text.split(':').next().unwrap_or_default().to_owned());
-    assert!(broken.is_empty(), "the kit's own robot breaks:\n{broken:#?}");
+    assert!(
+        broken.is_empty(),
+        "the kit's own robot breaks:\n{broken:#?}"
+    );
     if std::env::var_os("CROSSGUARD_BLESS").is_some() {
         let lines: Vec<_> = generated.cases.iter().map(Case::line).collect();
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/cases.txt");

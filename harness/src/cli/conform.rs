@@ -77,7 +77,8 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-const AFTER_HELP: &str = "The tester plays two stations, Ada and Bo, against the robot, and judges what it hears. Try:
+const AFTER_HELP: &str =
+    "The tester plays two stations, Ada and Bo, against the robot, and judges what it hears. Try:
 
   crossguard conform --config go2.toml --start 'crossguard run --config go2.toml' --typed
 
@@ -138,18 +139,33 @@ fn events(arguments: &Arguments) -> Events {
 fn reach(arguments: &Arguments) -> Result<(Link, Table), Failure> {
     let file = arguments.config.as_deref().map(RobotFile::read).transpose();
     let file = file.map_err(Failure::input)?;
-    let missing = |what: &str| Failure::input(format!("{what} is wanted, or a --config that says it"));
+    let missing =
+        |what: &str| Failure::input(format!("{what} is wanted, or a --config that says it"));
     // The tester is the robot's peer.
     let turned = match file.as_ref().map(|file| &file.link) {
         Some(Link::Peers { address, peers, .. }) => (peers.first().copied(), Some(*address)),
         _ => (None, None),
     };
-    let framing = file.as_ref().map_or(Framing::default(), |file| file.link.framing());
-    let address = arguments.address.or(turned.0).ok_or_else(|| missing("--address"))?;
-    let peer = arguments.peer.or(turned.1).ok_or_else(|| missing("--peer"))?;
-    let station = arguments.station.map(StationId).or(file.as_ref().map(|file| file.station));
+    let framing = file
+        .as_ref()
+        .map_or(Framing::default(), |file| file.link.framing());
+    let address = arguments
+        .address
+        .or(turned.0)
+        .ok_or_else(|| missing("--address"))?;
+    let peer = arguments
+        .peer
+        .or(turned.1)
+        .ok_or_else(|| missing("--peer"))?;
+    let station = arguments
+        .station
+        .map(StationId)
+        .or(file.as_ref().map(|file| file.station));
     let robot = station.ok_or_else(|| missing("--station"))?;
-    let identifiers = file.as_ref().map(|file| file.identifiers).unwrap_or_default();
+    let identifiers = file
+        .as_ref()
+        .map(|file| file.identifiers)
+        .unwrap_or_default();
     let securities = arguments.security.of_robots(&NAMES)?;
     let ids = [StationId(arguments.tester), StationId(arguments.tester + 1)];
     let players = [0, 1].map(|i| match securities.get(i) {
@@ -163,7 +179,9 @@ fn reach(arguments: &Arguments) -> Result<(Link, Table), Failure> {
     }
     let mut envelopes = securities.into_iter().map(|security| security.envelope);
     let envelopes = [(); 2].map(|()| envelopes.next().unwrap_or(Envelope::Off));
-    let settings = file.map(|file| file.config.settings().clone()).unwrap_or_default();
+    let settings = file
+        .map(|file| file.config.settings().clone())
+        .unwrap_or_default();
     let link = Link::Peers {
         address,
         peers: vec![peer],
@@ -234,7 +252,9 @@ const fn word(verdict: Verdict) -> &'static str {
 fn show(report: &Report) -> Result<(), Failure> {
     for rule in &report.rules {
         let (id, verdict, says, kept) = (rule.rule, word(rule.verdict), rule.says, rule.kept);
-        print(format_args!("{id:<4} {verdict:<16} {says} ({kept} times kept)"))?;
+        print(format_args!(
+            "{id:<4} {verdict:<16} {says} ({kept} times kept)"
+        ))?;
         if let Some(why) = rule.unjudged {
             print(format_args!("       not judged: {why}"))?;
         }
@@ -254,7 +274,9 @@ fn show(report: &Report) -> Result<(), Failure> {
         print(format_args!("A case was not played to its end: {why}."))?;
     }
     let (played, cases) = (report.played, report.cases);
-    print(format_args!("{played} of {cases} cases were played to their end."))
+    print(format_args!(
+        "{played} of {cases} cases were played to their end."
+    ))
 }
 
 fn ending(rule: &RuleVerdict) -> Ending {

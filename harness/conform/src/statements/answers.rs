@@ -158,7 +158,10 @@ fn commands_are_answered(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             })
         })
     };
-    new_commands(exchange).into_iter().filter_map(judge).collect()
+    new_commands(exchange)
+        .into_iter()
+        .filter_map(judge)
+        .collect()
 }
 
 /// New commands that must be rejected for a reason, where the robot's newest RAM is of that kind.
@@ -182,7 +185,10 @@ fn rejected_where(
             })
         })
     };
-    new_commands(exchange).into_iter().filter_map(judge).collect()
+    new_commands(exchange)
+        .into_iter()
+        .filter_map(judge)
+        .collect()
 }
 
 /// The tasks that the robot offered.
@@ -278,7 +284,11 @@ const fn rank(progress: Progress) -> u8 {
 fn starts_anew(exchange: &Exchange, at_ms: u64) -> Option<Option<String>> {
     let (_, before) = exchange.state_at(at_ms)?;
     let (session, last) = following(&before.ram)?;
-    let stands = |state: &RamSeen| state.speed_mps.is_some_and(|speed| speed.abs() <= MOVES_MPS);
+    let stands = |state: &RamSeen| {
+        state
+            .speed_mps
+            .is_some_and(|speed| speed.abs() <= MOVES_MPS)
+    };
     let stood = stands(before) && last.is_none_or(|last| rank(last.progress) > 0);
     let mut heard = false;
     for (at, state) in afterwards(exchange, at_ms) {
@@ -294,14 +304,18 @@ fn starts_anew(exchange: &Exchange, at_ms: u64) -> Option<Option<String>> {
             (_, None) => {}
             (None, Some(now)) => {
                 let request = now.request;
-                return Some(Some(format!("it reports command {request} {later_ms} ms later")));
+                return Some(Some(format!(
+                    "it reports command {request} {later_ms} ms later"
+                )));
             }
             (Some(last), Some(now)) => {
                 let (request, progress) = (now.request, words::progress(now.progress));
                 let is_older = last.request.is_newer_than(now.request);
-                let goes_back = last.request == now.request && rank(now.progress) < rank(last.progress);
+                let goes_back =
+                    last.request == now.request && rank(now.progress) < rank(last.progress);
                 if is_older || goes_back || now.request != last.request {
-                    let text = format!("it reports command {request} as {progress} {later_ms} ms later");
+                    let text =
+                        format!("it reports command {request} as {progress} {later_ms} ms later");
                     return Some(Some(text));
                 }
             }
@@ -322,7 +336,8 @@ fn repeats_start_nothing(exchange: &Exchange, _: &Terms) -> Vec<Met> {
 }
 
 fn fallen_back_stays(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let fell_back = |last: &Option<Report>| last.is_some_and(|last| last.progress == Progress::SafeIdle);
+    let fell_back =
+        |last: &Option<Report>| last.is_some_and(|last| last.progress == Progress::SafeIdle);
     let repeats = repeats(exchange).into_iter();
     let repeats = repeats.filter(|(_, _, last, _)| fell_back(last));
     let judge = |(at, ..): (u64, Command, Option<Report>, Verdict)| {
@@ -381,7 +396,9 @@ fn progress_is_reported(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let judge = |(at, local): (u64, Local)| {
         let (_, state) = exchange.state_at(at)?;
         let (session, report) = following(&state.ram)?;
-        let request = report.filter(|report| report.progress.is_running())?.request;
+        let request = report
+            .filter(|report| report.progress.is_running())?
+            .request;
         let is_it = |progress: Progress| match local {
             // A body may be in position and done in one RAM period.
             Local::InPosition => progress != Progress::Executing,
@@ -392,11 +409,17 @@ fn progress_is_reported(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if !matches!(local, Local::InPosition | Local::Done | Local::Fail) {
             return None;
         }
-        due(exchange, at, terms.soon_ms(), "no RAM that reports it", |seen| {
-            matches!(&seen.what, Happening::Said(Message::Ram(ram))
+        due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            "no RAM that reports it",
+            |seen| {
+                matches!(&seen.what, Happening::Said(Message::Ram(ram))
                 if following(&ram.ram).is_some_and(|(now, last)| now == session
                     && last.is_some_and(|last| last.request == request && is_it(last.progress))))
-        })
+            },
+        )
     };
     exchange.told().filter_map(judge).collect()
 }

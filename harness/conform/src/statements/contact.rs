@@ -72,26 +72,25 @@ fn newest_news(exchange: &Exchange, session: SessionId, until_ms: u64) -> Option
         let is_new = command.session == session && !known.contains(&command.request);
         known.push(command.request);
         let mut answers = exchange.answers();
-        let is_taken = answers
-            .any(|(_, it)| it.session == session && it.request == command.request);
+        let is_taken =
+            answers.any(|(_, it)| it.session == session && it.request == command.request);
         (is_new && is_taken).then_some(at)
     });
-    beats
-        .chain(commands)
-        .filter(|at| *at <= until_ms)
-        .max()
+    beats.chain(commands).filter(|at| *at <= until_ms).max()
 }
 
 /// The `t_safety` that the robot told in its offer to a session.
 fn t_safety_ms(exchange: &Exchange, terms: &Terms, session: SessionId) -> u64 {
-    let told = exchange.rams().find_map(|(_, state)| match state.ram.coordination {
-        Coordination::OfferHelp {
-            session: to,
-            t_safety,
-            ..
-        } if to == session => Some(u64::from(t_safety.0)),
-        _ => None,
-    });
+    let told = exchange
+        .rams()
+        .find_map(|(_, state)| match state.ram.coordination {
+            Coordination::OfferHelp {
+                session: to,
+                t_safety,
+                ..
+            } if to == session => Some(u64::from(t_safety.0)),
+            _ => None,
+        });
     told.unwrap_or_else(|| terms.ms(|settings| settings.t_safety))
 }
 
@@ -151,7 +150,8 @@ fn silences(exchange: &Exchange) -> Vec<(u64, SessionId, bool)> {
             matches!(played.ram.farewell, Some(Farewell::Ended(number, _))
                 if played.ram.station == session.leader && number == session.number)
         });
-        let intervened = exchange.told().any(|(at, _)| at > since) || exchange.restarts().any(|at| at > since);
+        let intervened =
+            exchange.told().any(|(at, _)| at > since) || exchange.restarts().any(|at| at > since);
         (now == session && !is_over && !intervened).then_some((since, session, runs))
     };
     sessions.into_iter().filter_map(silence).collect()
@@ -171,7 +171,8 @@ fn after_t_safety(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
                 now != session || last.is_none_or(|last| !last.progress.is_running())
             })
         });
-        let broken = (!is_safe).then(|| format!("{limit_ms} ms after the newest heartbeat it still executes"));
+        let broken = (!is_safe)
+            .then(|| format!("{limit_ms} ms after the newest heartbeat it still executes"));
         let situation = format!(
             "{} after {}",
             exchange.situation_at(since + 300),
@@ -184,9 +185,13 @@ fn after_t_safety(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 
 fn fallback_is_a_duty(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let judge = |(at, _): (u64, SessionId)| {
-        due(exchange, at, terms.soon_ms(), "no RAM that says it is on duty", |seen| {
-            matches!(&seen.what, Happening::Said(Message::Ram(state)) if state.ram.on_duty)
-        })
+        due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            "no RAM that says it is on duty",
+            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if state.ram.on_duty),
+        )
     };
     fallbacks(exchange).into_iter().filter_map(judge).collect()
 }
@@ -206,9 +211,10 @@ fn leaves_after_t_leave(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             }
             Some((at, _)) if at > limit_ms => Some(format!("it left {} ms too late", at - due_ms)),
             Some(_) => None,
-            None if exchange.ended_ms >= limit_ms => {
-                Some(format!("it had not left {} ms after the newest heartbeat", limit_ms - since))
-            }
+            None if exchange.ended_ms >= limit_ms => Some(format!(
+                "it had not left {} ms after the newest heartbeat",
+                limit_ms - since
+            )),
             None => return None,
         };
         Some(met_when(since, exchange.situation_at(since + 300), broken))
@@ -237,14 +243,18 @@ fn echoes_what_it_heard(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             before = None;
         }
         let newest_by = |since: u64, until: u64| {
-            let beats = heartbeats(exchange, session)
-                .filter(|(at, _)| (since..=until).contains(at));
+            let beats =
+                heartbeats(exchange, session).filter(|(at, _)| (since..=until).contains(at));
             news(beats).last().map(|(_, heartbeat)| heartbeat)
         };
-        let Some(newest) = newest_by(0, at) else { continue };
+        let Some(newest) = newest_by(0, at) else {
+            continue;
+        };
         let settled = newest_by(begun.1, at.saturating_sub(terms.soon_ms()));
         let broken = if echo.is_newer_than(newest) {
-            Some(format!("it echoes {echo}, and the newest heartbeat was {newest}"))
+            Some(format!(
+                "it echoes {echo}, and the newest heartbeat was {newest}"
+            ))
         } else if let Some((known, last)) = before
             && known == session
             && last.is_newer_than(echo)
@@ -254,7 +264,9 @@ fn echoes_what_it_heard(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             && settled.is_newer_than(echo)
         {
             let soon_ms = terms.soon_ms();
-            Some(format!("it echoes {echo}, and {settled} was sent {soon_ms} ms before"))
+            Some(format!(
+                "it echoes {echo}, and {settled} was sent {soon_ms} ms before"
+            ))
         } else {
             None
         };
@@ -304,9 +316,13 @@ fn heart_beats_in_time(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         let broken = if known.is_newer_than(heartbeat) {
             Some(format!("heartbeat {heartbeat} comes after {known}"))
         } else if periods > allowed {
-            Some(format!("heartbeat {heartbeat} comes {passed_ms} ms after heartbeat {begun_with}"))
+            Some(format!(
+                "heartbeat {heartbeat} comes {passed_ms} ms after heartbeat {begun_with}"
+            ))
         } else if late_ms > 3 * period_ms + terms.slack_ms && heartbeat == known {
-            Some(format!("for {late_ms} ms there was no heartbeat after {known}"))
+            Some(format!(
+                "for {late_ms} ms there was no heartbeat after {known}"
+            ))
         } else {
             None
         };
@@ -320,4 +336,3 @@ fn heart_beats_in_time(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     }
     all
 }
-

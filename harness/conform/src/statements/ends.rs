@@ -1,8 +1,6 @@
 //! How sessions end, and what is said of it.
 
-use crossguard_protocol::{
-    Availability, Coordination, Ending, Farewell, SessionId, SessionNumber,
-};
+use crossguard_protocol::{Availability, Coordination, Ending, Farewell, SessionId, SessionNumber};
 
 use super::{Met, Statement, due, met, met_when, part_unchanged};
 use crate::bench::Terms;
@@ -94,7 +92,8 @@ fn played_ends(exchange: &Exchange) -> Vec<(u64, SessionId, Ending)> {
                 leader: played.ram.station,
                 number,
             };
-            let is_known = |(_, known, it): &(u64, SessionId, Ending)| *known == session && *it == how;
+            let is_known =
+                |(_, known, it): &(u64, SessionId, Ending)| *known == session && *it == how;
             if played.ram.station != exchange.robot && !all.iter().any(is_known) {
                 all.push((at, session, how));
             }
@@ -106,25 +105,37 @@ fn played_ends(exchange: &Exchange) -> Vec<(u64, SessionId, Ending)> {
 fn completed_frees(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let judge = |(at, session, how): (u64, SessionId, Ending)| {
         let (_, state) = exchange.state_at(at)?;
-        if how != Ending::Completed || session_of(&state.ram) != Some(session) || state.ram.on_duty {
+        if how != Ending::Completed || session_of(&state.ram) != Some(session) || state.ram.on_duty
+        {
             return None;
         }
         let soon_ms = terms.soon_ms();
-        let met_here = due(exchange, at, soon_ms, "no RAM without part and duty", |seen| {
-            is_ram(seen, |state| {
-                session_of(&state.ram) != Some(session) && !state.ram.on_duty
-            })
-        })?;
+        let met_here = due(
+            exchange,
+            at,
+            soon_ms,
+            "no RAM without part and duty",
+            |seen| {
+                is_ram(seen, |state| {
+                    session_of(&state.ram) != Some(session) && !state.ram.on_duty
+                })
+            },
+        )?;
         // A body needs a moment to stand.
         let mut later = exchange.rams().filter(|(then, state)| {
-            *then > at + soon_ms && *then <= exchange.undisturbed_until(at).max(at + soon_ms + 800)
+            *then > at + soon_ms
+                && *then <= exchange.undisturbed_until(at).max(at + soon_ms + 800)
                 && session_of(&state.ram).is_none()
         });
         let moves = later.find(|(_, state)| state.speed_mps.is_some_and(|speed| speed > MOVES_MPS));
-        let moves = moves.map(|(then, _)| format!("its body moves {} ms after it was released", then - at));
+        let moves =
+            moves.map(|(then, _)| format!("its body moves {} ms after it was released", then - at));
         Some(met(exchange, at, met_here.broken.or(moves)))
     };
-    played_ends(exchange).into_iter().filter_map(judge).collect()
+    played_ends(exchange)
+        .into_iter()
+        .filter_map(judge)
+        .collect()
 }
 
 fn runs(state: &RamSeen) -> Option<SessionId> {
@@ -135,8 +146,9 @@ fn runs(state: &RamSeen) -> Option<SessionId> {
 fn aborted_is_a_duty(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let ends = played_ends(exchange).into_iter();
     let aborted = ends.filter(|(.., how)| *how == Ending::Aborted);
-    let mut causes: Vec<(u64, SessionId, &str)> =
-        aborted.map(|(at, session, _)| (at, session, "aborted")).collect();
+    let mut causes: Vec<(u64, SessionId, &str)> = aborted
+        .map(|(at, session, _)| (at, session, "aborted"))
+        .collect();
     let unlisted = exchange.played_rams().filter_map(|(at, _, played)| {
         let Coordination::Leader { followers, .. } = played.ram.coordination else {
             return None;
@@ -154,9 +166,17 @@ fn aborted_is_a_duty(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if runs(state) != Some(session) {
             return None;
         }
-        let met_here = due(exchange, at, terms.soon_ms(), "no RAM that says it is on duty and has no part", |seen| {
-            is_ram(seen, |state| state.ram.on_duty && session_of(&state.ram) != Some(session))
-        })?;
+        let met_here = due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            "no RAM that says it is on duty and has no part",
+            |seen| {
+                is_ram(seen, |state| {
+                    state.ram.on_duty && session_of(&state.ram) != Some(session)
+                })
+            },
+        )?;
         let situation = format!("{}, {how}", exchange.situation_at(at));
         Some(met_when(at, situation, met_here.broken))
     };
@@ -193,15 +213,21 @@ fn leaving_is_named(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let judge = |(at, local): (u64, Local)| {
         let (_, state) = exchange.state_at(at)?;
         let session = match state.ram.coordination {
-            Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => session,
+            Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
+                session
+            }
             _ => return None,
         };
         if local != Local::Leave {
             return None;
         }
-        due(exchange, at, terms.soon_ms(), "no RAM that names the session as left", |seen| {
-            is_ram(seen, |state| names_as_left(state, session))
-        })
+        due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            "no RAM that names the session as left",
+            |seen| is_ram(seen, |state| names_as_left(state, session)),
+        )
     };
     exchange.told().filter_map(judge).collect()
 }
@@ -223,7 +249,10 @@ fn other_ends_change_nothing(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         }
         Some(met(exchange, at, part_unchanged(exchange, terms, at)?))
     };
-    played_ends(exchange).into_iter().filter_map(judge).collect()
+    played_ends(exchange)
+        .into_iter()
+        .filter_map(judge)
+        .collect()
 }
 
 fn bare_none_changes_nothing(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
@@ -260,12 +289,16 @@ fn farewells_last(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         let Some(farewell) = is_new else { continue };
         let until_ms = at + t_farewell_ms;
         let end_ms = until_ms + terms.soon_ms();
-        if exchange.ended_ms < end_ms || exchange.restarts().any(|then| then > at && then < end_ms) {
+        if exchange.ended_ms < end_ms || exchange.restarts().any(|then| then > at && then < end_ms)
+        {
             continue;
         }
         let mut last_ms = at;
         let mut broken = None;
-        for (then, state) in exchange.rams().filter(|(then, _)| *then > at && *then <= end_ms) {
+        for (then, state) in exchange
+            .rams()
+            .filter(|(then, _)| *then > at && *then <= end_ms)
+        {
             let is_said = state.ram.farewell.is_some();
             let is_early = then + period_ms + terms.early_ms < until_ms;
             if then - last_ms > 3 * period_ms + terms.slack_ms && last_ms + period_ms < until_ms {
@@ -280,7 +313,9 @@ fn farewells_last(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             }
             last_ms = then;
         }
-        let still = exchange.rams().find(|(then, state)| *then > end_ms && state.ram.farewell == Some(farewell));
+        let still = exchange
+            .rams()
+            .find(|(then, state)| *then > end_ms && state.ram.farewell == Some(farewell));
         let claimed = exchange.played_rams().any(|(then, _, played)| {
             let session = session_of(&played.ram);
             let is_left = matches!(farewell, Farewell::Left(left, _) if session == Some(left));
@@ -302,7 +337,9 @@ fn stale_is_named(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let mut all: Vec<(SessionId, Met)> = Vec::new();
     for (at, _, played) in exchange.played_rams() {
         let claimed = match played.ram.coordination {
-            Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => session,
+            Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
+                session
+            }
             _ => continue,
         };
         let Some((_, state)) = exchange.state_at(at) else {
@@ -314,11 +351,11 @@ fn stale_is_named(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if !is_own || !is_over || is_known || played.ram.station == exchange.robot {
             continue;
         }
-        let is_named = |state: &RamSeen| {
-            matches!(state.ram.farewell, Some(Farewell::Ended(number, _)) if number == claimed.number)
-        };
+        let is_named = |state: &RamSeen| matches!(state.ram.farewell, Some(Farewell::Ended(number, _)) if number == claimed.number);
         let what = "no RAM that names that session as ended";
-        let found = due(exchange, at, terms.soon_ms(), what, |seen| is_ram(seen, is_named));
+        let found = due(exchange, at, terms.soon_ms(), what, |seen| {
+            is_ram(seen, is_named)
+        });
         all.extend(found.map(|met| (claimed, met)));
     }
     all.into_iter().map(|(_, met)| met).collect()
@@ -331,19 +368,24 @@ fn duty_ends(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if let Some((then, true)) = before
             && !state.ram.on_duty
         {
-            let is_said = exchange.told().any(|(told, local)| {
-                local == Local::Clear && told + 10_000 >= then && told <= at
-            });
-            let restarted = exchange.restarts().any(|told| told + 10_000 >= then && told <= at);
+            let is_said = exchange
+                .told()
+                .any(|(told, local)| local == Local::Clear && told + 10_000 >= then && told <= at);
+            let restarted = exchange
+                .restarts()
+                .any(|told| told + 10_000 >= then && told <= at);
             // A robot may see by itself that nobody is on the road: then nobody at its side has to say so.
-            let broken = (!is_said && !restarted && exchange.told().any(|(_, it)| it == Local::Clear))
-                .then(|| "its duty ended before the road was said to be clear".to_owned());
+            let broken =
+                (!is_said && !restarted && exchange.told().any(|(_, it)| it == Local::Clear))
+                    .then(|| "its duty ended before the road was said to be clear".to_owned());
             all.push(met_when(then, "on duty, ends", broken));
         }
         before = Some((at, state.ram.on_duty));
     }
     for (at, local) in exchange.told() {
-        let on_duty = exchange.state_at(at).is_some_and(|(_, state)| state.ram.on_duty);
+        let on_duty = exchange
+            .state_at(at)
+            .is_some_and(|(_, state)| state.ram.on_duty);
         if local == Local::Clear && on_duty {
             // A body has to finish its fallback first.
             let limit_ms = terms.soon_ms();
@@ -361,9 +403,17 @@ fn unavailability_is_said(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         let Local::Unavailable(why) = local else {
             return None;
         };
-        due(exchange, at, terms.soon_ms(), "no RAM that says it is unavailable", |seen| {
-            is_ram(seen, |state| state.availability == Availability::Unavailable(why))
-        })
+        due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            "no RAM that says it is unavailable",
+            |seen| {
+                is_ram(seen, |state| {
+                    state.availability == Availability::Unavailable(why)
+                })
+            },
+        )
     };
     exchange.told().filter_map(judge).collect()
 }
@@ -379,14 +429,20 @@ fn unavailability_ends_the_part(exchange: &Exchange, terms: &Terms) -> Vec<Met> 
             return None;
         }
         let number = own_number(exchange, at);
-        due(exchange, at, terms.soon_ms(), "no RAM that fails, leaves or ends", |seen| {
-            is_ram(seen, |state| match number {
-                Some(number) => {
-                    state.ram.farewell == Some(Farewell::Ended(number, Ending::Aborted))
-                }
-                None => names_as_left(state, session),
-            })
-        })
+        due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            "no RAM that fails, leaves or ends",
+            |seen| {
+                is_ram(seen, |state| match number {
+                    Some(number) => {
+                        state.ram.farewell == Some(Farewell::Ended(number, Ending::Aborted))
+                    }
+                    None => names_as_left(state, session),
+                })
+            },
+        )
     };
     exchange.told().filter_map(judge).collect()
 }

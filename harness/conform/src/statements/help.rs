@@ -131,7 +131,9 @@ fn not_offered(
         if until_ms < it.at_ms + terms.soon_ms() {
             return None;
         }
-        let mut after = exchange.rams().filter(|(at, _)| (it.at_ms..until_ms).contains(at));
+        let mut after = exchange
+            .rams()
+            .filter(|(at, _)| (it.at_ms..until_ms).contains(at));
         let offer = after.find(|(_, state)| offers_to(it.session)(state));
         let broken = offer.map(|(at, _)| format!("it offers {} ms later", at - it.at_ms));
         Some(met(exchange, it.at_ms, broken))
@@ -159,7 +161,9 @@ fn one_requester(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 
 fn on_duty_does_not_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let mut all = not_offered(exchange, terms, |state, _| state.ram.on_duty);
-    let detected = exchange.told().filter(|(_, local)| matches!(local, Local::Detect(_)));
+    let detected = exchange
+        .told()
+        .filter(|(_, local)| matches!(local, Local::Detect(_)));
     for (at, _) in detected {
         let Some((_, state)) = exchange.state_at(at) else {
             continue;
@@ -168,10 +172,11 @@ fn on_duty_does_not_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if !state.ram.on_duty || until_ms < at + terms.soon_ms() {
             continue;
         }
-        let mut after = exchange.rams().filter(|(then, _)| (at..until_ms).contains(then));
-        let asks = after.any(|(_, state)| {
-            matches!(state.ram.coordination, Coordination::NeedHelp { .. })
-        });
+        let mut after = exchange
+            .rams()
+            .filter(|(then, _)| (at..until_ms).contains(then));
+        let asks =
+            after.any(|(_, state)| matches!(state.ram.coordination, Coordination::NeedHelp { .. }));
         let broken = asks.then(|| "it asks for help".to_owned());
         all.push(met_when(at, "on duty, detects a pedestrian", broken));
     }
@@ -180,28 +185,35 @@ fn on_duty_does_not_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 
 fn unavailable_does_not_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     not_offered(exchange, terms, |state, _| {
-        state.availability != Availability::Available && state.ram.coordination == Coordination::None
+        state.availability != Availability::Available
+            && state.ram.coordination == Coordination::None
     })
 }
 
 fn offers_lapse(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let t_offer_ms = terms.ms(|settings| settings.t_offer);
     let judge = |it: Request| {
-        let beats = exchange.played_rams().filter_map(|(at, _, played)| {
-            match played.ram.coordination {
-                Coordination::NeedHelp { heartbeat, .. }
-                    if session_of(&played.ram) == Some(it.session) =>
-                {
-                    Some((at, heartbeat))
-                }
-                _ => None,
-            }
-        });
+        let beats =
+            exchange
+                .played_rams()
+                .filter_map(|(at, _, played)| match played.ram.coordination {
+                    Coordination::NeedHelp { heartbeat, .. }
+                        if session_of(&played.ram) == Some(it.session) =>
+                    {
+                        Some((at, heartbeat))
+                    }
+                    _ => None,
+                });
         let beats: Vec<(u64, Heartbeat)> = beats.collect();
         // The first offer: a request that is heard again once it has lapsed is a new one.
-        let first = exchange.rams().find(|(_, state)| offers_to(it.session)(state))?;
+        let first = exchange
+            .rams()
+            .find(|(_, state)| offers_to(it.session)(state))?;
         let offer = offer_of(&first.1.ram);
-        let last = exchange.rams().rfind(|(_, state)| offer_of(&state.ram) == offer)?.0;
+        let last = exchange
+            .rams()
+            .rfind(|(_, state)| offer_of(&state.ram) == offer)?
+            .0;
         let (since, _) = news(beats.iter().copied().filter(|(at, _)| *at <= last)).last()?;
         let since = since.max(first.0);
         let is_settled = exchange.played_rams().any(|(_, _, played)| {
@@ -209,9 +221,8 @@ fn offers_lapse(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             is_own && matches!(played.ram.coordination, Coordination::Leader { .. })
                 || matches!(played.ram.farewell, Some(Farewell::Ended(..)) if is_own)
         });
-        let intervened =
-            exchange.told().any(|(at, _)| at + 200 >= since)
-                || exchange.restarts().any(|at| at + 200 >= since);
+        let intervened = exchange.told().any(|(at, _)| at + 200 >= since)
+            || exchange.restarts().any(|at| at + 200 >= since);
         if is_settled || intervened {
             return None;
         }
@@ -220,17 +231,24 @@ fn offers_lapse(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         let broken = match next {
             Some((at, _)) if at < since + t_offer_ms.saturating_sub(terms.early_ms) => {
                 let waited_ms = at.saturating_sub(since);
-                Some(format!("the offer lapsed {waited_ms} ms after the newest heartbeat"))
+                Some(format!(
+                    "the offer lapsed {waited_ms} ms after the newest heartbeat"
+                ))
             }
-            _ if last > since + limit_ms => {
-                Some(format!("it still offers {} ms after the newest heartbeat", last - since))
-            }
+            _ if last > since + limit_ms => Some(format!(
+                "it still offers {} ms after the newest heartbeat",
+                last - since
+            )),
             Some(_) => None,
             // It goes on offering, and the tester did not wait for longer.
             None => return None,
         };
         let is_silent = beats.last().is_some_and(|(at, _)| *at <= since);
-        let how = if is_silent { "silence" } else { "old heartbeats" };
+        let how = if is_silent {
+            "silence"
+        } else {
+            "old heartbeats"
+        };
         Some(met_when(since, format!("offering after {how}"), broken))
     };
     requests(exchange).into_iter().filter_map(judge).collect()
@@ -280,7 +298,9 @@ fn requests_end(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
                 begun = None;
                 let told = exchange.told().any(|(then, _)| then > since && then <= at)
                     || exchange.restarts().any(|then| then > since && then <= at);
-                let rivals = exchange.played_rams().any(|(then, ..)| then > since && then <= at);
+                let rivals = exchange
+                    .played_rams()
+                    .any(|(then, ..)| then > since && then <= at);
                 if told || rivals {
                     continue;
                 }
@@ -318,14 +338,15 @@ fn numbers_grow(exchange: &Exchange, _: &Terms) -> Vec<Met> {
         known.push(number);
         // The number of an offer may be given out again once nobody can confirm it.
         let is_taken_back = exchange.played_rams().any(|(_, _, played)| {
-            matches!(played.ram.farewell, Some(Farewell::Ended(..))) && played.ram.station == number.0
+            matches!(played.ram.farewell, Some(Farewell::Ended(..)))
+                && played.ram.station == number.0
         });
         if is_taken_back {
             continue;
         }
         if let Some(before) = newest {
-            let broken = (number.1 <= before)
-                .then(|| format!("number {} comes after {before}", number.1));
+            let broken =
+                (number.1 <= before).then(|| format!("number {} comes after {before}", number.1));
             let restarted = exchange.restarts().any(|then| then < at);
             let situation = if restarted {
                 "a second number, after a start"

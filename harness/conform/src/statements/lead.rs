@@ -107,8 +107,9 @@ fn offers(
     exchange: &Exchange,
     to: SessionId,
 ) -> impl Iterator<Item = (u64, StationId, OfferNumber, u64)> + '_ {
-    exchange.played_rams().filter_map(move |(at, _, played)| {
-        match played.ram.coordination {
+    exchange
+        .played_rams()
+        .filter_map(move |(at, _, played)| match played.ram.coordination {
             Coordination::OfferHelp {
                 session,
                 offer,
@@ -116,8 +117,7 @@ fn offers(
                 ..
             } if session == to => Some((at, played.ram.station, offer, u64::from(t_safety.0))),
             _ => None,
-        }
-    })
+        })
 }
 
 /// The first RAM in which the robot leads each session, with how many followers it had asked for.
@@ -200,7 +200,10 @@ fn leads_whom_it_asked_for(exchange: &Exchange, _: &Terms) -> Vec<Met> {
             !made.any(|(_, by, offer, _)| by == *station && offer == *number)
         });
         let broken = if listed.len() != asked {
-            Some(format!("it lists {} followers and asked for {asked}", listed.len()))
+            Some(format!(
+                "it lists {} followers and asked for {asked}",
+                listed.len()
+            ))
         } else {
             unknown.map(|(station, _)| format!("it lists {station}, which made no such offer"))
         };
@@ -241,8 +244,11 @@ fn unfit_is_not_taken(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             if fits(terms, t_safety_ms) || is_known || !was_heard {
                 continue;
             }
-            let confirmed = exchange.rams().any(|(_, state)| listed(state).contains(&(station, offer)));
-            let broken = confirmed.then(|| format!("it confirms {station}, whose t_safety is {t_safety_ms} ms"));
+            let confirmed = exchange
+                .rams()
+                .any(|(_, state)| listed(state).contains(&(station, offer)));
+            let broken = confirmed
+                .then(|| format!("it confirms {station}, whose t_safety is {t_safety_ms} ms"));
             all.push((station, met_when(at, "asking", broken)));
         }
     }
@@ -263,8 +269,12 @@ fn newest_offer_is_confirmed(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             if made.iter().all(|offer| *offer == newest) {
                 continue;
             }
-            let broken = (confirmed < newest)
-                .then(|| format!("it confirms offer {}, and {} was made", confirmed.0, newest.0));
+            let broken = (confirmed < newest).then(|| {
+                format!(
+                    "it confirms offer {}, and {} was made",
+                    confirmed.0, newest.0
+                )
+            });
             all.push(met_when(at, "an older and a newer offer", broken));
         }
     }
@@ -284,7 +294,8 @@ fn sent(exchange: &Exchange) -> Vec<Sent> {
     for (at, command) in exchange.commands() {
         let is_it = |sent: &&mut Sent| {
             let known = sent.command;
-            (known.session, known.to, known.request) == (command.session, command.to, command.request)
+            (known.session, known.to, known.request)
+                == (command.session, command.to, command.request)
         };
         match all.iter_mut().find(is_it) {
             Some(sent) => sent.times.push(at),
@@ -302,7 +313,9 @@ fn sent(exchange: &Exchange) -> Vec<Sent> {
                 == (command.session, command.to, command.request)
         };
         let mut answers = exchange.played_answers();
-        let answered = answers.find(|(_, answer)| matches(answer)).map(|(at, _)| at);
+        let answered = answers
+            .find(|(_, answer)| matches(answer))
+            .map(|(at, _)| at);
         let reported = exchange.played_rams().find(|(_, _, played)| {
             played.ram.station == command.to
                 && following(&played.ram).is_some_and(|(session, last)| {
@@ -352,7 +365,9 @@ fn repeated_after_t_ack(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
                 }
                 Some(_) => None,
                 None if i >= n_ack || until_ms < at + limit_ms => continue,
-                None => Some(format!("within {limit_ms} ms it does not repeat the command")),
+                None => Some(format!(
+                    "within {limit_ms} ms it does not repeat the command"
+                )),
             };
             all.push(met_when(*at, format!("transmission {}", i + 1), broken));
         }
@@ -367,7 +382,8 @@ fn repeated_n_ack_times(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         let last = *sent.times.last()?;
         let broken = (repeats > n_ack).then(|| format!("it repeats the command {repeats} times"));
         // One repetition more would have been seen.
-        let is_met = repeats >= n_ack && exchange.ended_ms > last + terms.ms(|s| s.t_ack) + terms.soon_ms();
+        let is_met =
+            repeats >= n_ack && exchange.ended_ms > last + terms.ms(|s| s.t_ack) + terms.soon_ms();
         (is_met || broken.is_some()).then(|| met_when(sent.times[0], "unacknowledged", broken))
     };
     sent(exchange).into_iter().filter_map(judge).collect()
@@ -378,11 +394,16 @@ fn given_up(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let judge = |sent: Sent| {
         let last = *sent.times.last()?;
         let limit_ms = terms.ms(|settings| settings.t_ack) + terms.soon_ms();
-        if sent.times.len() <= n_ack || sent.answered.is_some() || exchange.ended_ms < last + limit_ms {
+        if sent.times.len() <= n_ack
+            || sent.answered.is_some()
+            || exchange.ended_ms < last + limit_ms
+        {
             return None;
         }
         let (_, state) = exchange.state_at(last + limit_ms)?;
-        let is_kept = listed(state).iter().any(|(station, _)| *station == sent.command.to);
+        let is_kept = listed(state)
+            .iter()
+            .any(|(station, _)| *station == sent.command.to);
         let broken = is_kept.then(|| format!("it still lists {}", sent.command.to));
         Some(met_when(last, "unacknowledged", broken))
     };
@@ -390,13 +411,30 @@ fn given_up(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 }
 
 /// Whether a command goes on after it was answered; only where a repetition would have been due by the end.
-fn goes_on(exchange: &Exchange, terms: &Terms, sent: &Sent, answered_ms: u64) -> Option<Option<String>> {
-    let last = sent.times.iter().filter(|at| **at <= answered_ms + terms.slack_ms.min(250)).max()?;
+fn goes_on(
+    exchange: &Exchange,
+    terms: &Terms,
+    sent: &Sent,
+    answered_ms: u64,
+) -> Option<Option<String>> {
+    let last = sent
+        .times
+        .iter()
+        .filter(|at| **at <= answered_ms + terms.slack_ms.min(250))
+        .max()?;
     if exchange.ended_ms < last + terms.ms(|s| s.t_ack) + terms.soon_ms() {
         return None;
     }
-    let later = sent.times.iter().find(|at| **at > answered_ms + terms.slack_ms.min(250));
-    Some(later.map(|at| format!("it repeats the command {} ms after the answer", at - answered_ms)))
+    let later = sent
+        .times
+        .iter()
+        .find(|at| **at > answered_ms + terms.slack_ms.min(250));
+    Some(later.map(|at| {
+        format!(
+            "it repeats the command {} ms after the answer",
+            at - answered_ms
+        )
+    }))
 }
 
 fn answers_end_repetition(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
@@ -441,14 +479,16 @@ fn other_answers_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
                 continue;
             };
             let before = sent.times.iter().filter(|then| **then <= at).count();
-            let is_outstanding = before > 0
-                && before <= n_ack
-                && waits_until(exchange, &sent) >= at + limit_ms;
+            let is_outstanding =
+                before > 0 && before <= n_ack && waits_until(exchange, &sent) >= at + limit_ms;
             let is_known = all.iter().any(|met| met.situation == how);
             if !is_outstanding || is_known {
                 continue;
             }
-            let is_repeated = sent.times.iter().any(|then| *then > at && *then <= at + limit_ms);
+            let is_repeated = sent
+                .times
+                .iter()
+                .any(|then| *then > at && *then <= at + limit_ms);
             let broken = (!is_repeated).then(|| "the command is not repeated".to_owned());
             all.push(met_when(at, how, broken));
         }
@@ -470,7 +510,9 @@ fn orders_are_commanded(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
                 && following(&played.ram).is_some_and(|(now, _)| now == session)
         });
         let is_bound = all_sent.iter().any(|sent| {
-            sent.command.to == to && sent.times[0] < at && sent.answered.is_none_or(|(then, _)| then + 200 > at)
+            sent.command.to == to
+                && sent.times[0] < at
+                && sent.answered.is_none_or(|(then, _)| then + 200 > at)
         });
         let may_be_on_road = exchange
             .told()
@@ -493,7 +535,9 @@ fn one_is_outstanding(exchange: &Exchange, _: &Terms) -> Vec<Met> {
     for (at, local) in exchange.told() {
         let Local::Order(to, _) = local else { continue };
         let waiting = all_sent.iter().find(|sent| {
-            sent.command.to == to && sent.times[0] < at && sent.answered.is_none_or(|(then, _)| then > at)
+            sent.command.to == to
+                && sent.times[0] < at
+                && sent.answered.is_none_or(|(then, _)| then > at)
         });
         let Some(waiting) = waiting else { continue };
         let is_newer = |request: RequestId| request.is_newer_than(waiting.command.request);
@@ -505,7 +549,11 @@ fn one_is_outstanding(exchange: &Exchange, _: &Terms) -> Vec<Met> {
                 && sent.times[0] <= until_ms
         });
         let broken = newer.map(|sent| format!("it sends command {}", sent.command.request));
-        all.push(met_when(at, "an order while a command is outstanding", broken));
+        all.push(met_when(
+            at,
+            "an order while a command is outstanding",
+            broken,
+        ));
     }
     all
 }
@@ -518,20 +566,18 @@ fn silent_is_dropped(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         for id in exchange.players {
             let echoes = exchange.played_rams().filter_map(|(at, _, played)| {
                 match played.ram.coordination {
-                    Coordination::Follower { session: now, echo, .. }
-                        if now == session && played.ram.station == id =>
-                    {
-                        Some((at, echo))
-                    }
+                    Coordination::Follower {
+                        session: now, echo, ..
+                    } if now == session && played.ram.station == id => Some((at, echo)),
                     _ => None,
                 }
             });
             let Some((since, _)) = super::news(echoes).last() else {
                 continue;
             };
-            let outstanding = sent(exchange).iter().any(|sent| {
-                sent.command.to == id && sent.answered.is_none()
-            });
+            let outstanding = sent(exchange)
+                .iter()
+                .any(|sent| sent.command.to == id && sent.answered.is_none());
             let has_left = exchange.played_rams().any(|(_, _, played)| {
                 played.ram.station == id && matches!(played.ram.farewell, Some(Farewell::Left(..)))
             });
@@ -541,12 +587,15 @@ fn silent_is_dropped(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             if outstanding || has_left || intervened || exchange.ended_ms < since + limit_ms {
                 continue;
             }
-            let is_listed = |state: &RamSeen| listed(state).iter().any(|(station, _)| *station == id);
+            let is_listed =
+                |state: &RamSeen| listed(state).iter().any(|(station, _)| *station == id);
             let last = exchange.rams().rfind(|(_, state)| is_listed(state));
             let last = last.map_or(since, |(at, _)| at);
             let kept_ms = last - since;
             let broken = if kept_ms > limit_ms {
-                Some(format!("it still lists {id} {kept_ms} ms after its newest echo"))
+                Some(format!(
+                    "it still lists {id} {kept_ms} ms after its newest echo"
+                ))
             } else if kept_ms + 300 + terms.slack_ms < lost_ms {
                 Some(format!("it drops {id} {kept_ms} ms after its newest echo"))
             } else {
@@ -577,9 +626,13 @@ fn who_leaves_is_dropped_alone(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         known.push(leaver);
         let others: Vec<_> = before.into_iter().filter(|(it, _)| *it != leaver).collect();
         let what = "no RAM that lists the others alone";
-        let met_here = due(exchange, at, terms.soon_ms(), what, |seen| {
-            matches!(&seen.what, Happening::Said(Message::Ram(state)) if listed(state) == others)
-        });
+        let met_here = due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            what,
+            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if listed(state) == others),
+        );
         let situation = format!("{} followers are left", others.len());
         all.extend(met_here.map(|met| met_when(at, situation, met.broken)));
     }

@@ -49,7 +49,10 @@ fn own_name_changes_nothing(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         return Vec::new();
     };
     let outcome = part_unchanged(exchange, terms, at);
-    outcome.map(|outcome| met(exchange, at, outcome)).into_iter().collect()
+    outcome
+        .map(|outcome| met(exchange, at, outcome))
+        .into_iter()
+        .collect()
 }
 
 /// More RAM than this in a second are a flood, where nothing changes: ten are sent by the period.
@@ -65,14 +68,19 @@ fn no_flood(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             Happening::Said(Message::Ram(state)) => {
                 let part = crate::words::part(&state.ram.coordination);
                 let (session, duty) = (session_of(&state.ram)?, state.ram.on_duty);
-                Some((seen.at_ms, format!("{part} {session} {duty} {:?}", state.ram.farewell)))
+                Some((
+                    seen.at_ms,
+                    format!("{part} {session} {duty} {:?}", state.ram.farewell),
+                ))
             }
             _ => None,
         })
         .collect();
     let mut all: Vec<Met> = Vec::new();
     for (i, (at, part)) in same.iter().enumerate() {
-        let in_window = same[i..].iter().take_while(|(then, _)| *then < at + window_ms);
+        let in_window = same[i..]
+            .iter()
+            .take_while(|(then, _)| *then < at + window_ms);
         let alike = in_window.filter(|(_, other)| other == part).count();
         let heard = exchange
             .played_rams()
@@ -81,7 +89,8 @@ fn no_flood(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if exchange.ended_ms < at + window_ms || heard < 5 {
             continue;
         }
-        let broken = (alike > RAMS_MAX).then(|| format!("it sends {alike} RAM alike in {window_ms} ms"));
+        let broken =
+            (alike > RAMS_MAX).then(|| format!("it sends {alike} RAM alike in {window_ms} ms"));
         let situation = exchange.situation_at(*at);
         let is_known = all.iter().any(|met| met.situation == situation);
         if broken.is_some() || !is_known {

@@ -1,8 +1,6 @@
 //! Two requesters, or two leaders, at one place.
 
-use crossguard_protocol::{
-    Coordination, Farewell, Heartbeat, Place, SessionId, Urgency,
-};
+use crossguard_protocol::{Coordination, Farewell, Heartbeat, Place, SessionId, Urgency};
 
 use super::{Met, Statement, due, met_when, news};
 use crate::bench::Terms;
@@ -146,9 +144,13 @@ fn gives_way(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         // The first counts once, the second may come before the robot's next period.
         let heard_ms = it.beats.get(1).copied()?;
         let limit_ms = 2 * period_ms + terms.soon_ms();
-        let found = due(exchange, heard_ms, limit_ms, "no RAM that gives way", |seen| {
-            matches!(&seen.what, Happening::Said(Message::Ram(state)) if gives_up(state, it.own.session))
-        })?;
+        let found = due(
+            exchange,
+            heard_ms,
+            limit_ms,
+            "no RAM that gives way",
+            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if gives_up(state, it.own.session)),
+        )?;
         Some(met_when(heard_ms, words(&it), found.broken))
     };
     rivalries(exchange).into_iter().filter_map(judge).collect()
@@ -170,7 +172,8 @@ fn insists(exchange: &Exchange, terms: &Terms, it: &Rivalry) -> Option<Met> {
 
 fn insists_against_silence(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let rivalries = rivalries(exchange).into_iter();
-    let silent = rivalries.filter(|it| it.beats.len() == 1 && it.rival.goes_before(it.own) == Some(true));
+    let silent =
+        rivalries.filter(|it| it.beats.len() == 1 && it.rival.goes_before(it.own) == Some(true));
     silent
         .filter_map(|it| insists(exchange, terms, &it))
         .collect()
@@ -183,4 +186,3 @@ fn insists_against_later(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         .filter_map(|it| insists(exchange, terms, &it))
         .collect()
 }
-

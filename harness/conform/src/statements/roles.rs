@@ -77,15 +77,19 @@ fn follows_only_confirmed(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         }
         known.push(session);
         let own = offer_to(exchange, session, at);
-        let is_confirmed = lists(exchange)
-            .any(|(then, to, listed)| then <= at && to == session && listed.is_some() && listed == own);
-        let broken = (!is_confirmed).then(|| format!("it follows in {session} without a confirmation of its offer"));
+        let is_confirmed = lists(exchange).any(|(then, to, listed)| {
+            then <= at && to == session && listed.is_some() && listed == own
+        });
+        let broken = (!is_confirmed)
+            .then(|| format!("it follows in {session} without a confirmation of its offer"));
         all.push(met_when(at, "follows", broken));
     }
     // Where it must not.
     for (at, session, listed) in first_lists(exchange) {
         let own = offer_to(exchange, session, at);
-        let follows = exchange.state_at(at).and_then(|(_, state)| following(&state.ram));
+        let follows = exchange
+            .state_at(at)
+            .and_then(|(_, state)| following(&state.ram));
         let is_wrong = listed.is_some() && listed != own || own.is_none();
         if !is_wrong || follows.is_some_and(|(now, _)| now == session) {
             continue;
@@ -94,10 +98,11 @@ fn follows_only_confirmed(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if until_ms < at + terms.soon_ms() {
             continue;
         }
-        let mut after = exchange.rams().filter(|(then, _)| (at..until_ms).contains(then));
-        let joins = after.any(|(_, state)| {
-            following(&state.ram).is_some_and(|(now, _)| now == session)
-        });
+        let mut after = exchange
+            .rams()
+            .filter(|(then, _)| (at..until_ms).contains(then));
+        let joins =
+            after.any(|(_, state)| following(&state.ram).is_some_and(|(now, _)| now == session));
         let broken = joins.then(|| format!("it follows in {session}"));
         let how = match (listed, own) {
             (None, _) => "not listed",
@@ -121,12 +126,21 @@ fn takes_the_role(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if !stands(exchange, at, session, listed?) {
             return None;
         }
-        due(exchange, at, terms.soon_ms(), "no RAM that follows", |seen| {
-            matches!(&seen.what, Happening::Said(Message::Ram(state))
+        due(
+            exchange,
+            at,
+            terms.soon_ms(),
+            "no RAM that follows",
+            |seen| {
+                matches!(&seen.what, Happening::Said(Message::Ram(state))
                 if following(&state.ram).is_some_and(|(now, _)| now == session))
-        })
+            },
+        )
     };
-    first_lists(exchange).into_iter().filter_map(judge).collect()
+    first_lists(exchange)
+        .into_iter()
+        .filter_map(judge)
+        .collect()
 }
 
 fn not_listed_is_released(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
@@ -142,7 +156,10 @@ fn not_listed_is_released(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
                 if session_of(&state.ram) != Some(session))
         })
     };
-    first_lists(exchange).into_iter().filter_map(judge).collect()
+    first_lists(exchange)
+        .into_iter()
+        .filter_map(judge)
+        .collect()
 }
 
 fn declines_what_lapsed(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
@@ -160,5 +177,8 @@ fn declines_what_lapsed(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         })?;
         Some(met(exchange, at, met_here.broken))
     };
-    first_lists(exchange).into_iter().filter_map(judge).collect()
+    first_lists(exchange)
+        .into_iter()
+        .filter_map(judge)
+        .collect()
 }

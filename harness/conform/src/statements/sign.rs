@@ -56,7 +56,12 @@ fn listed(state: &RamSeen) -> Vec<StationId> {
 }
 
 /// The task of the newest command to a follower that it has answered or reported, by this time.
-fn task_of(exchange: &Exchange, session: SessionId, to: StationId, until_ms: u64) -> Option<TaskType> {
+fn task_of(
+    exchange: &Exchange,
+    session: SessionId,
+    to: StationId,
+    until_ms: u64,
+) -> Option<TaskType> {
     let (_, last) = report_at(exchange, session, to, until_ms)?;
     let request = last?.request;
     let mut commands = exchange.commands();
@@ -75,8 +80,7 @@ fn report_at(
 ) -> Option<(u64, Option<crossguard_protocol::Report>)> {
     let mut rams = exchange.played_rams().filter(|(at, ..)| *at <= until_ms);
     rams.rfind(|(_, _, played)| {
-        played.ram.station == from
-            && following(&played.ram).is_some_and(|(now, _)| now == session)
+        played.ram.station == from && following(&played.ram).is_some_and(|(now, _)| now == session)
     })
     .and_then(|(at, _, played)| Some((at, following(&played.ram)?.1)))
 }
@@ -85,12 +89,14 @@ fn report_at(
 fn obstacle(exchange: &Exchange, terms: &Terms, session: SessionId, at_ms: u64) -> Option<String> {
     let state = exchange.state_at(at_ms)?.1;
     let listed = listed(state);
-    let asked = exchange.rams().find_map(|(_, state)| match state.ram.coordination {
-        Coordination::NeedHelp { request, .. } if session_of(&state.ram) == Some(session) => {
-            Some(usize::from(request.followers))
-        }
-        _ => None,
-    });
+    let asked = exchange
+        .rams()
+        .find_map(|(_, state)| match state.ram.coordination {
+            Coordination::NeedHelp { request, .. } if session_of(&state.ram) == Some(session) => {
+                Some(usize::from(request.followers))
+            }
+            _ => None,
+        });
     if listed.len() < asked.unwrap_or(1) {
         return Some("a follower is missing".to_owned());
     }
@@ -139,13 +145,19 @@ fn go_over_guards(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     }
     for (at, state) in exchange.rams().filter(|(_, state)| shows_go(state)) {
         let Some(session) = session_of(&state.ram) else {
-            all.push(met_when(at, "without a session", Some("it shows go".to_owned())));
+            all.push(met_when(
+                at,
+                "without a session",
+                Some("it shows go".to_owned()),
+            ));
             continue;
         };
         // What was so a moment ago may have been what it knew.
         let since = at.saturating_sub(terms.soon_ms());
         let times = exchange.seen.iter().map(|seen| seen.at_ms);
-        let mut times = times.filter(|then| (since..=at).contains(then)).chain([since, at]);
+        let mut times = times
+            .filter(|then| (since..=at).contains(then))
+            .chain([since, at]);
         let has_reason = times.any(|then| obstacle(exchange, terms, session, then).is_none());
         let why = obstacle(exchange, terms, session, at);
         let broken = (!has_reason).then(|| format!("it shows go, and {}", why.unwrap_or_default()));
@@ -193,9 +205,13 @@ fn go_can_be_shown(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             return None;
         }
         let limit_ms = SAID_MS + terms.soon_ms();
-        due(exchange, at, limit_ms, "no RAM that shows go", |seen| {
-            matches!(&seen.what, Happening::Said(Message::Ram(state)) if shows_go(state))
-        })
+        due(
+            exchange,
+            at,
+            limit_ms,
+            "no RAM that shows go",
+            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if shows_go(state)),
+        )
     };
     exchange.told().filter_map(judge).collect()
 }
@@ -210,9 +226,9 @@ fn go_ends_by_itself(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         for station in listed(state) {
             let echoes = exchange.played_rams().filter_map(|(then, _, played)| {
                 match played.ram.coordination {
-                    Coordination::Follower { session: now, echo, .. }
-                        if now == session && played.ram.station == station && then <= at =>
-                    {
+                    Coordination::Follower {
+                        session: now, echo, ..
+                    } if now == session && played.ram.station == station && then <= at => {
                         Some((then, echo))
                     }
                     _ => None,
@@ -234,12 +250,15 @@ fn go_ends_by_itself(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     if let Some((last, state)) = shown
         && let Some(session) = session_of(&state.ram)
     {
-        let echoes = exchange.played_rams().filter(|(_, _, played)| {
-            following(&played.ram).is_some_and(|(now, _)| now == session)
-        });
+        let echoes = exchange
+            .played_rams()
+            .filter(|(_, _, played)| following(&played.ram).is_some_and(|(now, _)| now == session));
         let newest = echoes.map(|(at, ..)| at).max().unwrap_or_default();
         let told = exchange.told().any(|(at, _)| at > newest);
-        if !told && exchange.ended_ms > newest + lease_ms + SAID_MS + terms.slack_ms && last >= newest {
+        if !told
+            && exchange.ended_ms > newest + lease_ms + SAID_MS + terms.slack_ms
+            && last >= newest
+        {
             all.push(met_when(newest, "a silent follower", None));
         }
     }
@@ -257,7 +276,9 @@ fn other_reports_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         });
         let is_other = newest.is_some_and(|(_, it)| it.request != report.request);
         // The newest RAM that says what is shown.
-        let mut before = exchange.rams().filter(|(then, state)| *then <= at && state.sign.is_some());
+        let mut before = exchange
+            .rams()
+            .filter(|(then, state)| *then <= at && state.sign.is_some());
         let showed = before.next_back().is_some_and(|(_, state)| shows_go(state));
         let until_ms = exchange.undisturbed_until(at);
         let is_settled = until_ms >= at + SAID_MS + 100;
@@ -265,7 +286,9 @@ fn other_reports_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             continue;
         }
         let limit_ms = at + terms.soon_ms() + SAID_MS;
-        let mut after = exchange.rams().filter(|(then, _)| (at + 1..=until_ms.min(limit_ms)).contains(then));
+        let mut after = exchange
+            .rams()
+            .filter(|(then, _)| (at + 1..=until_ms.min(limit_ms)).contains(then));
         let ends = after.find(|(_, state)| state.sign.is_some() && !shows_go(state));
         let broken = ends.map(|(then, _)| format!("go ends {} ms later", then - at));
         all.push(met_when(at, "go is shown", broken));
@@ -292,11 +315,12 @@ fn guards_are_kept(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if is_clear || !guards || until_ms < at + terms.soon_ms() {
             return None;
         }
-        let mut commands = exchange.commands().filter(|(then, _)| (at..until_ms).contains(then));
+        let mut commands = exchange
+            .commands()
+            .filter(|(then, _)| (at..until_ms).contains(then));
         let commanded = commands.find(|(_, command)| command.to == to);
-        let broken = commanded.map(|(then, command)| {
-            format!("it commands {} {} ms later", command.task, then - at)
-        });
+        let broken = commanded
+            .map(|(then, command)| format!("it commands {} {} ms later", command.task, then - at));
         Some(met_when(at, "people may be on the road", broken))
     };
     exchange.told().filter_map(judge).collect()
