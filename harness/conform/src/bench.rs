@@ -55,6 +55,9 @@ impl Terms {
     }
 }
 
+/// How far apart one-off messages are that are sent three times, since a link may lose one, in ms.
+pub(crate) const APART_MS: u64 = 60;
+
 /// How far to the north of the robot an escort leads, in metres: farther than a robot comes in a case.
 const FAR_M: f64 = 40.0;
 

@@ -61,6 +61,8 @@ pub struct RuleVerdict {
     pub broken: Vec<Broken>,
     /// Its statements that were never met.
     pub not_observed: Vec<&'static str>,
+    /// Whether a pass says little: no robot that breaks the rule has tried this verdict.
+    pub weak_evidence: bool,
     /// What of it cannot be judged from outside.
     pub unjudged: Option<&'static str>,
 }
@@ -118,6 +120,7 @@ impl Campaign {
             kept: 0,
             broken: Vec::new(),
             not_observed: Vec::new(),
+            weak_evidence: !rule.is_tried(),
             unjudged: rule.unjudged,
         };
         let is_asked = |it: &Statement| rules.iter().any(|rule| rule.id == it.rule);

@@ -5,7 +5,8 @@ use crossguard_protocol::StationId;
 
 use crate::bench::{Bench, Terms};
 use crate::exchange::Exchange;
-use crate::play::{Performed, Play};
+use crate::perform::Performed;
+use crate::play::Play;
 use crate::subject::{Gone, NotTold, Subject};
 
 /// The cases that were generated, see [`generate`](crate::generate).

@@ -18,7 +18,8 @@ use crossguard_protocol::{Config, StationId};
 use crate::bench::{Bench, Terms};
 use crate::case::Case;
 use crate::in_process::Reference;
-use crate::play::{Performed, Play, Span};
+use crate::perform::Performed;
+use crate::play::{Play, Span};
 use crate::statements::Statement;
 use crate::station::Beating;
 

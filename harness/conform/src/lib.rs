@@ -27,6 +27,7 @@ pub mod exchange;
 pub mod generate;
 pub mod in_process;
 pub mod live;
+mod perform;
 pub mod play;
 pub mod rules;
 pub mod statements;

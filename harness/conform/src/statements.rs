@@ -15,6 +15,7 @@ mod lead;
 mod noise;
 mod rivals;
 mod roles;
+mod select;
 mod sign;
 
 use crossguard_protocol::{Coordination, Heartbeat};
@@ -64,6 +65,7 @@ impl Statement {
             noise::ALL,
             rivals::ALL,
             roles::ALL,
+            select::ALL,
             sign::ALL,
         ];
         let mut all = groups.concat();

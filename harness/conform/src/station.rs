@@ -6,6 +6,9 @@ use crossguard_protocol::{
     Report, SessionId, SessionNumber, StationId, TaskSet, UniqueNumber, Urgency,
 };
 
+/// A task that no robot offers.
+pub(crate) const UNSUPPORTED: u8 = 9;
+
 /// What a station's heartbeats, or the heartbeats that it echoes, do.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub enum Beating {
@@ -175,4 +178,12 @@ impl PlayedStation {
             on_duty: false,
         }
     }
+}
+
+/// Another number of the same station, one that it has not given out.
+pub(crate) fn other_number(number: SessionNumber) -> SessionNumber {
+    SessionNumber(UniqueNumber {
+        count: number.0.count ^ 0x4000,
+        ..number.0
+    })
 }

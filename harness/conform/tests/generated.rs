@@ -1,4 +1,4 @@
-//! The cases of the file are those that are generated; `CROSSGUARD_BLESS=1` writes them.
+//! The cases of the file are those that are generated; `cargo xtask bless cases.txt` writes them.
 
 use std::path::Path;
 
@@ -28,5 +28,8 @@ fn the_cases_are_those_that_are_generated() {
         std::fs::write(path, lines.join("\n") + "\n").unwrap();
         return;
     }
-    assert_eq!(Case::generated(), generated.cases);
+    assert!(
+        Case::generated() == generated.cases,
+        "run: cargo xtask bless cases.txt"
+    );
 }

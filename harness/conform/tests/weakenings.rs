@@ -1,11 +1,13 @@
 //! What the verdicts are good for: a robot without a rule fails that rule, or the table says why nobody can see it.
 
+use std::collections::BTreeSet;
+
 use crossguard_codec::geonet::Envelope;
 use crossguard_conform::Terms;
 use crossguard_conform::campaign::{Campaign, Verdict};
 use crossguard_conform::case::Table;
 use crossguard_conform::in_process::InProcess;
-use crossguard_conform::rules::Rule;
+use crossguard_conform::rules::{RULES, Rule};
 use crossguard_conform::subject::Subject as _;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::*;
@@ -71,75 +73,9 @@ fn broken(rules: &'static dyn Rules, about: &[&'static str]) -> Vec<&'static str
     failed.map(|rule| rule.rule).collect()
 }
 
-/// Asserts that the verdict on this rule is the one that names the weakening.
-fn assert_named(rule: &'static str, rules: &'static dyn Rules) {
-    assert_eq!(broken(rules, &[rule]), [rule]);
-}
-
-/// Asserts that no verdict tells a robot under these rules from one of the kit.
-fn assert_unseen(rules: &'static dyn Rules, why: &str) {
-    assert_eq!(broken(rules, &[]), Vec::<&str>::new(), "it was: {why}");
-}
-
 #[test]
 fn the_kits_own_robot_keeps_every_rule_that_can_be_judged() {
     assert_eq!(broken(&Protocol, &[]), Vec::<&str>::new());
-}
-
-#[test]
-fn a_confirmation_of_another_offer_that_counts_is_named() {
-    assert_named("R2", &ConfirmsByStationAlone);
-}
-
-#[test]
-fn a_role_without_confirmation_is_named() {
-    assert_named("R2", &NeedsNoConfirmation);
-}
-
-#[test]
-fn a_command_of_another_session_that_is_obeyed_is_named() {
-    assert_named("R1", &ObeysCommandsOfAnySession);
-}
-
-#[test]
-fn a_repeated_command_that_is_started_again_is_named() {
-    assert_named("R8", &StartsRepeatedCommands);
-}
-
-#[test]
-fn an_older_command_that_is_started_is_named() {
-    assert_named("R8", &StartsOlderCommands);
-}
-
-#[test]
-fn progress_that_is_not_read_is_named() {
-    assert_named("R11", &ReadsNoProgress);
-}
-
-#[test]
-fn a_released_robot_that_goes_on_is_named() {
-    assert_named("R19", &NEVER_STOPS);
-}
-
-#[test]
-fn followers_that_wait_for_ever_are_named() {
-    assert_named("R12", &FollowersWaitForEver);
-    assert_named("R14", &FollowersWaitForEver);
-}
-
-#[test]
-fn one_repetition_too_many_is_named() {
-    assert_named("R10", &RepeatsOnceTooOften);
-}
-
-#[test]
-fn a_request_for_too_few_is_named() {
-    assert_named("R4", &AsksForFewer);
-}
-
-#[test]
-fn a_leader_that_hears_no_other_is_named() {
-    assert_named("R6", &HearsNoLeader);
 }
 
 /// Settings that take the place of the robot's own.
@@ -151,16 +87,6 @@ impl Rules for With {
         (self.0)(&mut settings);
         robot.step(&Config::new(settings).unwrap(), input)
     }
-}
-
-#[test]
-fn a_request_that_stands_too_long_is_named() {
-    assert_named("R5", &With(|settings| settings.t_help = Millis(60_000)));
-}
-
-#[test]
-fn commands_that_are_not_repeated_are_named() {
-    assert_named("R10", &With(|settings| settings.t_ack = Millis(60_000)));
 }
 
 /// A follower waits for a quarter of the `t_safety` that it told.
@@ -181,11 +107,6 @@ impl Rules for WaitsAQuarter {
     }
 }
 
-#[test]
-fn a_follower_that_waits_less_than_it_promised_is_named() {
-    assert_named("R12", &WaitsAQuarter);
-}
-
 /// A requester does not listen to other requesters.
 struct InsistsOnItsRequest;
 
@@ -200,11 +121,6 @@ impl Rules for InsistsOnItsRequest {
         }
         robot.step(config, input)
     }
-}
-
-#[test]
-fn a_requester_that_does_not_give_way_is_named() {
-    assert_named("R6", &InsistsOnItsRequest);
 }
 
 /// A robot in a session sends a RAM for each that it hears.
@@ -223,9 +139,158 @@ impl Rules for AnswersEveryRam {
     }
 }
 
+/// The robot has forgotten a part of its state after every step.
+struct Forgets(&'static str);
+
+impl Rules for Forgets {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        with_state(robot, |state| state[self.0] = serde_json::Value::Null);
+        outputs
+    }
+}
+
+/// The robot does not hear of some of what happens at it.
+struct IsNotTold(fn(&Event) -> bool);
+
+impl Rules for IsNotTold {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        match input {
+            Input::Local(event) if (self.0)(&event) => [Output::Ignored(Ignored::LowerPrecedence)]
+                .into_iter()
+                .collect(),
+            input => robot.step(config, input),
+        }
+    }
+}
+
+/// Acknowledgements and rejections are not sent.
+const ANSWERS_NOTHING: Drops = Drops(|output| matches!(output, Output::SendRmcm(Rmcm::Answer(_))));
+
+/// A rule, a weakening of it, and what it does.
+type Weakening = (&'static str, &'static dyn Rules, &'static str);
+
+/// Weakenings that the verdict on the rule names.
+fn named() -> Vec<Weakening> {
+    vec![
+        ("R1", &ObeysCommandsOfAnySession, "commands of any session"),
+        ("R2", &ConfirmsByStationAlone, "confirmations of any offer"),
+        ("R2", &NeedsNoConfirmation, "a request confirms"),
+        ("R4", &AsksForFewer, "a request for too few"),
+        (
+            "R5",
+            &With(|it| it.t_help = Millis(60_000)),
+            "a request that stands too long",
+        ),
+        ("R6", &HearsNoLeader, "a leader that hears no other"),
+        (
+            "R6",
+            &InsistsOnItsRequest,
+            "a requester that does not give way",
+        ),
+        ("R7", &ANSWERS_NOTHING, "commands are not answered"),
+        (
+            "R8",
+            &StartsRepeatedCommands,
+            "repeated commands are started",
+        ),
+        ("R8", &StartsOlderCommands, "older commands are started"),
+        ("R10", &RepeatsOnceTooOften, "one repetition too many"),
+        (
+            "R10",
+            &With(|it| it.t_ack = Millis(60_000)),
+            "no repetitions",
+        ),
+        ("R11", &ReadsNoProgress, "progress is not read"),
+        ("R12", &FollowersWaitForEver, "followers wait for ever"),
+        (
+            "R12",
+            &WaitsAQuarter,
+            "followers wait for less than they told",
+        ),
+        ("R14", &FollowersWaitForEver, "followers wait for ever"),
+        (
+            "R14",
+            &With(|it| it.t_leave = Millis(60_000)),
+            "followers leave late",
+        ),
+        ("R19", &NEVER_STOPS, "what is released goes on"),
+        (
+            "R19",
+            &IsNotTold(|it| matches!(it, Event::TaskCompleted)),
+            "a session that is not ended",
+        ),
+        ("R21", &Forgets("farewell"), "nothing is named"),
+        (
+            "R21",
+            &With(|it| it.t_farewell = Millis(300)),
+            "what is over is named for too short a time",
+        ),
+        (
+            "R24",
+            &IsNotTold(|it| matches!(it, Event::AvailabilityChanged(_))),
+            "an unavailable robot goes on",
+        ),
+        ("R26", &AnswersEveryRam, "a RAM for each that is heard"),
+    ]
+}
+
 #[test]
-fn a_robot_that_answers_every_ram_is_named() {
-    assert_named("R26", &AnswersEveryRam);
+fn a_robot_without_a_rule_fails_its_verdict() {
+    let missed: Vec<_> = named()
+        .into_iter()
+        .filter(|(rule, rules, _)| broken(*rules, &[rule]) != [*rule])
+        .map(|(rule, _, what)| format!("{rule}: {what}"))
+        .collect();
+    assert_eq!(missed, Vec::<String>::new());
+}
+
+#[test]
+fn a_pass_is_said_to_be_weak_evidence_where_no_weakening_is_named() {
+    let tried: BTreeSet<_> = named().into_iter().map(|(rule, ..)| rule).collect();
+    for rule in RULES {
+        assert_eq!(rule.is_tried(), tried.contains(rule.id), "{}", rule.id);
+    }
+}
+
+/// Weakenings that a black box could see, and no verdict on their rule does: no generated case comes far enough.
+/// What is named one day goes into the table above, and out of the page's list.
+#[test]
+fn what_is_not_named_yet_is_known() {
+    let unnamed: Vec<Weakening> = vec![
+        (
+            "R9",
+            &TakesAnyAcknowledgement,
+            "acknowledgements of other commands count",
+        ),
+        (
+            "R11",
+            &TakesAnyProgress,
+            "progress of other commands counts",
+        ),
+        (
+            "R16",
+            &Overlooks(|_| true),
+            "a corridor that opens over missing guards",
+        ),
+        (
+            "R16",
+            &NEVER_CLOSES_THE_CORRIDOR,
+            "a corridor that does not close",
+        ),
+        (
+            "R20",
+            &ForgetsItsDuty,
+            "a duty that is forgotten for a request",
+        ),
+    ];
+    for (rule, rules, what) in unnamed {
+        assert_eq!(
+            broken(rules, &[rule]),
+            Vec::<&str>::new(),
+            "it is named: {what}"
+        );
+    }
 }
 
 #[test]
@@ -253,6 +318,6 @@ fn what_the_air_does_not_tell_is_seen_by_nobody() {
         ),
     ];
     for (rules, why) in unseen {
-        assert_unseen(rules, why);
+        assert_eq!(broken(rules, &[]), Vec::<&str>::new(), "it was: {why}");
     }
 }
