@@ -364,7 +364,7 @@ impl Play {
             Span::Safety => ms(|s| s.t_safety) + soon_ms,
             Span::Leave => lost_ms + soon_ms,
             Span::Lease => ms(|s| s.t_lease) + 600 + soon_ms,
-            Span::Lost => ms(|s| s.t_lease) + lost_ms + soon_ms,
+            Span::Lost => ms(|s| s.t_lease) + lost_ms + 2 * soon_ms,
             Span::Repeats => ms(|s| s.t_ack) * (u64::from(terms.settings.n_ack) + 1) + soon_ms,
             Span::Farewell => ms(|s| s.t_farewell) + soon_ms,
         })

@@ -117,6 +117,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         print_json(&report)?;
     } else {
         show(&report)?;
+        if cut_off {
+            print("The tester was stopped before all cases were played.")?;
+        }
     }
     written?;
     if report.has_failed() {

@@ -141,11 +141,14 @@ fn not_offered(
     requests(exchange).into_iter().filter_map(judge).collect()
 }
 
-fn impossible_gets_no_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+/// Whether the robot can do a task that is asked for, so that only another rule keeps it from an offer.
+fn is_possible(terms: &Terms, it: &Request) -> bool {
     let can = terms.settings.capabilities;
-    not_offered(exchange, terms, |_, it| {
-        can.intersection(it.request.tasks).is_empty()
-    })
+    !can.intersection(it.request.tasks).is_empty()
+}
+
+fn impossible_gets_no_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+    not_offered(exchange, terms, |_, it| !is_possible(terms, it))
 }
 
 fn one_requester(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
@@ -155,12 +158,17 @@ fn one_requester(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             state.ram.coordination,
             Coordination::OfferHelp { .. } | Coordination::Follower { .. }
         );
-        is_bound && session != Some(it.session) && is_in_contact(exchange, it.at_ms)
+        is_bound
+            && is_possible(terms, it)
+            && session != Some(it.session)
+            && is_in_contact(exchange, it.at_ms)
     })
 }
 
 fn on_duty_does_not_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let mut all = not_offered(exchange, terms, |state, _| state.ram.on_duty);
+    let mut all = not_offered(exchange, terms, |state, it| {
+        state.ram.on_duty && is_possible(terms, it)
+    });
     let detected = exchange
         .told()
         .filter(|(_, local)| matches!(local, Local::Detect(_)));
@@ -184,8 +192,9 @@ fn on_duty_does_not_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 }
 
 fn unavailable_does_not_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    not_offered(exchange, terms, |state, _| {
+    not_offered(exchange, terms, |state, it| {
         state.availability != Availability::Available
+            && is_possible(terms, it)
             && state.ram.coordination == Coordination::None
     })
 }

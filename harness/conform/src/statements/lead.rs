@@ -253,7 +253,7 @@ fn reports_end_repetition(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 }
 
 fn other_answers_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let limit_ms = terms.ms(|settings| settings.t_ack) + terms.soon_ms();
+    let limit_ms = terms.ms(|settings| settings.t_ack) + terms.slack_ms;
     let n_ack = usize::from(terms.settings.n_ack);
     let mut all: Vec<Met> = Vec::new();
     for sent in sent(exchange) {
