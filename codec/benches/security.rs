@@ -156,7 +156,8 @@ fn refuse(criterion: &mut Criterion) {
     let authority = authority.signed(Some(Pki::new(1).root.octets()), 21);
     with_authority.additions = [&[2, 4, 0x40][..], &opaque(&authority)].concat();
     let with_authority = with_authority.octets();
-    let garbage: Vec<u8> = (0..400_u32).map(|at| (at * 7_919 >> 3) as u8).collect();
+    let octet = |at: u32| ((at * 7_919) >> 3).to_le_bytes()[0];
+    let garbage: Vec<u8> = (0..400).map(octet).collect();
     let mut knowing = scene.knowing.clone();
     // Both have been refused before.
     let mut refused_before = knowing.clone();

@@ -137,6 +137,7 @@ fn names_in_logs_do_not_reach_the_terminal_as_they_are() {
         entry: Entry::Started {
             station: StationId(1),
             boot: 1,
+            epoch: None,
             settings: Box::new(Config::default().settings().clone()),
             identifiers: Identifiers::default(),
             unix_ms: 0,

@@ -19,6 +19,7 @@ fn can_break(id: PropertyId, insiders: &[Insider]) -> bool {
     liars.iter().any(|liar| insiders.contains(liar))
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "filters give references")]
 fn is_about_runs_without_cooperation(id: &PropertyId) -> bool {
     !matches!(id, PropertyId::L3 | PropertyId::W7)
 }

@@ -1,7 +1,7 @@
 //! Why a secured packet is not relied on.
 
+use super::doubt::Doubt;
 use super::hashed_id::HashedId8;
-use super::trusted_time::Doubt;
 
 /// Octets that are not the canonical encoding of an envelope or certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]

@@ -11,8 +11,7 @@
 //! Messages from before the start are refused: they may have been accepted before a restart, of which nothing is
 //! remembered but the mark.
 
-use std::fmt::{self, Display, Formatter};
-
+use super::doubt::Doubt;
 use super::rejected::Rejected;
 use super::time::Time64;
 
@@ -20,24 +19,6 @@ use super::time::Time64;
 const LEAP_US: u64 = 2_000_000;
 /// For how long a clock that has leapt ahead has to go on from there, in ms.
 const PROBATION_MS: u64 = 60_000;
-
-/// Why the clock is not trusted.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Doubt {
-    /// It is behind a time that has been, by so many µs.
-    Behind(u64),
-    /// It has leapt ahead by so many µs.
-    Ahead(u64),
-}
-
-impl Display for Doubt {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Behind(us) => write!(f, "{} ms behind a time that has been", us / 1_000),
-            Self::Ahead(us) => write!(f, "{} ms ahead at a leap", us / 1_000),
-        }
-    }
-}
 
 /// The time, as far as a station can trust its clock.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -130,7 +130,7 @@ fn profiles(all: &mut Vectors) {
         (0x02, "encryptionKey"),
     ] {
         all.refuses(header(name), profile, Service::Ram, |it, _| {
-            it.preamble = bit
+            it.preamble = bit;
         });
     }
     let times = |name| (name, "IEEE 1609.2 6.3 HeaderInfo");
@@ -264,6 +264,7 @@ fn places_and_times(all: &mut Vectors) {
     }
 }
 
+#[expect(clippy::too_many_lines, reason = "a list")]
 fn certificates(all: &mut Vectors) {
     let of = |name| (name, "IEEE 1609.2 6.4");
     let mut bad = |name, clause, cause, change: fn(&mut Terms)| {
@@ -387,7 +388,7 @@ fn signatures(all: &mut Vectors) {
         |it| it.push(0),
     );
     all.garbled(structure("the last octet missing"), malformed, |it| {
-        it.truncate(it.len() - 1)
+        it.truncate(it.len() - 1);
     });
     all.garbled(
         structure("a signature on another curve"),

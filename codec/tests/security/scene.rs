@@ -189,11 +189,11 @@ impl Vectors {
     pub(crate) fn refuses(
         &mut self,
         (name, clause): (&'static str, &'static str),
-        cause: &'static str,
+        refused: &'static str,
         service: Service,
         change: impl FnOnce(&mut Envelope, &Pki),
     ) {
-        self.one(name, clause, service, Some(cause), change);
+        self.one(name, clause, service, Some(refused), change);
     }
 
     pub(crate) fn one(
@@ -214,7 +214,7 @@ impl Vectors {
     pub(crate) fn garbled(
         &mut self,
         (name, clause): (&'static str, &'static str),
-        cause: &'static str,
+        refused: &'static str,
         change: impl FnOnce(&mut Vec<u8>),
     ) {
         let mut octets = envelope(&self.pki, Service::Ram, NOW).octets();
@@ -222,7 +222,7 @@ impl Vectors {
         self.add(
             name,
             clause,
-            vec![heard(secured(&octets), NOW, Some(cause))],
+            vec![heard(secured(&octets), NOW, Some(refused))],
         );
     }
 }

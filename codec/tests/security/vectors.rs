@@ -3,6 +3,8 @@
 //! They are in `codec/tests/golden/security.json` for other implementations, with the certificates that the receiver
 //! trusts. `cargo xtask bless security.json` writes the file. Nothing of the kit encodes or signs what is in it.
 
+use std::fmt::Write as _;
+
 use std::path::Path;
 use std::sync::Once;
 use std::{env, fs};
@@ -49,7 +51,10 @@ fn signatures_of(receiver: &Stack) -> u64 {
 }
 
 fn to_hex(octets: &[u8]) -> String {
-    octets.iter().map(|octet| format!("{octet:02x}")).collect()
+    octets.iter().fold(String::new(), |mut text, octet| {
+        let _ = write!(text, "{octet:02x}");
+        text
+    })
 }
 
 fn from_hex(text: &Value) -> Vec<u8> {
@@ -125,7 +130,7 @@ fn every_packet_of_the_file_is_taken_or_refused_under_its_cause() {
             let octets = from_hex(&packet["octets"]);
             let before = signatures_of(&receiver);
             let heard = receiver.receive(&ego(now, HERE), &octets);
-            let refused = heard.err().map(|discarded| discarded.cause());
+            let refused = heard.err().map(crossguard_codec::geonet::Discarded::cause);
             let expected = packet["refused"].as_str();
             causes.extend(expected.map(str::to_owned));
             if refused != expected {
@@ -164,7 +169,7 @@ fn an_authority_is_taken_when_it_was_asked_for() {
     let mut receiver = receiver(&pki.root, &pki.authority);
     let mut hear = |at, packet: &[u8]| {
         let heard = receiver.receive(&ego(at, HERE), packet);
-        let cause = heard.err().map(|it| it.cause());
+        let cause = heard.err().map(crossguard_codec::geonet::Discarded::cause);
         (cause, signatures_of(&receiver))
     };
     // Nobody asked: it is not looked at, and the ticket is not known.

@@ -554,10 +554,7 @@ fn arrow(time: f64, [from, to]: [usize; 2], spacing: usize, text: &str, is_lost:
     } else {
         format!("{end}{body}")
     };
-    let mut line = format!("{time:>8.3}");
-    pad(&mut line, LEFT + left * spacing + 1);
-    line.push_str(&drawn);
-    line
+    note_at(time, LEFT + left * spacing + 1, &drawn)
 }
 
 #[cfg(test)]

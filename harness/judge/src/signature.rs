@@ -101,9 +101,10 @@ impl Signatures {
         }
         let origin = headers.map(|headers| origin(&headers.source));
         let is_of_robot = matches!(service, Some(Service::Ram | Service::Rmcm));
-        let profile = match is_of_robot {
-            true => message.header.check_robot_profile(),
-            false => Ok(()),
+        let profile = if is_of_robot {
+            message.header.check_robot_profile()
+        } else {
+            Ok(())
         };
         let fits = origin.map_or(Ok(()), |it| verifier.check_origin(None, &it, message));
         let now = now.unwrap_or(message.header.generation_time);

@@ -19,6 +19,7 @@
 //!
 //! A robot that is told to stop leaves its session by name, says so for `T_farewell`, and then ends.
 
+mod clock;
 mod keeper;
 mod partners;
 mod reader;
@@ -30,9 +31,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, sync_channel};
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant};
 
-use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{Battery, Identifiers, JobRole, MapPlace, SignalsShown};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
@@ -41,6 +41,8 @@ use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
+pub use self::clock::Clock;
+use self::clock::{moment_at, unix_ms};
 use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
 pub use self::running::{Panicked, Running};
@@ -75,50 +77,6 @@ const BODY_PERIOD: Duration = Duration::from_millis(5);
 
 /// How often the log says who is around.
 const AROUND_PERIOD_US: u64 = 1_000_000;
-
-/// A clock that several robots share, so that their logs line up.
-#[derive(Clone, Copy, Debug)]
-pub struct Clock {
-    start: Instant,
-}
-
-impl Clock {
-    /// A clock that starts now.
-    #[must_use]
-    pub fn start() -> Self {
-        Self {
-            start: Instant::now(),
-        }
-    }
-
-    /// Microseconds since the start.
-    #[must_use]
-    pub fn now_us(&self) -> u64 {
-        u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
-    }
-
-    /// What it showed at an instant, in ms; 0 before the start.
-    fn at_ms(&self, instant: Instant) -> u64 {
-        let since = instant.saturating_duration_since(self.start);
-        u64::try_from(since.as_millis()).unwrap_or(u64::MAX)
-    }
-}
-
-/// This moment, which the clock shows as `now_us`.
-fn moment_at(now_us: u64) -> Moment {
-    let unix_ms = i64::try_from(unix_ms()).unwrap_or(i64::MAX);
-    Moment {
-        now_ms: now_us / 1_000,
-        timestamp_its: timestamp_its(unix_ms),
-    }
-}
-
-fn unix_ms() -> u64 {
-    let now = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .unwrap_or_default();
-    u64::try_from(now.as_millis()).unwrap_or(u64::MAX)
-}
 
 /// What a running robot can be told from outside.
 #[derive(Clone, Copy, Debug)]

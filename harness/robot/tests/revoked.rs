@@ -21,7 +21,7 @@ use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Air, Transport};
 
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// An idle robot, which says a RAM at least once a second, and what it notes.
 fn robot(air: &Air, port: usize, credentials: Credentials) -> (Running, Receiver<Arc<Record>>) {
@@ -97,6 +97,6 @@ fn a_list_that_changes_ends_what_a_robot_believes_and_one_that_cannot_be_read_ch
     // A list without it.
     add_revoked(&list, &[]).unwrap();
     wait_for(&records, "the other robot again", is_heard);
-    speaker.stop();
-    listener.stop();
+    speaker.stop().unwrap();
+    listener.stop().unwrap();
 }

@@ -16,12 +16,10 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::Identifiers;
 use crossguard_codec::geonet::{EgoPosition, Envelope};
 use crossguard_codec::security::{HashedId8, keyed_digest, random_octets};
+use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::{Robot, StationId, UniqueNumber};
-
-use super::security::station_id;
 
 /// The share of its period for which a robot is silent at most: 10 s of 5 minutes.
 const SILENCE_PER_PERIOD: u64 = 30;
@@ -61,10 +59,11 @@ impl Secret {
     }
 
     fn draw(&self, what: Drawn, station: StationId) -> u64 {
-        let [a, b, c, d] = station.0.to_be_bytes();
-        let drawn = keyed_digest(&self.0, &[what as u8, a, b, c, d]);
-        let [a, b, c, d, e, f, g, h, ..] = drawn;
-        u64::from_be_bytes([a, b, c, d, e, f, g, h])
+        let mut octets = [what as u8; 5];
+        octets[1..].copy_from_slice(&station.0.to_be_bytes());
+        let drawn = keyed_digest(&self.0, &octets);
+        let first = drawn.first_chunk().expect("it has 32 octets");
+        u64::from_be_bytes(*first)
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "16 bits are wanted")]
@@ -150,7 +149,7 @@ impl Pseudonyms {
         let before = robot.station();
         let boot = self.secret.boot(before, robot.boot());
         self.numbers.insert(before, robot.next_number());
-        let station = station_id(secured, identifiers);
+        let station = secured.station_id(Service::Ram.its_aid(identifiers));
         Some(Taken {
             station,
             next: self.next(station, boot),

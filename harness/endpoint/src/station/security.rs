@@ -156,12 +156,8 @@ impl Security {
     #[must_use]
     pub fn station_id(&self, identifiers: &Identifiers, configured: StationId) -> StationId {
         match &self.envelope {
-            Envelope::Secured(secured) => station_id(secured, identifiers),
+            Envelope::Secured(secured) => secured.station_id(Service::Ram.its_aid(identifiers)),
             _ => configured,
         }
     }
-}
-
-pub(super) fn station_id(secured: &Secured, identifiers: &Identifiers) -> StationId {
-    secured.station_id(Service::Ram.its_aid(identifiers))
 }

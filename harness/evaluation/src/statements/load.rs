@@ -15,6 +15,10 @@ type Pairs<'a> = Vec<[&'a CbrCell; 2]>;
 
 /// What the paper states of channel load, beside what was measured.
 #[must_use]
+#[expect(
+    clippy::too_many_lines,
+    reason = "a statement of the paper after the other"
+)]
 pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
     let people = cells.iter().map(|cell| cell.pedestrians);
     let mut lines = setup(setting, people);

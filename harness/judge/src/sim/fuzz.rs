@@ -111,11 +111,7 @@ impl Fuzz<'_> {
         let robots = self.robots;
         let faults = self.faults.map(|faults| format!(" --faults '{faults}'"));
         let faults = faults.unwrap_or_default();
-        let liars = if self.swarm(seed).insider.is_some() {
-            1
-        } else {
-            0
-        };
+        let liars = u8::from(self.swarm(seed).insider.is_some());
         format!("crossguard fuzz --seeds 1 --robots {robots} --seed {seed} --liars {liars}{faults}")
     }
 

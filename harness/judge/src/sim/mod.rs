@@ -30,9 +30,8 @@ mod times;
 mod world;
 
 pub use fuzz::{Failure, Fuzz, Totals};
-pub use insider::InsiderDraw;
 pub use report::{Files, write_failure, write_failure_with};
 pub use script::{Deed, Happening};
-pub use swarm::{Hazard, Replay, RobotDraw, Swarm};
+pub use swarm::{Hazard, InsiderDraw, Replay, RobotDraw, Swarm};
 pub use times::{Longest, Measure, Worst};
 pub use world::{Finding, Outcome, Watch, run, run_with};

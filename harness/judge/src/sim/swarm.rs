@@ -6,6 +6,7 @@
 
 mod draws;
 mod hazards;
+mod insiders;
 
 use crossguard_model_check::timed::longest;
 use crossguard_protocol::{Config, Millis, Settings, StationId};
@@ -16,7 +17,7 @@ use crossguard_robot::transport::Faults;
 
 use self::draws::Draws;
 pub use self::hazards::Hazard;
-use super::insider::InsiderDraw;
+pub use self::insiders::InsiderDraw;
 use super::script::Happening;
 
 /// By how much a station id grows when the robot changes its pseudonym.

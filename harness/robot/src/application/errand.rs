@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use crossguard_codec::TaskParameters;
 use crossguard_protocol::{Corridor, Event, Failure, Notice, Rejection, StationId};
 
-use super::whereabouts::Misfit;
 use super::{Application, Wish};
 use crate::plan::Leg;
 use crate::street::Road;
@@ -28,7 +27,7 @@ pub(super) struct Errand {
     /// How far each follower is with its part of the stage.
     followers: BTreeMap<StationId, Part>,
     /// Whose last report is not believed, and why.
-    pub(super) misfits: BTreeMap<StationId, Misfit>,
+    pub(super) misfits: BTreeMap<StationId, Amiss>,
     /// Who has which seat of the plan: its roles, or else the followers in the order in which they joined.
     seats: Vec<Option<StationId>>,
     /// When each follower was commanded something last.
@@ -38,6 +37,15 @@ pub(super) struct Errand {
     /// When the corridor was to be opened last.
     tried_s: f64,
     since_s: f64,
+}
+
+/// Why the report of a follower is not believed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Amiss {
+    /// It is elsewhere than where it was sent.
+    Elsewhere,
+    /// It is there, and moves.
+    Moving,
 }
 
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -9,7 +9,7 @@ use crossguard_codec::Position;
 use crossguard_protocol::StationId;
 
 use super::Application;
-use super::errand::Part;
+use super::errand::{Amiss, Part};
 use crate::plan::Leg;
 
 /// How far from its place a follower may be, besides what its RAM says of its confidence, in metres: less than the width
@@ -18,15 +18,6 @@ const OUT_OF_PLACE_M: f64 = 2.0;
 
 /// How fast a follower that has arrived may still be by its RAM, in m/s: slower than anybody walks.
 const MOVES_MPS: f64 = 0.5;
-
-/// Why the report of a follower is not believed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Misfit {
-    /// It is elsewhere than where it was sent.
-    Elsewhere,
-    /// It is there, and moves.
-    Moving,
-}
 
 impl Application {
     /// Takes in where a follower says that it is, and how fast it moves, in m/s. What is not known judges nobody.
@@ -45,10 +36,10 @@ impl Application {
         let confidence_m = position.ellipse.map_or(0.0, |ellipse| ellipse.semi_major);
         let misfit = if off_m > OUT_OF_PLACE_M + confidence_m {
             tracing::warn!(%follower, off_m, "reports from elsewhere than where it was sent");
-            Some(Misfit::Elsewhere)
+            Some(Amiss::Elsewhere)
         } else if let Some(speed_mps) = speed_mps.filter(|speed_mps| *speed_mps > MOVES_MPS) {
             tracing::warn!(%follower, speed_mps, "reports that it has arrived, and moves");
-            Some(Misfit::Moving)
+            Some(Amiss::Moving)
         } else {
             None
         };
@@ -63,9 +54,9 @@ impl Application {
         let errand = self.errand.as_ref();
         match errand.and_then(|errand| errand.misfits.get(&follower)) {
             None => return false,
-            Some(Misfit::Elsewhere) => self.command(follower),
+            Some(Amiss::Elsewhere) => self.command(follower),
             // By then it may have come to a stand.
-            Some(Misfit::Moving) => self.command_again(follower),
+            Some(Amiss::Moving) => self.command_again(follower),
         }
         true
     }

@@ -16,9 +16,9 @@ pub const fn early_us(duration: Duration) -> u64 {
 /// A start for a pseudonym that is wanted at `from`, drawn from the time before, in which its issuer is valid.
 #[must_use]
 pub fn drawn_start(issuer: &Certificate, from: Time64, duration: Duration) -> Time64 {
-    let [a, b, c, d, e, f, g, h, ..] = random_octets();
-    let drawn = u64::from_be_bytes([a, b, c, d, e, f, g, h]);
-    start_of(issuer, from, duration, drawn)
+    let drawn = random_octets();
+    let drawn = drawn.first_chunk().expect("it has 32 octets");
+    start_of(issuer, from, duration, u64::from_be_bytes(*drawn))
 }
 
 /// [`drawn_start`] by this number.

@@ -53,17 +53,17 @@ impl Chain {
                 self.last = None;
             }
         }
-        let link = self.next(line);
+        let digits = self.next(line);
         line.extend(BEFORE);
-        line.extend(link);
+        line.extend(digits);
         line.extend(AFTER);
-        self.last = Some(link);
+        self.last = Some(digits);
         self.linked += 1;
     }
 
     /// Whether a line, with its end, follows the lines before it.
     pub(super) fn follow(&mut self, line: &[u8]) -> Result<(), Unchained> {
-        let Some((body, link)) = split(line) else {
+        let Some((body, digits)) = split(line) else {
             return match self.last {
                 None => Ok(()),
                 Some(_) => Err(Unchained::NoLink),
@@ -74,10 +74,10 @@ impl Chain {
         } else if self.last.is_none() {
             return Err(Unchained::NoBeginning);
         }
-        if self.next(body) != link {
+        if self.next(body) != digits {
             return Err(Unchained::Gap);
         }
-        self.last = Some(link);
+        self.last = Some(digits);
         self.linked += 1;
         Ok(())
     }
@@ -99,8 +99,8 @@ impl Chain {
 /// A line up to its link, and the link.
 fn split(line: &[u8]) -> Option<(&[u8], [u8; DIGITS])> {
     let rest = line.strip_suffix(AFTER)?;
-    let (rest, link) = rest.split_last_chunk::<DIGITS>()?;
-    Some((rest.strip_suffix(BEFORE)?, *link))
+    let (rest, digits) = rest.split_last_chunk::<DIGITS>()?;
+    Some((rest.strip_suffix(BEFORE)?, *digits))
 }
 
 /// Which part of a run a file begins with; `None` where its first line does not say.
