@@ -31,14 +31,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, sync_channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_codec::{Battery, Identifiers, JobRole, MapPlace, SignalsShown};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
 pub use self::clock::Clock;

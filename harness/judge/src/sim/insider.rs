@@ -9,7 +9,6 @@ use std::rc::Rc;
 use crossguard_codec::{Identifiers, RobotState};
 use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_model_check::confinement::LyingPart;
 use crossguard_model_check::network::{Message, concerns};
 use crossguard_model_check::utterances::Utterances;
 use crossguard_protocol::{
@@ -18,7 +17,7 @@ use crossguard_protocol::{
     Outputs, Phase, Ram, RequestId, Requesting, Robot, SessionNumber, StandingFarewell,
     StateMachine, StationId, TaskSet, TaskType, UniqueNumber,
 };
-use crossguard_robot::site::{Place, Site};
+use crossguard_robot::site::Site;
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
