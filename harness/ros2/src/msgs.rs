@@ -110,6 +110,7 @@ pub struct Command {
     pub to_vehicles: u8,
     pub to_pedestrians: u8,
     pub signal_means: u8,
+    pub job_role: u8,
 }
 
 /// A person that the robot's sensors report.
