@@ -39,13 +39,7 @@ pub struct Places {
 
 /// Where people are on a grid, and where robots on these ways see them, from samples `sample_ms` apart.
 #[must_use]
-pub fn places(
-    run: &Run,
-    grid: &Grid,
-    robots: &[Track],
-    radius_m: f64,
-    sample_ms: u64,
-) -> Places {
+pub fn places(run: &Run, grid: &Grid, robots: &[Track], radius_m: f64, sample_ms: u64) -> Places {
     let (mut all, mut at, mut between, mut seen, mut seen_at) = (0_u32, 0_u32, 0_u32, 0_u32, 0_u32);
     for track in &run.pedestrians {
         for (index, motion) in track.samples().iter().enumerate() {
@@ -62,9 +56,9 @@ pub fn places(
     }
     let share = |part: u32, of: u32| f64::from(part) / f64::from(of.max(1));
     #[expect(clippy::cast_precision_loss, reason = "half a second")]
-    let sample_s = sample_ms as f64 / 1_000.0;
+    let seconds_each = sample_ms as f64 / 1_000.0;
     Places {
-        travel_s: f64::from(all) * sample_s,
+        travel_s: f64::from(all) * seconds_each,
         at_intersections: share(at, all),
         on_road_between: share(between, all),
         covered_at_intersections: share(seen_at, seen),
@@ -146,7 +140,12 @@ mod tests {
             covered_at_intersections: 0.5,
         };
         assert_eq!(found, expected);
-        assert!(places(&run, &grid, &[], 15.0, 500).covered_at_intersections.abs() < 1e-12);
+        assert!(
+            places(&run, &grid, &[], 15.0, 500)
+                .covered_at_intersections
+                .abs()
+                < 1e-12
+        );
     }
 
     #[test]

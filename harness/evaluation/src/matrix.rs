@@ -95,7 +95,8 @@ pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<Ob
                 let percent = runs().map(|run| 100.0 * coverage(run, &ways, radius_m));
                 let found = runs().map(|run| places(run, grid, &ways, radius_m, sample_ms));
                 let found: Vec<Places> = found.collect();
-                let share = |of: fn(&Places) -> f64| Estimate::of(found.iter().map(|it| 100.0 * of(it)));
+                let share =
+                    |of: fn(&Places) -> f64| Estimate::of(found.iter().map(|it| 100.0 * of(it)));
                 cells.push(ObsCell {
                     robots,
                     pedestrians: traces.pedestrians(),

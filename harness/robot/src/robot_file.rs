@@ -32,8 +32,8 @@ use crate::zone::{Watched, Zone};
 
 use self::body::BodyTable;
 pub use self::body::NoBody;
-pub use self::traits::{NoTraits, job_named};
 use self::traits::{BatteryTable, JobName};
+pub use self::traits::{NoTraits, job_named};
 pub use self::zone::NoZone;
 use self::zone::ZoneTable;
 

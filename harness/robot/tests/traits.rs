@@ -3,8 +3,8 @@
 
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{
-    Battery, ControlMode, Identifiers, JobRole, MapPlace, RobotCategory, RobotState, Service, decode,
-    state_of,
+    Battery, ControlMode, Identifiers, JobRole, MapPlace, RobotCategory, RobotState, Service,
+    decode, state_of,
 };
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Availability, Config, Event, Robot, StationId, Unavailability};
@@ -141,7 +141,10 @@ fn the_area_that_a_robot_serves_is_in_its_ram_and_can_be_changed_like_its_job() 
     application.serve(Some(segment));
     application.set_job(JobRole::Patrol);
     let state = said.next(Stimulus::Time);
-    assert_eq!((area(&state), state.job_role), (Some(segment), JobRole::Patrol));
+    assert_eq!(
+        (area(&state), state.job_role),
+        (Some(segment), JobRole::Patrol)
+    );
     said.machine.application_mut().serve(None);
     assert_eq!(area(&said.next(Stimulus::Time)), None);
 }

@@ -1,8 +1,7 @@
 //! What a message of the application tells the robot.
 
 use crossguard_codec::{
-    Battery, JobRole, MapPlace, NoMapPlace, PublicSignal, SignalMeans, SignalsShown,
-    TaskParameters,
+    Battery, JobRole, MapPlace, NoMapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
 };
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{

@@ -6,9 +6,7 @@ use super::super::paper::PAPER;
 use super::super::statistics::Estimate;
 use super::setup::setup;
 use super::text::{list, spread, words};
-use super::{
-    Comparison, FIGURE_RULE, Setting, Statement, compare, is_of, over_densities, same,
-};
+use super::{Comparison, FIGURE_RULE, Setting, Statement, compare, is_of, over_densities, same};
 
 /// By how much the ratio of the coverages at two radii may differ from that of the radii, as a share of it.
 const PROPORTION_TOLERANCE: f64 = 0.2;
@@ -174,7 +172,10 @@ fn same_routes(cells: &[ObsCell]) -> Comparison {
 /// Where robots see people.
 fn at_intersections(cells: &[ObsCell]) -> Comparison {
     const { assert!(INTERSECTION_M == 20.0, "the rule says it") };
-    let seen: Vec<&ObsCell> = cells.iter().filter(|it| it.obs_percent.mean > 0.0).collect();
+    let seen: Vec<&ObsCell> = cells
+        .iter()
+        .filter(|it| it.obs_percent.mean > 0.0)
+        .collect();
     compare(
         (
             Statement::CoverageAtIntersections,
@@ -183,9 +184,16 @@ fn at_intersections(cells: &[ObsCell]) -> Comparison {
         ),
         (!seen.is_empty()).then_some(seen),
         |seen| {
-            let shares = || seen.iter().map(|it| it.covered_at_intersections_percent.mean);
+            let shares = || {
+                seen.iter()
+                    .map(|it| it.covered_at_intersections_percent.mean)
+            };
             let all = seen.iter().map(|it| it.at_intersections_percent.mean);
-            let text = format!("{} (of all time {})", spread(shares(), "%"), spread(all, "%"));
+            let text = format!(
+                "{} (of all time {})",
+                spread(shares(), "%"),
+                spread(all, "%")
+            );
             (text, shares().all(|it| it > 50.0))
         },
         "more than half of it within 20 m of an intersection's middle",

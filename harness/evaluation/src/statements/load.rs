@@ -5,9 +5,7 @@ use super::super::paper::PAPER;
 use super::super::statistics::Estimate;
 use super::setup::{on_the_air, setup};
 use super::text::{list, spread, words};
-use super::{
-    Comparison, LOW_MCBR, Setting, Statement, compare, is_of, over_densities, same,
-};
+use super::{Comparison, LOW_MCBR, Setting, Statement, compare, is_of, over_densities, same};
 
 /// How much of the silence may be of devices that no robot perceives, in percent.
 const WRONG_MAX_PERCENT: f64 = 5.0;
@@ -82,14 +80,46 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
         },
         "above 0 in every cell",
     ));
-    let by_density = reductions(one, large_m).zip(reductions(nine, large_m));
-    lines.push(compare(
+    lines.push(by_density(
+        reductions(one, large_m).zip(reductions(nine, large_m)),
+    ));
+    lines.push(largest(
+        cells,
+        find(nine, PAPER.pedestrians[2], large_m).map(|it| it.reduction_percent),
+    ));
+    let of_robots = |robots| {
+        let pair = |people| {
+            Some([
+                find(robots, people, small_m)?,
+                find(robots, people, large_m)?,
+            ])
+        };
+        PAPER
+            .pedestrians
+            .into_iter()
+            .map(pair)
+            .collect::<Option<Pairs<'_>>>()
+    };
+    let pairs = of_robots(one)
+        .zip(of_robots(nine))
+        .map(|(one, nine)| [one, nine].concat());
+    lines.extend(by_radius(pairs.as_ref()));
+    lines.push(by_robots(
+        reductions(one, large_m).zip(reductions(nine, large_m)),
+    ));
+    lines.push(conservative(cells));
+    lines
+}
+
+/// How the reductions of one robot and of nine grow with the number of people.
+fn by_density(reductions: Option<(Vec<Estimate>, Vec<Estimate>)>) -> Comparison {
+    compare(
         (
             Statement::GrowsWithDensity,
             "reduction at 15 m with 20, 50, 100, by 1 and by 9 robots",
             "increasingly pronounced with density",
         ),
-        by_density,
+        reductions,
         |(one, nine)| {
             let grows = |all: &[Estimate]| all.is_sorted_by(|a, b| a.mean < b.mean);
             (
@@ -98,19 +128,20 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
             )
         },
         "each above the one before",
-    ));
-    let largest = find(nine, PAPER.pedestrians[2], large_m).map(|it| it.reduction_percent);
-    let most = cells
-        .iter()
-        .map(|it| it.reduction_percent.mean)
-        .fold(f64::MIN, f64::max);
-    lines.push(compare(
+    )
+}
+
+/// Whether the reduction where the paper has its largest is the largest, and as large.
+fn largest(cells: &[CbrCell], there: Option<Estimate>) -> Comparison {
+    let means = cells.iter().map(|it| it.reduction_percent.mean);
+    let most = means.fold(f64::MIN, f64::max);
+    compare(
         (
             Statement::LargestReduction,
             "largest reduction: 9 robots, 100 pedestrians, 15 m",
             &format!("up to {}", words(PAPER.reduction_most_percent)),
         ),
-        largest,
+        there,
         |it| {
             let is_largest = most <= it.mean;
             (
@@ -119,16 +150,7 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
             )
         },
         "the largest of all cells, and the figure within two standard deviations of a run",
-    ));
-    let of_robots = |robots| {
-        let pair = |people| Some([find(robots, people, small_m)?, find(robots, people, large_m)?]);
-        PAPER.pedestrians.into_iter().map(pair).collect::<Option<Pairs<'_>>>()
-    };
-    let pairs = of_robots(one).zip(of_robots(nine)).map(|(one, nine)| [one, nine].concat());
-    lines.extend(by_radius(pairs.as_ref()));
-    lines.push(by_robots(reductions(one, large_m).zip(reductions(nine, large_m))));
-    lines.push(conservative(cells));
-    lines
+    )
 }
 
 /// What the larger radius brings, and the smaller one saves.

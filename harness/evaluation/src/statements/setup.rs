@@ -155,7 +155,10 @@ pub(super) fn on_the_air(behaviour: &Behaviour) -> [Comparison; 8] {
     let contention = if radio.ideal {
         "no contention".to_owned()
     } else {
-        format!("EDCA: AIFSN {}, window {}", radio.aifsn, radio.contention_window)
+        format!(
+            "EDCA: AIFSN {}, window {}",
+            radio.aifsn, radio.contention_window
+        )
     };
     let width_mhz = SAMPLES_PER_SYMBOL / SYMBOL_US;
     [

@@ -157,7 +157,14 @@ fn a_set_up_that_is_not_the_papers_is_not_met() {
     let lines = of_load(setting, &[]);
     let of = |statement| outcome_of(statement, &lines);
     let not_met = [
-        Statement::Grid, Vehicles, Mobility, NetworkStack, StaticRobots, Equipped, Power, Access,
+        Statement::Grid,
+        Vehicles,
+        Mobility,
+        NetworkStack,
+        StaticRobots,
+        Equipped,
+        Power,
+        Access,
     ];
     for statement in not_met {
         assert_eq!(of(statement), Outcome::NotMet, "{statement:?}");

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use crossguard_codec::TaskParameters;
 use crossguard_protocol::{Corridor, Event, Failure, Notice, Rejection, StationId};
 
-use super::whereabouts::Misfit;
 use super::{Application, Wish};
 use crate::plan::Leg;
 use crate::street::Road;
@@ -27,8 +26,8 @@ pub(super) struct Errand {
     pub(super) stage: usize,
     /// How far each follower is with its part of the stage.
     followers: BTreeMap<StationId, Part>,
-    /// Whose last report is not believed, and why.
-    pub(super) misfits: BTreeMap<StationId, Misfit>,
+    /// Who said last that it is elsewhere than where it was sent.
+    pub(super) elsewhere: BTreeSet<StationId>,
     /// Who has which seat of the plan: its roles, or else the followers in the order in which they joined.
     seats: Vec<Option<StationId>>,
     /// When each follower was commanded something last.
@@ -129,7 +128,7 @@ impl Application {
     }
 
     /// Commands the follower's leg again, at once or a while after it was commanded something last.
-    pub(super) fn command_again(&mut self, follower: StationId) {
+    fn command_again(&mut self, follower: StationId) {
         let now_s = self.at_s;
         let Some(errand) = &mut self.errand else {
             return;
@@ -170,7 +169,7 @@ impl Application {
         let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
             return;
         };
-        if errand.stage + 1 < plan.stages.len() || !errand.misfits.is_empty() {
+        if errand.stage + 1 < plan.stages.len() || !errand.elsewhere.is_empty() {
             return;
         }
         errand.tried_s = self.at_s;
@@ -185,7 +184,7 @@ impl Application {
     fn miss(&mut self, follower: StationId) {
         if let Some(errand) = &mut self.errand {
             errand.followers.remove(&follower);
-            errand.misfits.remove(&follower);
+            errand.elsewhere.remove(&follower);
             errand.again.remove(&follower);
             for seat in &mut errand.seats {
                 *seat = seat.filter(|seated| *seated != follower);

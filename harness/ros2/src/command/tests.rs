@@ -208,7 +208,10 @@ fn a_robot_can_be_told_its_job_and_what_it_serves() {
         job(Command::ROLE_PATROL),
         Ok(Order::Job(JobRole::Patrol))
     ));
-    assert_eq!(job(7).unwrap_err().to_string(), "job_role 7: 0 to 6 are possible");
+    assert_eq!(
+        job(7).unwrap_err().to_string(),
+        "job_role 7: 0 to 6 are possible"
+    );
     let serve = |text: &str| {
         said(&Command {
             map_place: text.to_owned(),
