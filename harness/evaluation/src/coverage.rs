@@ -56,9 +56,9 @@ pub fn places(run: &Run, grid: &Grid, robots: &[Track], radius_m: f64, sample_ms
     }
     let share = |part: u32, of: u32| f64::from(part) / f64::from(of.max(1));
     #[expect(clippy::cast_precision_loss, reason = "half a second")]
-    let interval_s = sample_ms as f64 / 1_000.0;
+    let seconds_each = sample_ms as f64 / 1_000.0;
     Places {
-        travel_s: f64::from(all) * interval_s,
+        travel_s: f64::from(all) * seconds_each,
         at_intersections: share(at, all),
         on_road_between: share(between, all),
         covered_at_intersections: share(seen_at, seen),

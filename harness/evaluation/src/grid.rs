@@ -145,7 +145,7 @@ impl Grid {
     /// Whether a place is at an intersection: no farther from its middle than its crossings.
     #[must_use]
     pub fn is_at_intersection(&self, place: Point) -> bool {
-        self.offset_of_intersection_m(place)
+        self.off_intersection_m(place)
             .iter()
             .all(|off_m| *off_m <= INTERSECTION_M)
     }
@@ -153,13 +153,13 @@ impl Grid {
     /// Whether a place is on the lanes of a street away from its intersections, where there are no crossings.
     #[must_use]
     pub fn is_on_road_between(&self, place: Point) -> bool {
-        let [east_m, north_m] = self.offset_of_intersection_m(place);
+        let [east_m, north_m] = self.off_intersection_m(place);
         let lanes_m = f64::from(self.lanes) * LANE_M;
         !self.is_at_intersection(place) && east_m.min(north_m) < lanes_m - EDGE_M
     }
 
     /// Distance of a place from the middle of the nearest intersection along each axis, in metres.
-    fn offset_of_intersection_m(&self, place: Point) -> [f64; 2] {
+    fn off_intersection_m(&self, place: Point) -> [f64; 2] {
         let last = f64::from(self.nodes_per_side.saturating_sub(1));
         place.map(|metres| {
             let node = (metres / self.segment_m).round().clamp(0.0, last);

@@ -90,7 +90,7 @@ impl<P: StateMachine> Machine<P> {
         effects
     }
 
-    /// Tells the application where a follower is, and how fast, that says that it is in position or has finished.
+    /// Tells the application where the follower is that says that it is in position or has finished.
     fn say_where(&mut self, act: &Act) {
         let Act::Notice(
             Notice::ManeuverInPosition(follower, _) | Notice::ManeuverCompleted(follower, _),
@@ -100,9 +100,8 @@ impl<P: StateMachine> Machine<P> {
         };
         let known = self.endpoint.map().get(Identity::Station(follower.0));
         if let Some(known) = known {
-            let (position, speed_mps) = (known.user.position, known.user.speed);
-            let application = &mut self.application;
-            application.follower_is_at(*follower, &position, speed_mps);
+            let position = known.user.position;
+            self.application.follower_is_at(*follower, &position);
         }
     }
 

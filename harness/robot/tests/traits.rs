@@ -129,9 +129,10 @@ fn the_area_that_a_robot_serves_is_in_its_ram_and_can_be_changed_like_its_job() 
     for (file, expected) in [
         ("map_place = \"segment 276:12\"", Some(segment)),
         ("crossing = \"276:12\"", Some(intersection)),
-        ("build = \"humanoid\"", None),
+        ("", None),
     ] {
-        let state = Said::by(&read(file).unwrap()).next(Stimulus::Time);
+        let text = format!("build = \"humanoid\"\n{file}");
+        let state = Said::by(&read(&text).unwrap()).next(Stimulus::Time);
         assert_eq!(area(&state), expected, "{file}");
     }
     let mut said = Said::by(&read("build = \"humanoid\"\njob = \"escort\"").unwrap());

@@ -15,10 +15,6 @@ type Pairs<'a> = Vec<[&'a CbrCell; 2]>;
 
 /// What the paper states of channel load, beside what was measured.
 #[must_use]
-#[expect(
-    clippy::too_many_lines,
-    reason = "a statement of the paper after the other"
-)]
 pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
     let people = cells.iter().map(|cell| cell.pedestrians);
     let mut lines = setup(setting, people);
@@ -84,43 +80,12 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
         },
         "above 0 in every cell",
     ));
-    let by_density = reductions(one, large_m).zip(reductions(nine, large_m));
-    lines.push(compare(
-        (
-            Statement::GrowsWithDensity,
-            "reduction at 15 m with 20, 50, 100, by 1 and by 9 robots",
-            "increasingly pronounced with density",
-        ),
-        by_density,
-        |(one, nine)| {
-            let grows = |all: &[Estimate]| all.is_sorted_by(|a, b| a.mean < b.mean);
-            (
-                format!("{}; {}", list(one), list(nine)),
-                grows(one) && grows(nine),
-            )
-        },
-        "each above the one before",
+    lines.push(by_density(
+        reductions(one, large_m).zip(reductions(nine, large_m)),
     ));
-    let largest = find(nine, PAPER.pedestrians[2], large_m).map(|it| it.reduction_percent);
-    let most = cells
-        .iter()
-        .map(|it| it.reduction_percent.mean)
-        .fold(f64::MIN, f64::max);
-    lines.push(compare(
-        (
-            Statement::LargestReduction,
-            "largest reduction: 9 robots, 100 pedestrians, 15 m",
-            &format!("up to {}", words(PAPER.reduction_most_percent)),
-        ),
-        largest,
-        |it| {
-            let is_largest = most <= it.mean;
-            (
-                list(&[*it]),
-                is_largest && is_of(*it, PAPER.reduction_most_percent),
-            )
-        },
-        "the largest of all cells, and the figure within two standard deviations of a run",
+    lines.push(largest(
+        cells,
+        find(nine, PAPER.pedestrians[2], large_m).map(|it| it.reduction_percent),
     ));
     let of_robots = |robots| {
         let pair = |people| {
@@ -144,6 +109,48 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
     ));
     lines.push(conservative(cells));
     lines
+}
+
+/// How the reductions of one robot and of nine grow with the number of people.
+fn by_density(reductions: Option<(Vec<Estimate>, Vec<Estimate>)>) -> Comparison {
+    compare(
+        (
+            Statement::GrowsWithDensity,
+            "reduction at 15 m with 20, 50, 100, by 1 and by 9 robots",
+            "increasingly pronounced with density",
+        ),
+        reductions,
+        |(one, nine)| {
+            let grows = |all: &[Estimate]| all.is_sorted_by(|a, b| a.mean < b.mean);
+            (
+                format!("{}; {}", list(one), list(nine)),
+                grows(one) && grows(nine),
+            )
+        },
+        "each above the one before",
+    )
+}
+
+/// Whether the reduction where the paper has its largest is the largest, and as large.
+fn largest(cells: &[CbrCell], there: Option<Estimate>) -> Comparison {
+    let means = cells.iter().map(|it| it.reduction_percent.mean);
+    let most = means.fold(f64::MIN, f64::max);
+    compare(
+        (
+            Statement::LargestReduction,
+            "largest reduction: 9 robots, 100 pedestrians, 15 m",
+            &format!("up to {}", words(PAPER.reduction_most_percent)),
+        ),
+        there,
+        |it| {
+            let is_largest = most <= it.mean;
+            (
+                list(&[*it]),
+                is_largest && is_of(*it, PAPER.reduction_most_percent),
+            )
+        },
+        "the largest of all cells, and the figure within two standard deviations of a run",
+    )
 }
 
 /// What the larger radius brings, and the smaller one saves.

@@ -26,8 +26,8 @@ pub(super) struct Errand {
     pub(super) stage: usize,
     /// How far each follower is with its part of the stage.
     followers: BTreeMap<StationId, Part>,
-    /// Whose last report is not believed, and why.
-    pub(super) misfits: BTreeMap<StationId, Amiss>,
+    /// Who said last that it is elsewhere than where it was sent.
+    pub(super) elsewhere: BTreeSet<StationId>,
     /// Who has which seat of the plan: its roles, or else the followers in the order in which they joined.
     seats: Vec<Option<StationId>>,
     /// When each follower was commanded something last.
@@ -37,15 +37,6 @@ pub(super) struct Errand {
     /// When the corridor was to be opened last.
     tried_s: f64,
     since_s: f64,
-}
-
-/// Why the report of a follower is not believed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Amiss {
-    /// It is elsewhere than where it was sent.
-    Elsewhere,
-    /// It is there, and moves.
-    Moving,
 }
 
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -137,7 +128,7 @@ impl Application {
     }
 
     /// Commands the follower's leg again, at once or a while after it was commanded something last.
-    pub(super) fn command_again(&mut self, follower: StationId) {
+    fn command_again(&mut self, follower: StationId) {
         let now_s = self.at_s;
         let Some(errand) = &mut self.errand else {
             return;
@@ -178,7 +169,7 @@ impl Application {
         let (Some(plan), Some(errand)) = (&self.plan, &mut self.errand) else {
             return;
         };
-        if errand.stage + 1 < plan.stages.len() || !errand.misfits.is_empty() {
+        if errand.stage + 1 < plan.stages.len() || !errand.elsewhere.is_empty() {
             return;
         }
         errand.tried_s = self.at_s;
@@ -193,7 +184,7 @@ impl Application {
     fn miss(&mut self, follower: StationId) {
         if let Some(errand) = &mut self.errand {
             errand.followers.remove(&follower);
-            errand.misfits.remove(&follower);
+            errand.elsewhere.remove(&follower);
             errand.again.remove(&follower);
             for seat in &mut errand.seats {
                 *seat = seat.filter(|seated| *seated != follower);
