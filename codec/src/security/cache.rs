@@ -141,7 +141,7 @@ impl Cache {
 #[cfg(test)]
 mod tests {
     use crate::security::issue::{self, Terms};
-    use crate::security::{Duration, Issuer, PrivateKey, Validity};
+    use crate::security::{Duration, Issuer, Permission, PrivateKey, Ssp, Validity};
 
     use super::*;
 
@@ -154,7 +154,10 @@ mod tests {
                 duration: Duration::years(1),
             },
             region: None,
-            permissions: Vec::new(),
+            permissions: vec![Permission {
+                its_aid: 16_480,
+                ssp: Ssp::Default,
+            }],
             issue_permissions: Vec::new(),
         };
         let key = PrivateKey::of_octets(&[1; 32]).unwrap();

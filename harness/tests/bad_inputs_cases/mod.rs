@@ -257,6 +257,16 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
         ],
     ),
     (
+        "bounds",
+        &[
+            ("bounds --config nosuch.toml", 2),
+            ("bounds --config text.toml", 2),
+            ("bounds --delay -1", 2),
+            ("bounds --delay 60001", 2),
+            ("bounds --delay soon", 2),
+        ],
+    ),
+    (
         "check",
         &[
             ("check nosuch", 2),
