@@ -74,6 +74,14 @@ pub enum Discarded {
         /// The ITS-AID in its envelope.
         its_aid: u32,
     },
+    /// It was sent longer ago than it lives, by its own time stamp.
+    #[error("it was sent {age_ms} ms ago by its time stamp, and lives for {lifetime_ms} ms")]
+    Outlived {
+        /// How old it is.
+        age_ms: u32,
+        /// How old it may be.
+        lifetime_ms: u32,
+    },
     /// The own station is not in its destination area, or does not know where it is.
     #[error("its destination area is elsewhere")]
     Elsewhere,
@@ -98,6 +106,7 @@ impl Discarded {
             Self::OwnPacket => "own packet",
             Self::UnknownPort(_) => "unknown port",
             Self::WrongPermission { .. } => "wrong permission for port",
+            Self::Outlived { .. } => "lifetime over",
             Self::Elsewhere => "destination area elsewhere",
             Self::Duplicate { .. } => "duplicate",
         }
@@ -133,6 +142,8 @@ pub struct Stack {
     envelope: Envelope,
     next_sequence_number: u16,
     duplicates: Duplicates,
+    /// How far from right the clock may be, in ms, where that is known.
+    clock_error_ms: Option<u32>,
 }
 
 impl Stack {
@@ -145,6 +156,7 @@ impl Stack {
             envelope,
             next_sequence_number: 0,
             duplicates: Duplicates::default(),
+            clock_error_ms: None,
         }
     }
 
@@ -177,6 +189,13 @@ impl Stack {
     pub const fn change_address(&mut self, address: Address, sequence_number: u16) {
         self.address = address;
         self.next_sequence_number = sequence_number;
+    }
+
+    /// The clock by which [`EgoPosition::timestamp_its`] is told is right to this many ms: packets that were sent
+    /// longer ago than they live, by their own time stamps, are discarded from now on. With `None`, as at first, none
+    /// is, since they may only seem to be old.
+    pub const fn keep_time(&mut self, clock_error_ms: Option<u32>) {
+        self.clock_error_ms = clock_error_ms;
     }
 
     /// Puts a message into a packet at the front of `packet`, and tells how long it is.
@@ -300,6 +319,25 @@ impl Stack {
         })
     }
 
+    /// Discards what outlived its lifetime, where the own clock tells.
+    fn check_age(&self, ego: &EgoPosition, headers: &Headers) -> Result<(), Discarded> {
+        let Some(error_ms) = self.clock_error_ms else {
+            return Ok(());
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "it is modulo 2^32")]
+        let age_ms = (ego.timestamp_its as u32).wrapping_sub(headers.source.timestamp);
+        let lifetime_ms = headers.lifetime.milliseconds();
+        // Beyond half the range it is a time stamp from the future.
+        let is_past = age_ms <= u32::MAX / 2;
+        if is_past && age_ms > lifetime_ms.saturating_add(error_ms) {
+            return Err(Discarded::Outlived {
+                age_ms,
+                lifetime_ms,
+            });
+        }
+        Ok(())
+    }
+
     /// The service that a packet is for, if it is for this station and new.
     fn admit(
         &mut self,
@@ -311,6 +349,7 @@ impl Stack {
         if source.address == self.address {
             return Err(Discarded::OwnPacket);
         }
+        self.check_age(ego, headers)?;
         let service = Service::at_port(&self.identifiers, port);
         let service = service.ok_or(Discarded::UnknownPort(port))?;
         if let Some(its_aid) = its_aid

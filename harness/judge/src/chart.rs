@@ -260,6 +260,7 @@ impl Chart {
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
+            | Entry::Clock(_)
             | Entry::Stopped { .. } => Vec::new(),
         }
     }

@@ -319,7 +319,7 @@ impl Observer {
                 facts.push(self.count(robot, cause.clone()));
                 facts
             }
-            Entry::Channel(_) => Vec::new(),
+            Entry::Channel(_) | Entry::Clock(_) => Vec::new(),
             Entry::Zone(outline) => vec![Fact::Zone(outline.clone())],
             Entry::People(sight) => vec![Fact::People(sight.clone())],
             Entry::Around(around) => vec![Fact::Around(around.clone())],

@@ -342,7 +342,8 @@ impl LoggedRobots {
             | Entry::Zone(_)
             | Entry::People(_)
             | Entry::Around(_)
-            | Entry::Channel(_) => Ok(None),
+            | Entry::Channel(_)
+            | Entry::Clock(_) => Ok(None),
             Entry::Step {
                 input,
                 outputs,

@@ -49,6 +49,7 @@ use crate::observe;
 use crate::perception::seen_from;
 use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Sender};
+use crate::wall_clock::{ClockQuality, WallClock};
 
 /// How many datagrams may wait.
 const DATAGRAMS: usize = 256;
@@ -129,6 +130,8 @@ pub enum Order {
     Moved(Pose),
     /// The battery is like this now.
     Battery(Battery),
+    /// The wall clock is like this, as whatever keeps it says.
+    Clock(ClockQuality),
     /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
     Show(SignalsShown),
     /// Carry the body back to where it began.
@@ -212,6 +215,7 @@ impl Setup {
             waiting: Arc::clone(&waiting),
             epochs: Epochs::start(self.boot),
             channel: Monitored::default(),
+            wall_clock: WallClock::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
             stopping: false,
@@ -280,6 +284,8 @@ struct Loop {
     epochs: Epochs,
     /// The radio channel, where the link measures it.
     channel: Monitored,
+    /// How right its wall clock is.
+    wall_clock: WallClock,
     /// The newest state that observers were told.
     observed: State,
     /// Who the log says is around, and since when.
@@ -323,6 +329,9 @@ impl Loop {
             }
             self.renew_epoch();
             self.control_congestion();
+            let now_ms = self.clock.now_us() / 1_000;
+            let news = self.wall_clock.check(now_ms);
+            self.keep_time(news);
         }
         self.count_overflow();
         let counters = self.machine.endpoint().counters().named();
@@ -413,6 +422,12 @@ impl Loop {
                 self.machine.application_mut().set_battery(battery);
                 Stimulus::Time
             }
+            Order::Clock(quality) => {
+                let now_ms = self.clock.now_us() / 1_000;
+                let news = self.wall_clock.say(quality, now_ms);
+                self.keep_time(news);
+                Stimulus::Time
+            }
             Order::Show(signals) => {
                 self.machine.application_mut().show(signals);
                 Stimulus::Time
@@ -438,6 +453,14 @@ impl Loop {
             if let Some(state) = news {
                 self.log(Entry::Channel(state));
             }
+        }
+    }
+
+    /// Judges the age of packets by a wall clock that is known to be right, and by no other.
+    fn keep_time(&mut self, news: Option<ClockQuality>) {
+        if let Some(quality) = news {
+            self.machine.endpoint_mut().keep_time(quality.error_ms);
+            self.log(Entry::Clock(quality));
         }
     }
 

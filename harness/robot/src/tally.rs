@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::Service;
-use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
 
@@ -13,6 +13,7 @@ use crate::around::Around;
 use crate::channel::ChannelState;
 use crate::sight::Sight;
 use crate::trace::{Entry, Record};
+use crate::wall_clock::ClockQuality;
 
 /// The newest known of a robot, and how often what happened, from its records as they come.
 #[derive(Clone, Debug, Default)]
@@ -39,6 +40,12 @@ pub struct Tally {
     pub around: Around,
     /// The radio channel, where the link measures it.
     pub channel: Option<ChannelState>,
+    /// Its wall clock, once somebody has said how it is.
+    pub clock: Option<ClockQuality>,
+    /// Where its link is, and whether packets are signed and verified; empty, if nobody has said so.
+    pub link: String,
+    /// The mode of security, likewise.
+    pub security: &'static str,
     /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
     pub go_until: Option<Instant>,
 }
@@ -74,6 +81,7 @@ impl Tally {
             Entry::Started { station, boot, .. } => {
                 self.robot.clone_from(&record.robot);
                 self.around = Around::default();
+                self.clock = None;
                 self.state = Some(Robot::new(*station, *boot));
                 self.go_until = None;
             }
@@ -97,6 +105,7 @@ impl Tally {
             }
             Entry::Zone(_) => {}
             Entry::Channel(channel) => self.channel = Some(*channel),
+            Entry::Clock(clock) => self.clock = Some(*clock),
             Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Around(around) => self.around.clone_from(around),
             Entry::Stopped { counters } => {
@@ -152,6 +161,23 @@ impl Tally {
             self.heard_us.len(),
             self.around
         )
+    }
+
+    /// Its link, its security, its clock and its channel, for a person who asks.
+    #[must_use]
+    pub fn equipment(&self) -> String {
+        let mut text = format!("link {}; security {}", self.link, self.security);
+        let rejected = self.causes.total(|layer| layer == Layer::Security);
+        let _ = write!(text, ", {rejected} rejected");
+        let _ = match self.clock {
+            None => write!(text, "; clock: nobody says how right it is"),
+            Some(clock) => write!(text, "; {clock}"),
+        };
+        let _ = match self.channel {
+            None => write!(text, "; channel: nobody measures it"),
+            Some(channel) => write!(text, "; {channel}"),
+        };
+        text
     }
 
     /// Whether the pedestrian may cross: the sign shows go now, whether the robot still runs or not.
@@ -236,11 +262,10 @@ impl Tally {
             );
         }
         if let Some(channel) = self.channel {
-            let _ = match channel.busy_ratio {
-                Some(ratio) => write!(line, ", channel {:.0} % busy", ratio * 100.0),
-                None => write!(line, ", channel not measured"),
-            };
-            let _ = write!(line, ", RAM at most every {} ms", channel.interval_ms);
+            let _ = write!(line, ", {channel}");
+        }
+        if let Some(clock) = self.clock {
+            let _ = write!(line, ", {clock}");
         }
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());

@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::around::Around;
 use crate::channel::ChannelState;
 use crate::sight::{Outline, Sight};
+use crate::wall_clock::ClockQuality;
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::ras::generation::Trigger;
@@ -111,6 +112,8 @@ pub enum Entry {
     Around(Around),
     /// The radio channel is like this now, where the link measures it.
     Channel(ChannelState),
+    /// Its wall clock is like this from now on, as somebody says who keeps it.
+    Clock(ClockQuality),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

@@ -91,7 +91,8 @@ impl Clocks {
             | Entry::Zone(_)
             | Entry::People(_)
             | Entry::Around(_)
-            | Entry::Channel(_) => {}
+            | Entry::Channel(_)
+            | Entry::Clock(_) => {}
         }
     }
 
