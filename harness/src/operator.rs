@@ -216,7 +216,10 @@ fn clock(words: &[&str]) -> Result<Line, Misunderstood> {
     let error_ms = match words {
         ["lost"] => None,
         [word] => {
-            let error_ms = word.parse().ok().filter(|error_ms| *error_ms <= ERROR_MAX_MS);
+            let error_ms = word
+                .parse()
+                .ok()
+                .filter(|error_ms| *error_ms <= ERROR_MAX_MS);
             let wanted = || format!("'lost', or an error from 0 to {ERROR_MAX_MS} ms");
             Some(error_ms.ok_or_else(|| wrong(word, wanted()))?)
         }
