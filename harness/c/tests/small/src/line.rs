@@ -23,11 +23,6 @@ pub(crate) struct Frames {
 }
 
 impl Frames {
-    pub(crate) const NONE: Self = Self {
-        octets: [0; 3 + FRAME_MAX],
-        length: 0,
-    };
-
     /// The next frame that is whole, if there is one: its kind and its octets.
     pub(crate) fn next(&mut self, board: &mut Board) -> Option<(u8, &[u8])> {
         loop {
