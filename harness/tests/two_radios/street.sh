@@ -23,10 +23,13 @@ cd "$1"
 python3 "$TESTS/two_radios/air.py" air-ari air-go2 0.05 10 15 air.txt &
 air=$!
 export CROSSGUARD_EXAMPLE_UNIT="127.0.0.1:4747 ethernet radio 0.8"
+# shellcheck disable=SC2086 # words are meant to be split
 in_ari $UNIT > /dev/null &
-in_go2 $UNIT > /dev/null &
+# Not by the function, whose shell would be what is killed.
+# shellcheck disable=SC2086 # words are meant to be split
+nsenter --target "$go2" --net $UNIT > /dev/null &
 unit=$!
-# Only the end of what Go2 is told is open: it quits when ARI is done.
+# Go2 quits when ARI has.
 mkfifo typed
 in_go2 "$PROGRAM" run --config Go2.toml --security enforce --pki pki/robots/Go2 --json < typed > Go2.log &
 follower=$!
