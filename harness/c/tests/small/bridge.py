@@ -49,18 +49,22 @@ def main(mode, *rest):
 
 
 def carry(line, air, mode, station, peer, log):
-    until = time.monotonic() + LIMIT_S
+    until, has_begun = time.monotonic() + LIMIT_S, False
     with open(log, "wb") as log:
         while time.monotonic() < until:
             readable = select.select([line.qemu.stdout, air], [], [], 1.0)[0]
             if air in readable:
-                line.send(b"P", air.recv(2_048))
+                packet = air.recv(2_048)
+                # Before it has begun, its serial line may lose a part of a frame.
+                if has_begun:
+                    line.send(b"P", packet)
             if line.qemu.stdout not in readable:
                 continue
             for kind, octets in line.frames():
                 if kind == b"S" and octets.startswith((b"Cortex", b"RV32")):
                     mission = struct.pack(">cIHQ", mode[:1].encode(), station, 1, time.time_ns() // 1_000_000)
                     line.send(b"M", mission)
+                    has_begun = True
                 if kind == b"S":
                     print(octets.decode(), flush=True)
                 elif kind == b"L":
