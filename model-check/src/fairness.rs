@@ -200,9 +200,7 @@ impl Runs<'_> {
             | Action::Restart(_)
             | Action::StepOnRoad(_)
             | Action::Across(_)
-            | Action::Hang(_)
-            // Nobody has to lie.
-            | Action::Lie(_) => Classes::NONE,
+            | Action::Hang(_) => Classes::NONE,
         }
     }
 

@@ -5,8 +5,7 @@ use core::ffi::c_char;
 use crossguard_codec::{Identifiers, MessageIdentifiers};
 use crossguard_protocol::{
     Availability, BrokenInequality, Config, Event, FallbackPolicy, HelpRequest, ManeuverId, Millis,
-    Place, RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
-    Urgency,
+    Place, RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, Urgency,
 };
 
 use crate::abi::{
@@ -237,11 +236,7 @@ impl CrossguardEvent {
             9 => Event::AvailabilityChanged(availability(self.unavailability)?),
             10 => Event::OpenCorridor,
             11 => Event::CloseCorridor,
-            12 => {
-                let next = self.session.number;
-                let next = (next > 0).then(|| UniqueNumber::from_u32(next));
-                Event::IdentityChanged(StationId(self.station), next)
-            }
+            12 => Event::IdentityChanged(StationId(self.station)),
             13 => Event::EpochRenewed(self.boot),
             _ => return None,
         })

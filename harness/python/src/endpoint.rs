@@ -139,7 +139,6 @@ impl Endpoint {
         endpoint.write(Entry::Started {
             station,
             boot,
-            epoch: None,
             settings,
             identifiers,
             unix_ms,

@@ -1,5 +1,6 @@
 //! `crossguard demo`.
 
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_judge::chart::Chart;
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::site_file::SiteFile;
-use crossguard_robot::trace::{LogFile, LogLimits, Record};
+use crossguard_robot::trace::{self, Record};
 use crossguard_robot::transport::Faults;
 
 use super::interrupts::interrupts;
@@ -190,7 +191,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         awareness: arguments.etsi.add_to(Awareness::default()),
         stop: Arc::clone(&interrupted),
     };
-    let mut log_file = arguments.log.as_deref().map(DemoLog::create).transpose()?;
+    let mut log_file = arguments.log.as_deref().map(LogFile::create).transpose()?;
     let is_told = !arguments.json && !arguments.quiet;
     let columns: Vec<_> = participants
         .iter()
@@ -239,20 +240,22 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The log as it is written: at any time all that has happened is in it.
-struct DemoLog {
+struct LogFile {
     path: PathBuf,
-    file: LogFile,
+    file: File,
+    line: Vec<u8>,
     has_failed: bool,
 }
 
-impl DemoLog {
+impl LogFile {
     fn create(path: &Path) -> Result<Self, Failure> {
         destinations::file(path)?;
-        let file = LogFile::create(path, LogLimits::default())
+        let file = File::create(path)
             .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
         Ok(Self {
             path: path.to_owned(),
             file,
+            line: Vec::new(),
             has_failed: false,
         })
     }
@@ -262,8 +265,9 @@ impl DemoLog {
         if self.has_failed {
             return;
         }
-        let written = self.file.write(record);
-        if let Err(error) = written.and_then(|()| self.file.flush()) {
+        self.line.clear();
+        let written = trace::write(&mut self.line, record);
+        if let Err(error) = written.and_then(|()| self.file.write_all(&self.line)) {
             self.has_failed = true;
             let _ = writeln!(
                 std::io::stderr(),

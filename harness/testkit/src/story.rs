@@ -90,7 +90,6 @@ impl Street {
             Entry::Started {
                 station: StationId(station),
                 boot: 1,
-                epoch: None,
                 settings,
                 identifiers: Identifiers::default(),
                 unix_ms: 0,

@@ -15,7 +15,6 @@ fn fuzz(seeds: u64) -> Fuzz<'static> {
         seeds,
         robots: 6,
         faults: None,
-        liars: 0.25,
         threads: 2,
         failures_max: 1,
     }

@@ -2,7 +2,6 @@
 
 use crossguard_protocol::State;
 
-use super::authentication::Authentication;
 use super::property::{Claim, Kind, LivenessRule, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::TimedStepView;
 use super::view::{LivenessSubject, LivenessSubjects, View};
@@ -10,7 +9,6 @@ use crate::timed::watch::StopWatch;
 
 pub(super) const PROPERTY: Property = Property {
     id: "L1",
-    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "HelpRequested leads to RoleEstablished or Idle",

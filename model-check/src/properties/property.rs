@@ -4,7 +4,6 @@
 use crossguard_protocol::SessionId;
 use serde::Serialize;
 
-use super::authentication::Authentication;
 use super::timed_view::{TimedStepView, TimedView};
 use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
 
@@ -13,8 +12,6 @@ use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
 pub struct Property {
     /// Its id, the same everywhere: `I4`.
     pub id: &'static str,
-    /// What it assumes of those who speak.
-    pub authentication: Authentication,
     /// What is claimed of the model without time.
     pub untimed: Option<Claim>,
     /// What is claimed of the timed model.

@@ -74,7 +74,7 @@ impl Measure {
     }
 
     /// The properties that the figure is about.
-    pub(super) const fn properties(self) -> &'static [PropertyId] {
+    const fn properties(self) -> &'static [PropertyId] {
         use PropertyId as P;
         match self {
             Self::Roles => &[P::L1],

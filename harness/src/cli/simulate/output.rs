@@ -29,13 +29,7 @@ fn percent(it: Estimate) -> String {
 
 impl Row for ObsCell {
     fn head() -> Vec<&'static str> {
-        vec![
-            "robots",
-            "pedestrians",
-            "radius",
-            "coverage",
-            "of it at intersections",
-        ]
+        vec!["robots", "pedestrians", "radius", "coverage"]
     }
 
     fn columns(&self) -> Vec<String> {
@@ -44,7 +38,6 @@ impl Row for ObsCell {
             self.pedestrians.to_string(),
             format!("{} m", self.radius_m),
             percent(self.obs_percent),
-            format!("{:.1} %", self.covered_at_intersections_percent.mean),
         ]
     }
 }
@@ -182,18 +175,10 @@ impl Csv for ObsCell {
         "radius_m",
         "obs_percent_mean",
         "obs_percent_sd",
-        "covered_at_intersections_percent_mean",
-        "travel_s_mean",
     ];
 
     fn row(&self) -> Vec<String> {
-        let numbers = [
-            self.radius_m,
-            self.obs_percent.mean,
-            self.obs_percent.sd,
-            self.covered_at_intersections_percent.mean,
-            self.travel_s.mean,
-        ];
+        let numbers = [self.radius_m, self.obs_percent.mean, self.obs_percent.sd];
         let counts = [self.robots, self.pedestrians].map(|it| it.to_string());
         counts
             .into_iter()
