@@ -1,8 +1,11 @@
 //! What it costs to sign and to verify, and to reject what is not worth a signature.
 //!
-//! The sign and verify operations of the curve alone stand beside, so that the share of everything
+//! The sign and verify operations of the curve alone stand beside, by both libraries, so that the share of everything
 //! else can be seen.
 
+#[path = "../tests/security/forge.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
+mod forge;
 #[path = "../tests/security/pki.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
 mod pki;
@@ -12,9 +15,11 @@ use std::time::{Duration, Instant};
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use crossguard_codec::security::{Certificate, Rejected, SignedMessage, Station};
+use forge::{Envelope, Terms, opaque, permissions};
 use p256::ecdsa::SigningKey;
 use p256::ecdsa::signature::hazmat::{PrehashSigner, PrehashVerifier};
-use pki::{NOW, Pki, RAM, after_ms, hear};
+use pki::{NOW, NOW_S, Pki, RAM, after_ms, hear};
+use ring::signature::{ECDSA_P256_SHA256_FIXED, UnparsedPublicKey};
 
 /// As long as common header, extended header, BTP and a RAM in a session.
 const PAYLOAD: [u8; 120] = [0x55; 120];
@@ -61,11 +66,18 @@ fn bench(criterion: &mut Criterion) {
         bencher
             .iter(|| -> Result<p256::ecdsa::Signature, _> { key.sign_prehash(black_box(&digest)) });
     });
-    group.bench_function("verify, the curve alone", |bencher| {
+    group.bench_function("verify by p256, the curve alone", |bencher| {
         bencher.iter(|| {
             key.verifying_key()
                 .verify_prehash(black_box(&digest), &signature)
         });
+    });
+    let point = key.verifying_key().to_sec1_point(false);
+    let signature: p256::ecdsa::Signature = signing(&key, &[7; 64]);
+    let signature = signature.to_bytes();
+    group.bench_function("verify by ring, the curve alone", |bencher| {
+        let key = UnparsedPublicKey::new(&ECDSA_P256_SHA256_FIXED, point.as_bytes());
+        bencher.iter(|| key.verify(black_box(&[7; 64]), &signature));
     });
     let mut sender = scene.sender.clone();
     group.bench_function("seal", |bencher| {
@@ -94,6 +106,108 @@ fn bench(criterion: &mut Criterion) {
     });
     group.finish();
     print_rates(&scene);
+    print_pairwise(&scene);
+}
+
+/// Signs 64 octets.
+fn signing(key: &SigningKey, data: &[u8]) -> p256::ecdsa::Signature {
+    use p256::ecdsa::signature::Signer;
+    key.sign(data)
+}
+
+/// What it costs to refuse a packet, by kind: what an outsider can send as often as the channel carries it.
+fn refuse(criterion: &mut Criterion) {
+    let scene = scene();
+    let now = after_ms(2);
+    let ticket = scene.sender.ticket().certificate().octets().to_vec();
+    // A certificate that names the authority and was signed by somebody else.
+    let terms = Terms {
+        name: None,
+        start: NOW_S - 60,
+        hours: 24,
+        region: Vec::new(),
+        permissions: permissions(&[RAM]),
+        issue: Vec::new(),
+        additions: Vec::new(),
+        key: 20,
+    };
+    let forged = terms.signed(Some(Pki::new(1).authority.octets()), 21);
+    let envelope = |certificate: &[u8], in_full, generated_us, key| Envelope {
+        payload: PAYLOAD.to_vec(),
+        preamble: 0,
+        its_aid: RAM,
+        generated_us,
+        fields: Vec::new(),
+        additions: Vec::new(),
+        certificate: certificate.to_vec(),
+        in_full,
+        key,
+    };
+    let wrong_signature = envelope(&ticket, false, now.0, 21).octets();
+    let forged_certificate = envelope(&forged, true, now.0, 20).octets();
+    let old = envelope(&forged, true, now.0 - 5_000_000, 20).octets();
+    let mut with_authority = envelope(&forged, false, now.0, 20);
+    let authority = Terms {
+        name: Some("authority"),
+        permissions: Vec::new(),
+        issue: forge::issue_permissions(0, &[RAM], &[]),
+        ..terms
+    };
+    let authority = authority.signed(Some(Pki::new(1).root.octets()), 21);
+    with_authority.additions = [&[2, 4, 0x40][..], &opaque(&authority)].concat();
+    let with_authority = with_authority.octets();
+    let octet = |at: u32| ((at * 7_919) >> 3).to_le_bytes()[0];
+    let garbage: Vec<u8> = (0..400).map(octet).collect();
+    let mut knowing = scene.knowing.clone();
+    // Both have been refused before.
+    let mut refused_before = knowing.clone();
+    for packet in [&wrong_signature, &forged_certificate] {
+        let _ = hear(&mut refused_before, now, packet);
+    }
+    let _ = hear(&mut knowing, now, &garbage);
+    let mut group = criterion.benchmark_group("refuse");
+    for (name, receiver, packet) in [
+        ("garbage", &knowing, &garbage),
+        ("too old, with a certificate", &knowing, &old),
+        ("signer unknown", &scene.new, &scene.by_digest),
+        (
+            "signer unknown, with the forged certificate of an authority",
+            &scene.new,
+            &with_authority,
+        ),
+        ("replayed", &knowing, &scene.replayed),
+        ("a forged certificate", &knowing, &forged_certificate),
+        (
+            "a forged certificate, again",
+            &refused_before,
+            &forged_certificate,
+        ),
+        (
+            "a wrong signature of a known ticket",
+            &knowing,
+            &wrong_signature,
+        ),
+        (
+            "a wrong signature of a known ticket, again",
+            &refused_before,
+            &wrong_signature,
+        ),
+    ] {
+        let shortest = (0..200).map(|_| {
+            let mut receiver = receiver.clone();
+            time(|| assert!(hear(&mut receiver, now, packet).is_err(), "{name}"))
+        });
+        let shortest = shortest.min().unwrap_or_default().as_secs_f64() * 1e6;
+        println!("{name}: {shortest:.2} us, the shortest of 200");
+        group.bench_function(name, |bencher| {
+            bencher.iter_batched_ref(
+                || receiver.clone(),
+                |receiver| hear(receiver, now, black_box(packet)),
+                BatchSize::SmallInput,
+            );
+        });
+    }
+    group.finish();
 }
 
 /// Messages per second and core, of many messages in a row as they come from one sender.
@@ -131,11 +245,44 @@ fn print_rates(scene: &Scene) {
     );
 }
 
+/// What the library that verifies makes of a packet, on a machine that does other things as well: in turns, and the
+/// shortest of each, which nothing has interrupted.
+fn print_pairwise(scene: &Scene) {
+    const ROUNDS: usize = 400;
+    let key = SigningKey::from_slice(&[1; 32]).expect("a key");
+    let point = key.verifying_key().to_sec1_point(false);
+    let signature = signing(&key, &[7; 64]);
+    let fixed = signature.to_bytes();
+    let ring = UnparsedPublicKey::new(&ECDSA_P256_SHA256_FIXED, point.as_bytes());
+    let mut shortest = [Duration::MAX; 3];
+    for _ in 0..ROUNDS {
+        let mut receiver = scene.knowing.clone();
+        let times = [
+            time(|| {
+                use p256::ecdsa::signature::Verifier;
+                assert!(key.verifying_key().verify(&[7; 64], &signature).is_ok());
+            }),
+            time(|| assert!(ring.verify(&[7; 64], &fixed).is_ok())),
+            time(|| assert!(hear(&mut receiver, after_ms(2), &scene.by_digest).is_ok())),
+        ];
+        for (shortest, time) in shortest.iter_mut().zip(times) {
+            *shortest = time.min(*shortest);
+        }
+    }
+    let [p256, ring, open] = shortest.map(|time| time.as_secs_f64() * 1e6);
+    let before = open - ring + p256;
+    println!(
+        "shortest of {ROUNDS}, in turns: verify by p256 {p256:.1} us, by ring {ring:.1} us; a packet of a known signer \
+         {open:.1} us, with p256 it would be {before:.1} us: {:.2} times as many packets",
+        before / open,
+    );
+}
+
 fn time(mut work: impl FnMut()) -> Duration {
     let start = Instant::now();
     work();
     start.elapsed()
 }
 
-criterion_group!(benches, bench);
+criterion_group!(benches, bench, refuse);
 criterion_main!(benches);

@@ -22,6 +22,7 @@ use crate::state::{
     Battery, Capabilities, ConfidenceEllipse, Dimensions, DriveDirection, Lights, Measurement,
     PastPosition, Position, PublicSignal, RobotState, SignalMeans, SignalsShown, SlowState,
 };
+use crate::view::MapPlace;
 use crate::wire::{class, task_set, tasks_of};
 
 fn value(measurement: Option<Measurement>) -> Option<f64> {
@@ -238,6 +239,7 @@ pub(crate) fn low_frequency(slow: &SlowState, reference: &Position) -> RobotLowF
             to_pedestrians: signals.to_pedestrians.to_wire(),
             means: ram::SignalMeans::new(signals.means.0),
         }),
+        area_served: slow.area.map(MapPlace::to_wire),
     }
 }
 
@@ -258,6 +260,7 @@ pub(crate) fn slow_state_of(
             to_pedestrians: PublicSignal::from_wire(signals.to_pedestrians),
             means: SignalMeans(signals.means.bits()),
         }),
+        area: container.area_served.map(MapPlace::from_wire),
     }
 }
 

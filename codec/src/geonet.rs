@@ -21,6 +21,7 @@
 
 mod area;
 mod codec;
+mod discarded;
 mod duplicates;
 mod ego;
 mod envelope;
@@ -38,15 +39,16 @@ mod stack;
 use serde::{Deserialize, Serialize};
 
 pub use codec::Encoded;
+pub use discarded::{Discarded, EnvelopeError};
 pub use duplicates::{Duplicates, NUMBERS_MAX, SOURCES_MAX};
 pub use ego::EgoPosition;
-pub use envelope::{Envelope, EnvelopeError};
+pub use envelope::Envelope;
 pub use error::{GeonetError, HeaderField};
-pub use opened::{Opened, Permits, Signer};
+pub use opened::{Admitted, Opened, Permits, Signer};
 pub use request::{Destination, Request};
 #[cfg(feature = "security")]
-pub use secured::{Demand, Secured, station_of};
-pub use stack::{Discarded, Indication, SendError, Stack};
+pub use secured::{Demand, Secured, origin, station_of};
+pub use stack::{Indication, SendError, Stack};
 
 /// Octets of the basic header.
 pub const BASIC_LEN: usize = 4;

@@ -14,22 +14,27 @@
 //!   know it (clause 7.1.1).
 //! - [`SignedMessage`] reads envelopes, [`Verifier`] decides whether one can be relied on, and
 //!   [`Rejected`] names each cause.
+//! - A private key is behind the trait [`SigningKey`]: in memory ([`PrivateKey`], wiped when it is dropped), or in a
+//!   token that signs (`harness/robot/examples/pkcs11`).
+//! - A [`TrustStore`] has the certificates that are revoked as well. What is signed with one of them, or below it,
+//!   is rejected, also where it was known before.
 //! - [`issue`] makes the certificates of roots, authorities and pseudonyms, for a test PKI.
 //!
 //! Nothing here reads a clock: time is an input. Octets of strangers are read by a reader of this
 //! crate, not by rasn's, which reserves memory for as many elements as the octets announce; the tests
-//! hold the two against each other. Signatures are by the crate `p256`, and the same message and key
-//! give the same signature (RFC 6979).
+//! hold the two against each other. The crate `p256` signs, and the same message and key give the same
+//! signature (RFC 6979); the crate `ring` verifies.
 //!
-//! What is not here: enrolment and authorization requests (TS 102 941), trust lists and revocation
-//! lists, encryption, other curves than NIST P-256, implicit certificates, polygons and countries as
+//! What is not here: enrolment and authorization requests, trust lists and revocation lists of TS 102 941,
+//! encryption, other curves than NIST P-256, implicit certificates, polygons and countries as
 //! regions, and certificates or signatures in another form than the canonical one. What needs one of
-//! them is rejected. Keys lie in memory and in files, not in a hardware security module.
+//! them is rejected.
 
 mod cache;
 mod certificate;
 mod coer;
 mod crypto;
+mod doubt;
 mod envelope;
 mod hashed_id;
 pub mod issue;
@@ -38,20 +43,25 @@ mod region;
 mod rejected;
 mod signer;
 mod station;
+mod thrift;
 mod time;
 mod trust;
+mod trusted_time;
 mod verifier;
 
 pub use cache::{MESSAGES_MAX, TICKETS_MAX};
 pub use certificate::{CERTIFICATE_LEN_MAX, Certificate, Content, Issuer};
-pub use crypto::{NoKey, PrivateKey, PublicKey, Signature};
+pub use crypto::{NoKey, PrivateKey, PublicKey, Signature, keyed_digest, random_octets};
+pub use doubt::Doubt;
 pub use envelope::{Header, SignedMessage, SignerIdentifier};
-pub use hashed_id::{HashedId3, HashedId8};
+pub use hashed_id::{HashedId3, HashedId8, NoHashedId8};
 pub use permissions::{IssuePermission, Permission, Ssp, SspRange, Subjects};
 pub use region::{Place, Region};
 pub use rejected::{Malformed, Rejected};
-pub use signer::{Ticket, Unsigned};
+pub use signer::{KeyFailure, SigningKey, Ticket, Unsigned};
 pub use station::Station;
+pub use thrift::REFUSED_MAX;
 pub use time::{Duration, Time64, Unit, Validity};
 pub use trust::{AUTHORITIES_MAX, ROOTS_MAX, TrustStore, Untrusted};
-pub use verifier::{Tolerances, Verified, Verifier};
+pub use trusted_time::TrustedTime;
+pub use verifier::{AUTHORITIES_PER_S, Origin, Tolerances, Verified, Verifier};

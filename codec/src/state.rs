@@ -9,6 +9,7 @@ use crossguard_protocol::{Availability, Config, Robot, State, TaskSet, Unavailab
 use serde::{Deserialize, Serialize};
 
 use crate::core::{cdd, common, ram};
+use crate::view::MapPlace;
 use crate::wire::{bit_set, wire_enum};
 
 /// The state of a robot. What is `None` is unavailable.
@@ -172,6 +173,8 @@ pub struct SlowState {
     pub lights: Option<Lights>,
     /// What it shows to people; `None` for a robot that cannot show anything.
     pub signals: Option<SignalsShown>,
+    /// The road segment or intersection that it is there for; `None` where that is not known.
+    pub area: Option<MapPlace>,
 }
 
 /// A position that a robot came from.

@@ -57,8 +57,8 @@ fn a_state_arrives_as_it_is() {
     assert_eq!(received.capabilities, sent.capabilities);
     assert_eq!(received.supported_tasks, sent.supported_tasks);
     assert_eq!(
-        (received.lights, received.signals),
-        (sent.lights, sent.signals)
+        (received.lights, received.signals, received.area),
+        (sent.lights, sent.signals, sent.area)
     );
     assert_eq!(received.path.len(), sent.path.len());
     for (received, sent) in received.path.iter().zip(&sent.path) {

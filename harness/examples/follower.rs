@@ -135,6 +135,7 @@ impl Follower {
         self.record(Entry::Started {
             station,
             boot,
+            epoch: None,
             settings: Box::new(self.endpoint.config().settings().clone()),
             identifiers: *self.endpoint.identifiers(),
             unix_ms: u64::try_from(unix_ms())?,

@@ -325,7 +325,7 @@ def main():
                 kind=constants("Command")["DETECT"], followers=1, urgency=1, place=0, tasks=[], follower=0,
                 task=task(type=255), has_target=False, target=vector(x=0.0, y=0.0, z=0.0),
                 maximum_speed=0.0, map_place="", session=number, request=0, availability=0, to_vehicles=0,
-                to_pedestrians=0, signal_means=0)
+                to_pedestrians=0, signal_means=0, job_role=0)
             heard["ari", "corridor"].until("an open corridor", lambda it: it.open)
             ended = constants("Event")["SESSION_ENDED"]
             heard["ari", "event"].until("the end", lambda it: it.kind == ended)

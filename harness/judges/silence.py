@@ -90,16 +90,23 @@ def verdicts(cells):
     if not all((r, n, m) in by for r in (0, 1, 9) for n in PEOPLE for m in (SMALL, LARGE)):
         return {}
     cut = {key: cell["reduction_percent"]["mean"] for key, cell in by.items()}
-    grows = [cut[9, people, LARGE] for people in PEOPLE]
+    grows = [[cut[robots, people, LARGE] for people in PEOPLE] for robots in (1, 9)]
+    mean = lambda name: {key: cell[name]["mean"] for key, cell in by.items() if key[0]}
+    silent, wrong = mean("passive_percent"), mean("wrongly_silent_percent")
+    ram = {key: cell["messages_per_s"][2]["mean"] for key, cell in by.items()}
+    pairs = [((robots, n, SMALL), (robots, n, LARGE)) for robots in (1, 9) for n in PEOPLE]
     most = by[9, 100, LARGE]["reduction_percent"]
     return {
         "lowLoad": all(cell["mcbr"]["mean"] < 0.3 for cell in cells),
         "consistentReduction": all(cut[key] > 0 for key in cut if key[0] > 0),
-        "growsWithDensity": grows == sorted(grows),
+        "growsWithDensity": all(it == sorted(it) for it in grows),
         "largestReduction": most["mean"] == max(cut.values())
         and abs(most["mean"] - MOST) <= max(2 * most["sd"], 0.5),
-        "smallerRadius": all(0 < cut[9, n, SMALL] < cut[9, n, LARGE] for n in PEOPLE),
+        "smallerRadius": all(0 < cut[small] < cut[large] for small, large in pairs),
         "diminishingGain": all(1 < cut[9, n, LARGE] / cut[1, n, LARGE] < 9 for n in PEOPLE),
+        "largerRadiusStandsForMore": all(silent[small] < silent[large] for small, large in pairs),
+        "smallerRadiusSendsLess": all(ram[small] < ram[large] for small, large in pairs),
+        "conservativeSilence": all(wrong[key] <= 0.05 * silent[key] for key in silent),
     }
 
 

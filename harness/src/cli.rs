@@ -3,6 +3,7 @@
 //! Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete, also
 //! when it was told to stop before it was done. Told to stop a second time, it ends at once with 130.
 
+mod bounds;
 mod check;
 mod choices;
 mod codec;
@@ -17,6 +18,7 @@ mod interrupts;
 mod junit;
 mod listening;
 mod pki;
+mod printable;
 mod ranges;
 mod records;
 mod report;
@@ -30,8 +32,7 @@ mod validate;
 mod watch;
 mod zenoh;
 
-use std::fs::File;
-use std::io::{BufReader, ErrorKind, IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -40,6 +41,7 @@ use crossguard_robot::capture::Capture;
 use crossguard_robot::observe::to_standard_error;
 use crossguard_robot::perception::Feed;
 use crossguard_robot::trace::Log;
+use printable::{Printable, printable_json};
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -69,6 +71,8 @@ enum Command {
     Run(run::Arguments),
     /// Check scenarios exhaustively against the properties of the protocol.
     Check(check::Arguments),
+    /// Print how long each response takes at most, with a robot's own settings.
+    Bounds(bounds::Arguments),
     /// Walk through the states of a scenario in a browser.
     Explore(explore::Arguments),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.
@@ -142,6 +146,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Bounds(arguments) => bounds::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
@@ -160,8 +165,7 @@ pub(crate) fn main() -> ExitCode {
         Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
         Err(Failure::Wrong) => ExitCode::from(1),
         Err(Failure::Input(message)) => {
-            // Standard error may be gone as well, and then there is nobody to tell.
-            let _ = writeln!(std::io::stderr(), "crossguard: {message}");
+            complain(message);
             ExitCode::from(2)
         }
         Err(Failure::Incomplete) => ExitCode::from(3),
@@ -170,14 +174,18 @@ pub(crate) fn main() -> ExitCode {
 
 /// Prints a line to standard output.
 fn print(line: impl std::fmt::Display) -> Result<(), Failure> {
-    Ok(writeln!(std::io::stdout(), "{line}")?)
+    Ok(writeln!(std::io::stdout(), "{}", Printable(line))?)
+}
+
+/// Tells on standard error. If that is gone as well, there is nobody to tell.
+fn complain(what: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stderr(), "crossguard: {}", Printable(what));
 }
 
 /// Prints a value as JSON.
 fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let mut out = std::io::stdout();
-    match serde_json::to_writer_pretty(&mut out, value) {
-        Ok(()) => Ok(writeln!(out)?),
+    match serde_json::to_string_pretty(value) {
+        Ok(json) => Ok(writeln!(std::io::stdout(), "{}", printable_json(&json))?),
         Err(error) => Err(std::io::Error::from(error).into()),
     }
 }
@@ -185,14 +193,8 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
 /// Opens logs.
 fn open_logs(paths: &[PathBuf]) -> Result<Vec<Log<'static>>, Failure> {
     let open = |path: &PathBuf| {
-        let name = path.display().to_string();
-        match File::open(path) {
-            Ok(file) => Ok(Log {
-                name,
-                lines: Box::new(BufReader::new(file)),
-            }),
-            Err(error) => Err(Failure::Input(format!("{name}: {error}"))),
-        }
+        let opened = crossguard_robot::trace::open(path);
+        opened.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
     };
     paths.iter().map(open).collect()
 }

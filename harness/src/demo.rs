@@ -459,7 +459,9 @@ impl Demo<'_> {
             counters: self.counters,
         };
         for (_, robot) in self.robots {
-            robot.wait();
+            if let Err(panicked) = robot.wait() {
+                panic!("{panicked}");
+            }
         }
         (outcome, self.log)
     }

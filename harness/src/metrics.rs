@@ -122,7 +122,8 @@ pub fn text(tally: &Tally) -> String {
     let mut page = Page::default();
     let robot = ("robot", tally.robot.as_str());
     if let Some(state) = &tally.state {
-        let (station, boot) = (state.station().to_string(), state.boot().to_string());
+        let boot = tally.boot.unwrap_or(state.boot());
+        let (station, boot) = (state.station().to_string(), boot.to_string());
         page.family("crossguard_robot_info", "gauge", "Who the robot is.");
         page.value(&[robot, ("station", &station), ("boot", &boot)], 1);
         page.family(
@@ -171,6 +172,14 @@ pub fn text(tally: &Tally) -> String {
         "Whether it has a duty on the road that waits for the road to be clear.",
     );
     page.value(&[robot], u64::from(tally.is_on_duty()));
+    if let Some(clock) = tally.clock {
+        page.family(
+            "crossguard_time_trusted",
+            "gauge",
+            "Whether it trusts its clock; if not, it accepts nothing that is signed.",
+        );
+        page.value(&[robot], u64::from(clock.is_trusted()));
+    }
     if let Some(channel) = tally.channel {
         page.channel(robot, channel);
     }

@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 use std::time::Duration;
 
-use crossguard_codec::{Battery, PublicSignal, SignalMeans, SignalsShown, TaskParameters};
+use crossguard_codec::{
+    Battery, JobRole, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
+};
 use crossguard_protocol::{
     Availability, Event, HelpRequest, MAX_FOLLOWERS, State, StationId, TaskNames, TaskSet,
     TaskType, Unavailability, Urgency,
@@ -12,6 +14,7 @@ use crossguard_protocol::{
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_robot::application::Wish;
 use crossguard_robot::perception;
+use crossguard_robot::robot_file::job_named;
 use crossguard_robot::runtime::Order;
 use crossguard_robot::site::{Place, Site};
 
@@ -51,6 +54,10 @@ pub enum Tell {
     Battery(Battery),
     /// It shows this to people.
     Show(SignalsShown),
+    /// It is there for this job.
+    Job(JobRole),
+    /// It serves this road segment or intersection, or none of a map.
+    Serve(Option<MapPlace>),
 }
 
 impl From<Tell> for Order {
@@ -63,6 +70,8 @@ impl From<Tell> for Order {
             Tell::Perceived(vru) => Self::Perceived(vru),
             Tell::Battery(battery) => Self::Battery(battery),
             Tell::Show(signals) => Self::Show(signals),
+            Tell::Job(job) => Self::Job(job),
+            Tell::Serve(place) => Self::Serve(place),
         }
     }
 }
@@ -89,6 +98,11 @@ unavailable REASON     low-battery, teleoperated, emergency-stop, local-fault, n
 available              take part again
 battery PERCENT [charging]
                        how full the battery is; below the limit of its robot file a robot is unavailable
+job ROLE               the job that its RAM says it is there for: none, traffic-guard, escort, patrol,
+                       delivery, maintenance, other
+serve segment|intersection [REGION:]NUMBER | none
+                       the road segment or intersection that its RAM says it serves, and that the commands
+                       of its plan name
 status                 what the robot is doing, what it heard, and who is around
 wait SECONDS           before the next line
 until STATE [SECONDS]  wait for idle, help-requested, role-established or maneuver-executing
@@ -177,6 +191,12 @@ pub fn parse_with(
             tell(Event::AvailabilityChanged(reason))
         }
         ("battery", words) => battery(words),
+        ("job", [name]) => job(name),
+        ("job", []) => Err(Misunderstood::Missing {
+            command: "job",
+            wanted: "a job",
+        }),
+        ("serve", words) => serve(words),
         ("unavailable", []) => Err(Misunderstood::Missing {
             command: "unavailable",
             wanted: "a reason",
@@ -197,7 +217,8 @@ pub fn parse_with(
         ("quit", []) => Ok(Line::Quit),
         (
             "in-position" | "done" | "fail" | "clear" | "open" | "close" | "task-completed"
-            | "leave" | "available" | "unavailable" | "wait" | "until" | "status" | "help" | "quit",
+            | "leave" | "available" | "unavailable" | "wait" | "until" | "status" | "help" | "quit"
+            | "job",
             [.., last],
         ) => Err(Misunderstood::Surplus((*last).to_owned())),
         (other, _) => Err(Misunderstood::Command(other.to_owned())),
@@ -223,6 +244,36 @@ fn battery(words: &[&str]) -> Result<Line, Misunderstood> {
         state_of_charge: Some(charge),
         charging,
     })))
+}
+
+fn job(name: &str) -> Result<Line, Misunderstood> {
+    let job = job_named(name).ok_or_else(|| wrong(name, "a job; see 'help'"))?;
+    Ok(Line::Order(Tell::Job(job)))
+}
+
+fn serve(words: &[&str]) -> Result<Line, Misunderstood> {
+    let place = match words {
+        ["none"] => None,
+        [kind, reference] => Some(map_place(kind, reference)?),
+        [] => {
+            return Err(Misunderstood::Missing {
+                command: "serve",
+                wanted: "a road segment, an intersection, or none",
+            });
+        }
+        [only] => return Err(wrong(only, MAP_PLACE)),
+        [.., last] => return Err(Misunderstood::Surplus((*last).to_owned())),
+    };
+    Ok(Line::Order(Tell::Serve(place)))
+}
+
+/// What a place of the map is like.
+const MAP_PLACE: &str =
+    "a road segment or intersection, like 'segment 276:12' or 'intersection 4711'";
+
+fn map_place(kind: &str, reference: &str) -> Result<MapPlace, Misunderstood> {
+    let text = format!("{kind} {reference}");
+    text.parse().map_err(|_| wrong(&text, MAP_PLACE))
 }
 
 fn person(text: &str) -> Result<Line, Misunderstood> {
@@ -278,11 +329,7 @@ fn order(words: &[&str], site: &Site) -> Result<Line, Misunderstood> {
     );
     let (rest, map_place) = match rest {
         [rest @ .., kind @ ("segment" | "intersection"), reference] => {
-            let text = format!("{kind} {reference}");
-            let wanted =
-                "a road segment or intersection, like 'segment 276:12' or 'intersection 4711'";
-            let place = text.parse().map_err(|_| wrong(&text, wanted))?;
-            (rest, Some(place))
+            (rest, Some(map_place(kind, reference)?))
         }
         rest => (rest, site.map_place),
     };

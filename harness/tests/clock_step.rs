@@ -13,6 +13,7 @@ use crossguard_testkit::command::*;
 /// Drops of packets by their time, in a log.
 const FUTURE: &str = r#""layer":"security","cause":"from the future""#;
 const OLD: &str = r#""layer":"security","cause":"too old""#;
+const NOT_TRUSTED: &str = r#""layer":"security","cause":"time not trusted""#;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 
@@ -175,12 +176,16 @@ fn step_with_security(ahead_s: i64, library: &Path) {
     type_to(&mut robots[0], "detect\nuntil maneuver-executing 20\n");
     quit(robots);
     let [ari, go2] = configs.each_ref().map(|config| log_of(config));
-    let (by_go2, by_ari) = match ahead_s {
-        0.. => (FUTURE, OLD),
-        _ => (OLD, FUTURE),
-    };
+    let by_go2 = if ahead_s > 0 { FUTURE } else { OLD };
     assert!(go2.contains(by_go2), "{by_go2}");
-    assert!(ari.contains(by_ari), "{by_ari}");
+    assert!(ari.contains(NOT_TRUSTED));
+    // It says so, and says when it trusts its clock again.
+    let clocks: Vec<_> = ari
+        .lines()
+        .filter(|line| line.contains("\"clock\""))
+        .collect();
+    let told = clocks.iter().map(|line| line.contains("\"trusted\""));
+    assert_eq!(told.collect::<Vec<_>>(), [true, false, true], "{clocks:?}");
     for expected in ["leaseExpired", "\"noFollowers\"", "\"taskCompleted\""] {
         assert!(ari.contains(expected), "{expected}");
     }
@@ -203,4 +208,49 @@ fn with_security_robots_whose_clocks_differ_come_to_rest_and_cross_when_they_agr
             scope.spawn(move || step_with_security(ahead_s, library));
         }
     });
+}
+
+/// A robot remembers what time it was, over a restart with a clock that was put back meanwhile.
+#[test]
+fn a_robot_that_is_started_with_an_older_clock_does_not_trust_it_and_says_so() {
+    let test = "a_robot_that_is_started_with_an_older_clock_does_not_trust_it_and_says_so";
+    let folder = tempfile::tempdir().unwrap();
+    let Some(library) = shim(folder.path(), test) else {
+        return;
+    };
+    let clock = WallClock::new(folder.path(), library);
+    let [config, _] = robots(folder.path());
+    let pki = folder.path().join("pki");
+    let pki = pki.to_str().unwrap();
+    clock.set(-2 * HOUR);
+    let init = clock.rules(crossguard(&["pki", "init", pki])).output();
+    assert_eq!(init.unwrap().status.code(), Some(0));
+    let run_once = |ahead_s: i64| {
+        clock.set(ahead_s);
+        let arguments = [
+            "run",
+            "--config",
+            &config,
+            "--security",
+            "enforce",
+            "--pki",
+            pki,
+        ];
+        let mut robot = clock
+            .rules(crossguard(&arguments))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        type_to(&mut robot, "wait 0.3\nstatus\nquit\n");
+        stdout(&robot.wait_with_output().unwrap())
+    };
+    let said = run_once(0);
+    assert!(!said.contains("time not trusted"), "{said}");
+    let said = run_once(-HOUR);
+    let told = said.matches("time not trusted: the clock is 3").count();
+    assert!(told >= 2, "at once, and in the status: {said}");
+    assert!(said.contains(".time"), "it says what to do: {said}");
+    let said = run_once(10);
+    assert!(!said.contains("time not trusted"), "{said}");
 }

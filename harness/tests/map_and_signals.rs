@@ -51,6 +51,7 @@ fn the_place_of_a_command_and_the_signals_of_its_leader_arrive() {
         "station 1 commands at intersection 276:4711",
         "station 1 shows stop to vehicles, stop to pedestrians",
         "station 1 shows stop to vehicles, go to pedestrians",
+        " and serves intersection 276:4711",
     ] {
         assert!(text.contains(line), "'{line}' is not in:\n{text}");
     }
@@ -74,8 +75,13 @@ fn the_place_of_a_command_and_the_signals_of_its_leader_arrive() {
         let ram = decode::<core::ram::RAM>(&ids, octets).unwrap().message;
         state_of(&ram)
     });
+    let states: Vec<_> = states.collect();
+    let areas = states
+        .iter()
+        .filter_map(|state| Some(state.slow.as_ref()?.area));
+    assert!(areas.clone().count() > 2 && areas.into_iter().all(|area| area == crossing));
     let signals = |state: RobotState| state.slow.and_then(|slow| slow.signals);
-    let shown: Vec<_> = states.filter_map(signals).collect();
+    let shown: Vec<_> = states.into_iter().filter_map(signals).collect();
     let means = SignalMeans::GESTURE.union(SignalMeans::DISPLAY);
     assert!(shown.iter().all(|it| it.means == means), "{shown:?}");
     // Before it leads, it shows nothing to pedestrians; then its sign says what.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_testkit::command::*;
+use crossguard_testkit::markdown::{anchors, lines};
 use indicatif::HumanCount;
 
 fn repository() -> PathBuf {
@@ -41,16 +42,6 @@ fn pages() -> BTreeMap<PathBuf, String> {
     paths.into_iter().map(read).collect()
 }
 
-/// The lines of a page outside of blocks of code, or those inside.
-fn lines(text: &str, code: bool) -> impl Iterator<Item = &str> {
-    let mut inside = false;
-    text.lines().filter(move |line| {
-        let is_fence = line.trim_start().starts_with("```");
-        inside ^= is_fence;
-        !is_fence && inside == code
-    })
-}
-
 /// What a page links, but for the web.
 fn links(text: &str) -> Vec<String> {
     let prose: Vec<_> = lines(text, false).collect();
@@ -60,21 +51,6 @@ fn links(text: &str) -> Vec<String> {
     targets
         .filter(|target| !target.contains("://") && !target.starts_with("mailto:"))
         .collect()
-}
-
-/// The anchors of a page: the ones that GitHub gives its headings.
-fn anchors(text: &str) -> BTreeSet<String> {
-    let headings = lines(text, false).filter(|line| line.starts_with('#'));
-    let slug = |heading: &str| {
-        let words = heading.trim_start_matches('#').trim().to_lowercase();
-        let kept = words.chars().filter_map(|c| match c {
-            ' ' => Some('-'),
-            c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c),
-            _ => None,
-        });
-        kept.collect()
-    };
-    headings.map(slug).collect()
 }
 
 /// The page or other file that a link of this page leads to; of a folder, its README.

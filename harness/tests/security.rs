@@ -199,6 +199,15 @@ impl Attackers {
             .position(|w| w == header)
             .unwrap();
         wrong_permission.splice(at + 1..at + 3, [2, 0x40, 0x60]);
+        // And to the port of RAM: at that of CAM it is refused for the port.
+        let port = |port: u16| port.to_be_bytes();
+        // Behind the time of the position vector.
+        let at = wrong_permission[40..]
+            .windows(2)
+            .position(|octets| octets == port(2_001))
+            .unwrap();
+        let at = 40 + at;
+        wrong_permission[at..at + 2].copy_from_slice(&port(identifiers().ram.btp_port));
         let (time, repeated) = self
             .repeated
             .get_or_insert_with(|| (pki::now(), good.clone()))

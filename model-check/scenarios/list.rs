@@ -24,6 +24,11 @@ shipped! {
     quick plain two_teams "two-teams";
     quick plain crossing "crossing";
     quick plain rivals "rivals";
+    quick plain outsider "outsider";
+    quick plain lying_follower "lying-follower";
+    quick plain lying_helper "lying-helper";
+    quick plain lying_leader "lying-leader";
+    quick plain lying_bystander "lying-bystander";
     long plain trio_delayed "trio-delayed";
     long plain team_of_four "team-of-four";
     long plain team_symmetric "team-symmetric";

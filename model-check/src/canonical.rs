@@ -44,6 +44,27 @@ impl Name {
         self.0 & Self::HEARTBEAT != 0
     }
 
+    /// The station that gave the number out, or leads the session of the heartbeat.
+    #[expect(clippy::cast_possible_truncation, reason = "32 bits are meant")]
+    const fn station(self) -> StationId {
+        let shift = if self.is_heartbeat() { 48 } else { 32 };
+        StationId((self.0 >> shift) as u32)
+    }
+
+    /// The number itself, or that of the heartbeat's session.
+    #[expect(clippy::cast_possible_truncation, reason = "16 bits are meant")]
+    const fn unique(self) -> UniqueNumber {
+        let number = if self.is_heartbeat() {
+            self.0 >> 16
+        } else {
+            self.0
+        };
+        UniqueNumber {
+            boot: (number >> 16) as u16,
+            count: number as u16,
+        }
+    }
+
     const fn owner(self) -> u128 {
         self.0 >> 16
     }
@@ -82,6 +103,9 @@ impl Renaming for Names {
         number
     }
 }
+
+/// Numbers that a station gave out, each with how many heartbeats of its session there are.
+pub(crate) type GivenOut = SmallVec<[(UniqueNumber, u16); 6]>;
 
 /// Sets of names by number, and the renamings to ranks. Few sets occur together, so each renaming is made
 /// up once; a state finds its own by the numbers of the sets in its parts.
@@ -160,6 +184,34 @@ impl Renamings {
         let renaming = (self.rank)(&mut ranks).then(|| number(self.ranks.push(ranks)));
         self.of_sets.insert(sets, renaming);
         renaming
+    }
+
+    /// The numbers that `station` gave out, of the names in these sets, in order, each with how many heartbeats
+    /// of the session of that number there are.
+    pub(crate) fn given_out_by(
+        &self,
+        station: StationId,
+        sets: impl Iterator<Item = u32>,
+    ) -> GivenOut {
+        let mut names: SmallVec<[Name; 16]> = SmallVec::new();
+        for set in sets {
+            let own = self.sets[set as usize].0.iter();
+            names.extend(own.copied().filter(|name| name.station() == station));
+        }
+        names.sort_unstable();
+        names.dedup();
+        let mut given_out: GivenOut = SmallVec::new();
+        for name in names {
+            // Names of numbers come before those of heartbeats.
+            let number = name.unique();
+            let at = given_out.iter().position(|(known, _)| *known == number);
+            let at = at.unwrap_or_else(|| {
+                given_out.push((number, 0));
+                given_out.len() - 1
+            });
+            given_out[at].1 += u16::from(name.is_heartbeat());
+        }
+        given_out
     }
 
     /// The renaming with this number.

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
+use crate::confinement::LyingPart;
 use crate::cost::Meter;
 use crate::exploration::ExplorationLimits;
 pub use crate::exploration::{CheckProgress, Options, Stop};
@@ -195,6 +196,7 @@ impl Findings<'_> {
             kind: claim.kind.name().to_owned(),
             verdict: CheckVerdict::of_property(counterexample.is_some(), self.cut_off),
             statement: claim.statement.to_owned(),
+            authentication: Some(id.authentication().to_string()),
             counterexample: counterexample.unwrap_or_default(),
             repeats_after,
         }
@@ -250,6 +252,7 @@ impl Findings<'_> {
             kind: "premise".to_owned(),
             verdict: CheckVerdict::of_premise(self.model.premise_met(id), self.cut_off),
             statement: premise.to_owned(),
+            authentication: None,
             counterexample: Vec::new(),
             repeats_after: None,
         })
@@ -294,6 +297,7 @@ pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
             };
             between(transmission, fate)
         }
+        Action::Lie(transmission) => between(transmission, Fate::Arrives),
         Action::Lose(transmission) => between(transmission, Fate::Lost),
         Action::Delay(transmission) => between(transmission, Fate::Delayed),
         Action::Expire(robot, timer) => at(robot, format!("timer {timer} expires")),
@@ -373,6 +377,20 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
              body does what it did before"
                 .to_owned(),
         );
+    }
+    let liars: Vec<_> = scenario.liars().collect();
+    if !liars.is_empty() {
+        let stations: Vec<_> = liars.iter().map(|(_, id, _)| id.to_string()).collect();
+        assumptions.push(format!(
+            "robot {} lies: at any moment, and to each robot apart, it says any RAM or RMCM in its own name, of the \
+             numbers that it or its hearer gave out, one newer and one older than all, and request numbers 0 to {}",
+            stations.join(", "),
+            scenario.bounds.commands,
+        ));
+    }
+    if liars.iter().any(|(_, _, lies)| *lies == LyingPart::Helper) {
+        assumptions
+            .push("runs in which a leader confirms the robot that lies are left out".to_owned());
     }
     if !scenario.symmetric.is_empty() {
         let robots: Vec<_> = scenario.symmetric.iter().map(ToString::to_string).collect();

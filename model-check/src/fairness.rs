@@ -200,7 +200,9 @@ impl Runs<'_> {
             | Action::Restart(_)
             | Action::StepOnRoad(_)
             | Action::Across(_)
-            | Action::Hang(_) => Classes::NONE,
+            | Action::Hang(_)
+            // Nobody has to lie.
+            | Action::Lie(_) => Classes::NONE,
         }
     }
 

@@ -45,6 +45,7 @@
 
 mod canonical;
 pub mod check;
+pub mod confinement;
 pub mod cost;
 mod exploration;
 pub mod explore;
@@ -75,6 +76,7 @@ pub mod timed;
 pub mod transitions;
 mod transmission;
 pub mod universe;
+pub mod utterances;
 
 /// How many distinct states a scenario has, by the kit's own exploration alone. It says nothing about
 /// what must hold of them; [`check::check`] does.

@@ -30,8 +30,26 @@ pub struct Monitor {
     on_road: Vec<SessionId>,
 }
 
-#[derive(Debug)]
-struct Seats(Vec<Seat>);
+#[derive(Debug, Default)]
+struct Seats {
+    seats: Vec<Seat>,
+    liars: Vec<StationId>,
+}
+
+/// Whose steps are not recorded.
+#[derive(Clone, Copy)]
+struct Unrecorded {
+    strangers: bool,
+    liars: bool,
+}
+
+impl Unrecorded {
+    /// Whether that leaves a property open; whether a rule of it compares two robots.
+    fn leaves_open(self, id: PropertyId, is_of_two: bool) -> bool {
+        let can_be_broken = !id.authentication().liars().is_empty();
+        (is_of_two && (self.strangers || self.liars)) || (self.liars && can_be_broken)
+    }
+}
 
 #[derive(Debug)]
 struct Seat {
@@ -43,22 +61,29 @@ struct Seat {
 
 impl Surroundings for Seats {
     fn config(&self, place: usize) -> &Config {
-        &self.0[place].config
+        &self.seats[place].config
     }
 
     fn can_progress(&self) -> bool {
-        let mut robots = self.0.iter().filter_map(|seat| seat.node.robot.as_ref());
+        let mut robots = self
+            .seats
+            .iter()
+            .filter_map(|seat| seat.node.robot.as_ref());
         robots.any(|robot| robot.timers().iter().any(|(timer, _)| *timer != Timer::Ram))
     }
 
     fn place_of(&self, station: StationId) -> Option<usize> {
         let named = |seat: &Seat| seat.node.persisted.station == station;
-        self.0.iter().position(named)
+        self.seats.iter().position(named)
     }
 
     /// While a run goes on this is not known.
     fn restarts_are_over(&self) -> bool {
         false
+    }
+
+    fn lies(&self, station: StationId) -> bool {
+        self.liars.contains(&station)
     }
 }
 
@@ -68,7 +93,7 @@ impl Monitor {
     #[must_use]
     pub fn new(timed: bool) -> Self {
         Self {
-            seats: Seats(Vec::new()),
+            seats: Seats::default(),
             history: History::default(),
             is_timed: timed,
             has_strangers: false,
@@ -80,12 +105,12 @@ impl Monitor {
     /// One more robot, which has not booted. Its place.
     pub fn add(&mut self, station: StationId) -> usize {
         let (node, config) = (Node::down(station), Config::default());
-        self.seats.0.push(Seat {
+        self.seats.seats.push(Seat {
             node,
             config,
             is_hung: false,
         });
-        self.seats.0.len() - 1
+        self.seats.seats.len() - 1
     }
 
     /// A robot boots. Its body is where it was.
@@ -95,8 +120,8 @@ impl Monitor {
     pub fn boot(&mut self, place: usize, robot: &Robot, config: &Config) {
         self.crash(place);
         let mut node = Node::booted(robot.clone());
-        node.actuation.body = self.seats.0[place].node.actuation.body;
-        self.seats.0[place] = Seat {
+        node.actuation.body = self.seats.seats[place].node.actuation.body;
+        self.seats.seats[place] = Seat {
             node,
             config: config.clone(),
             is_hung: false,
@@ -109,7 +134,7 @@ impl Monitor {
     /// # Panics
     /// When there is no such robot.
     pub fn hang(&mut self, place: usize, is_hung: bool) {
-        self.seats.0[place].is_hung = is_hung;
+        self.seats.seats[place].is_hung = is_hung;
     }
 
     /// From now on robots hear others whose steps are not recorded here: a rule that compares two robots is not
@@ -118,12 +143,25 @@ impl Monitor {
         self.has_strangers = true;
     }
 
+    /// The station of this id is an insider, which may say anything in its own name. Rules that compare two robots are
+    /// not judged any more, for it has no robot; nor is what such an insider can break.
+    pub fn lies(&mut self, station: StationId) {
+        self.seats.liars.push(station);
+    }
+
+    const fn unrecorded(&self) -> Unrecorded {
+        Unrecorded {
+            strangers: self.has_strangers,
+            liars: !self.seats.liars.is_empty(),
+        }
+    }
+
     /// A robot loses its volatile state; nothing if it was down.
     ///
     /// # Panics
     /// When there is no such robot.
     pub fn crash(&mut self, place: usize) {
-        let Seat { node, is_hung, .. } = &mut self.seats.0[place];
+        let Seat { node, is_hung, .. } = &mut self.seats.seats[place];
         if let Some(robot) = &node.robot {
             self.history.record_crash(robot);
         }
@@ -142,7 +180,8 @@ impl Monitor {
         outputs: &Outputs,
         after: &Robot,
     ) -> Option<PropertyId> {
-        let seat = &mut self.seats.0[place];
+        let unrecorded = self.unrecorded();
+        let seat = &mut self.seats.seats[place];
         let next = seat.node.observed(input, outputs, after.clone());
         let before = std::mem::replace(&mut seat.node, next);
         // Of all on the road, those concern the step that its body guards.
@@ -159,10 +198,9 @@ impl Monitor {
         };
         let (premises, broken) = judge(&PropertyId::ALL, &view, false);
         self.premises |= premises;
-        let has_strangers = self.has_strangers;
         let judged = |id: &PropertyId| {
-            let is_open = has_strangers && id.step_rule().is_some_and(|rule| rule.of_two);
-            broken & id.bit() != 0 && !is_open
+            let is_of_two = id.step_rule().is_some_and(|rule| rule.of_two);
+            broken & id.bit() != 0 && !unrecorded.leaves_open(*id, is_of_two)
         };
         let mut first = PropertyId::ALL.into_iter().find(judged);
         if view.is_historic()
@@ -174,7 +212,7 @@ impl Monitor {
             first = self.judge_state();
         }
         let late = || {
-            let seats = self.seats.0.iter().filter(|seat| !seat.is_hung);
+            let seats = self.seats.seats.iter().filter(|seat| !seat.is_hung);
             self.is_timed && has_lease_on_lost(&seats.filter_map(|seat| seat.node.robot.as_ref()))
         };
         first.or_else(|| late().then_some(PropertyId::I10))
@@ -183,7 +221,7 @@ impl Monitor {
     /// A pedestrian steps on the road at the sign of a session, whose crossing requires this number of guards. The
     /// property that this breaks.
     pub fn step_on_road(&mut self, session: SessionId, required: usize) -> Option<PropertyId> {
-        let nodes: Vec<&Node> = self.seats.0.iter().map(|seat| &seat.node).collect();
+        let nodes: Vec<&Node> = self.seats.seats.iter().map(|seat| &seat.node).collect();
         let view = View {
             nodes: &nodes,
             history: &self.history,
@@ -193,7 +231,8 @@ impl Monitor {
         for id in PropertyId::ALL {
             if let Some(holds) = id.keeps_guards(&view, session, required) {
                 self.premises |= id.bit();
-                if !holds && !self.has_strangers {
+                let is_open = self.has_strangers || self.unrecorded().leaves_open(id, false);
+                if !holds && !is_open {
                     broken = Some(id);
                 }
             }
@@ -215,21 +254,21 @@ impl Monitor {
     /// When there is no such robot.
     #[must_use]
     pub fn guards(&self, place: usize) -> Option<Maneuver> {
-        let seat = &self.seats.0[place];
+        let seat = &self.seats.seats[place];
         seat.node.actuation.body.guards(seat.config.settings())
     }
 
     fn judge_state(&mut self) -> Option<PropertyId> {
-        let nodes: Vec<&Node> = self.seats.0.iter().map(|seat| &seat.node).collect();
+        let nodes: Vec<&Node> = self.seats.seats.iter().map(|seat| &seat.node).collect();
         let view = View {
             nodes: &nodes,
             history: &self.history,
             world: &self.seats,
         };
-        let mut premises = self.premises;
+        let (mut premises, unrecorded) = (self.premises, self.unrecorded());
         let broken = PropertyId::ALL.into_iter().find(|id| {
-            let is_open = |rule: &StateRule| self.has_strangers && rule.of_two;
-            let rule = id.state_rule().filter(|rule| !is_open(rule));
+            let is_judged = |rule: &StateRule| !unrecorded.leaves_open(*id, rule.of_two);
+            let rule = id.state_rule().filter(is_judged);
             rule.is_some_and(|rule| {
                 if premises & id.bit() == 0 && (rule.premise)(&view) {
                     premises |= id.bit();
@@ -247,7 +286,7 @@ impl Monitor {
     /// When there is no such robot.
     #[must_use]
     pub fn node(&self, place: usize) -> &Node {
-        &self.seats.0[place].node
+        &self.seats.seats[place].node
     }
 
     /// The properties whose premise the run has met so far.

@@ -75,6 +75,9 @@ pub struct PropertyReport {
     pub verdict: CheckVerdict,
     /// What it says.
     pub statement: String,
+    /// What it assumes of those who speak; of a property of the kit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub authentication: Option<String>,
     /// A run that breaks the property.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub counterexample: Vec<ChartStep>,

@@ -5,6 +5,7 @@
 //! the line.
 
 mod file;
+mod lies;
 mod location;
 mod monotone;
 pub(crate) mod setup;
@@ -16,11 +17,13 @@ use crossguard_protocol::{
     BrokenInequality, Config, HelpRequest, MAX_FOLLOWERS, StationId, TaskNames,
 };
 
+pub use lies::Unliable;
 pub use monotone::Misfit;
 pub(crate) use setup::PSEUDONYM_STEP;
 pub use setup::{Bounds, ChannelSetup, MAX_ROBOTS, RobotSetup, Size};
 pub use symmetric::Asymmetry;
 
+use crate::confinement::LyingPart;
 use crate::network::MAX_DELAYED;
 use crate::properties::{PropertyId, listed};
 use crate::timed::{Timed, TimedImpossibility};
@@ -149,6 +152,9 @@ pub enum Impossibility {
     /// The protocol's settings contradict each other.
     #[error(transparent)]
     Settings(#[from] BrokenInequality),
+    /// What an insider that lies does not fit.
+    #[error(transparent)]
+    Lies(#[from] Unliable),
     /// What is wrong with the time of a timed scenario.
     #[error(transparent)]
     Timed(#[from] TimedImpossibility),
@@ -219,6 +225,12 @@ impl Scenario {
             urgency: self.robots[place].urgency.unwrap_or(self.request.urgency),
             ..self.request
         }
+    }
+
+    /// The robots that lie, with their places.
+    pub fn liars(&self) -> impl Iterator<Item = (usize, StationId, LyingPart)> {
+        let robots = self.robots.iter().enumerate();
+        robots.filter_map(|(place, robot)| Some((place, robot.station, robot.lies?)))
     }
 
     /// The place of the robot that has, or had before it changed its pseudonym, this station id.

@@ -92,6 +92,11 @@ impl Steps {
         Some(&self.computed[number as usize])
     }
 
+    /// A step of a robot that is only looked at.
+    pub(crate) fn of(&self, config: &Config, node: &Node, input: Input) -> Option<(Node, Outputs)> {
+        node.step(&*self.rules, config, input)
+    }
+
     /// The steps that have been taken, each with the node before it.
     pub(crate) fn taken(&self) -> impl Iterator<Item = (&Node, &ComputedStep)> {
         let steps = self.numbers.iter().map(|entry| {

@@ -263,7 +263,7 @@ fn events(robot: &Robot) -> Vec<Event> {
         Event::AllAnswered,
         Event::OpenCorridor,
         Event::CloseCorridor,
-        Event::IdentityChanged(ME),
+        Event::IdentityChanged(ME, None),
     ];
     for follower in [PEERS[0], PEERS[1], STRANGER] {
         // Three commands show everything that more would, up to the last one.

@@ -1,9 +1,11 @@
 //! The verification page says what the scenario files say, and the scenario on the page for verifiers is one.
 
 use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::confinement::table;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::{Claim, PropertyId};
 use crossguard_model_check::scenario::Scenario;
+use crossguard_protocol::Config;
 
 const PAGE: &str = include_str!("../doc/verification.md");
 const GUIDE: &str = include_str!("../doc/verifying.md");
@@ -162,4 +164,33 @@ fn the_scenario_of_the_guide_can_be_checked_and_holds() {
     let scenario = Scenario::parse("my.toml", text).unwrap();
     let report = check(&Model::new(scenario), &Options::default(), &mut |_| ());
     assert!(report.exhaustive && !report.failed(), "{report:#?}");
+}
+
+#[test]
+fn what_each_property_assumes_of_those_who_speak_stands_there() {
+    let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
+    for id in PropertyId::ALL {
+        let assumed = id.authentication().to_string();
+        match groups.iter_mut().find(|(known, _)| *known == assumed) {
+            Some((_, ids)) => ids.push(id.name()),
+            None => groups.push((assumed, vec![id.name()])),
+        }
+    }
+    for (assumed, ids) in groups {
+        let row = format!("| {assumed} | {} |", ids.join(", "));
+        assert!(PAGE.contains(&row), "no row {row}");
+    }
+}
+
+#[test]
+fn the_confinement_table_stands_there() {
+    for lie in table(&Config::default()) {
+        let at_most = lie.at_most.map(|ms| grouped(ms.0 as usize));
+        let at_most = at_most.map_or_else(
+            || "| no limit |".to_owned(),
+            |ms| format!("`{}` | {ms} ms |", lie.formula),
+        );
+        let row = format!("| {} | {} | {} | {at_most}", lie.part, lie.can, lie.from_to);
+        assert!(PAGE.contains(&row), "no row {row}");
+    }
 }

@@ -13,7 +13,11 @@ use crossguard_testkit::rules::*;
 
 /// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
 fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
-    let model = Model::with_rules(Scenario::load(scenario).unwrap(), rules);
+    assert_breaks_in(Scenario::load(scenario).unwrap(), rules, properties);
+}
+
+fn assert_breaks_in(scenario: Scenario, rules: impl Rules + 'static, properties: &[PropertyId]) {
+    let model = Model::with_rules(scenario, rules);
     let options = Options {
         until_broken: properties.to_vec(),
         ..Options::default()
@@ -340,6 +344,24 @@ fn a_robot_that_forgets_its_duty_begins_something_new() {
 fn without_positions_in_ram_nobody_ever_crosses() {
     // Nobody is ever idle again, for who cooperates waits for the crossing.
     assert_breaks_alone("crossing", ReadsNoProgress, &[L7, W7]);
+}
+
+#[test]
+fn an_insider_moves_a_robot_that_obeys_commands_of_any_session() {
+    assert_breaks("lying-bystander", ObeysCommandsOfAnySession, &[C1]);
+}
+
+#[test]
+fn a_follower_that_lies_speaks_for_the_others_where_one_counts_for_all() {
+    // C3 is broken first, and nothing is explored beyond that.
+    let mut scenario = Scenario::load("lying-follower").unwrap();
+    (scenario.properties, scenario.expected) = (vec![C2], None);
+    assert_breaks_in(scenario, CountsOneForAll, &[C2]);
+}
+
+#[test]
+fn a_corridor_rests_on_a_stranger_where_who_says_so_follows() {
+    assert_breaks("lying-bystander", AdmitsWhoSaysThatItFollows, &[C3]);
 }
 
 /// Removed from the protocol, three of the checks that an open corridor needs went unnoticed once.

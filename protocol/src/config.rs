@@ -13,9 +13,18 @@ use crate::time::Millis;
 /// different settings: a helper tells its `t_safety` in its offer, and a requester takes no offer whose
 /// `t_safety` its own lease does not fit. Drift and `delay_max` must be the same for all.
 ///
-/// The paper gives no timers. It measures a command's way to the follower: 74 ms ± 15 ms, and 129 ms ± 102 ms. An
-/// acknowledgement takes a second way. `t_ack` covers two of the slower kind, 258 ms ± 144 ms if the two are
-/// independent, with 2.4 deviations to spare. A later acknowledgement costs a repetition, and harms nobody.
+/// The paper gives no timers. It measures a command's way to the follower: 74 ms ± 15 ms, and 129 ms ± 102 ms, and its
+/// maneuvers: 0.50 s for `initialPos`, and 21.60 s for `Move`. The defaults follow from these where they can:
+///
+/// | default | why |
+/// |---|---|
+/// | `t_ack` 0.6 s | An acknowledgement takes a second way. Two of the slower kind take 258 ms ± 144 ms if they are independent, which leaves 2.4 deviations. A later one costs a repetition, and harms nobody. |
+/// | `t_select` 0.3 s | An offer whose way is two deviations longer than that of the first one (0.2 s) is still considered. |
+/// | `t_safety` 2 s | A second in which nothing arrives, and then a heartbeat that takes 0.6 s, end no maneuver. |
+/// | `t_lease` 1.9 s | The longest, to 50 ms, that `t_safety` allows ([`Inequality::LeaseWithinSafety`]). |
+/// | `t_exec` 5 s, 60 s | Ten times the paper's `initialPos`, and nearly three times its `Move`. |
+/// | `t_cross` 30 s | The paper's `Move`, and two fifths of it to spare. |
+/// | `t_offer` 3 s, `t_help` 10 s, `t_leave` 5 s | What a helper, a person at the kerb and a follower put up with; the paper says nothing of it. |
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]

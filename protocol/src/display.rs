@@ -284,7 +284,10 @@ impl Display for Event {
             Self::AvailabilityChanged(availability) => write!(f, "now {availability}"),
             Self::OpenCorridor => f.write_str("open corridor"),
             Self::CloseCorridor => f.write_str("close corridor"),
-            Self::IdentityChanged(station) => write!(f, "identity changed to {station}"),
+            Self::IdentityChanged(station, None) => write!(f, "identity changed to {station}"),
+            Self::IdentityChanged(station, Some(next)) => {
+                write!(f, "identity changed to {station}, numbers from {next}")
+            }
             Self::EpochRenewed(boot) => write!(f, "boot counter renewed to {boot}"),
         }
     }

@@ -1,7 +1,7 @@
 //! Stage 1, Initialization: from `Idle` into a session of one's own, and availability.
 
 use crate::config::Config;
-use crate::id::{SessionNumber, StationId};
+use crate::id::{SessionNumber, StationId, UniqueNumber};
 use crate::list::List;
 use crate::message::{Failure, Progress};
 use crate::output::{EndReason, Ignored, Output, ReleaseReason, Sink, StopReason};
@@ -106,8 +106,12 @@ impl Robot {
     }
 
     /// The pseudonym changes together with everything that is tied to it, and only while no session
-    /// knows the robot by its old one.
-    pub(crate) fn change_identity(&mut self, station: StationId) -> Effect {
+    /// knows the robot by its old one. No number of the old one is in use then.
+    pub(crate) fn change_identity(
+        &mut self,
+        station: StationId,
+        next: Option<UniqueNumber>,
+    ) -> Effect {
         if self.identity != Identity::Unlocked {
             return Err(Ignored::IdentityLocked);
         }
@@ -115,6 +119,10 @@ impl Robot {
             return Err(Ignored::NothingNew);
         }
         self.station = station;
+        if let Some(UniqueNumber { boot, count }) = next {
+            self.boot = boot;
+            self.next_count = count;
+        }
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! What the transition function takes in.
 
-use crate::id::{ManeuverId, StationId};
+use crate::id::{ManeuverId, StationId, UniqueNumber};
 use crate::message::{Ram, Rmcm};
 use crate::task::{Availability, HelpRequest, TaskType};
 use crate::time::Millis;
@@ -85,7 +85,10 @@ pub enum Event {
     /// The leader's application wants to hold the pedestrian back again.
     CloseCorridor,
     /// The robot has changed its pseudonym; only possible while the identity is not locked.
-    IdentityChanged(StationId),
+    ///
+    /// Where a number is given, those of its sessions and offers begin anew there, so that they do not tell that the
+    /// two pseudonyms are one robot. Under this station id, no number from there on may have been given out before.
+    IdentityChanged(StationId, Option<UniqueNumber>),
     /// A larger boot counter has been persisted, as [`Output::RenewEpoch`](crate::Output::RenewEpoch) asked.
     EpochRenewed(u16),
 }

@@ -189,7 +189,7 @@ impl Robot {
             }
             Event::OpenCorridor => self.open_corridor(step),
             Event::CloseCorridor => self.close_corridor(step),
-            Event::IdentityChanged(station) => self.change_identity(station),
+            Event::IdentityChanged(station, next) => self.change_identity(station, next),
             Event::EpochRenewed(boot) => self.renew_epoch(boot),
         }
     }

@@ -10,13 +10,42 @@ const ALIAS: StationId = StationId(77);
 #[test]
 fn an_idle_robot_may_change_its_pseudonym() {
     let mut street = Street::new(&[ARI]);
-    let same = street.tell(ARI, Event::IdentityChanged(ARI));
+    let same = street.tell(ARI, Event::IdentityChanged(ARI, None));
     assert_eq!(same.ignored(), Some(Ignored::NothingNew));
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         None
     );
     assert_eq!(street[ARI].station(), ALIAS);
+}
+
+/// Hazard: sessions that are numbered on tell that two pseudonyms are one robot.
+#[test]
+fn numbers_begin_anew_with_a_pseudonym_where_the_event_says_so() {
+    let mut street = Street::new(&[ARI, GO2]);
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    street.pass(400);
+    street.tell(ARI, Event::TaskCompleted);
+    street.pass(1_000);
+    let next = UniqueNumber {
+        boot: 40_213,
+        count: 0,
+    };
+    let changed = street.tell(ARI, Event::IdentityChanged(ALIAS, Some(next)));
+    assert_eq!(changed.ignored(), None);
+    assert_eq!(street[ARI].next_number(), next);
+    // Locked, nothing changes.
+    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let first = SessionId {
+        leader: ALIAS,
+        number: SessionNumber(next),
+    };
+    assert_eq!(street[ARI].session(), Some(first));
+    let again = street.tell(ARI, Event::IdentityChanged(ARI, Some(next)));
+    assert_eq!(again.ignored(), Some(Ignored::IdentityLocked));
+    assert_eq!(street[ARI].next_number().count, 1);
 }
 
 #[test]
@@ -27,7 +56,9 @@ fn the_lock_holds_from_the_request_or_offer_until_the_farewell_is_over() {
     for who in [ARI, GO2] {
         assert!(street.has_put_out(who, Output::LockIdentity));
         assert_eq!(
-            street.tell(who, Event::IdentityChanged(ALIAS)).ignored(),
+            street
+                .tell(who, Event::IdentityChanged(ALIAS, None))
+                .ignored(),
             locked
         );
     }
@@ -36,18 +67,24 @@ fn the_lock_holds_from_the_request_or_offer_until_the_farewell_is_over() {
     // The follower is free at once; the leader still says farewell.
     assert!(street.has_put_out(GO2, Output::UnlockIdentity));
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         locked
     );
     street.pass(999);
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         locked
     );
     street.pass(1);
     assert!(street.has_put_out(ARI, Output::UnlockIdentity));
     assert_eq!(
-        street.tell(ARI, Event::IdentityChanged(ALIAS)).ignored(),
+        street
+            .tell(ARI, Event::IdentityChanged(ALIAS, None))
+            .ignored(),
         None
     );
     // Once each: a lock is not locked again.

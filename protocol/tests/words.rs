@@ -146,7 +146,9 @@ fn inputs() {
         tells(Event::AvailabilityChanged(Availability::Available)) => "now available",
         tells(Event::OpenCorridor) => "open corridor",
         tells(Event::CloseCorridor) => "close corridor",
-        tells(Event::IdentityChanged(GO2)) => "identity changed to 2",
+        tells(Event::IdentityChanged(GO2, None)) => "identity changed to 2",
+        tells(Event::IdentityChanged(GO2, Some(UniqueNumber { boot: 7, count: 0 }))) =>
+            "identity changed to 2, numbers from 7.0",
         Input::Ram { ram: ram(Coordination::None, None), distance } => "RAM none from 1",
         Input::Elapsed(Millis(5)) => "5 ms elapsed",
         Input::Expired(Timer::Selection) => "timer selection expired",

@@ -15,7 +15,7 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 11] = [
+const GENERATED: [Generated; 13] = [
     Generated {
         path: "protocol/src/task.rs: the named tasks, in other languages",
         by: "cargo test -p crossguard-testkit --test named_tasks",
@@ -27,6 +27,10 @@ const GENERATED: [Generated; 11] = [
     Generated {
         path: "codec/tests/golden/messages.json",
         by: "cargo test -p crossguard-codec --test golden_messages",
+    },
+    Generated {
+        path: "codec/tests/golden/security.json",
+        by: "cargo test -p crossguard-codec --features security --test security vectors",
     },
     Generated {
         path: "codec/wireshark/crossguard.lua: the types",
@@ -55,6 +59,10 @@ const GENERATED: [Generated; 11] = [
     Generated {
         path: "harness/doc/errors.md",
         by: "cargo test -p crossguard-harness --test bad_inputs",
+    },
+    Generated {
+        path: "harness/doc/safety-case.md",
+        by: "cargo test -p crossguard-harness --test safety_case",
     },
     Generated {
         path: "README.md: the sum of states",

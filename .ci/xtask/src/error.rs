@@ -15,6 +15,8 @@ pub(crate) enum Error {
     Syntax { path: PathBuf, cause: syn::Error },
     #[error("{}: no file of module '{module}'", path.display())]
     NoModule { path: PathBuf, module: String },
+    #[error("{}: {cause}", path.display())]
+    Content { path: PathBuf, cause: String },
     #[error("no generated file is named so; there are:\n    {0}")]
     NotGenerated(String),
     #[error("could not start {program}: {cause}")]

@@ -4,9 +4,11 @@
 
 mod bless;
 mod circles;
+mod dependencies;
 mod error;
 mod lines;
 mod names;
+mod papers;
 mod resolve;
 mod sources;
 mod steps;
@@ -47,6 +49,19 @@ enum Command {
     Lines,
     /// Runs circles, names and lines on the whole workspace, as .ci/run does.
     Sources,
+    /// Lists dependencies with a licence, a source, a second version or a known advisory that .ci/dependencies.toml does
+    /// not allow. Nothing is asked over the network.
+    Dependencies,
+    /// Writes .ci/advisories.json, the advisories on packages of the lock files, anew.
+    Advisories {
+        /// A clone of `RustSec`'s advisory-db.
+        database: PathBuf,
+    },
+    /// Writes what goes with a release: the bill of materials (`CycloneDX`) and the notices of others.
+    Papers {
+        /// The folder, which is made if need be.
+        folder: PathBuf,
+    },
     /// Writes every generated and golden file anew; look at the difference before you commit it.
     Bless {
         /// Only those whose path contains this text.
@@ -90,6 +105,16 @@ fn run(command: &Command) -> Result<bool, Error> {
         }
         Command::Lines => Ok(passed("lines", &lines::too_long(&root)?)),
         Command::Sources => sources_are_in_order(&root),
+        Command::Dependencies => {
+            let found = dependencies::findings(&root)?;
+            Ok(passed("dependencies", &found))
+        }
+        Command::Advisories { database } => {
+            let count = dependencies::advisories::look_up(&root, database)?;
+            println!("{count} advisories; cargo xtask dependencies judges by them");
+            Ok(true)
+        }
+        Command::Papers { folder } => papers::write(&root, folder).map(|()| true),
         Command::Bless { part } => bless::bless(&root, part.as_deref()),
         Command::Quick => steps::quick(&root),
         Command::Full => steps::full(&root),

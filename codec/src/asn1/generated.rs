@@ -5598,8 +5598,8 @@ pub mod crossguard_ram {
     extern crate alloc;
     use super::crossguard_cdd::{
         AccelerationComponent, BasicContainer, Curvature, DriveDirection, ExteriorLights,
-        GenerationDeltaTime, ItsPduHeader, ObjectDimensionValue, PathPoint, Speed, StationId,
-        Wgs84Angle, YawRate,
+        GenerationDeltaTime, ItsPduHeader, MapReference, ObjectDimensionValue, PathPoint, Speed,
+        StationId, Wgs84Angle, YawRate,
     };
     use super::crossguard_common::{
         CoordinationSession, OfferNumber, RequestId, SessionNumber, TaskProgression, TaskSet,
@@ -6175,7 +6175,7 @@ pub mod crossguard_ram {
             Self { role, farewell }
         }
     }
-    /// What changes slowly.
+    /// What changes slowly. areaServed is the road segment or intersection that the robot is there for.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -6195,6 +6195,9 @@ pub mod crossguard_ram {
         #[rasn(identifier = "signalsShown")]
         #[serde(rename = "signalsShown")]
         pub signals_shown: Option<SignalsShown>,
+        #[rasn(identifier = "areaServed")]
+        #[serde(rename = "areaServed")]
+        pub area_served: Option<MapReference>,
     }
     impl RobotLowFrequencyContainer {
         pub fn new(
@@ -6203,6 +6206,7 @@ pub mod crossguard_ram {
             path_history: SequenceOf<PathPoint>,
             exterior_lights: Option<ExteriorLights>,
             signals_shown: Option<SignalsShown>,
+            area_served: Option<MapReference>,
         ) -> Self {
             Self {
                 capabilities,
@@ -6210,6 +6214,7 @@ pub mod crossguard_ram {
                 path_history,
                 exterior_lights,
                 signals_shown,
+                area_served,
             }
         }
     }

@@ -7,8 +7,8 @@
 
 use super::cdd::{
     AccelerationComponent, BasicContainer, Curvature, DriveDirection, ExteriorLights,
-    GenerationDeltaTime, ItsPduHeader, ObjectDimensionValue, PathPoint, Speed, StationId,
-    Wgs84Angle, YawRate,
+    GenerationDeltaTime, ItsPduHeader, MapReference, ObjectDimensionValue, PathPoint, Speed,
+    StationId, Wgs84Angle, YawRate,
 };
 use super::common::{
     CoordinationSession, OfferNumber, RequestId, SessionNumber, TaskProgression, TaskSet,
@@ -83,13 +83,15 @@ asn1! {
 }
 
 asn1! {
-    /// What changes slowly.
+    /// What changes slowly. `areaServed` is the road segment or intersection that the robot is
+    /// there for.
     RobotLowFrequencyContainer ::= SEQUENCE {
         capabilities    RobotCapabilities,
         supported_tasks TaskSet,
         path_history    RobotPathHistory,
         exterior_lights ExteriorLights OPTIONAL,
         signals_shown   SignalsShown OPTIONAL,
+        area_served     MapReference OPTIONAL,
         ...
     }
 }

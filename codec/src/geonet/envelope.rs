@@ -1,10 +1,8 @@
 //! The security envelope between basic and common header (EN 302 636-4-1, clause 9.4; TS 103 097).
 
-use super::{BasicHeader, EgoPosition, Opened};
 #[cfg(feature = "security")]
-use super::{Headers, secured::Secured};
-#[cfg(feature = "security")]
-use crate::security::{Rejected, Unsigned};
+use super::secured::Secured;
+use super::{Admitted, Discarded, EgoPosition, EnvelopeError, Opened};
 
 /// What stands around a packet behind its basic header.
 #[derive(Clone, Debug, Default)]
@@ -16,49 +14,6 @@ pub enum Envelope {
     /// Packets are signed, and those of others verified.
     #[cfg(feature = "security")]
     Secured(Box<Secured>),
-}
-
-/// Why an envelope cannot be made or opened, or a packet is not taken without one.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum EnvelopeError {
-    /// A secured packet, and security is off.
-    #[error("the packet is secured, and security is off")]
-    SecurityIsOff,
-    /// The envelope does not fit in the packet.
-    #[error("the packet is too long with its envelope")]
-    NoRoom,
-    /// The packet cannot be signed.
-    #[cfg(feature = "security")]
-    #[error("{0}")]
-    Unsigned(#[from] Unsigned),
-    /// The packet cannot be relied on.
-    #[cfg(feature = "security")]
-    #[error("{0}")]
-    Rejected(#[from] Rejected),
-}
-
-impl EnvelopeError {
-    /// Its name among the causes for which packets are dropped.
-    #[must_use]
-    pub const fn cause(self) -> &'static str {
-        match self {
-            Self::SecurityIsOff => "secured, and security is off",
-            Self::NoRoom => "too long with its envelope",
-            #[cfg(feature = "security")]
-            Self::Unsigned(_) => "cannot be signed",
-            #[cfg(feature = "security")]
-            Self::Rejected(rejected) => rejected.cause(),
-        }
-    }
-
-    /// Whether the packet is signed with a ticket of the own station, which has heard itself.
-    pub(super) const fn is_own_ticket(self) -> bool {
-        #[cfg(feature = "security")]
-        return matches!(self, Self::Rejected(Rejected::OwnTicket));
-        #[cfg(not(feature = "security"))]
-        return false;
-    }
 }
 
 impl Envelope {
@@ -89,24 +44,22 @@ impl Envelope {
         }
     }
 
-    /// Opens the envelope that follows a basic header.
+    /// Opens the envelope that follows a basic header. `admit` takes apart what is in it, sent under an ITS-AID, and is
+    /// asked before the signature is looked at.
     ///
     /// # Errors
-    /// Why its content cannot be relied on.
+    /// Why the packet is not taken, or cannot be relied on.
     #[cfg_attr(not(feature = "security"), expect(unused_variables))]
     pub fn open<'a>(
         &mut self,
         ego: &EgoPosition,
-        basic: BasicHeader,
         secured: &'a [u8],
-    ) -> Result<Opened<'a>, EnvelopeError> {
+        admit: impl FnOnce(&'a [u8], u32) -> Result<Admitted<'a>, Discarded>,
+    ) -> Result<(Admitted<'a>, Opened), Discarded> {
         match self {
-            Self::Off => Err(EnvelopeError::SecurityIsOff),
+            Self::Off => Err(EnvelopeError::SecurityIsOff.into()),
             #[cfg(feature = "security")]
-            Self::Secured(station) => Ok(station.open(ego, secured, |plain| {
-                let (headers, _) = Headers::decode_behind(basic, plain).ok()?;
-                Some(headers.source)
-            })?),
+            Self::Secured(station) => station.open(ego, secured, admit),
         }
     }
 

@@ -1,6 +1,9 @@
-//! What was in an envelope: a packet, who vouches for it, and what it may say.
+//! What was in a packet, who vouches for it, and what it may say.
 
-use crossguard_protocol::StationId;
+use crossguard_protocol::{Place, StationId};
+
+use super::Headers;
+use crate::service::Service;
 
 /// Who vouches for a packet: the digest of its certificate (`HashedId8`).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -13,6 +16,8 @@ pub struct Permits {
     bits: Option<u16>,
     /// The station id that they are given to.
     station: Option<StationId>,
+    /// The place that they are given for.
+    place: Option<Place>,
 }
 
 impl Signer {
@@ -29,6 +34,7 @@ impl Permits {
     pub const EVERYTHING: Self = Self {
         bits: None,
         station: None,
+        place: None,
     };
 
     /// What these bits allow, the first being the most significant.
@@ -37,6 +43,7 @@ impl Permits {
         Self {
             bits: Some(bits),
             station: None,
+            place: None,
         }
     }
 
@@ -44,6 +51,18 @@ impl Permits {
     #[must_use]
     pub const fn only_as(self, station: Option<StationId>) -> Self {
         Self { station, ..self }
+    }
+
+    /// The same at this place alone, if there is one.
+    #[must_use]
+    pub const fn only_at(self, place: Option<Place>) -> Self {
+        Self { place, ..self }
+    }
+
+    /// Whether something may be said of what goes on at this place. One that is not known may be any.
+    #[must_use]
+    pub fn allows_at(self, place: Place) -> bool {
+        self.place.is_none_or(|permitted| permitted == place)
     }
 
     /// The station id that a sender with this ticket goes by.
@@ -62,17 +81,24 @@ impl Permits {
     }
 }
 
-/// What was in an envelope.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Opened<'a> {
-    /// Common header, extended header, BTP and message.
-    pub plain: &'a [u8],
-    /// The ITS-AID under which it was sent.
-    pub its_aid: u32,
+/// What is vouched for of a packet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Opened {
     /// Who vouches for it.
     pub signer: Signer,
     /// What it may say.
     pub permits: Permits,
+}
+
+/// A packet for this station, taken apart. Nothing is said of whether it can be relied on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Admitted<'a> {
+    /// Its headers.
+    pub headers: Headers,
+    /// Which service it is for.
+    pub service: Service,
+    /// The message in it.
+    pub message: &'a [u8],
 }
 
 #[cfg(test)]
@@ -85,5 +111,14 @@ mod tests {
         let allowed: Vec<_> = (0..32).filter(|bit| permits.allows(*bit)).collect();
         assert_eq!(allowed, [0, 1, 15]);
         assert!((0..32).all(|bit| Permits::EVERYTHING.allows(bit)));
+    }
+
+    #[test]
+    fn a_place_is_that_place_and_not_an_unknown_one() {
+        let permits = Permits::of_bits(0xc000).only_at(Some(Place(7)));
+        assert!(permits.allows_at(Place(7)));
+        assert!(!permits.allows_at(Place(8)));
+        assert!(!permits.allows_at(Place::UNKNOWN));
+        assert!(Permits::EVERYTHING.allows_at(Place::UNKNOWN));
     }
 }

@@ -1,10 +1,16 @@
 //! Packets that are signed and verified.
 
-use super::{EgoPosition, LongPositionVector, Opened, Permits, Signer};
+use std::collections::BTreeSet;
+
+use super::{
+    Admitted, Discarded, EgoPosition, EnvelopeError, LongPositionVector, Opened, Permits, Signer,
+};
 use crate::part::{Part, SSP_VERSION};
 use crate::security::{
-    Certificate, HashedId8, Place, Rejected, SignedMessage, Ssp, Station, Time64, Unsigned,
+    Certificate, HashedId8, Origin, Place, Rejected, SignedMessage, Ssp, Station, Time64, Unsigned,
+    Verified,
 };
+use crate::service::Service;
 use crossguard_protocol::StationId;
 
 /// What is demanded of the packets of others.
@@ -36,11 +42,26 @@ impl Secured {
         &self.station
     }
 
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.station.set_revoked(revoked);
+    }
+
     /// The station id that goes with the ticket in use, in messages under this ITS-AID.
     #[must_use]
     pub fn station_id(&self, its_aid: u32) -> StationId {
         let certificate = self.station.ticket().certificate();
         station_of(certificate, its_aid).unwrap_or_else(|| Signer(certificate.id().0).station())
+    }
+
+    /// Takes up the time from before a restart, in microseconds since 2004.
+    pub fn remember_time(&mut self, known: Time64) {
+        self.station.remember_time(known);
+    }
+
+    /// Looks at the clock, when one that never leaps shows `steady_ms`.
+    pub fn look_at_clock(&mut self, ego: &EgoPosition, steady_ms: u64) {
+        self.station.look_at_clock(now(ego), steady_ms);
     }
 
     /// Changes the pseudonym if that `is_due`, or if its ticket is over within this many milliseconds, to
@@ -71,25 +92,46 @@ impl Secured {
         self.station.seal(now(ego), its_aid, plain)
     }
 
-    /// `source` tells where the sender of a packet is, from its headers, which are signed.
+    /// Opens an envelope. `admit` looks at the headers in it and the ITS-AID under which they were sent, and says what
+    /// they are before the signature is: whatever it refuses costs no signature.
     pub(super) fn open<'a>(
         &mut self,
         ego: &EgoPosition,
         secured: &'a [u8],
-        source: impl FnOnce(&[u8]) -> Option<LongPositionVector>,
-    ) -> Result<Opened<'a>, Rejected> {
-        let message = SignedMessage::decode(secured)?;
-        let place = source(message.payload).map(|source| Place {
-            latitude: source.latitude,
-            longitude: source.longitude,
-        });
-        let verified = self.station.verify(now(ego), place, &message)?;
-        Ok(Opened {
-            plain: message.payload,
-            its_aid: message.header.its_aid,
+        admit: impl FnOnce(&'a [u8], u32) -> Result<Admitted<'a>, Discarded>,
+    ) -> Result<(Admitted<'a>, Opened), Discarded> {
+        let message = SignedMessage::decode(secured).map_err(EnvelopeError::from)?;
+        let admitted = admit(message.payload, message.header.its_aid)?;
+        let verified = self.verify(ego, &admitted, &message);
+        let verified = verified.map_err(|rejected| match rejected {
+            Rejected::OwnTicket => Discarded::OwnPacket,
+            rejected => EnvelopeError::from(rejected).into(),
+        })?;
+        let opened = Opened {
             signer: Signer(verified.signer.0),
             permits: permits(&verified.ssp),
-        })
+        };
+        Ok((admitted, opened))
+    }
+
+    fn verify(
+        &mut self,
+        ego: &EgoPosition,
+        admitted: &Admitted<'_>,
+        message: &SignedMessage<'_>,
+    ) -> Result<Verified, Rejected> {
+        if matches!(admitted.service, Service::Ram | Service::Rmcm) {
+            message.header.check_robot_profile()?;
+        }
+        let origin = origin(&admitted.headers.source);
+        let here = ego.coordinates.map(|(latitude, longitude)| Place {
+            latitude,
+            longitude,
+        });
+        self.station
+            .verifier()
+            .check_origin(here, &origin, message)?;
+        self.station.verify(now(ego), origin.place, message)
     }
 
     pub(super) const fn admit_plain(&self) -> Result<(), Rejected> {
@@ -109,13 +151,30 @@ pub fn station_of(ticket: &Certificate, its_aid: u32) -> Option<StationId> {
     Some(permits(&permission.ssp).station(Signer(ticket.id().0)))
 }
 
+/// Where and when a packet says that it was sent. A station that does not know where it is says 0, 0, and that this is
+/// not accurate.
+#[must_use]
+pub fn origin(source: &LongPositionVector) -> Origin {
+    let place = Place {
+        latitude: source.latitude,
+        longitude: source.longitude,
+    };
+    let is_unknown = (place.latitude, place.longitude, source.is_accurate) == (0, 0, false);
+    Origin {
+        place: (!is_unknown).then_some(place),
+        timestamp: source.timestamp,
+    }
+}
+
 /// What service specific permissions of the kit say.
 fn permits(ssp: &Ssp) -> Permits {
-    let named = match ssp {
-        Ssp::Bitmap(octets) => Part::named_in(octets),
-        Ssp::Default | Ssp::Opaque(_) => None,
+    let (named, place) = match ssp {
+        Ssp::Bitmap(octets) => (Part::named_in(octets), Part::place_in(octets)),
+        Ssp::Default | Ssp::Opaque(_) => (None, None),
     };
-    Permits::of_bits(ssp.bits(SSP_VERSION)).only_as(named)
+    Permits::of_bits(ssp.bits(SSP_VERSION))
+        .only_as(named)
+        .only_at(place)
 }
 
 const fn now(ego: &EgoPosition) -> Time64 {

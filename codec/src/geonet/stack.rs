@@ -2,16 +2,16 @@
 //!
 //! ```text
 //!   message, port, ego position ──► headers ──► envelope ──► packet
-//!   packet ──► basic header ──► envelope ──► headers ──► area ──► duplicates ──► message, source
-//!                   └────────────┴─────────────┴──────────┴─────────┴──► Discarded
+//!   packet ──► basic header ──► headers ──► service ──► area ──► signature ──► duplicates ──► message, source
+//!                   └────────────┴────────────┴──────────┴──────────┴─────────────┴──► Discarded
 //! ```
 
 use crossguard_protocol::StationId;
 
 use super::{
-    Address, BASIC_LEN, BasicHeader, Destination, Duplicates, EgoPosition, Envelope, EnvelopeError,
-    GeonetError, HEADERS_LEN_MAX, Headers, LongPositionVector, NextHeader, PACKET_LEN_MAX, Permits,
-    Request, Signer, Transport,
+    Address, Admitted, BASIC_LEN, BasicHeader, Destination, Discarded, Duplicates, EgoPosition,
+    Envelope, EnvelopeError, GeonetError, HEADERS_LEN_MAX, Headers, LongPositionVector, NextHeader,
+    PACKET_LEN_MAX, Permits, Request, Signer, Transport,
 };
 use crate::identifiers::Identifiers;
 use crate::service::Service;
@@ -41,66 +41,6 @@ impl Indication<'_> {
     pub fn vouched_for(&self) -> Option<StationId> {
         let signer = self.signer?;
         Some(self.permits.station(signer))
-    }
-}
-
-/// Why a packet was discarded.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum Discarded {
-    /// It is longer than any.
-    #[error("{length} octets are too many for a packet, the limit is {PACKET_LEN_MAX}")]
-    TooLong {
-        /// How many octets there are.
-        length: usize,
-    },
-    /// Its headers are wrong, or not supported.
-    #[error("{0}")]
-    Headers(#[from] GeonetError),
-    /// Its security envelope is not to be relied on.
-    #[error("{0}")]
-    Envelope(#[from] EnvelopeError),
-    /// The own station sent it.
-    #[error("a packet of the own station")]
-    OwnPacket,
-    /// There is no service at its port.
-    #[error("no service is at port {0}")]
-    UnknownPort(u16),
-    /// It was sent under another permission than the service at its port needs.
-    #[error("a packet for port {port} was sent with the permission {its_aid}")]
-    WrongPermission {
-        /// Its port.
-        port: u16,
-        /// The ITS-AID in its envelope.
-        its_aid: u32,
-    },
-    /// The own station is not in its destination area, or does not know where it is.
-    #[error("its destination area is elsewhere")]
-    Elsewhere,
-    /// It has been received before.
-    #[error("packet {sequence_number} of its source has been received before")]
-    Duplicate {
-        /// Its number.
-        sequence_number: u16,
-    },
-}
-
-impl Discarded {
-    /// The name of the cause, for counters.
-    #[must_use]
-    pub const fn cause(self) -> &'static str {
-        match self {
-            Self::TooLong { .. } => "too long",
-            Self::Headers(GeonetError::Truncated { .. }) => "truncated",
-            Self::Headers(GeonetError::PayloadLength { .. }) => "payload length",
-            Self::Headers(_) => "not supported",
-            Self::Envelope(error) => error.cause(),
-            Self::OwnPacket => "own packet",
-            Self::UnknownPort(_) => "unknown port",
-            Self::WrongPermission { .. } => "wrong permission for port",
-            Self::Elsewhere => "destination area elsewhere",
-            Self::Duplicate { .. } => "duplicate",
-        }
     }
 }
 
@@ -273,71 +213,93 @@ impl Stack {
             return Err(Discarded::TooLong { length });
         }
         let (basic, rest) = BasicHeader::decode(packet)?;
-        let (plain, permission) = match basic.next {
+        let (own, identifiers) = (self.address, self.identifiers);
+        let take_apart = |plain, its_aid| -> Result<Admitted<'a>, Discarded> {
+            let (headers, message) = Headers::decode_behind(basic, plain)?;
+            let service = admit(&identifiers, own, &headers, its_aid)?;
+            check_area(ego, &headers)?;
+            Ok(Admitted {
+                headers,
+                service,
+                message,
+            })
+        };
+        let (admitted, opened) = match basic.next {
             NextHeader::Common => {
                 self.envelope.admit_plain()?;
-                (rest, None)
+                (take_apart(rest, None)?, None)
             }
             NextHeader::Secured => {
-                let opened = self.envelope.open(ego, basic, rest);
-                let opened = opened.map_err(|error| match error {
-                    error if error.is_own_ticket() => Discarded::OwnPacket,
-                    error => error.into(),
-                })?;
-                let permission = (opened.its_aid, opened.signer, opened.permits);
-                (opened.plain, Some(permission))
+                let take_apart = |plain, its_aid| take_apart(plain, Some(its_aid));
+                let (admitted, opened) = self.envelope.open(ego, rest, take_apart)?;
+                (admitted, Some(opened))
             }
         };
-        let (headers, message) = Headers::decode_behind(basic, plain)?;
-        let service = self.admit(ego, &headers, permission.map(|(its_aid, ..)| its_aid))?;
+        let Admitted {
+            headers,
+            service,
+            message,
+        } = admitted;
+        // Remembered last: what nobody vouches for must not stand in the way of the packet with this number.
+        self.check_duplicate(ego, &headers)?;
         Ok(Indication {
             service,
             message,
             source: headers.source,
             headers,
-            signer: permission.map(|(_, signer, _)| signer),
-            permits: permission.map_or(Permits::EVERYTHING, |(.., permits)| permits),
+            signer: opened.map(|opened| opened.signer),
+            permits: opened.map_or(Permits::EVERYTHING, |opened| opened.permits),
         })
     }
 
-    /// The service that a packet is for, if it is for this station and new.
-    fn admit(
-        &mut self,
-        ego: &EgoPosition,
-        headers: &Headers,
-        its_aid: Option<u32>,
-    ) -> Result<Service, Discarded> {
-        let Headers { source, port, .. } = *headers;
-        if source.address == self.address {
-            return Err(Discarded::OwnPacket);
-        }
-        let service = Service::at_port(&self.identifiers, port);
-        let service = service.ok_or(Discarded::UnknownPort(port))?;
-        if let Some(its_aid) = its_aid
-            && its_aid != service.its_aid(&self.identifiers)
-        {
-            return Err(Discarded::WrongPermission { port, its_aid });
-        }
-        if let Transport::GeoBroadcast {
-            sequence_number,
-            area,
+    /// Whether a packet is new, as far as its kind has numbers.
+    fn check_duplicate(&mut self, ego: &EgoPosition, headers: &Headers) -> Result<(), Discarded> {
+        let Transport::GeoBroadcast {
+            sequence_number, ..
         } = headers.transport
-        {
-            let is_here = ego
-                .coordinates
-                .is_some_and(|(latitude, longitude)| area.contains(latitude, longitude));
-            if !is_here {
-                return Err(Discarded::Elsewhere);
-            }
-            let now_ms = ego.timestamp_its;
-            if self
-                .duplicates
-                .check(source.address, sequence_number, now_ms)
-            {
-                return Err(Discarded::Duplicate { sequence_number });
-            }
+        else {
+            return Ok(());
+        };
+        let (address, now_ms) = (headers.source.address, ego.timestamp_its);
+        if self.duplicates.check(address, sequence_number, now_ms) {
+            return Err(Discarded::Duplicate { sequence_number });
         }
-        Ok(service)
+        Ok(())
+    }
+}
+
+/// The service that a packet is for, if it is for the station with this address.
+fn admit(
+    identifiers: &Identifiers,
+    own: Address,
+    headers: &Headers,
+    its_aid: Option<u32>,
+) -> Result<Service, Discarded> {
+    let Headers { source, port, .. } = *headers;
+    if source.address == own {
+        return Err(Discarded::OwnPacket);
+    }
+    let service = Service::at_port(identifiers, port).ok_or(Discarded::UnknownPort(port))?;
+    match its_aid {
+        Some(its_aid) if its_aid != service.its_aid(identifiers) => {
+            Err(Discarded::WrongPermission { port, its_aid })
+        }
+        _ => Ok(service),
+    }
+}
+
+/// Whether the own station is where a packet is for.
+fn check_area(ego: &EgoPosition, headers: &Headers) -> Result<(), Discarded> {
+    let Transport::GeoBroadcast { area, .. } = headers.transport else {
+        return Ok(());
+    };
+    let is_here = ego
+        .coordinates
+        .is_some_and(|(latitude, longitude)| area.contains(latitude, longitude));
+    if is_here {
+        Ok(())
+    } else {
+        Err(Discarded::Elsewhere)
     }
 }
 

@@ -11,6 +11,8 @@ use super::time::Time64;
 
 /// How many tickets are remembered.
 pub const TICKETS_MAX: usize = 256;
+/// How long somebody is silent before its place may be given to somebody else; longer than any lease.
+const SILENCE_US: u64 = 10_000_000;
 /// How many messages are remembered of each; a robot sends fewer in the 2 s that a message is fresh.
 pub const MESSAGES_MAX: usize = 128;
 
@@ -34,6 +36,14 @@ struct Known {
     used: u64,
 }
 
+impl Known {
+    /// When the newest message was generated that may have been heard.
+    fn newest(&self) -> Time64 {
+        let newest = self.heard.iter().map(|(generated, _)| *generated).max();
+        newest.unwrap_or_default().max(self.forgotten)
+    }
+}
+
 /// The first octets of a digest. A station that could find two messages with the same could only
 /// have its own second one ignored.
 fn short(digest: &Digest) -> [u8; 8] {
@@ -51,7 +61,8 @@ impl Cache {
         self.tickets.len()
     }
 
-    /// Whether a message may have been heard already.
+    /// Whether a message may have been heard already, or there is no place for its ticket: nobody who is heard is
+    /// forgotten for somebody new.
     pub(super) fn check(
         &self,
         id: HashedId8,
@@ -63,6 +74,7 @@ impl Cache {
                 let message = (generated, short(digest));
                 (known.forgotten, known.heard.contains(&message))
             }
+            None if self.is_full_at(generated) => return Err(Rejected::TooManyStations),
             None => (self.forgotten, false),
         };
         if is_known || generated <= forgotten {
@@ -92,7 +104,15 @@ impl Cache {
             used: 0,
         });
         known.used = self.clock;
-        known.heard.retain(|(generated, _)| *generated >= fresh);
+        // A clock that is put back makes old messages fresh again: that something was forgotten is remembered.
+        let forgotten = &mut known.forgotten;
+        known.heard.retain(|(generated, _)| {
+            let is_fresh = *generated >= fresh;
+            if !is_fresh {
+                *forgotten = (*forgotten).max(*generated);
+            }
+            is_fresh
+        });
         if known.heard.len() == MESSAGES_MAX
             && let Some((dropped, _)) = known.heard.pop_front()
         {
@@ -101,15 +121,58 @@ impl Cache {
         known.heard.push_back((generated, short(digest)));
     }
 
+    /// Whether everybody who is remembered was heard lately, at a time that has just been.
+    fn is_full_at(&self, now: Time64) -> bool {
+        let is_heard = |known: &Known| now.0.saturating_sub(known.newest().0) < SILENCE_US;
+        self.tickets.len() == TICKETS_MAX && self.tickets.values().all(is_heard)
+    }
+
     fn forget_oldest(&mut self) {
         let oldest = self.tickets.iter().min_by_key(|(_, known)| known.used);
         let Some(id) = oldest.map(|(id, _)| *id) else {
             return;
         };
         if let Some(known) = self.tickets.remove(&id) {
-            let newest = known.heard.iter().map(|(generated, _)| *generated).max();
-            let newest = newest.unwrap_or_default().max(known.forgotten);
-            self.forgotten = self.forgotten.max(newest);
+            self.forgotten = self.forgotten.max(known.newest());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::security::issue::{self, Terms};
+    use crate::security::{Duration, Issuer, Permission, PrivateKey, Ssp, Validity};
+
+    use super::*;
+
+    #[test]
+    fn what_was_forgotten_is_not_new_when_the_clock_is_put_back() {
+        let terms = Terms {
+            name: None,
+            validity: Validity {
+                start: 0,
+                duration: Duration::years(1),
+            },
+            region: None,
+            permissions: vec![Permission {
+                its_aid: 16_480,
+                ssp: Ssp::Default,
+            }],
+            issue_permissions: Vec::new(),
+        };
+        let key = PrivateKey::of_octets(&[1; 32]).unwrap();
+        let issued = issue::certificate(Issuer::Itself, &[], &key, key.public_key(), &terms);
+        let ticket = issued.unwrap();
+        let mut cache = Cache::default();
+        let digest = |number| [number; 32];
+        let fresh = |now_us: u64| Time64(now_us.saturating_sub(2_000_000));
+        cache.remember(&ticket, Time64(1_000_000), &digest(1), fresh(1_000_000));
+        cache.remember(&ticket, Time64(5_000_000), &digest(2), fresh(5_000_000));
+        for (generated, number) in [(1_000_000, 1), (900_000, 3), (5_000_000, 2)] {
+            let again = cache.check(ticket.id(), Time64(generated), &digest(number));
+            assert_eq!(again, Err(Rejected::Replayed), "{generated}");
+        }
+        let new = cache.check(ticket.id(), Time64(1_000_001), &digest(4));
+        assert_eq!(new, Ok(()));
     }
 }

@@ -1,7 +1,10 @@
 //! Certificates (IEEE 1609.2, clause 6.4; TS 103 097, clauses 6 and 7.2).
 
+use std::sync::OnceLock;
+
 use super::coer::OerReader;
-use super::crypto::{self, Digest, PublicKey, Signature};
+
+use super::crypto::{self, Digest, PublicKey, Signature, Verifying};
 use super::hashed_id::HashedId8;
 use super::permissions::{IssuePermission, Permission, Ssp, SspRange, Subjects};
 use super::region::{Place, Region};
@@ -30,7 +33,21 @@ pub struct Certificate {
     to_be_signed: Digest,
     signature: Signature,
     content: Content,
+    point: Point,
 }
+
+/// The point of a certificate's key, once it was needed; `None` in it, if there is no such point on the curve.
+#[derive(Clone, Debug, Default)]
+struct Point(OnceLock<Option<Verifying>>);
+
+impl PartialEq for Point {
+    /// It follows from the key.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Point {}
 
 /// What a certificate says.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -85,6 +102,7 @@ impl Certificate {
             octets: octets.into(),
             signature,
             content,
+            point: Point::default(),
         })
     }
 
@@ -102,22 +120,28 @@ impl Certificate {
 
     /// What it is called.
     #[must_use]
-    pub fn id(&self) -> HashedId8 {
-        let mut id = [0; 8];
-        id.copy_from_slice(&self.digest[24..]);
-        HashedId8(id)
+    pub const fn id(&self) -> HashedId8 {
+        HashedId8::of(&self.digest)
     }
 
     pub(super) const fn digest(&self) -> &Digest {
         &self.digest
     }
 
+    /// The point that signatures of its holder are verified with; `None`, if its key is on no curve.
+    pub(super) fn point(&self) -> Option<&Verifying> {
+        let point = self
+            .point
+            .0
+            .get_or_init(|| Verifying::of(&self.content.key));
+        point.as_ref()
+    }
+
     /// Whether `issuer` signed it, or it itself.
     pub(super) fn is_signed_by(&self, issuer: Option<&Self>) -> bool {
-        let key = issuer.map_or(&self.content.key, |issuer| &issuer.content.key);
         let above = issuer.map_or_else(|| crypto::sha256(&[]), |issuer| issuer.digest);
-        let digest = crypto::sha256(&[self.to_be_signed, above].concat());
-        key.verifies(&digest, &self.signature)
+        let point = issuer.unwrap_or(self).point();
+        point.is_some_and(|point| point.verifies(&self.to_be_signed, &above, &self.signature))
     }
 }
 
@@ -160,6 +184,9 @@ impl Content {
                 "a certificate's request permissions",
             ));
         }
+        if has(present::ADDITIONS) {
+            return Err(Rejected::CertificateExtension);
+        }
         let name = read_name(reader)?;
         reader.expect_zeros(5, "cracaId, crlSeries")?;
         let validity = read_validity(reader)?;
@@ -174,9 +201,6 @@ impl Content {
             skip_encryption_key(reader)?;
         }
         let key = read_verification_key(reader)?;
-        if has(present::ADDITIONS) {
-            reader.additions::<0>("toBeSigned")?;
-        }
         Ok(Self {
             issuer,
             name,
@@ -248,22 +272,29 @@ fn read_validity(reader: &mut OerReader) -> Result<Validity, Malformed> {
     Ok(Validity { start, duration })
 }
 
-fn read_place(reader: &mut OerReader) -> Result<Place, Malformed> {
-    Ok(Place {
-        latitude: reader.i32("latitude")?,
-        longitude: reader.i32("longitude")?,
-    })
+/// A place on earth.
+pub(super) fn read_place(reader: &mut OerReader, field: &'static str) -> Result<Place, Rejected> {
+    let place = Place {
+        latitude: reader.i32(field)?,
+        longitude: reader.i32(field)?,
+    };
+    if place.is_on_earth() {
+        Ok(place)
+    } else {
+        Err(Rejected::NotOnEarth(field))
+    }
 }
 
 fn read_region(reader: &mut OerReader) -> Result<Region, Rejected> {
     let field = "region";
     match reader.octet(field)? {
         0x80 => Ok(Region::Circle {
-            centre: read_place(reader)?,
+            centre: read_place(reader, field)?,
             radius: reader.u16(field)?,
         }),
         0x81 => {
-            let corners = |reader: &mut OerReader| Ok((read_place(reader)?, read_place(reader)?));
+            let corner = |reader: &mut OerReader| read_place(reader, field);
+            let corners = |reader: &mut OerReader| Ok((corner(reader)?, corner(reader)?));
             Ok(Region::Rectangles(list(true, reader, corners)?))
         }
         0x82 | 0x83 => Err(Rejected::Unsupported("a region but circles and rectangles")),
@@ -297,6 +328,9 @@ fn read_permission(reader: &mut OerReader) -> Result<Permission, Rejected> {
     Ok(Permission { its_aid, ssp })
 }
 
+/// `app` of `EndEntityType`, which alone is the default.
+const APPLICATIONS: u8 = 0x80;
+
 fn read_issue_permission(reader: &mut OerReader) -> Result<IssuePermission, Rejected> {
     let field = "certIssuePermissions";
     let given = preamble(reader, 0xe0, field)?;
@@ -310,13 +344,19 @@ fn read_issue_permission(reader: &mut OerReader) -> Result<IssuePermission, Reje
         let value = is_given.then(|| reader.small_integer("chainLength"));
         let value = value.transpose()?;
         if value == Some(default) {
-            // A default that is spelled out.
-            return Err(Malformed::NotCanonical { field });
+            return Err(Malformed::ExplicitDefault { field });
         }
         Ok(value.unwrap_or(default))
     };
     let (min_chain_length, chain_length_range) = (integer(0x80, 1)?, integer(0x40, 0)?);
-    let for_applications = given & 0x20 == 0 || reader.octet("eeType")? & 0x80 != 0;
+    let for_applications = match (given & 0x20 != 0).then(|| reader.octet("eeType")) {
+        None => true,
+        Some(types) => match types? {
+            APPLICATIONS => return Err(Malformed::ExplicitDefault { field: "eeType" }.into()),
+            0 => return Err(Malformed::NotCanonical { field: "eeType" }.into()),
+            types => types & APPLICATIONS != 0,
+        },
+    };
     Ok(IssuePermission {
         subjects,
         min_chain_length,

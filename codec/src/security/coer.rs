@@ -135,6 +135,10 @@ impl<'a> OerReader<'a> {
             [unused, bits @ ..] if *unused < 8 && (1..=8).contains(&bits.len()) => (*unused, bits),
             _ => return Err(Malformed::Value { field, found: 0 }),
         };
+        if bits.iter().all(|octet| *octet == 0) {
+            // None is present: then there is no bitmap either.
+            return Err(Malformed::NotCanonical { field });
+        }
         let count = bits.len() * 8 - usize::from(unused);
         let mut additions = [None; N];
         for at in 0..bits.len() * 8 {

@@ -6,7 +6,7 @@
 //!           └── what is signed: tbsData ───────┘ digest, or certificate
 //! ```
 
-use super::certificate::{Certificate, consumed};
+use super::certificate::{Certificate, consumed, read_place};
 use super::coer::{self, OerReader};
 use super::crypto::{self, Digest, Signature};
 use super::hashed_id::{HashedId3, HashedId8};
@@ -126,9 +126,18 @@ impl<'a> SignedMessage<'a> {
             CAM if header.generation_location.is_some() => "generationLocation",
             DENM if header.generation_location.is_none() => "no generationLocation",
             DENM if matches!(self.signer, SignerIdentifier::Digest(_)) => "a digest as signer",
-            _ => return Ok(()),
+            _ => return self.check_expiry(),
         };
         Err(Rejected::AgainstProfile(against))
+    }
+
+    fn check_expiry(&self) -> Result<(), Rejected> {
+        match self.header.expiry_time {
+            Some(expiry) if expiry <= self.header.generation_time => {
+                Err(Rejected::ExpiresBeforeGenerated)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The digest of what is signed.
@@ -136,10 +145,32 @@ impl<'a> SignedMessage<'a> {
         &self.to_be_signed
     }
 
+    /// What tells this message, as it is signed, from every other one.
+    pub(super) fn fingerprint(&self) -> Digest {
+        let [signer, signature] = [&self.signer.id().0[..], &self.signature.octets()];
+        crypto::sha256(&[&self.to_be_signed, signer, signature].concat())
+    }
+
     pub(super) fn is_signed_by(&self, certificate: &Certificate) -> bool {
-        let digest = crypto::sha256(&[self.to_be_signed, *certificate.digest()].concat());
-        let key = &certificate.content().key;
-        key.verifies(&digest, &self.signature)
+        let (data, signer) = (&self.to_be_signed, certificate.digest());
+        let point = certificate.point();
+        point.is_some_and(|point| point.verifies(data, signer, &self.signature))
+    }
+}
+
+impl Header<'_> {
+    /// What the profile of RAM and RMCM wants, which is that of CAM (TS 103 097, clause 7.1.1).
+    ///
+    /// # Errors
+    /// The field that must not be there.
+    pub fn check_robot_profile(&self) -> Result<(), Rejected> {
+        if self.expiry_time.is_some() {
+            return Err(Rejected::ExpiryNotAllowed);
+        }
+        if self.generation_location.is_some() {
+            return Err(Rejected::LocationNotAllowed);
+        }
+        Ok(())
     }
 }
 
@@ -194,11 +225,14 @@ impl<'a> Header<'a> {
         let expiry_time = expiry_time.transpose()?.map(Time64);
         let location = has(present::GENERATION_LOCATION).then(|| read_location(reader));
         let generation_location = location.transpose()?;
-        let [requests, requested_certificate] = if has(present::ADDITIONS) {
+        let [requests, requested_certificate, functional_type] = if has(present::ADDITIONS) {
             reader.additions("headerInfo")?
         } else {
-            [None; 2]
+            [None; 3]
         };
+        if functional_type.is_some() {
+            return Err(Rejected::OtherProtocol);
+        }
         Ok(Self {
             its_aid,
             generation_time,
@@ -242,14 +276,10 @@ impl<'a> Header<'a> {
     }
 }
 
-fn read_location(reader: &mut OerReader) -> Result<Place, Malformed> {
-    let latitude = reader.i32("generationLocation")?;
-    let longitude = reader.i32("generationLocation")?;
+fn read_location(reader: &mut OerReader) -> Result<Place, Rejected> {
+    let place = read_place(reader, "generationLocation")?;
     reader.take(2, "elevation")?;
-    Ok(Place {
-        latitude,
-        longitude,
-    })
+    Ok(place)
 }
 
 /// The octets of the ids that are asked for.

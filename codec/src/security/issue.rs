@@ -8,10 +8,11 @@ use rasn_its::ieee1609dot2 as dot2;
 use rasn_its::ieee1609dot2::base_types as base;
 
 use super::certificate::{Certificate, Issuer};
-use super::crypto::{self, PrivateKey, PublicKey, Signature};
+use super::crypto::{self, PublicKey, Signature};
 use super::permissions::{IssuePermission, Permission, Ssp, SspRange, Subjects};
 use super::region::{Place, Region};
 use super::rejected::Rejected;
+use super::signer::{KeyFailure, SigningKey};
 use super::time::{Unit, Validity};
 use super::trust::{TrustStore, Untrusted};
 
@@ -43,13 +44,16 @@ pub enum IssueError {
     /// Nobody would trust the authority.
     #[error("nobody would trust this authority: {0}")]
     Untrusted(#[from] Untrusted),
+    /// The issuer's key could not be used.
+    #[error("{0}")]
+    Key(#[from] KeyFailure),
 }
 
 /// Issues the certificate of a root, which signs itself.
 ///
 /// # Errors
 /// Why it cannot.
-pub fn root(key: &PrivateKey, terms: &Terms) -> Result<Certificate, IssueError> {
+pub fn root(key: &dyn SigningKey, terms: &Terms) -> Result<Certificate, IssueError> {
     let root = certificate(Issuer::Itself, &[], key, key.public_key(), terms)?;
     TrustStore::default().add_root(root.clone())?;
     Ok(root)
@@ -61,7 +65,7 @@ pub fn root(key: &PrivateKey, terms: &Terms) -> Result<Certificate, IssueError> 
 /// Why `root` cannot.
 pub fn authority(
     root: &Certificate,
-    root_key: &PrivateKey,
+    root_key: &dyn SigningKey,
     holder: PublicKey,
     terms: &Terms,
 ) -> Result<Certificate, IssueError> {
@@ -79,7 +83,7 @@ pub fn authority(
 /// Why `authority` cannot.
 pub fn ticket(
     authority: &Certificate,
-    authority_key: &PrivateKey,
+    authority_key: &dyn SigningKey,
     holder: PublicKey,
     terms: &Terms,
 ) -> Result<Certificate, IssueError> {
@@ -99,14 +103,14 @@ pub fn ticket(
 pub fn certificate(
     issuer: Issuer,
     issuer_octets: &[u8],
-    issuer_key: &PrivateKey,
+    issuer_key: &dyn SigningKey,
     holder: PublicKey,
     terms: &Terms,
 ) -> Result<Certificate, IssueError> {
     let to_be_signed = to_be_signed(holder, terms)?;
     let octets = rasn::coer::encode(&to_be_signed).map_err(inexpressible)?;
     let above = (!issuer_octets.is_empty()).then(|| crypto::sha256(issuer_octets));
-    let signature = issuer_key.sign(&crypto::to_be_signed(&octets, above.as_ref()));
+    let signature = issuer_key.sign(&crypto::to_be_signed(&octets, above.as_ref()))?;
     let whole = dot2::CertificateBase {
         version: dot2::CertificateBase::VERSION,
         r#type: dot2::CertificateType::Explicit,

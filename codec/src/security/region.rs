@@ -29,6 +29,35 @@ pub enum Region {
 }
 
 impl Place {
+    /// Whether there is such a place: latitudes end at the poles, longitudes at the 180th meridian (`Latitude` and
+    /// `Longitude` of IEEE 1609.2, without their values for unknown).
+    #[must_use]
+    pub const fn is_on_earth(self) -> bool {
+        self.latitude.unsigned_abs() <= 900_000_000
+            && self.longitude.unsigned_abs() <= 1_800_000_000
+    }
+
+    /// How far away another place is, in metres along the surface of a sphere: also right for the other side of the
+    /// earth, and within 0.5 % of the ellipsoid.
+    #[must_use]
+    pub fn metres_to(self, other: Self) -> u32 {
+        const RADIUS_METRES: f64 = 6_371_000.0;
+        let radians = |tenth_microdegrees: i32| (f64::from(tenth_microdegrees) / 1e7).to_radians();
+        let (here, there) = (radians(self.latitude), radians(other.latitude));
+        let east = radians(other.longitude) - radians(self.longitude);
+        // The haversine of the angle between both.
+        let north = ((there - here) / 2.0).sin().powi(2);
+        let haversine = north + here.cos() * there.cos() * (east / 2.0).sin().powi(2);
+        let metres = 2.0 * RADIUS_METRES * haversine.clamp(0.0, 1.0).sqrt().asin();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "half the circumference at most"
+        )]
+        let metres = metres as u32;
+        metres
+    }
+
     fn position(self) -> Position {
         Position::at(
             f64::from(self.latitude) / 1e7,
@@ -75,6 +104,42 @@ mod tests {
         assert!(circle.contains(north(99)), "90 units are a metre");
         assert!(!circle.contains(north(101)));
         assert!(!circle.contains(north(-5_000)));
+    }
+
+    #[test]
+    fn the_other_side_of_the_earth_is_half_its_circumference_away() {
+        let antipode = Place {
+            latitude: -HERE.latitude,
+            longitude: HERE.longitude - 1_800_000_000,
+        };
+        assert!((20_000_000..20_030_000).contains(&HERE.metres_to(antipode)));
+        let north = Place {
+            latitude: HERE.latitude + 900_000,
+            ..HERE
+        };
+        assert!((9_990..10_020).contains(&HERE.metres_to(north)));
+        assert_eq!(HERE.metres_to(HERE), 0);
+        // Across the 180th meridian.
+        let [west, east] =
+            [-1_799_999_999, 1_799_999_999].map(|longitude| Place { longitude, ..HERE });
+        assert!(west.metres_to(east) < 2);
+    }
+
+    #[test]
+    fn latitudes_end_at_the_poles() {
+        let place = |latitude, longitude| Place {
+            latitude,
+            longitude,
+        };
+        assert!(place(900_000_000, -1_800_000_000).is_on_earth());
+        for nowhere in [
+            place(900_000_001, 0),
+            place(2_000_000_000, 0),
+            place(i32::MIN, 0),
+            place(0, 1_800_000_001),
+        ] {
+            assert!(!nowhere.is_on_earth());
+        }
     }
 
     #[test]

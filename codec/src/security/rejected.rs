@@ -1,5 +1,6 @@
 //! Why a secured packet is not relied on.
 
+use super::doubt::Doubt;
 use super::hashed_id::HashedId8;
 
 /// Octets that are not the canonical encoding of an envelope or certificate.
@@ -23,6 +24,12 @@ pub enum Malformed {
     /// A value is not in its shortest form.
     #[error("{field}: not in its canonical form")]
     NotCanonical {
+        /// In which field.
+        field: &'static str,
+    },
+    /// A default that is spelled out.
+    #[error("{field}: the default is spelled out, which it must not be in canonical form")]
+    ExplicitDefault {
         /// In which field.
         field: &'static str,
     },
@@ -66,9 +73,56 @@ pub enum Rejected {
     /// clauses 5.2 and 7.1).
     #[error("{0}: against the profile of TS 103 097")]
     AgainstProfile(&'static str),
+    /// The header names a protocol other than that of the message (`pduFunctionalType`).
+    #[error("pduFunctionalType: the header is that of another protocol")]
+    OtherProtocol,
+    /// A RAM or RMCM with an `expiryTime`: their profile is that of CAM.
+    #[error("expiryTime: not allowed in RAM and RMCM")]
+    ExpiryNotAllowed,
+    /// A RAM or RMCM with a `generationLocation`: their profile is that of CAM.
+    #[error("generationLocation: not allowed in RAM and RMCM")]
+    LocationNotAllowed,
+    /// The `expiryTime` is not after the `generationTime`.
+    #[error("expiryTime: not after generationTime")]
+    ExpiresBeforeGenerated,
+    /// A latitude or longitude that is none.
+    #[error("{0}: not a place on earth")]
+    NotOnEarth(&'static str),
+    /// A certificate has extensions, which nobody here knows and which may restrict it.
+    #[error("the certificate has extensions that are not known here")]
+    CertificateExtension,
+    /// The position vector of the packet was made at another time than its envelope.
+    #[error(
+        "the position vector of the packet is of another time than its envelope, by {by_ms} ms"
+    )]
+    OtherTime {
+        /// How much older the position vector is; negative, if it is newer.
+        by_ms: i32,
+    },
+    /// The `generationLocation` is not where the packet says that its source is.
+    #[error("generationLocation: {metres} m away from the source of the packet")]
+    LocationElsewhere {
+        /// How far away, in metres.
+        metres: u32,
+    },
+    /// The source of the packet is farther away than any radio reaches.
+    #[error("sent from {metres} m away")]
+    TooFar {
+        /// How far away, in metres.
+        metres: u32,
+    },
     /// The own station signed it, under this or an earlier pseudonym.
     #[error("signed with an own ticket")]
     OwnTicket,
+    /// The own clock was put back or ahead: what is verified by it may have been heard before.
+    #[error("the own clock is {0}, and is not trusted")]
+    TimeNotTrusted(Doubt),
+    /// Generated before this station started, which may have heard it before.
+    #[error("generated before this station started, which may have heard it before")]
+    BeforeStart,
+    /// Signed with a certificate that is revoked, or below one.
+    #[error("certificate {0} is revoked")]
+    Revoked(HashedId8),
     /// Generated too long ago.
     #[error("generated {age_us} us ago")]
     TooOld {
@@ -111,9 +165,18 @@ pub enum Rejected {
     /// The sender is outside of the region of its certificate, or does not say where it is.
     #[error("the sender is outside of the region of its certificate")]
     OutsideRegion,
+    /// As many stations are heard as can be remembered, and nobody who is heard is forgotten for somebody new.
+    #[error("so many stations are heard that no more can be remembered")]
+    TooManyStations,
     /// It was received before, or cannot be told from one that was.
     #[error("received before")]
     Replayed,
+    /// The same certificate or message was refused before for its signature.
+    #[error("refused before, for a wrong signature")]
+    RefusedBefore,
+    /// More strangers than are listened to in this time: the certificate would have to be verified first.
+    #[error("too many certificates are new")]
+    TooManyNew,
     /// The signature of a certificate is wrong.
     #[error("the signature of certificate {0} is wrong")]
     CertificateSignature(HashedId8),
@@ -128,11 +191,24 @@ impl Rejected {
     pub const fn cause(&self) -> &'static str {
         match self {
             Self::Unsecured => "not secured",
+            Self::Malformed(Malformed::ExplicitDefault { .. }) => "explicit default",
             Self::Malformed(_) => "malformed envelope",
             Self::NotSigned => "not signed",
             Self::Unsupported(_) => "unsupported",
             Self::AgainstProfile(_) => "against profile",
+            Self::OtherProtocol => "functional type of another protocol",
+            Self::ExpiryNotAllowed => "expiry not allowed",
+            Self::LocationNotAllowed => "generation location not allowed",
+            Self::ExpiresBeforeGenerated => "expiry before generation",
+            Self::NotOnEarth(_) => "place not on earth",
+            Self::CertificateExtension => "certificate extension",
+            Self::OtherTime { .. } => "position vector of another time",
+            Self::LocationElsewhere { .. } => "generation location elsewhere",
+            Self::TooFar { .. } => "too far away",
             Self::OwnTicket => "own ticket",
+            Self::TimeNotTrusted(_) => "time not trusted",
+            Self::BeforeStart => "before the start",
+            Self::Revoked(_) => "revoked",
             Self::TooOld { .. } => "too old",
             Self::FromTheFuture { .. } => "from the future",
             Self::MessageExpired => "message expired",
@@ -145,7 +221,10 @@ impl Rejected {
             Self::IssuerNotPermitted(_) => "issuer not permitted",
             Self::NotPermitted(_) => "not permitted",
             Self::OutsideRegion => "outside region",
+            Self::TooManyStations => "too many stations",
             Self::Replayed => "replayed",
+            Self::RefusedBefore => "refused before",
+            Self::TooManyNew => "too many new certificates",
             Self::CertificateSignature(_) => "wrong certificate signature",
             Self::Signature => "wrong signature",
         }

@@ -1,7 +1,10 @@
-//! Signing messages under a pseudonym.
+//! Signing messages under a pseudonym, by a key that lies in memory or elsewhere.
+
+use std::fmt;
+use std::sync::Arc;
 
 use super::certificate::Certificate;
-use super::crypto::{self, PrivateKey};
+use super::crypto::{self, PrivateKey, PublicKey, Signature};
 use super::envelope::{self, Header};
 use super::hashed_id::{HashedId3, HashedId8};
 use super::time::Time64;
@@ -9,11 +12,42 @@ use super::time::Time64;
 /// How long the certificate may be left out: a second (TS 103 097, clause 7.1.1).
 const CERTIFICATE_INTERVAL_US: u64 = 1_000_000;
 
+/// A private key of NIST P-256 that signs, wherever it lies: a [`PrivateKey`] is in memory, another one stays in a
+/// token or a hardware security module, which signs with it.
+///
+/// A robot signs in its own loop, some ten messages a second: a key that takes longer than a few
+/// milliseconds delays what the robot does next.
+pub trait SigningKey: fmt::Debug + Send + Sync {
+    /// The public key that goes with the private one.
+    fn public_key(&self) -> PublicKey;
+
+    /// Signs a SHA-256 digest by ECDSA.
+    ///
+    /// # Errors
+    /// Why it could not.
+    fn sign(&self, digest: &[u8; 32]) -> Result<Signature, KeyFailure>;
+}
+
+/// Why a key did not sign: in a few words, for example that its token was removed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("the key did not sign: {0}")]
+pub struct KeyFailure(pub &'static str);
+
+impl SigningKey for PrivateKey {
+    fn public_key(&self) -> PublicKey {
+        Self::public_key(self)
+    }
+
+    fn sign(&self, digest: &[u8; 32]) -> Result<Signature, KeyFailure> {
+        Ok(Self::sign(self, digest))
+    }
+}
+
 /// A pseudonym: an authorization ticket and its key.
 #[derive(Clone, Debug)]
 pub struct Ticket {
     certificate: Certificate,
-    key: PrivateKey,
+    key: Arc<dyn SigningKey>,
 }
 
 /// Why there is no pseudonym, or a message cannot be signed.
@@ -35,6 +69,9 @@ pub enum Unsigned {
     /// The ticket does not permit such messages.
     #[error("the ticket does not permit ITS-AID {0}")]
     NotPermitted(u32),
+    /// The key lies elsewhere, and could not be used.
+    #[error("{0}")]
+    Key(#[from] KeyFailure),
 }
 
 impl Ticket {
@@ -42,13 +79,14 @@ impl Ticket {
     ///
     /// # Errors
     /// When the certificate is no ticket, or the key another one's.
-    pub fn new(certificate: Certificate, key: PrivateKey) -> Result<Self, Unsigned> {
+    pub fn new(certificate: Certificate, key: impl SigningKey + 'static) -> Result<Self, Unsigned> {
         if !certificate.content().is_ticket() {
             return Err(Unsigned::NotATicket(certificate.id()));
         }
         if certificate.content().key != key.public_key() {
             return Err(Unsigned::OtherKey(certificate.id()));
         }
+        let key = Arc::new(key);
         Ok(Self { certificate, key })
     }
 
@@ -173,7 +211,7 @@ impl Sealer {
             Some(ticket.certificate.digest()),
         );
         envelope::put_signer(&ticket.certificate, in_full, &mut octets);
-        octets.extend(ticket.key.sign(&digest).octets());
+        octets.extend(ticket.key.sign(&digest)?.octets());
         self.newest = generated;
         if in_full {
             self.certificate_sent = Some(now);

@@ -1,5 +1,7 @@
 //! One station's security: its pseudonyms, and the authorities that it trusts.
 
+use std::collections::BTreeSet;
+
 use super::envelope::SignedMessage;
 use super::hashed_id::HashedId8;
 use super::region::Place;
@@ -33,7 +35,7 @@ impl Station {
         let sealer = Sealer::new(tickets, now)?;
         let own = sealer.ids().collect();
         Ok(Self {
-            verifier: Verifier::new(trust, tolerances, own),
+            verifier: Verifier::new(trust, tolerances, own).starting(now),
             sealer,
         })
     }
@@ -54,6 +56,23 @@ impl Station {
     #[must_use]
     pub const fn verifier(&self) -> &Verifier {
         &self.verifier
+    }
+
+    /// Takes up the time from before a restart: the newest that was known to have been.
+    pub fn remember_time(&mut self, known: Time64) {
+        let time = self.verifier.time_mut();
+        *time = time.since(known);
+    }
+
+    /// Looks at the clock, which shows `now`, when a clock that never leaps shows `steady_ms`. Also while nobody is heard,
+    /// it is known then whether it leaps.
+    pub fn look_at_clock(&mut self, now: Time64, steady_ms: u64) {
+        self.verifier.time_mut().look(now, steady_ms);
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.verifier.set_revoked(revoked);
     }
 
     /// Puts a payload into an envelope, under the permission `its_aid`.

@@ -1,4 +1,6 @@
-//! What a station trusts: roots, and the authorities that they vouch for.
+//! What a station trusts: roots, the authorities that they vouch for, and what of that is revoked.
+
+use std::collections::BTreeSet;
 
 use super::certificate::{Certificate, Issuer};
 use super::hashed_id::{HashedId3, HashedId8};
@@ -9,17 +11,20 @@ use super::time::Time64;
 
 /// How many roots a station trusts at most.
 pub const ROOTS_MAX: usize = 16;
-/// How many authorities it knows at most.
+/// How many authorities it knows at most by configuration, and as many more by messages.
 pub const AUTHORITIES_MAX: usize = 64;
 
 /// Roots that are trusted because they were configured, and authorities below them.
 ///
-/// There are no trust lists (CTL) and no revocation lists (CRL): what is in here is trusted as long as
-/// it is valid.
+/// There are no trust lists (CTL) and revocation lists (CRL) of TS 102 941: what is in here is trusted as long as it
+/// is valid, and not among the [revoked](Self::set_revoked) ones.
 #[derive(Clone, Debug, Default)]
 pub struct TrustStore {
     roots: Vec<Certificate>,
     authorities: Vec<Certificate>,
+    /// Authorities that messages told of. They go when they are over.
+    learned: Vec<Certificate>,
+    revoked: BTreeSet<HashedId8>,
 }
 
 /// Why a certificate cannot be added to a [`TrustStore`].
@@ -64,11 +69,53 @@ impl TrustStore {
     /// # Errors
     /// Why it cannot be trusted.
     pub fn add_authority(&mut self, authority: Certificate) -> Result<(), Untrusted> {
+        self.check_authority(&authority)?;
+        add(&mut self.authorities, authority, AUTHORITIES_MAX)
+    }
+
+    /// Knows an authority that a message told of at `now`, until it is over, if a trusted root vouches for it.
+    /// Authorities that are over make room.
+    pub(super) fn learn_authority(
+        &mut self,
+        authority: Certificate,
+        now: Time64,
+    ) -> Result<(), Untrusted> {
+        self.learned
+            .retain(|known| now < known.content().validity.until());
+        if self.is_revoked(authority.id()) {
+            return Err(Rejected::Revoked(authority.id()).into());
+        }
+        check_validity_in_time(&authority, now)?;
+        self.check_authority(&authority)?;
+        add(&mut self.learned, authority, AUTHORITIES_MAX)
+    }
+
+    /// Certificates that are not to be trusted any more, instead of those that were: tickets, authorities or roots.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        self.learned
+            .retain(|authority| !revoked.contains(&authority.id()));
+        self.revoked = revoked;
+    }
+
+    /// The certificates that are not to be trusted any more.
+    #[must_use]
+    pub const fn revoked(&self) -> &BTreeSet<HashedId8> {
+        &self.revoked
+    }
+
+    /// Whether a certificate is not to be trusted any more.
+    #[must_use]
+    pub fn is_revoked(&self, id: HashedId8) -> bool {
+        self.revoked.contains(&id)
+    }
+
+    /// Whether a trusted root vouches for an authority.
+    fn check_authority(&self, authority: &Certificate) -> Result<(), Untrusted> {
         let content = authority.content();
         if content.issue_permissions.is_empty() {
             return Err(Untrusted::MayNotIssue(authority.id()));
         }
-        let root = find(&self.roots, content.issuer).map_err(Untrusted::Rejected)?;
+        let root = find(&self.roots, content.issuer)?;
         let given = &root.content().issue_permissions;
         if !root.content().validity.encloses(&content.validity) {
             return Err(Rejected::BeyondIssuer.into());
@@ -79,7 +126,7 @@ impl TrustStore {
         if !authority.is_signed_by(Some(root)) {
             return Err(Rejected::CertificateSignature(authority.id()).into());
         }
-        add(&mut self.authorities, authority, AUTHORITIES_MAX)
+        Ok(())
     }
 
     /// The roots.
@@ -88,24 +135,26 @@ impl TrustStore {
         &self.roots
     }
 
-    /// The authorities.
-    #[must_use]
-    pub fn authorities(&self) -> &[Certificate] {
-        &self.authorities
+    /// The authorities: those that were configured, and those that messages told of.
+    pub fn authorities(&self) -> impl Iterator<Item = &Certificate> {
+        self.authorities.iter().chain(&self.learned)
     }
 
     /// The authority with this id.
     pub(super) fn authority(&self, id: HashedId3) -> Option<&Certificate> {
-        self.authorities
-            .iter()
+        self.authorities()
             .find(|authority| authority.id().short() == id)
     }
 
     /// The certificates above a ticket: its authority and its root.
     pub(super) fn above(&self, ticket: &Certificate) -> Result<[&Certificate; 2], Rejected> {
-        let authority = find(&self.authorities, ticket.content().issuer)?;
+        let authority = find(self.authorities(), ticket.content().issuer)?;
         let root = find(&self.roots, authority.content().issuer)?;
-        Ok([authority, root])
+        let above = [authority, root];
+        match above.iter().find(|it| self.is_revoked(it.id())) {
+            Some(revoked) => Err(Rejected::Revoked(revoked.id())),
+            None => Ok(above),
+        }
     }
 
     /// Whether `ticket` is one that its authority may have issued; all but its signature.
@@ -134,24 +183,32 @@ pub(super) fn check_validity(
     time: Time64,
     place: Option<Place>,
 ) -> Result<(), Rejected> {
-    let content = certificate.content();
-    if time < content.validity.from() {
-        return Err(Rejected::CertificateNotYetValid);
-    }
-    if time >= content.validity.until() {
-        return Err(Rejected::CertificateExpired);
-    }
-    match (&content.region, place) {
+    check_validity_in_time(certificate, time)?;
+    match (&certificate.content().region, place) {
         (None, _) => Ok(()),
         (Some(region), Some(place)) if region.contains(place) => Ok(()),
         (Some(_), _) => Err(Rejected::OutsideRegion),
     }
 }
 
-fn find(among: &[Certificate], issuer: Issuer) -> Result<&Certificate, Rejected> {
+fn check_validity_in_time(certificate: &Certificate, time: Time64) -> Result<(), Rejected> {
+    let validity = &certificate.content().validity;
+    if time < validity.from() {
+        Err(Rejected::CertificateNotYetValid)
+    } else if time >= validity.until() {
+        Err(Rejected::CertificateExpired)
+    } else {
+        Ok(())
+    }
+}
+
+fn find<'a>(
+    among: impl IntoIterator<Item = &'a Certificate>,
+    issuer: Issuer,
+) -> Result<&'a Certificate, Rejected> {
     match issuer {
         Issuer::Certificate(id) => among
-            .iter()
+            .into_iter()
             .find(|certificate| certificate.id() == id)
             .ok_or(Rejected::ForeignIssuer(id)),
         Issuer::Itself => Err(Rejected::NotATicket),

@@ -63,7 +63,7 @@ pub enum Target {
     Lane(i8),
 }
 
-/// Where the maneuvers of a session take place, by reference to a map (MAPEM).
+/// Where maneuvers take place, or what a robot is there for, by reference to a map (MAPEM).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum MapPlace {
@@ -251,7 +251,7 @@ impl TaskParameters {
 }
 
 impl MapPlace {
-    pub(super) fn to_wire(self) -> MapReference {
+    pub(crate) fn to_wire(self) -> MapReference {
         match self {
             Self::RoadSegment { region, id } => MapReference::Roadsegment(RoadSegmentReferenceId {
                 region: region.map(Identifier2B),
@@ -266,7 +266,7 @@ impl MapPlace {
         }
     }
 
-    pub(super) fn from_wire(reference: MapReference) -> Self {
+    pub(crate) fn from_wire(reference: MapReference) -> Self {
         match reference {
             MapReference::Roadsegment(segment) => Self::RoadSegment {
                 region: segment.region.map(|region| region.0),

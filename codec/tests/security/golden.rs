@@ -136,8 +136,7 @@ fn every_flipped_bit_and_every_truncation_is_rejected() {
     let introduction = sender().seal(before, CAM, &octets(PAYLOAD)).unwrap();
     for envelope in [s1(), s2(), message(S3_TAIL)] {
         let own = Ticket::new(other_ticket(), key(ROOT_KEY)).unwrap();
-        let mut receiver =
-            Station::new(trust(), vec![own], Tolerances::default(), GENERATED).unwrap();
+        let mut receiver = Station::new(trust(), vec![own], Tolerances::default(), before).unwrap();
         let mut hear = |octets: &[u8]| {
             let message = SignedMessage::decode(octets)?;
             receiver.verify(GENERATED, None, &message).map(drop)

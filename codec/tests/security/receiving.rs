@@ -1,9 +1,9 @@
 //! What is believed, and what is rejected under which cause.
 
 use crossguard_codec::security::{
-    Certificate, Duration, HashedId8, Issuer, Permission, Place, Region, Rejected, SignedMessage,
-    SignerIdentifier, Ssp, Station, TICKETS_MAX, Ticket, Tolerances, TrustStore, Unsigned,
-    Untrusted, issue, issue::Terms,
+    Certificate, Doubt, Duration, HashedId8, Issuer, Permission, Place, Region, Rejected,
+    SignedMessage, SignerIdentifier, Ssp, Station, TICKETS_MAX, Ticket, Tolerances, TrustStore,
+    Unsigned, Untrusted, issue, issue::Terms,
 };
 
 use crate::pki::{
@@ -79,7 +79,7 @@ fn an_unknown_authority_is_asked_for_and_sent() {
     assert!(second.len() > first.len());
     let unknown = Err(Rejected::UnknownSigner(sender.pseudonym()));
     assert_eq!(hear(&mut receiver, after_ms(200), &second), unknown);
-    assert_eq!(receiver.verifier().trust().authorities().len(), 1);
+    assert_eq!(receiver.verifier().trust().authorities().count(), 1);
     assert_eq!(
         hear(&mut receiver, after_ms(201), &first).unwrap().signer,
         sender.pseudonym()
@@ -102,31 +102,101 @@ fn the_same_message_is_believed_once() {
     }
 }
 
+/// A station with another certificate for each number.
+fn other(pki: &Pki, number: usize) -> Station {
+    let earlier = u32::try_from(number).unwrap();
+    let terms = Terms {
+        validity: validity(NOW_S - 60 - earlier, Duration::hours(100)),
+        ..ticket_terms()
+    };
+    pki.station_with(12, &terms, NOW)
+}
+
 #[test]
-fn nothing_is_replayed_after_its_ticket_was_forgotten() {
+fn nobody_who_is_heard_is_forgotten_for_somebody_new() {
     let pki = Pki::new(1);
-    let mut receiver = pki.station(11);
-    let mut sender = pki.station(10);
+    let (mut receiver, mut sender) = (pki.station(11), pki.station(10));
     let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
     hear(&mut receiver, NOW, &envelope).unwrap();
-    let others = (0..u16::try_from(TICKETS_MAX).unwrap()).map(|n| {
-        let terms = Terms {
-            // Another certificate for the same key.
-            validity: validity(NOW_S - 60 - u32::from(n), Duration::hours(100)),
-            ..ticket_terms()
-        };
-        pki.station_with(12, &terms, NOW)
-    });
-    for (at, mut other) in (1..).zip(others) {
-        let now = after_ms(at);
-        let envelope = other.seal(now, RAM, PAYLOAD).unwrap();
-        hear(&mut receiver, now, &envelope).unwrap();
+    let say = |receiver: &mut Station, number: usize, ms: u64| {
+        let envelope = other(&pki, number)
+            .seal(after_ms(ms), RAM, PAYLOAD)
+            .unwrap();
+        hear(receiver, after_ms(ms), &envelope).map(|_| ())
+    };
+    // Not more of them in a second than are listened to.
+    let at_ms = |number: usize| u64::try_from(number).unwrap() * 7;
+    for number in 1..TICKETS_MAX {
+        assert_eq!(say(&mut receiver, number, at_ms(number)), Ok(()));
+    }
+    for number in TICKETS_MAX..TICKETS_MAX + 10 {
+        let one_more = say(&mut receiver, number, at_ms(number));
+        assert_eq!(one_more, Err(Rejected::TooManyStations));
     }
     assert_eq!(receiver.verifier().known_tickets(), TICKETS_MAX);
-    let now = after_ms(1_000);
+    let now = after_ms(1_900);
     assert_eq!(hear(&mut receiver, now, &envelope), Err(Rejected::Replayed));
-    let newer = sender.seal(now, RAM, PAYLOAD).unwrap();
-    assert!(hear(&mut receiver, now, &newer).is_ok());
+    // It is known by its digest still.
+    for ms in [2_000, 5_000] {
+        sender.seal(after_ms(ms - 100), RAM, PAYLOAD).unwrap();
+        let newer = sender.seal(after_ms(ms), RAM, PAYLOAD).unwrap();
+        assert!(hear(&mut receiver, after_ms(ms), &newer).is_ok());
+    }
+    // The others have been silent for so long that there is a place.
+    assert_eq!(say(&mut receiver, TICKETS_MAX, 10_008), Ok(()));
+    let newer = sender.seal(after_ms(10_009), RAM, PAYLOAD).unwrap();
+    assert!(hear(&mut receiver, after_ms(10_009), &newer).is_ok());
+    assert_eq!(receiver.verifier().known_tickets(), TICKETS_MAX);
+}
+
+/// Hazard: the receiver's clock is put back, and a command from before is carried out again.
+#[test]
+fn a_clock_that_is_put_back_makes_nothing_fresh_again() {
+    let pki = Pki::new(1);
+    let (mut receiver, mut sender) = (pki.station(11), pki.station(10));
+    let old = sender.seal(after_ms(1_000), RAM, PAYLOAD).unwrap();
+    hear(&mut receiver, after_ms(1_000), &old).unwrap();
+    let newer = sender.seal(after_ms(5_000), RAM, PAYLOAD).unwrap();
+    hear(&mut receiver, after_ms(5_000), &newer).unwrap();
+    let doubt = Doubt::Behind(4_000_000);
+    let put_back = hear(&mut receiver, after_ms(1_000), &old);
+    assert_eq!(put_back, Err(Rejected::TimeNotTrusted(doubt)));
+    // Nor is a message believed that was never heard, until it is later than ever before.
+    let unheard = sender.seal(after_ms(4_000), RAM, PAYLOAD).unwrap();
+    let doubt = Doubt::Behind(1_000_000);
+    let heard = hear(&mut receiver, after_ms(4_000), &unheard);
+    assert_eq!(heard, Err(Rejected::TimeNotTrusted(doubt)));
+    let newest = sender.seal(after_ms(5_100), RAM, PAYLOAD).unwrap();
+    assert!(hear(&mut receiver, after_ms(5_100), &newest).is_ok());
+}
+
+/// Hazard: what was said just before a power failure is carried out again after it.
+#[test]
+fn what_was_heard_before_a_restart_is_not_heard_again() {
+    let pki = Pki::new(1);
+    let mut sender = pki.station(10);
+    let ahead = sender.seal(after_ms(1_200), RAM, PAYLOAD).unwrap();
+    hear(&mut pki.station(11), after_ms(1_000), &ahead).unwrap();
+    // The robot stops at 1,000 ms, and is there again 100 ms later.
+    let restarted = |now, known| {
+        let tickets = vec![pki.ticket(11, &ticket_terms())];
+        let mut station = Station::new(pki.trust(), tickets, Tolerances::default(), now).unwrap();
+        station.remember_time(known);
+        station
+    };
+    let mut receiver = restarted(after_ms(1_100), after_ms(1_000));
+    let again = hear(&mut receiver, after_ms(1_100), &ahead);
+    assert_eq!(again, Err(Rejected::BeforeStart));
+    // A second later, the certificate comes along again.
+    let newer = sender.seal(after_ms(2_300), RAM, PAYLOAD).unwrap();
+    assert!(hear(&mut receiver, after_ms(2_300), &newer).is_ok());
+    // With a clock that was put back meanwhile, it believes nobody.
+    let mut receiver = restarted(NOW, after_ms(5_000));
+    let heard = hear(&mut receiver, after_ms(1_000), &ahead);
+    assert!(
+        matches!(heard, Err(Rejected::TimeNotTrusted(_))),
+        "{heard:?}"
+    );
 }
 
 #[test]
@@ -165,10 +235,11 @@ fn tickets_expire() {
     // The other way round, and by digest, for a ticket that is known.
     let mut early = pki.station_with(10, &terms, NOW);
     let envelope = early.seal(after_ms(100), RAM, PAYLOAD).unwrap();
-    let heard = hear(&mut receiver, after_ms(0).min(crate::pki::NOW), &envelope);
+    let heard = hear(&mut pki.station(14), NOW, &envelope);
     assert!(heard.is_ok());
     let soon = crossguard_codec::security::Time64(NOW.0 - 100_000);
-    let heard = hear(&mut pki.station(13), soon, &envelope);
+    let mut receiver = pki.station_with(13, &ticket_terms(), soon);
+    let heard = hear(&mut receiver, soon, &envelope);
     assert_eq!(heard, Err(Rejected::CertificateNotYetValid));
 }
 

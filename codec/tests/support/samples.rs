@@ -109,6 +109,10 @@ pub fn slow_state() -> SlowState {
             to_pedestrians: PublicSignal::Go,
             means: SignalMeans::DISPLAY,
         }),
+        area: Some(MapPlace::RoadSegment {
+            region: Some(276),
+            id: 12,
+        }),
     }
 }
 

@@ -281,13 +281,15 @@ fn slow_state() -> impl Strategy<Value = SlowState> {
         });
     let lights = option::of(any::<u8>().prop_map(Lights));
     let path = prop::collection::vec(past, 0..30);
-    (any::<u8>(), tasks(), path, lights, option::of(signals)).prop_map(
-        |(capabilities, supported_tasks, path, lights, signals)| SlowState {
+    let shown = (lights, option::of(signals), option::of(place()));
+    (any::<u8>(), tasks(), path, shown).prop_map(
+        |(capabilities, supported_tasks, path, (lights, signals, area))| SlowState {
             capabilities: Capabilities(capabilities),
             supported_tasks,
             path,
             lights,
             signals,
+            area,
         },
     )
 }

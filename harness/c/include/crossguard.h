@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 // The version of this interface. It grows with every change that a program must be compiled for.
-#define CROSSGUARD_ABI_VERSION 3
+#define CROSSGUARD_ABI_VERSION 4
 
 // Eight-octet words in a `CrossguardRobot`.
 #define CROSSGUARD_ROBOT_WORDS 2560
@@ -353,7 +353,8 @@ enum CrossguardEventKind
   CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR = 10,
   // The leader's application wants to hold the pedestrian back again.
   CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR = 11,
-  // The robot has changed its pseudonym: `station`. Only while the identity is not locked.
+  // The robot has changed its pseudonym: `station`. Only while the identity is not locked. Its numbers begin anew
+  // at `session.number`, which it must never have given out under this station id; 0 to go on counting.
   CROSSGUARD_EVENT_KIND_IDENTITY_CHANGED = 12,
   // A larger boot counter has been persisted, as an output `RenewEpoch` asked: `boot`.
   CROSSGUARD_EVENT_KIND_EPOCH_RENEWED = 13,
@@ -727,6 +728,16 @@ typedef struct CrossguardBody {
   uint8_t to_vehicles;
   // What it shows to pedestrians, likewise. Go is for an open corridor alone.
   uint8_t to_pedestrians;
+  // The place of the map that it is there for: 0 none, 1 a road segment, 2 an intersection.
+  uint8_t map_kind;
+  // 1 where that place has a region.
+  uint8_t has_map_region;
+  // The region in which its number is unique.
+  uint16_t map_region;
+  // Its number.
+  uint16_t map_id;
+  // Not used.
+  uint8_t reserved[2];
 } CrossguardBody;
 
 // A coordination session: who leads it, and its number there.
@@ -826,8 +837,15 @@ typedef struct CrossguardHeard {
   uint8_t to_vehicles;
   // What it shows to pedestrians, as in `CrossguardBody`.
   uint8_t to_pedestrians;
-  // Not used.
-  uint8_t reserved[6];
+  // The place of the map that it is there for, as in `CrossguardBody`; 0 where its RAM says nothing of it, as
+  // most do.
+  uint8_t map_kind;
+  // As in `CrossguardBody`.
+  uint8_t has_map_region;
+  // As in `CrossguardBody`.
+  uint16_t map_region;
+  // As in `CrossguardBody`.
+  uint16_t map_id;
 } CrossguardHeard;
 
 // One output; `kind` says which fields count.
@@ -1139,7 +1157,7 @@ CROSSGUARD_ASSERT_LEN(CrossguardRobot, 20480);
 CROSSGUARD_ASSERT_LEN(CrossguardSession, 8);
 CROSSGUARD_ASSERT_LEN(CrossguardSettings, 140);
 CROSSGUARD_ASSERT_LEN(CrossguardConfig, 196);
-CROSSGUARD_ASSERT_LEN(CrossguardBody, 112);
+CROSSGUARD_ASSERT_LEN(CrossguardBody, 120);
 CROSSGUARD_ASSERT_LEN(CrossguardTaskParameters, 64);
 CROSSGUARD_ASSERT_LEN(CrossguardEvent, 96);
 CROSSGUARD_ASSERT_LEN(CrossguardOutput, 112);
@@ -1147,5 +1165,5 @@ CROSSGUARD_ASSERT_LEN(CrossguardHeard, 56);
 CROSSGUARD_ASSERT_LEN(CrossguardFollower, 12);
 CROSSGUARD_ASSERT_LEN(CrossguardView, 248);
 #if UINTPTR_MAX == UINT64_MAX
-CROSSGUARD_ASSERT_LEN(CrossguardTurn, 11064);
+CROSSGUARD_ASSERT_LEN(CrossguardTurn, 11072);
 #endif

@@ -74,6 +74,24 @@ struct MapPlace {
   bool is_intersection = false;
   std::optional<std::uint16_t> region; ///< in which the number is unique
   std::uint16_t id = 0;
+
+  /// The place that a struct names: that of a command, or that a robot's RAM says it is there for.
+  template <class Plain> static std::optional<MapPlace> from(const Plain &plain) {
+    if (plain.map_kind == 0) return std::nullopt;
+    MapPlace place;
+    place.is_intersection = plain.map_kind == 2;
+    if (plain.has_map_region != 0) place.region = plain.map_region;
+    place.id = plain.map_id;
+    return place;
+  }
+
+  /// Has a struct name this place, or none: a Body says by it what the robot is there for.
+  template <class Plain> static void write(const std::optional<MapPlace> &place, Plain &plain) {
+    plain.map_kind = place ? (place->is_intersection ? 2 : 1) : 0;
+    plain.has_map_region = place && place->region ? 1 : 0;
+    plain.map_region = place ? place->region.value_or(0) : 0;
+    plain.map_id = place ? place->id : 0;
+  }
 };
 
 /// Where and how a maneuver is to be done; what is not set is left to the follower.
@@ -99,13 +117,7 @@ struct TaskParameters {
     if (plain.validity_ms != 0) of.validity = std::chrono::milliseconds{plain.validity_ms};
     if (plain.lane != CROSSGUARD_NO_LANE) of.lane = plain.lane;
     of.is_offset = plain.is_offset != 0;
-    if (plain.map_kind != 0) {
-      MapPlace place;
-      place.is_intersection = plain.map_kind == 2;
-      if (plain.has_map_region != 0) place.region = plain.map_region;
-      place.id = plain.map_id;
-      of.map_place = place;
-    }
+    of.map_place = MapPlace::from(plain);
     return of;
   }
 
@@ -120,10 +132,7 @@ struct TaskParameters {
     plain.validity_ms = validity ? static_cast<std::uint32_t>(validity->count()) : 0;
     plain.lane = static_cast<std::int8_t>(lane.value_or(CROSSGUARD_NO_LANE));
     plain.is_offset = is_offset ? 1 : 0;
-    plain.map_kind = map_place ? (map_place->is_intersection ? 2 : 1) : 0;
-    plain.has_map_region = map_place && map_place->region ? 1 : 0;
-    plain.map_region = map_place ? map_place->region.value_or(0) : 0;
-    plain.map_id = map_place ? map_place->id : 0;
+    MapPlace::write(map_place, plain);
   }
 
 private:

@@ -9,7 +9,7 @@ use core::ffi::c_char;
 pub use crate::codes::*;
 
 /// The version of this interface. It grows with every change that a program must be compiled for.
-pub const CROSSGUARD_ABI_VERSION: u32 = 3;
+pub const CROSSGUARD_ABI_VERSION: u32 = 4;
 /// Eight-octet words in a `CrossguardRobot`.
 pub const CROSSGUARD_ROBOT_WORDS: usize = 2_560;
 /// How many outputs one call can have.
@@ -181,6 +181,16 @@ pub struct CrossguardBody {
     pub to_vehicles: u8,
     /// What it shows to pedestrians, likewise. Go is for an open corridor alone.
     pub to_pedestrians: u8,
+    /// The place of the map that it is there for: 0 none, 1 a road segment, 2 an intersection.
+    pub map_kind: u8,
+    /// 1 where that place has a region.
+    pub has_map_region: u8,
+    /// The region in which its number is unique.
+    pub map_region: u16,
+    /// Its number.
+    pub map_id: u16,
+    /// Not used.
+    pub reserved: [u8; 2],
 }
 
 /// Where and how a maneuver is to be done. NaN, and 0 or -128 where said, leave it to the follower.
@@ -322,8 +332,15 @@ pub struct CrossguardHeard {
     pub to_vehicles: u8,
     /// What it shows to pedestrians, as in `CrossguardBody`.
     pub to_pedestrians: u8,
-    /// Not used.
-    pub reserved: [u8; 6],
+    /// The place of the map that it is there for, as in `CrossguardBody`; 0 where its RAM says nothing of it, as
+    /// most do.
+    pub map_kind: u8,
+    /// As in `CrossguardBody`.
+    pub has_map_region: u8,
+    /// As in `CrossguardBody`.
+    pub map_region: u16,
+    /// As in `CrossguardBody`.
+    pub map_id: u16,
 }
 
 /// What a call works with: what the caller gives, and what the library gives back. Buffers are the

@@ -7,6 +7,7 @@ use crossguard_codec::{
 use crossguard_protocol::{Availability, Decimetres, Input};
 
 use crate::abi::{CrossguardBody, CrossguardHeard, CrossguardMessage};
+use crate::place::PlainPlace;
 use crate::why::unavailability;
 
 /// A quantity, if it is known.
@@ -33,7 +34,10 @@ pub(crate) const NOBODY: CrossguardHeard = CrossguardHeard {
     signal_means: 0,
     to_vehicles: 0,
     to_pedestrians: 0,
-    reserved: [0; 6],
+    map_kind: PlainPlace::NOWHERE.map_kind,
+    has_map_region: PlainPlace::NOWHERE.has_map_region,
+    map_region: PlainPlace::NOWHERE.map_region,
+    map_id: PlainPlace::NOWHERE.map_id,
 };
 
 impl CrossguardHeard {
@@ -55,7 +59,9 @@ impl CrossguardHeard {
             Input::Ram { ram, .. } => ram.on_duty,
             _ => false,
         });
-        let shown = sender.slow.as_ref().and_then(|slow| slow.signals);
+        let slow = sender.slow.as_ref();
+        let shown = slow.and_then(|slow| slow.signals);
+        let area = PlainPlace::of(slow.and_then(|slow| slow.area));
         Self {
             latitude_deg: or_nan(sender.position.latitude),
             longitude_deg: or_nan(sender.position.longitude),
@@ -72,7 +78,10 @@ impl CrossguardHeard {
             signal_means: shown.map_or(0, |shown| shown.means.0),
             to_vehicles: shown.map_or(0, |shown| signal_code(shown.to_vehicles)),
             to_pedestrians: shown.map_or(0, |shown| signal_code(shown.to_pedestrians)),
-            reserved: [0; 6],
+            map_kind: area.map_kind,
+            has_map_region: area.has_map_region,
+            map_region: area.map_region,
+            map_id: area.map_id,
         }
     }
 }
@@ -101,11 +110,22 @@ impl CrossguardBody {
         signal_means: 0,
         to_vehicles: 0,
         to_pedestrians: 0,
+        map_kind: PlainPlace::NOWHERE.map_kind,
+        has_map_region: PlainPlace::NOWHERE.has_map_region,
+        map_region: PlainPlace::NOWHERE.map_region,
+        map_id: PlainPlace::NOWHERE.map_id,
+        reserved: [0; 2],
     };
 
     /// The state that messages are made of; `None` where a code is none.
     pub(crate) fn to_state(self) -> Option<RobotState> {
         let measured = |quantity| known(quantity).map(Measurement::from);
+        let area = PlainPlace {
+            map_kind: self.map_kind,
+            has_map_region: self.has_map_region,
+            map_region: self.map_region,
+            map_id: self.map_id,
+        };
         Some(RobotState {
             position: Position {
                 latitude: known(self.latitude_deg),
@@ -146,6 +166,7 @@ impl CrossguardBody {
                     }),
                     _ => return None,
                 },
+                area: area.to_codec().ok()?,
                 ..SlowState::default()
             }),
             ..RobotState::default()
@@ -217,11 +238,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_hears_a_robot_knows_what_it_shows_to_people() {
+    fn who_hears_a_robot_knows_what_it_shows_to_people_and_what_it_is_there_for() {
         let body = CrossguardBody {
             signal_means: 0b101,
             to_vehicles: 1,
             to_pedestrians: 3,
+            map_kind: 2,
+            has_map_region: 1,
+            map_region: 276,
+            map_id: 4_711,
             ..CrossguardBody::UNKNOWN
         };
         let ids = Identifiers::default();
@@ -234,10 +259,12 @@ mod tests {
             let here = Position::default();
             let heard = Heard::of(&ids, StationId(8), &here, &octets[..length]).unwrap();
             let heard = CrossguardHeard::of(&heard);
-            [heard.signal_means, heard.to_vehicles, heard.to_pedestrians]
+            let shown = [heard.signal_means, heard.to_vehicles, heard.to_pedestrians];
+            let place = (heard.map_kind, heard.has_map_region);
+            (shown, place, (heard.map_region, heard.map_id))
         };
-        assert_eq!(heard(true), [0b101, 1, 3]);
-        assert_eq!(heard(false), [0, 0, 0]);
+        assert_eq!(heard(true), ([0b101, 1, 3], (2, 1), (276, 4_711)));
+        assert_eq!(heard(false), ([0, 0, 0], (0, 0), (0, 0)));
     }
 
     #[test]
@@ -251,5 +278,10 @@ mod tests {
             };
             assert_eq!(body.to_state(), None);
         }
+        let bridge = CrossguardBody {
+            map_kind: 3,
+            ..CrossguardBody::UNKNOWN
+        };
+        assert_eq!(bridge.to_state(), None);
     }
 }

@@ -206,7 +206,8 @@ pub enum CrossguardEventKind {
     OpenCorridor = 10,
     /// The leader's application wants to hold the pedestrian back again.
     CloseCorridor = 11,
-    /// The robot has changed its pseudonym: `station`. Only while the identity is not locked.
+    /// The robot has changed its pseudonym: `station`. Only while the identity is not locked. Its numbers begin anew
+    /// at `session.number`, which it must never have given out under this station id; 0 to go on counting.
     IdentityChanged = 12,
     /// A larger boot counter has been persisted, as an output `RenewEpoch` asked: `boot`.
     EpochRenewed = 13,

@@ -5,7 +5,8 @@ use core::ffi::c_char;
 use crossguard_codec::{Identifiers, MessageIdentifiers};
 use crossguard_protocol::{
     Availability, BrokenInequality, Config, Event, FallbackPolicy, HelpRequest, ManeuverId, Millis,
-    Place, RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, Urgency,
+    Place, RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
+    Urgency,
 };
 
 use crate::abi::{
@@ -236,7 +237,11 @@ impl CrossguardEvent {
             9 => Event::AvailabilityChanged(availability(self.unavailability)?),
             10 => Event::OpenCorridor,
             11 => Event::CloseCorridor,
-            12 => Event::IdentityChanged(StationId(self.station)),
+            12 => {
+                let next = self.session.number;
+                let next = (next > 0).then(|| UniqueNumber::from_u32(next));
+                Event::IdentityChanged(StationId(self.station), next)
+            }
             13 => Event::EpochRenewed(self.boot),
             _ => return None,
         })

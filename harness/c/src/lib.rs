@@ -58,6 +58,7 @@ mod counters;
 mod ffi;
 mod live;
 mod output;
+mod place;
 #[cfg(all(feature = "panic-handler", not(feature = "std")))]
 mod stop;
 mod trace;

@@ -1,6 +1,6 @@
 //! Outputs of the protocol as plain data.
 
-use crossguard_codec::{MapPlace, Target, TaskParameters};
+use crossguard_codec::{Target, TaskParameters};
 use crossguard_protocol::{
     FallbackPolicy, Maneuver, ManeuverId, Millis, Notice, Output, SessionId, SessionNumber,
     StationId, UniqueNumber,
@@ -11,6 +11,7 @@ use crate::abi::{
     CrossguardOutputKind as Kind, CrossguardSession, CrossguardTaskParameters,
 };
 use crate::body::{known, or_nan};
+use crate::place::PlainPlace;
 use crate::why::{Why, unavailability};
 
 /// An output with nothing in it.
@@ -50,19 +51,12 @@ pub(crate) const OPEN: CrossguardTaskParameters = CrossguardTaskParameters {
     validity_ms: 0,
     lane: CROSSGUARD_NO_LANE,
     is_offset: 0,
-    map_kind: MAP_NONE,
-    has_map_region: 0,
-    map_region: 0,
-    map_id: 0,
+    map_kind: PlainPlace::NOWHERE.map_kind,
+    has_map_region: PlainPlace::NOWHERE.has_map_region,
+    map_region: PlainPlace::NOWHERE.map_region,
+    map_id: PlainPlace::NOWHERE.map_id,
     reserved: [0; 4],
 };
-
-/// `map_kind` of no place of the map.
-const MAP_NONE: u8 = 0;
-/// `map_kind` of a road segment.
-const MAP_SEGMENT: u8 = 1;
-/// `map_kind` of an intersection.
-const MAP_INTERSECTION: u8 = 2;
 
 impl CrossguardOutput {
     /// An output of this kind.
@@ -239,23 +233,23 @@ impl From<CrossguardSession> for SessionId {
 
 impl From<&TaskParameters> for CrossguardTaskParameters {
     fn from(parameters: &TaskParameters) -> Self {
+        let PlainPlace {
+            map_kind,
+            has_map_region,
+            map_region,
+            map_id,
+        } = PlainPlace::of(parameters.map_place);
         let mut plain = Self {
+            map_kind,
+            has_map_region,
+            map_region,
+            map_id,
             heading_deg: or_nan(parameters.heading),
             maximum_speed_mps: or_nan(parameters.maximum_speed),
             pedestrian_distance_m: or_nan(parameters.minimum_pedestrian_distance),
             validity_ms: parameters.validity.map_or(0, |validity| validity.0),
             ..OPEN
         };
-        let place = parameters.map_place.map(|place| match place {
-            MapPlace::RoadSegment { region, id } => (MAP_SEGMENT, region, id),
-            MapPlace::Intersection { region, id } => (MAP_INTERSECTION, region, id),
-        });
-        if let Some((kind, region, id)) = place {
-            plain.map_kind = kind;
-            plain.has_map_region = region.is_some().into();
-            plain.map_region = region.unwrap_or_default();
-            plain.map_id = id;
-        }
         match parameters.target {
             None => {}
             Some(Target::Lane(lane)) => plain.lane = lane,
@@ -302,18 +296,13 @@ impl CrossguardTaskParameters {
             }),
             _ => return None,
         };
-        let region = match self.has_map_region {
-            0 => None,
-            1 => Some(self.map_region),
-            _ => return None,
+        let map_place = PlainPlace {
+            map_kind: self.map_kind,
+            has_map_region: self.has_map_region,
+            map_region: self.map_region,
+            map_id: self.map_id,
         };
-        let id = self.map_id;
-        let map_place = match self.map_kind {
-            MAP_NONE => None,
-            MAP_SEGMENT => Some(MapPlace::RoadSegment { region, id }),
-            MAP_INTERSECTION => Some(MapPlace::Intersection { region, id }),
-            _ => return None,
-        };
+        let map_place = map_place.to_codec().ok()?;
         Some(TaskParameters {
             target,
             heading: known(self.heading_deg),
@@ -322,42 +311,5 @@ impl CrossguardTaskParameters {
             validity: (self.validity_ms != 0).then_some(Millis(self.validity_ms)),
             map_place,
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_place_of_the_map_comes_back_and_a_code_of_none_is_refused() {
-        let (region, id) = (Some(276), 4_711);
-        let places = [
-            None,
-            Some(MapPlace::RoadSegment { region, id }),
-            Some(MapPlace::Intersection { region, id }),
-            Some(MapPlace::Intersection {
-                region: None,
-                id: 0,
-            }),
-        ];
-        for map_place in places {
-            let parameters = TaskParameters {
-                map_place,
-                ..TaskParameters::default()
-            };
-            let plain = CrossguardTaskParameters::from(&parameters);
-            assert_eq!(plain.to_codec(), Some(parameters));
-        }
-        let bridge = CrossguardTaskParameters {
-            map_kind: 3,
-            ..OPEN
-        };
-        assert_eq!(bridge.to_codec(), None);
-        let region = CrossguardTaskParameters {
-            has_map_region: 2,
-            ..OPEN
-        };
-        assert_eq!(region.to_codec(), None);
     }
 }

@@ -33,7 +33,7 @@ pub enum Layer {
     Perception,
     /// The robot's own body, where that is another process.
     Body,
-    /// The file of the boot counter.
+    /// The files of the boot counter, of the time and of the revocation list.
     Storage,
     /// The log.
     Log,
@@ -115,6 +115,8 @@ pub enum Cause {
     Undecodable(&'static str),
     /// A message contradicts itself.
     Contradictory(&'static str),
+    /// A message claims a part in a session of this robot that is over, and the robot is naming another one.
+    AnsweringAnother,
     /// The transition function ignored an input.
     Ignored(Ignored),
     /// The robot perceived people and does not know its own position.
@@ -127,6 +129,10 @@ pub enum Cause {
     BodyGarbled,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
+    /// The time could not be persisted; a robot that loses power now may trust a clock that was put back.
+    TimeNotKept,
+    /// The revocation list cannot be read any more; the robot keeps the one that it has.
+    RevokedUnread,
     /// The log's reader was too slow, or the log has no room: the record is not in the log.
     LogFull,
     /// A reader of records that need not have all of them was too slow.
@@ -146,10 +152,10 @@ impl Cause {
             Self::NoUse(_) => Layer::Service,
             Self::Undecodable(_) => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
-            Self::Ignored(_) => Layer::Protocol,
+            Self::AnsweringAnother | Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
-            Self::EpochNotRenewed => Layer::Storage,
+            Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread => Layer::Storage,
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
         }
@@ -180,6 +186,7 @@ impl Display for Reason {
             | Cause::Undecodable(why)
             | Cause::Contradictory(why) => why,
             Cause::NoUse(service) => return write!(f, "no use for {}", service.name()),
+            Cause::AnsweringAnother => "over, and another session is being named",
             Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",
             Cause::Ignored(why) => return why.fmt(f),
             Cause::Unplaced => "own position unknown",
@@ -187,6 +194,8 @@ impl Display for Reason {
             Cause::BodyFault => "fault",
             Cause::BodyGarbled => "not understood",
             Cause::EpochNotRenewed => "boot counter not renewed",
+            Cause::TimeNotKept => "time not kept",
+            Cause::RevokedUnread => "revocation list not read",
         })
     }
 }

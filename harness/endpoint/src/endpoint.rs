@@ -7,7 +7,10 @@ mod act;
 mod answers;
 mod turn;
 
-use crossguard_codec::geonet::EgoPosition;
+use std::collections::BTreeSet;
+
+use crossguard_codec::geonet::{EgoPosition, Envelope};
+use crossguard_codec::security::{HashedId8, TrustedTime};
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
     Config, Event, Identity, Input, Outputs, Robot, StateMachine, StationId, TaskType, Timer,
@@ -166,10 +169,25 @@ impl<P: StateMachine> Endpoint<P> {
     /// The same with security.
     #[must_use]
     pub fn with_security(mut self, security: Security) -> Self {
-        let now_ms = self.exchange.elapsed_to_ms();
-        self.pseudonyms = Pseudonyms::new(security.pseudonym_period_ms, now_ms);
+        self.pseudonyms = Pseudonyms::new(security.secret, security.pseudonym_period_ms);
         *self.exchange.stack_mut().envelope_mut() = security.envelope;
         self
+    }
+
+    /// The time that packets are verified by, and whether the clock is trusted. `None` without security.
+    #[must_use]
+    pub const fn trusted_time(&self) -> Option<&TrustedTime> {
+        match self.exchange.stack().envelope() {
+            Envelope::Secured(secured) => Some(secured.station().verifier().time()),
+            _ => None,
+        }
+    }
+
+    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        if let Envelope::Secured(secured) = self.exchange.stack_mut().envelope_mut() {
+            secured.set_revoked(revoked);
+        }
     }
 
     /// The protocol state.
@@ -242,6 +260,10 @@ impl<P: StateMachine> Endpoint<P> {
             turn.elapse(moment.now_ms);
             exchange.elapse(&mut turn, moment);
         }
+        if let Envelope::Secured(secured) = exchange.stack_mut().envelope_mut() {
+            let ego = EgoPosition::of(state, moment.timestamp_its);
+            secured.look_at_clock(&ego, moment.now_ms);
+        }
         renew_pseudonym(&mut self.pseudonyms, exchange, &mut turn, moment);
         match stimulus {
             Stimulus::Datagram { packet, arrived_ms } => {
@@ -252,6 +274,13 @@ impl<P: StateMachine> Endpoint<P> {
                 exchange.receive(&mut turn, moment, arrived);
             }
             Stimulus::Event(event) => {
+                let event = match (event, exchange.stack().envelope()) {
+                    (Event::EpochRenewed(boot), Envelope::Secured(_)) => {
+                        let station = exchange.robot().station();
+                        Event::EpochRenewed(self.pseudonyms.epoch(station, boot))
+                    }
+                    (event, _) => event,
+                };
                 let outputs = exchange.event(&mut turn, moment, event);
                 turn.answer(event, &outputs);
             }
@@ -268,6 +297,13 @@ impl<P: StateMachine> Endpoint<P> {
             Stimulus::Time => {}
         }
         send_cluster_vams(exchange, &mut turn, moment);
+        // Who protects somebody is not silent.
+        if exchange.robot().identity() != Identity::Unlocked || turn.announces_people() {
+            self.pseudonyms.break_silence();
+        }
+        if self.pseudonyms.is_silent(moment.now_ms) {
+            return turn.into_effects();
+        }
         let limits = Limits {
             congestion_ms: self.congestion_ms,
             max_ms: turn.ram_interval_max_ms(),
@@ -292,11 +328,13 @@ fn renew_pseudonym<P: StateMachine>(
     }
     let lock_ms = u64::from(exchange.config().settings().t_lock.0);
     let ego = EgoPosition::of(turn.state(), moment.timestamp_its);
-    let identifiers = *exchange.identifiers();
+    let (identifiers, robot) = (*exchange.identifiers(), exchange.robot().clone());
     let envelope = exchange.stack_mut().envelope_mut();
-    let renewed = pseudonyms.renew(envelope, &identifiers, &ego, (moment.now_ms, lock_ms));
-    if let Some((station, sequence_number)) = renewed {
-        exchange.change_identity(turn, moment, station, sequence_number);
+    if let Some(taken) = pseudonyms.renew(envelope, &identifiers, &ego, &robot, lock_ms) {
+        let numbers = (Some(taken.next), taken.sequence_number);
+        exchange.change_identity(turn, moment, taken.station, numbers);
+        turn.renew_clusters(moment.now_ms, taken.clusters);
+        pseudonyms.fall_silent(taken.station, moment.now_ms);
     }
 }
 

@@ -11,6 +11,7 @@
 mod entitled;
 mod host;
 mod orders;
+mod pins;
 
 use crossguard_codec::geonet::{Address, EgoPosition, Indication, Stack};
 use crossguard_codec::si::generation_delta_time;
@@ -19,14 +20,15 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine, StationId,
-    TaskType, Timer,
+    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, SessionId, StateMachine,
+    StationId, TaskType, Timer, UniqueNumber,
 };
 
 pub use self::entitled::NotEntitled;
 use self::entitled::check_entitled;
 pub use self::host::{Arrived, Host, Moment, Outgoing};
 use self::orders::Orders;
+use self::pins::Pins;
 use crate::cause::Cause;
 use crate::ras::generation::{Generation, Limits, Status, Trigger};
 
@@ -41,6 +43,7 @@ pub struct Exchange<P = Robot> {
     elapsed_to_ms: u64,
     generation: Generation,
     orders: Orders,
+    pins: Pins,
 }
 
 impl<P: StateMachine> Exchange<P> {
@@ -55,6 +58,7 @@ impl<P: StateMachine> Exchange<P> {
             elapsed_to_ms: now_ms,
             generation: Generation::default(),
             orders: Orders::default(),
+            pins: Pins::default(),
         }
     }
 
@@ -79,6 +83,11 @@ impl<P: StateMachine> Exchange<P> {
     }
 
     /// What makes packets of messages, and opens them.
+    pub const fn stack(&self) -> &Stack {
+        &self.stack
+    }
+
+    /// The same, to change it.
     pub const fn stack_mut(&mut self) -> &mut Stack {
         &mut self.stack
     }
@@ -105,7 +114,9 @@ impl<P: StateMachine> Exchange<P> {
                 self.command(host, moment, follower, task, TaskParameters::default())
             }
             // Only geo-broadcasts are numbered, and robots send none.
-            Event::IdentityChanged(station) => self.change_identity(host, moment, station, 0),
+            Event::IdentityChanged(station, next) => {
+                self.change_identity(host, moment, station, (next, 0))
+            }
             event => self.step(host, moment, Input::Local(event), None),
         }
     }
@@ -132,16 +143,16 @@ impl<P: StateMachine> Exchange<P> {
         outputs
     }
 
-    /// The robot goes by another station id and address. Geo-broadcasts are numbered from
-    /// `sequence_number` on.
+    /// The robot goes by another station id and address. Its session and offer numbers begin at `next`, or go on
+    /// without one, and geo-broadcasts are numbered from `sequence_number` on.
     pub fn change_identity<H: Host>(
         &mut self,
         host: &mut H,
         moment: Moment,
         station: StationId,
-        sequence_number: u16,
+        (next, sequence_number): (Option<UniqueNumber>, u16),
     ) -> Outputs {
-        let changed = Input::Local(Event::IdentityChanged(station));
+        let changed = Input::Local(Event::IdentityChanged(station, next));
         let outputs = self.step(host, moment, changed, None);
         if outputs.ignored().is_none() {
             let address = Address::of_station(station.0, self.identifiers.robot_station_type);
@@ -215,9 +226,20 @@ impl<P: StateMachine> Exchange<P> {
                 let cause = Cause::Discarded("message of another port");
                 return host.dropped(cause, &detail, arrived.octets);
             }
-            if let Err(why) = check_entitled(host, &self.identifiers, moment, indication, &heard) {
+            let entitled = check_entitled(host, me, &self.identifiers, moment, indication, &heard);
+            if let Err(why) = entitled {
                 return host.dropped(why.into(), &why, arrived.octets);
             }
+        }
+        let signer = indication.and_then(|indication| indication.signer);
+        if !self.pins.allow(self.protocol.robot(), heard.from, signer) {
+            let why = NotEntitled::Unpinned(heard.from);
+            return host.dropped(why.into(), &why, arrived.octets);
+        }
+        let me = self.protocol.robot();
+        if let Some(session) = asked_of_another(me, &heard) {
+            let detail = format_args!("session {session}");
+            return host.dropped(Cause::AnsweringAnother, &detail, arrived.octets);
         }
         let arrived = Arrived {
             octets: message,
@@ -227,6 +249,7 @@ impl<P: StateMachine> Exchange<P> {
         for input in heard.inputs.iter() {
             self.step(host, moment, *input, heard.parameters);
         }
+        self.pins.keep(self.protocol.robot(), heard.from, signer);
     }
 
     /// Sends a RAM outside of a session, where the protocol does not say when, if the generation rules do.
@@ -382,4 +405,15 @@ impl<P: StateMachine> Exchange<P> {
         };
         (state, status)
     }
+}
+
+/// The session of `me` that a message claims a part in although it is over, while another one is being named as such.
+/// Whoever makes up numbers gets one answer in the time of a farewell, which is three RAM periods at least, and cannot
+/// put an answer in the place of what followers have to hear.
+fn asked_of_another(me: &Robot, heard: &Heard) -> Option<SessionId> {
+    me.farewell()?;
+    heard.inputs.iter().find_map(|input| match input {
+        Input::Ram { ram, .. } => me.asked_of_over(ram),
+        _ => None,
+    })
 }

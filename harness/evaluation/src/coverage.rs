@@ -5,6 +5,7 @@
 
 use crossguard_endpoint::ras::motion::{Point, distance_m};
 
+use super::grid::Grid;
 use super::trace::{Run, Track};
 
 /// The observation coverage ratio of robots on these ways, 0..1. A person in the zones of two robots
@@ -21,6 +22,47 @@ pub fn coverage(run: &Run, robots: &[Track], radius_m: f64) -> f64 {
         }
     }
     f64::from(seen) / f64::from(all.max(1))
+}
+
+/// Where people are, and where robots see them. Shares are from 0 to 1.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Places {
+    /// How long all people are on their way together, in seconds.
+    pub travel_s: f64,
+    /// Share of that time at an intersection.
+    pub at_intersections: f64,
+    /// Share of it on the road away from the crossings.
+    pub on_road_between: f64,
+    /// Share of the time in which a robot sees them that they are at an intersection; 0 where no robot does.
+    pub covered_at_intersections: f64,
+}
+
+/// Where people are on a grid, and where robots on these ways see them, from samples `sample_ms` apart.
+#[must_use]
+pub fn places(run: &Run, grid: &Grid, robots: &[Track], radius_m: f64, sample_ms: u64) -> Places {
+    let (mut all, mut at, mut between, mut seen, mut seen_at) = (0_u32, 0_u32, 0_u32, 0_u32, 0_u32);
+    for track in &run.pedestrians {
+        for (index, motion) in track.samples().iter().enumerate() {
+            let place = motion.position_m;
+            let is_at = grid.is_at_intersection(place);
+            let near = |robot: &Track| distance_m(robot.place_at(index), place) <= radius_m;
+            let is_seen = robots.iter().any(near);
+            all += 1;
+            at += u32::from(is_at);
+            between += u32::from(grid.is_on_road_between(place));
+            seen += u32::from(is_seen);
+            seen_at += u32::from(is_seen && is_at);
+        }
+    }
+    let share = |part: u32, of: u32| f64::from(part) / f64::from(of.max(1));
+    #[expect(clippy::cast_precision_loss, reason = "half a second")]
+    let seconds_each = sample_ms as f64 / 1_000.0;
+    Places {
+        travel_s: f64::from(all) * seconds_each,
+        at_intersections: share(at, all),
+        on_road_between: share(between, all),
+        covered_at_intersections: share(seen_at, seen),
+    }
 }
 
 /// `candidates` in the order in which each adds the most to the coverage of those before it, with the
@@ -52,6 +94,7 @@ pub fn greedy(runs: &[Run], candidates: &[Point], radius_m: f64) -> Vec<(usize, 
 
 #[cfg(test)]
 mod tests {
+    use super::super::grid::Preset;
     use super::*;
 
     fn standing_at(places: &[Point]) -> Run {
@@ -81,6 +124,28 @@ mod tests {
             ..standing_at(&[])
         };
         assert!((coverage(&run, &[walker], 15.0) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn people_are_at_intersections_or_between_them_and_robots_see_some() {
+        let grid = Preset::Kerb.grid();
+        // On a corner, in the middle of a street's lanes, on the sidewalk beside, and on the next corner.
+        let run = standing_at(&[[92.1, 92.1], [50.0, 100.0], [78.0, 92.1], [0.0, 0.0]]);
+        let robots = [Track::standing([92.1, 92.1])];
+        let found = places(&run, &grid, &robots, 15.0, 500);
+        let expected = Places {
+            travel_s: 4.0,
+            at_intersections: 0.5,
+            on_road_between: 0.25,
+            covered_at_intersections: 0.5,
+        };
+        assert_eq!(found, expected);
+        assert!(
+            places(&run, &grid, &[], 15.0, 500)
+                .covered_at_intersections
+                .abs()
+                < 1e-12
+        );
     }
 
     #[test]

@@ -10,6 +10,12 @@ use crossguard_endpoint::ras::motion::{Point, distance_m};
 /// Width of a lane, in metres: that of SUMO's networks by default.
 pub const LANE_M: f64 = 3.2;
 
+/// How far from its middle, along each axis, an intersection reaches with its crossings, in metres.
+pub const INTERSECTION_M: f64 = 20.0;
+
+/// People at the edge of a sidewalk may be so far over the lanes, in metres.
+const EDGE_M: f64 = 0.3;
+
 /// A square grid of streets.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -136,6 +142,31 @@ impl Grid {
         f64::from(self.lanes) * LANE_M + self.sidewalk_m / 2.0
     }
 
+    /// Whether a place is at an intersection: no farther from its middle than its crossings.
+    #[must_use]
+    pub fn is_at_intersection(&self, place: Point) -> bool {
+        self.off_intersection_m(place)
+            .iter()
+            .all(|off_m| *off_m <= INTERSECTION_M)
+    }
+
+    /// Whether a place is on the lanes of a street away from its intersections, where there are no crossings.
+    #[must_use]
+    pub fn is_on_road_between(&self, place: Point) -> bool {
+        let [east_m, north_m] = self.off_intersection_m(place);
+        let lanes_m = f64::from(self.lanes) * LANE_M;
+        !self.is_at_intersection(place) && east_m.min(north_m) < lanes_m - EDGE_M
+    }
+
+    /// Distance of a place from the middle of the nearest intersection along each axis, in metres.
+    fn off_intersection_m(&self, place: Point) -> [f64; 2] {
+        let last = f64::from(self.nodes_per_side.saturating_sub(1));
+        place.map(|metres| {
+            let node = (metres / self.segment_m).round().clamp(0.0, last);
+            (metres - node * self.segment_m).abs()
+        })
+    }
+
     /// Where a robot at this intersection stands.
     #[must_use]
     pub fn robot_at(&self, node: Point, site: Site) -> Point {
@@ -162,5 +193,20 @@ mod tests {
         let corner = grid.robot_at(grid.nodes()[0], Preset::Kerb.site());
         assert!(distance_m(corner, [92.1, 92.1]) < 1e-9);
         assert_eq!(grid.nodes().len(), 9);
+    }
+
+    #[test]
+    fn an_intersection_ends_behind_its_crossings_and_lanes_have_two_sides() {
+        let grid = Preset::Kerb.grid();
+        assert!(grid.is_at_intersection([81.0, 119.0]));
+        assert!(!grid.is_at_intersection([79.0, 100.0]));
+        // In the middle of a street: on its lanes to both sides, and on its sidewalks.
+        for (north_m, is_on_road) in [(100.0, true), (94.0, true), (106.0, true), (92.1, false)] {
+            assert_eq!(grid.is_on_road_between([50.0, north_m]), is_on_road);
+            assert_eq!(grid.is_on_road_between([north_m, 50.0]), is_on_road);
+        }
+        assert!(!grid.is_on_road_between([100.0, 95.0]));
+        // There are no streets that lead out of the grid.
+        assert!(!grid.is_at_intersection([300.0, 100.0]));
     }
 }

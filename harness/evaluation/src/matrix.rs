@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use serde::Serialize;
 
 use super::behaviour::Behaviour;
-use super::coverage::coverage;
+use super::coverage::{Places, coverage, places};
 use super::messages::Sizes;
 use super::robot::RobotError;
 use super::simulation::{Measured, Silence, simulate};
@@ -30,7 +30,7 @@ pub struct Axes {
 }
 
 /// Coverage in a cell of the matrix.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
 pub struct ObsCell {
     /// Robots.
     pub robots: usize,
@@ -40,6 +40,14 @@ pub struct ObsCell {
     pub radius_m: f64,
     /// Observation coverage ratio, in percent.
     pub obs_percent: Estimate,
+    /// Share of the covered time in which people are at an intersection, in percent.
+    pub covered_at_intersections_percent: Estimate,
+    /// Share of all their time in which they are there, in percent.
+    pub at_intersections_percent: Estimate,
+    /// Share of it in which they are on the road away from the crossings, in percent.
+    pub on_road_between_percent: Estimate,
+    /// How long all people are on their way together, in seconds.
+    pub travel_s: Estimate,
 }
 
 /// Channel load in a cell of the matrix.
@@ -83,13 +91,21 @@ pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<Ob
                 if !goes_on() {
                     return cells;
                 }
-                let runs = traces.runs.iter().take(axes.seeds);
-                let percent = runs.map(|run| 100.0 * coverage(run, &ways, radius_m));
+                let runs = || traces.runs.iter().take(axes.seeds);
+                let percent = runs().map(|run| 100.0 * coverage(run, &ways, radius_m));
+                let found = runs().map(|run| places(run, grid, &ways, radius_m, sample_ms));
+                let found: Vec<Places> = found.collect();
+                let share =
+                    |of: fn(&Places) -> f64| Estimate::of(found.iter().map(|it| 100.0 * of(it)));
                 cells.push(ObsCell {
                     robots,
                     pedestrians: traces.pedestrians(),
                     radius_m,
                     obs_percent: Estimate::of(percent),
+                    covered_at_intersections_percent: share(|it| it.covered_at_intersections),
+                    at_intersections_percent: share(|it| it.at_intersections),
+                    on_road_between_percent: share(|it| it.on_road_between),
+                    travel_s: Estimate::of(found.iter().map(|it| it.travel_s)),
                 });
             }
         }

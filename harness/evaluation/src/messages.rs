@@ -51,7 +51,7 @@ pub const fn frame_octets(message: usize, signed: Signed) -> usize {
 /// Data rate of the 10 MHz channel, in Mbit/s: the default of ITS-G5. The paper does not state it.
 pub const DATA_RATE_MBPS: u64 = 6;
 /// How long a symbol takes, in microseconds.
-const SYMBOL_US: u64 = 8;
+pub const SYMBOL_US: u64 = 8;
 
 /// How long a frame of these octets is in the air, in microseconds: IEEE 802.11 with 10 MHz at 6 Mbit/s.
 /// 40 us of preamble and signal, then symbols of 8 us with 48 bits each, among them 16 of service and 6

@@ -39,6 +39,8 @@ pub struct PaperSimulation {
     pub power_mw: f64,
     /// Carrier frequency in gigahertz.
     pub frequency_ghz: f64,
+    /// Width of the channel in megahertz.
+    pub channel_mhz: u64,
     /// Coverage of one robot at the larger radius, in percent, whatever the number of pedestrians.
     pub coverage_of_one_percent: StatedRange,
     /// The same of nine robots.
@@ -59,6 +61,7 @@ pub const PAPER: PaperSimulation = PaperSimulation {
     central_intersection: [2, 2],
     power_mw: 200.0,
     frequency_ghz: 5.9,
+    channel_mhz: 10,
     coverage_of_one_percent: StatedRange {
         least: 5.0,
         most: 6.0,

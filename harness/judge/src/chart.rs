@@ -234,7 +234,7 @@ impl Chart {
                 outputs,
                 state,
             } => {
-                if let Input::Local(Event::IdentityChanged(station)) = input {
+                if let Input::Local(Event::IdentityChanged(station, _)) = input {
                     self.lanes[lane].station = *station;
                 }
                 self.keep_sign(lane, record.at_us, outputs);
@@ -254,12 +254,17 @@ impl Chart {
             Entry::Dropped { cause, detail, .. } => {
                 vec![note(format!("! dropped, {cause}: {detail}"))]
             }
+            Entry::Unrecorded { counters } => counters
+                .iter()
+                .map(|(cause, count)| note(format!("! dropped, {cause}: {count} more")))
+                .collect(),
             Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
             Entry::Started { .. }
             | Entry::Zone(_)
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
+            | Entry::Clock(_)
             | Entry::Stopped { .. } => Vec::new(),
         }
     }
@@ -549,10 +554,7 @@ fn arrow(time: f64, [from, to]: [usize; 2], spacing: usize, text: &str, is_lost:
     } else {
         format!("{end}{body}")
     };
-    let mut line = format!("{time:>8.3}");
-    pad(&mut line, LEFT + left * spacing + 1);
-    line.push_str(&drawn);
-    line
+    note_at(time, LEFT + left * spacing + 1, &drawn)
 }
 
 #[cfg(test)]

@@ -75,6 +75,11 @@ pub enum Disagreement {
         /// Why.
         detail: String,
     },
+    /// An insider that lies is no robot, and has no endpoint.
+    #[error(
+        "robot {0} lies: it has no endpoint, so its runs are followed in the model only, without endpoints"
+    )]
+    Lies(StationId),
     /// The model has a robot do something that its endpoint cannot do.
     #[error("robot {0} is down")]
     Down(StationId),
@@ -208,6 +213,9 @@ impl<'a> DrivenRobots<'a> {
             Action::Resume(robot) => {
                 self.robots[usize::from(robot)].hangs = false;
                 Ok(())
+            }
+            Action::Lie(Transmission { from, .. }) => {
+                Err(Disagreement::Lies(self.robots[usize::from(from)].station))
             }
             // What people do concerns no endpoint.
             Action::StepOnRoad(_) | Action::Across(_) => Ok(()),

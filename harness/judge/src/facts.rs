@@ -256,6 +256,7 @@ impl Observer {
             Entry::Started {
                 station,
                 boot,
+                epoch,
                 settings,
                 identifiers,
                 ..
@@ -275,7 +276,8 @@ impl Observer {
                         why: String::new(),
                     });
                 }
-                facts.extend(self.view(robot, &Robot::new(*station, *boot)));
+                let epoch = epoch.unwrap_or(*boot);
+                facts.extend(self.view(robot, &Robot::new(*station, epoch)));
                 self.areas.guarding(*station, settings.guarding);
                 facts
             }
@@ -316,10 +318,14 @@ impl Observer {
                     .map(|(_, message)| Fact::Message(message))
                     .into_iter()
                     .collect();
-                facts.push(self.count(robot, cause.clone()));
+                facts.push(self.count(robot, cause.clone(), 1));
                 facts
             }
-            Entry::Channel(_) => Vec::new(),
+            Entry::Unrecorded { counters } => counters
+                .iter()
+                .map(|(cause, count)| self.count(robot, cause, count))
+                .collect(),
+            Entry::Channel(_) | Entry::Clock(_) => Vec::new(),
             Entry::Zone(outline) => vec![Fact::Zone(outline.clone())],
             Entry::People(sight) => vec![Fact::People(sight.clone())],
             Entry::Around(around) => vec![Fact::Around(around.clone())],
@@ -353,7 +359,7 @@ impl Observer {
             });
         }
         if let Some(reason) = outputs.ignored() {
-            facts.push(self.count(robot, Cause::from(reason).into()));
+            facts.push(self.count(robot, Cause::from(reason).into(), 1));
         }
         facts.extend(self.sign(robot, at_us, outputs));
         facts.extend(self.view(robot, state));
@@ -434,14 +440,17 @@ impl Observer {
         Some((heard, message))
     }
 
-    fn count(&mut self, robot: usize, cause: CauseName) -> Fact {
-        let count = self.robots[robot].counters.add(&cause, 1);
+    fn count(&mut self, robot: usize, cause: CauseName, count: u64) -> Fact {
+        let count = self.robots[robot].counters.add(&cause, count);
         Fact::Counted { cause, count }
     }
 
     /// The notes that the sequence chart has.
     fn notes(&mut self, record: &Record) -> Vec<Fact> {
-        let is_drop = matches!(record.entry, Entry::Dropped { .. });
+        let is_drop = matches!(
+            record.entry,
+            Entry::Dropped { .. } | Entry::Unrecorded { .. }
+        );
         let notes = self.chart.marks(record).into_iter();
         let note = |mark| match mark {
             Mark::Note { text, .. } => Some(Fact::Note {

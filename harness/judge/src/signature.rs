@@ -1,8 +1,8 @@
 //! Who signed a packet that somebody listened in to, and whether that can be relied on.
 
-use crossguard_codec::geonet::{BasicHeader, Headers, NextHeader};
+use crossguard_codec::geonet::{BasicHeader, Headers, NextHeader, origin};
 use crossguard_codec::security::{
-    Place, SignedMessage, SignerIdentifier, Time64, Tolerances, TrustStore, Verifier,
+    SignedMessage, SignerIdentifier, Time64, Tolerances, TrustStore, Verifier,
 };
 use crossguard_codec::{Identifiers, Service};
 use serde::Serialize;
@@ -36,7 +36,12 @@ impl Signatures {
     /// Verifies by what these roots vouch for.
     #[must_use]
     pub fn trusting(trust: TrustStore) -> Self {
-        let verifier = Verifier::new(trust, Tolerances::default(), Vec::new());
+        // A listener is not in a hurry, and where it is does not matter.
+        let tolerances = Tolerances {
+            new_per_s: u32::MAX,
+            ..Tolerances::default()
+        };
+        let verifier = Verifier::new(trust, tolerances, Vec::new());
         Self {
             verifier: Some(verifier),
         }
@@ -86,18 +91,27 @@ impl Signatures {
         };
         let its_aid = message.header.its_aid;
         let service = headers.and_then(|it| Service::at_port(identifiers, it.port));
-        if let Some(service) = service.filter(|it| it.its_aid(identifiers) != its_aid) {
+        if let Some(service) = service
+            && service.its_aid(identifiers) != its_aid
+        {
             let name = service.name();
             return Some(format!(
                 "signed under ITS-AID {its_aid}, which is not that of {name}"
             ));
         }
-        let place = headers.map(|headers| Place {
-            latitude: headers.source.latitude,
-            longitude: headers.source.longitude,
-        });
+        let origin = headers.map(|headers| origin(&headers.source));
+        let is_of_robot = matches!(service, Some(Service::Ram | Service::Rmcm));
+        let profile = if is_of_robot {
+            message.header.check_robot_profile()
+        } else {
+            Ok(())
+        };
+        let fits = origin.map_or(Ok(()), |it| verifier.check_origin(None, &it, message));
         let now = now.unwrap_or(message.header.generation_time);
-        let result = verifier.verify(now, place, message);
+        let place = origin.and_then(|origin| origin.place);
+        let result = profile
+            .and(fits)
+            .and_then(|()| verifier.verify(now, place, message));
         result.err().map(|rejected| rejected.to_string())
     }
 }

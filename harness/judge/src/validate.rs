@@ -68,6 +68,8 @@ pub struct Validated {
     pub robots: usize,
     /// How many records.
     pub records: usize,
+    /// How many records had a link to the record before, which fits: between those no piece is missing.
+    pub linked: usize,
     /// How many steps of the transition function.
     pub steps: usize,
     /// How many messages were sent.
@@ -155,6 +157,7 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
             let judged = cursor.clock.finish();
             judged.map_err(|broken| cursor.refused(Refusal::Clock(broken)))?;
             robots.end(cursor);
+            robots.validated.linked += cursor.records.linked();
         }
     }
     Ok(robots.finish(cursors.iter().map(|cursor| &cursor.clock)))
@@ -193,9 +196,10 @@ impl<'a> Cursor<'a> {
     fn advance(&mut self) -> Result<(), Invalid> {
         self.head = self.records.take().map_err(|unreadable| {
             let fault = match unreadable {
-                Unreadable::Io(cause) => Fault::Unreadable(cause),
+                Unreadable::Line(cause) => Fault::Unreadable(cause),
                 Unreadable::Empty => Fault::Empty,
                 Unreadable::NotARecord(cause) => Fault::NotARecord(cause),
+                Unreadable::Unchained(cause) => Fault::Unchained(cause),
             };
             self.invalid(None, fault)
         })?;
@@ -342,7 +346,8 @@ impl LoggedRobots {
             | Entry::Zone(_)
             | Entry::People(_)
             | Entry::Around(_)
-            | Entry::Channel(_) => Ok(None),
+            | Entry::Channel(_)
+            | Entry::Clock(_) => Ok(None),
             Entry::Step {
                 input,
                 outputs,
@@ -355,7 +360,7 @@ impl LoggedRobots {
                 if let Some(late_us) = late_us {
                     self.validated.late.count(late_us);
                 }
-                if let Input::Local(Event::IdentityChanged(station)) = input {
+                if let Input::Local(Event::IdentityChanged(station, _)) = input {
                     self.stations.insert(station, robot.to_owned());
                 }
                 let broken = self.monitor.step(follow.place(), input, &outputs, &state);
@@ -394,6 +399,10 @@ impl LoggedRobots {
                 follow.dropped(&cause);
                 Ok(None)
             }
+            Entry::Unrecorded { counters } => {
+                follow.unrecorded(&counters);
+                Ok(None)
+            }
             Entry::Stopped { counters } => {
                 self.validated.missing += follow.stopped(&counters)?;
                 self.running.remove(robot);
@@ -407,6 +416,7 @@ impl LoggedRobots {
         let Entry::Started {
             station,
             boot,
+            epoch,
             settings,
             identifiers,
             ..
@@ -422,7 +432,7 @@ impl LoggedRobots {
             Some(before) => before.place(),
             None => self.monitor.add(station),
         };
-        let follow = Follow::started(place, at_us, station, boot, *settings, identifiers)?;
+        let follow = Follow::started(place, at_us, station, (boot, epoch), *settings, identifiers)?;
         self.monitor.boot(place, follow.robot(), follow.config());
         self.stations.insert(station, robot.to_owned());
         self.running.insert(robot.to_owned());

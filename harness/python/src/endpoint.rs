@@ -139,6 +139,7 @@ impl Endpoint {
         endpoint.write(Entry::Started {
             station,
             boot,
+            epoch: None,
             settings,
             identifiers,
             unix_ms,

@@ -58,7 +58,8 @@ fn open((name, text): (String, Option<String>)) -> io::Result<Log<'static>> {
 fn misfit(invalid: Invalid) -> PyResult<Misfit> {
     let text = invalid.to_string();
     match *invalid.fault {
-        Fault::Unreadable(cause) => Err(io::Error::new(cause.kind(), text).into()),
+        Fault::Unreadable(LineError::Io(cause)) => Err(io::Error::new(cause.kind(), text).into()),
+        Fault::Unreadable(LineError::TooLong) => Err(UnreadableLog::new_err(text)),
         Fault::Empty | Fault::NotARecord(_) => Err(UnreadableLog::new_err(text)),
         fault => Ok(Misfit {
             log: invalid.log,

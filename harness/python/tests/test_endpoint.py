@@ -106,15 +106,16 @@ def test_a_command_names_its_place_on_the_map() -> None:
         assert start.parameters.map_place == place
 
 
-def test_what_a_robot_shows_to_people_is_in_its_ram() -> None:
+def test_what_a_robot_shows_to_people_and_what_it_is_there_for_are_in_its_ram() -> None:
     ari, go2 = robot(1), robot(2)
     shown = SignalsShown(PublicSignal.STOP, PublicSignal.CAUTION, SignalMeans.GESTURE | SignalMeans.SPEECH)
-    ari.body = replace(PLACE, slow=SlowState(signals=shown))
+    ari.body = replace(PLACE, slow=SlowState(signals=shown, area=RoadSegment(276, 12)))
     heard = exchange(ari, go2, 10, packets(ari.elapse(at(10))))
     ram = next(effect.message for effect in heard if isinstance(effect, outputs.Heard))
     parameters = decode(ram)["message"]["ram"]["ram"]["ramParameters"]
-    signals = parameters["robotLowFrequencyContainer"]["signalsShown"]
-    assert signals == {"toVehicles": "stop", "toPedestrians": "caution", "means": "90"}
+    slow = parameters["robotLowFrequencyContainer"]
+    assert slow["areaServed"] == {"roadsegment": {"region": 276, "id": 12}}
+    assert slow["signalsShown"] == {"toVehicles": "stop", "toPedestrians": "caution", "means": "90"}
 
 
 def test_a_command_without_parameters_does_not_keep_older_ones() -> None:

@@ -204,8 +204,8 @@ fn main() {
 fn measure(over: &str, street: Street, commands: usize) {
     let pair = start(street.leader, street.follower);
     let mut taken = pair.measure(commands);
-    pair.leader.stop();
-    pair.follower.stop();
+    pair.leader.stop().expect("no panic");
+    pair.follower.stop().expect("no panic");
     assert!(!taken.is_empty(), "no command was acknowledged");
     taken.sort_unstable();
     let quantile = |per_mille: usize| taken[(taken.len() - 1) * per_mille / 1_000];

@@ -1,4 +1,4 @@
-//! The boot counter: the only thing that a robot persists.
+//! The boot counter: the only thing of the protocol that a robot persists.
 //!
 //! Session and offer numbers are built from it, so it must never go back. It is written before the
 //! robot takes part in anything, into a file beside it (`.new`) that then takes its name, so that a
@@ -10,10 +10,19 @@
 //! So the file beside it that is locked (`.lock`) has the newest counter as well, and has it first: the next
 //! counter is above both. Only where neither is there does a robot begin at 1. Where the counter file is gone
 //! and the other one cannot be read, the robot does not start.
+//!
+//! A robot that signs keeps two things more beside it, for its security: see [`Memory`].
+
+mod memory;
+
+pub use memory::{AHEAD_US, Memory};
 
 use std::fs::{File, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
+use std::os::unix::fs::OpenOptionsExt as _;
 use std::path::{Path, PathBuf};
+
+use nix::fcntl::OFlag;
 
 /// What the file begins with.
 const MAGIC: &str = "crossguard boot counter";
@@ -55,6 +64,12 @@ pub enum BootError {
         /// The file.
         path: PathBuf,
     },
+    /// A file beside the counter holds something else.
+    #[error("{} cannot be read. If you know that the clock of this robot is right, delete it", path.display())]
+    Forgotten {
+        /// The file.
+        path: PathBuf,
+    },
     /// The counter cannot go on.
     #[error("{}: this was the last of 65535 boots; give the robot a new station id and a new file", path.display())]
     Exhausted {
@@ -76,6 +91,8 @@ pub struct Boot {
     pub counter: u16,
     /// Where it is kept; nowhere, for robots of which nothing outlives the process.
     kept: Option<Kept>,
+    /// What a robot that signs remembers besides.
+    memory: Option<Memory>,
 }
 
 #[derive(Debug)]
@@ -92,7 +109,24 @@ impl Boot {
         Self {
             counter: 1,
             kept: None,
+            memory: None,
         }
+    }
+
+    /// The same for a robot that signs, which remembers more than the counter.
+    ///
+    /// # Errors
+    /// When that cannot be read or kept: the robot had better not start.
+    pub fn remembering(mut self) -> Result<Self, BootError> {
+        if let Some(kept) = &self.kept {
+            self.memory = Some(Memory::beside(&kept.path)?);
+        }
+        Ok(self)
+    }
+
+    /// What a robot that signs remembers; nothing from before this start, unless it is [`Boot::remembering`].
+    pub(crate) fn take_memory(&mut self) -> Memory {
+        self.memory.take().unwrap_or_else(Memory::nowhere)
     }
 
     /// Takes the next counter while the robot runs: the numbers of this one are half used up.
@@ -120,6 +154,7 @@ pub fn take(path: &Path) -> Result<Boot, BootError> {
             path: path.to_owned(),
             lock,
         }),
+        memory: None,
     })
 }
 
@@ -151,7 +186,7 @@ fn take_after(path: &Path, lock: &File, known: u16) -> Result<u16, BootError> {
     })?;
     let counter = counter.max(above);
     remember(lock, counter).map_err(unusable)?;
-    if let Err(cause) = replace(path, counter) {
+    if let Err(cause) = replace(path, &format!("{MAGIC} {counter}\n")) {
         // Nobody has used it: a robot that is started again and again on a full disk uses no counters up.
         let _ = match remembered {
             Remembered::Counter(before) => remember(lock, before),
@@ -215,11 +250,13 @@ fn lock(path: &Path) -> Result<File, BootError> {
         path: lock_path.clone(),
         cause,
     };
+    // Whoever may write in the folder must not have another file written through a link.
     let lock = File::options()
         .create(true)
         .truncate(false)
         .read(true)
         .write(true)
+        .custom_flags(OFlag::O_NOFOLLOW.bits())
         .open(&lock_path)
         .map_err(unusable)?;
     match lock.try_lock() {
@@ -247,16 +284,21 @@ fn next(path: &Path, file: File) -> Result<u16, BootError> {
     })
 }
 
-/// Writes the counter so that at any moment the file holds the old one or the new one.
-fn replace(path: &Path, counter: u16) -> std::io::Result<()> {
+/// Writes a file so that at any moment it holds the old text or the new one.
+pub(crate) fn replace(path: &Path, text: &str) -> std::io::Result<()> {
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    // Nobody else writes it, under the lock; one that a crash has left is written over.
+    // Nobody else writes it, under the lock; one that a crash has left is removed, and so is a link that somebody
+    // else has put there. What is opened then is a file that did not exist.
     let new_path = path.with_added_extension("new");
-    let mut new = File::create(&new_path)?;
-    new.write_all(format!("{MAGIC} {counter}\n").as_bytes())?;
+    match std::fs::remove_file(&new_path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    let mut new = File::create_new(&new_path)?;
+    new.write_all(text.as_bytes())?;
     new.sync_all()?;
     std::fs::rename(new_path, path)?;
     // The name itself is on the disk only when the folder is.
@@ -377,6 +419,25 @@ mod tests {
         let path = folder.path().join("robot.boot");
         fs::write(&path, format!("{MAGIC} 65535\n")).unwrap();
         assert!(matches!(take(&path), Err(BootError::Exhausted { .. })));
+    }
+
+    #[test]
+    fn nothing_is_written_through_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, other] = ["robot.boot", "other"].map(|name| folder.path().join(name));
+        fs::write(&other, "of somebody else").unwrap();
+        let link_to_other = |link: &Path| std::os::unix::fs::symlink(&other, link).unwrap();
+        link_to_other(&path.with_added_extension("new"));
+        assert_eq!(take(&path).unwrap().counter, 1);
+        assert_eq!(fs::read_to_string(&other).unwrap(), "of somebody else");
+        assert!(!fs::symlink_metadata(&path).unwrap().is_symlink());
+        // A temporary file that a crash has left stands in nobody's way.
+        fs::write(path.with_added_extension("new"), "cut o").unwrap();
+        assert_eq!(take(&path).unwrap().counter, 2);
+        fs::remove_file(beside(&path)).unwrap();
+        link_to_other(&beside(&path));
+        assert!(matches!(take(&path), Err(BootError::Unusable { .. })));
+        assert_eq!(fs::read_to_string(&other).unwrap(), "of somebody else");
     }
 
     #[test]

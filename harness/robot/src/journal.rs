@@ -9,7 +9,6 @@
 //! A log with a gap could not be validated from there on, so the reader of a log that is too slow is
 //! cut off. Either way every record that does not get through is counted under the queue's cause.
 
-use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel};
@@ -93,22 +92,23 @@ impl Journal {
     }
 }
 
-/// Writes what comes out of a queue until nothing more can come. What is written is not kept back while
-/// nothing comes.
+/// Writes what comes out of a queue until nothing more can come. What is written is not kept back by `to`, which
+/// is flushed while nothing comes.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_out<T, W: Write>(
+pub fn write_out<T, W>(
     queue: &Receiver<T>,
     to: &mut W,
     write: impl Fn(&mut W, &T) -> std::io::Result<()>,
+    flush: impl Fn(&mut W) -> std::io::Result<()>,
 ) -> std::io::Result<()> {
     loop {
         let next = match queue.try_recv() {
             Ok(next) => next,
-            Err(TryRecvError::Disconnected) => return to.flush(),
+            Err(TryRecvError::Disconnected) => return flush(to),
             Err(TryRecvError::Empty) => {
-                to.flush()?;
+                flush(to)?;
                 match queue.recv() {
                     Ok(next) => next,
                     Err(_) => return Ok(()),

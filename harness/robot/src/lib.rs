@@ -17,7 +17,8 @@
 //!   what people at the road see.
 //! - [`site_file`] and [`plan_file`] are sites and plans as files, which demonstrations and robots read.
 //! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up; [`observe`] hands it to `tracing`.
-//! - [`boot`] is the counter that makes session numbers unique over power failures.
+//! - [`boot`] is the counter that makes session numbers unique over power failures, and what a robot that signs
+//!   remembers besides; [`clock`] is whether it trusts its clock.
 //! - [`pki`] has the certificates and keys that it signs with, for tests.
 //!
 //! The feature `zenoh` brings the transport of that name.
@@ -29,7 +30,9 @@ pub mod body;
 pub mod boot;
 pub mod capture;
 pub mod channel;
+pub mod clock;
 pub mod journal;
+pub mod lines;
 mod located;
 pub mod machine;
 pub mod observe;

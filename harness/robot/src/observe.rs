@@ -111,7 +111,14 @@ pub fn entry(entry: &Entry, before: &mut State) {
                 warn!(%layer, cause = %reason, detail, "dropped");
             }
         }
+        Entry::Unrecorded { counters } => {
+            for (CauseName { layer, reason }, count) in counters.iter() {
+                warn!(%layer, cause = %reason, count, "dropped, and not recorded one by one");
+            }
+        }
         Entry::Zone(_) => {}
+        Entry::Clock(clock) if clock.is_trusted() => info!("{clock}"),
+        Entry::Clock(clock) => warn!("{clock}"),
         Entry::Channel(channel) => debug!(
             busy_ratio = ?channel.busy_ratio,
             power_dbm = ?channel.power_dbm,

@@ -23,6 +23,7 @@ use crossguard_codec::core::cdd::VruClusterInformation;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use serde::Deserialize;
 
+use crate::lines::lines;
 use crate::site::Place;
 
 /// Lines that are read ahead at most.
@@ -211,13 +212,12 @@ fn observations(
     name: String,
     file: impl BufRead + Send + 'static,
 ) -> impl Iterator<Item = Result<Observation, String>> + Send {
-    let numbered = (1..).zip(file.lines());
+    let numbered = (1..).zip(lines(file));
     numbered.filter_map(move |(number, line)| {
-        let read = line.map_err(PerceptionError::from);
-        let observation = match read {
-            Ok(text) if text.trim().is_empty() => return None,
-            Ok(text) => parse(&text),
-            Err(error) => Err(error),
+        let observation = match line {
+            Ok(text) if text.trim_ascii().is_empty() => return None,
+            Ok(text) => parse(&String::from_utf8_lossy(&text)).map_err(|error| error.to_string()),
+            Err(error) => Err(error.to_string()),
         };
         Some(observation.map_err(|error| format!("{name}:{number}: {error}")))
     })

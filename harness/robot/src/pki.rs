@@ -7,18 +7,19 @@
 //! ```
 //!
 //! The folder of a robot is all that the robot needs: the certificates that it trusts and its own
-//! pseudonyms. Certificates are in COER, private keys in PEM (PKCS #8), which only their owner can read.
-//! Keys of authorities that matter belong in other places than files.
+//! pseudonyms. Certificates are in COER, private keys in PEM (PKCS #8), which only their owner can read, and which are
+//! refused where others can. Keys of authorities that matter belong in other places than files:
+//! [`SigningKey`](crossguard_codec::security::SigningKey).
 
-use std::fs::{self, OpenOptions};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::security::issue::{self, IssueError, Terms};
 use crossguard_codec::security::{
-    Certificate, Duration, IssuePermission, Issuer, NoKey, Permission, PrivateKey, Region,
-    Rejected, SspRange, Subjects, Ticket, Time64, TrustStore, Unsigned, Untrusted, Validity,
+    Certificate, Duration, IssuePermission, Issuer, NoHashedId8, NoKey, Permission, PrivateKey,
+    Region, Rejected, SspRange, Subjects, Ticket, Time64, TrustStore, Unsigned, Untrusted,
+    Validity,
 };
 use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{Identifiers, Part};
@@ -26,9 +27,16 @@ use crossguard_protocol::StationId;
 
 use crossguard_endpoint::station::Credentials;
 
+mod files;
 mod permissions;
+mod revoked;
+mod starts;
 
-pub use permissions::{its_aids, robot_permissions};
+pub use files::{certificates_in, folders_in, read_certificate, sync_folder, write_certificate};
+pub use revoked::{REVOKED_LIST, RevokedList, add_revoked};
+
+pub use permissions::{its_aids, robot_permissions, robot_permissions_at};
+pub use starts::{drawn_start, early_us};
 
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.
 pub const EARLY_S: u64 = 60;
@@ -205,9 +213,10 @@ impl Pki {
         now: Time64,
         keys: &mut dyn FnMut() -> PrivateKey,
     ) -> Result<Self, IssueError> {
+        let pseudonyms = Duration::hours(23);
         let term = Term {
-            from: now,
-            duration: Duration::hours(24),
+            from: Time64(now.0.saturating_sub(early_us(pseudonyms))),
+            duration: Duration::hours(27),
         };
         let its_aids = its_aids(identifiers);
         let root = root_with(keys(), "test root", term, None, &its_aids)?;
@@ -252,15 +261,20 @@ impl Pki {
         now: Time64,
         keys: &mut dyn FnMut() -> PrivateKey,
     ) -> Result<Credentials, PkiError> {
-        let term = Term {
-            from: now,
-            duration: Duration::hours(23),
-        };
+        let duration = Duration::hours(23);
         let ticket = |nth| {
             let named = named.filter(|_| nth == 0);
             let permissions = robot_permissions(identifiers, &[Part::Lead, Part::Help], named);
-            let Holder { certificate, key } =
-                ticket_with(keys(), &self.authority, term, None, permissions)?;
+            let key = keys();
+            let issued = |from, permissions| {
+                let term = Term { from, duration };
+                ticket_with(key.clone(), &self.authority, term, None, permissions)
+            };
+            // The digest of a first one draws when it begins, so that the same keys give the same pseudonyms.
+            let [a, b, c, d, ..] = issued(now, permissions.clone())?.certificate.id().0;
+            let drawn = u64::from(u32::from_be_bytes([a, b, c, d])) * 1_000_000;
+            let from = starts::start_of(&self.authority.certificate, now, duration, drawn);
+            let Holder { certificate, key } = issued(from, permissions)?;
             Ok(Ticket::new(certificate, key)?)
         };
         Ok(Credentials {
@@ -287,6 +301,49 @@ pub enum PkiError {
     /// A private key that others can read.
     #[error("{} can be read by others than its owner; 'chmod 600' it, and better replace it", .0.display())]
     KeyIsOpen(PathBuf),
+    /// A private key that somebody else owns.
+    #[error(
+        "{} belongs to user {owner}, who can read and replace it, and this is user {user}; 'chown {user}' it, and \
+         better replace it",
+        path.display()
+    )]
+    KeyOfAnother {
+        /// The file.
+        path: PathBuf,
+        /// The number of the user who owns it.
+        owner: u32,
+        /// The number of the user who reads it.
+        user: u32,
+    },
+    /// A file that others can replace, or change.
+    #[error(
+        "{} can be changed by others than this user; 'chmod go-w' it, and let this user or root own it",
+        .0.display()
+    )]
+    CanBeReplaced(PathBuf),
+    /// A line of a revocation list names no certificate.
+    #[error("{}:{line}: '{found}' is no certificate: {cause}", path.display())]
+    Revoked {
+        /// The list.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// How the line begins.
+        found: String,
+        /// What is wanted.
+        cause: NoHashedId8,
+    },
+    /// All pseudonyms of a robot are revoked.
+    #[error(
+        "all tickets in {} are on the revocation list {}; 'crossguard pki tickets' makes new ones",
+        folder.display(), list.display()
+    )]
+    AllRevoked {
+        /// The folder of the robot.
+        folder: PathBuf,
+        /// The list.
+        list: PathBuf,
+    },
     /// A file is no certificate that is taken.
     #[error("{}: {cause}", path.display())]
     Certificate {
@@ -318,97 +375,6 @@ pub enum PkiError {
         .0.display()
     )]
     NoTickets(PathBuf),
-}
-
-fn at(path: &Path) -> impl FnOnce(io::Error) -> PkiError {
-    let path = path.to_owned();
-    move |cause| match cause.kind() {
-        io::ErrorKind::AlreadyExists => PkiError::Exists(path),
-        _ => PkiError::File { path, cause },
-    }
-}
-
-impl Holder {
-    /// Writes certificate and key to `folder/name.cert` and `.key`, the key for its owner only.
-    ///
-    /// # Errors
-    /// When one of the files exists, or cannot be written.
-    pub fn write(&self, folder: &Path, name: &str) -> Result<(), PkiError> {
-        fs::create_dir_all(folder).map_err(at(folder))?;
-        let path = folder.join(format!("{name}.key"));
-        let pem = self.key.to_pem().map_err(|cause| PkiError::Key {
-            path: path.clone(),
-            cause,
-        })?;
-        let mut options = OpenOptions::new();
-        options.write(true).create_new(true);
-        #[cfg(unix)]
-        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-        let mut file = options.open(&path).map_err(at(&path))?;
-        file.write_all(pem.as_ref().as_bytes()).map_err(at(&path))?;
-        write_certificate(&self.certificate, folder, name)
-    }
-
-    /// Reads certificate and key from `folder/name.cert` and `.key`.
-    ///
-    /// # Errors
-    /// When one of them cannot be read, or the key can be read by others.
-    pub fn read(folder: &Path, name: &str) -> Result<Self, PkiError> {
-        let certificate = read_certificate(&folder.join(format!("{name}.cert")))?;
-        let path = folder.join(format!("{name}.key"));
-        check_private(&path)?;
-        let pem = fs::read_to_string(&path).map_err(at(&path))?;
-        let key = PrivateKey::of_pem(&pem).map_err(|cause| PkiError::Key { path, cause })?;
-        Ok(Self { certificate, key })
-    }
-}
-
-#[cfg(unix)]
-fn check_private(key: &Path) -> Result<(), PkiError> {
-    let metadata = fs::metadata(key).map_err(at(key))?;
-    let mode = std::os::unix::fs::PermissionsExt::mode(&metadata.permissions());
-    #[expect(clippy::verbose_bit_mask, reason = "permissions are read in octal")]
-    let is_private = mode & 0o077 == 0;
-    if is_private {
-        Ok(())
-    } else {
-        Err(PkiError::KeyIsOpen(key.to_owned()))
-    }
-}
-
-#[cfg(not(unix))]
-fn check_private(_: &Path) -> Result<(), PkiError> {
-    Ok(())
-}
-
-/// Writes a certificate to `folder/name.cert`.
-///
-/// # Errors
-/// When the file exists with other content, or cannot be written.
-pub fn write_certificate(
-    certificate: &Certificate,
-    folder: &Path,
-    name: &str,
-) -> Result<(), PkiError> {
-    let path = folder.join(format!("{name}.cert"));
-    if fs::read(&path).is_ok_and(|octets| octets == certificate.octets()) {
-        return Ok(());
-    }
-    let file = OpenOptions::new().write(true).create_new(true).open(&path);
-    let written = file.and_then(|mut file| file.write_all(certificate.octets()));
-    written.map_err(at(&path))
-}
-
-/// Reads a certificate.
-///
-/// # Errors
-/// When it cannot be read, or is none.
-pub fn read_certificate(path: &Path) -> Result<Certificate, PkiError> {
-    let octets = fs::read(path).map_err(at(path))?;
-    Certificate::decode(&octets).map_err(|cause| PkiError::Certificate {
-        path: path.to_owned(),
-        cause,
-    })
 }
 
 /// The folder of a robot in that of a PKI.
@@ -482,35 +448,29 @@ pub fn credentials_of(folder: &Path, robot: &str) -> Result<Credentials, PkiErro
     read_credentials(if is_pki { &of_robot } else { folder })
 }
 
-/// The certificates in a folder, by name.
+/// The same without what is on a revocation list, which the robot does not trust either.
 ///
 /// # Errors
-/// When it cannot be read.
-pub fn certificates_in(folder: &Path) -> Result<Vec<PathBuf>, PkiError> {
-    paths_in(folder, |path| {
-        path.extension()
-            .is_some_and(|extension| extension == "cert")
-    })
-}
-
-/// The folders in a folder, by name.
-///
-/// # Errors
-/// When it cannot be read.
-pub fn folders_in(folder: &Path) -> Result<Vec<PathBuf>, PkiError> {
-    paths_in(folder, Path::is_dir)
-}
-
-fn paths_in(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, PkiError> {
-    let mut paths = Vec::new();
-    for entry in fs::read_dir(folder).map_err(at(folder))? {
-        let path = entry.map_err(at(folder))?.path();
-        if wanted(&path) {
-            paths.push(path);
+/// Those of [`read_credentials`], what is wrong with the list, or that all tickets are on it.
+pub fn credentials_but(
+    folder: &Path,
+    robot: &str,
+    list: Option<&Path>,
+) -> Result<Credentials, PkiError> {
+    let mut credentials = credentials_of(folder, robot)?;
+    if let Some(list) = list {
+        let revoked = RevokedList::new(list.to_owned()).read()?;
+        let is_revoked = |ticket: &Ticket| revoked.contains(&ticket.certificate().id());
+        credentials.tickets.retain(|ticket| !is_revoked(ticket));
+        credentials.trust.set_revoked(revoked);
+        if credentials.tickets.is_empty() {
+            return Err(PkiError::AllRevoked {
+                folder: folder.to_owned(),
+                list: list.to_owned(),
+            });
         }
     }
-    paths.sort();
-    Ok(paths)
+    Ok(credentials)
 }
 
 #[cfg(test)]
@@ -542,7 +502,7 @@ mod tests {
         let (_folder, robot) = written();
         let credentials = read_credentials(&robot).unwrap();
         assert_eq!(credentials.tickets.len(), 1);
-        assert_eq!(credentials.trust.authorities().len(), 1);
+        assert_eq!(credentials.trust.authorities().count(), 1);
         assert!(Security::new(Mode::Enforce, credentials, None, now()).is_ok());
     }
 
@@ -552,18 +512,5 @@ mod tests {
         let other = Pki::for_a_day(&Identifiers::default(), now()).unwrap();
         let error = other.root.write(folder.path(), "root").unwrap_err();
         assert!(matches!(error, PkiError::Exists(_)), "{error}");
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn keys_are_private_and_have_to_be() {
-        use std::os::unix::fs::PermissionsExt;
-        let (folder, _robot) = written();
-        let key = folder.path().join("root.key");
-        let mode = fs::metadata(&key).unwrap().permissions().mode();
-        assert_eq!(mode & 0o777, 0o600);
-        fs::set_permissions(&key, fs::Permissions::from_mode(0o644)).unwrap();
-        let error = Holder::read(folder.path(), "root").unwrap_err();
-        assert!(matches!(error, PkiError::KeyIsOpen(_)), "{error}");
     }
 }

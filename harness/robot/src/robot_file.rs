@@ -32,8 +32,8 @@ use crate::zone::{Watched, Zone};
 
 use self::body::BodyTable;
 pub use self::body::NoBody;
-pub use self::traits::NoTraits;
 use self::traits::{BatteryTable, JobName};
+pub use self::traits::{NoTraits, job_named};
 pub use self::zone::NoZone;
 use self::zone::ZoneTable;
 
@@ -77,10 +77,18 @@ pub struct RobotFile {
     pub identifiers: Identifiers,
     /// How it announces the people around it, and itself to stations that do not know RAM.
     pub awareness: Awareness,
+    /// The file with the certificates that it does not trust any more, if there is one.
+    pub revoked: Option<PathBuf>,
+    /// Whether it takes what a ROS graph says, which nobody signs, where all packets have to be signed.
+    pub trust_ros_graph: bool,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "the switches of a file, each by its name"
+)]
 struct RobotTable {
     name: String,
     station: u32,
@@ -117,6 +125,9 @@ struct RobotTable {
     cluster_vam: bool,
     #[serde(default)]
     cam: bool,
+    revoked: Option<PathBuf>,
+    #[serde(default)]
+    trust_ros_graph: bool,
 }
 
 /// By what a robot shows signals to people.
@@ -479,6 +490,8 @@ impl RobotTable {
                 cluster_vam_interval_ms: self.cluster_vam.then_some(CLUSTER_INTERVAL_MS),
                 cam: self.cam,
             },
+            revoked: self.revoked.map(|list| folder.join(list)),
+            trust_ros_graph: self.trust_ros_graph,
         })
     }
 }

@@ -14,35 +14,45 @@
 //! The loop owns the machine, the sending half of the link, and the journal; nothing is locked. It
 //! waits for nobody but the clock: a link that does not take a packet, and a reader that does not take
 //! a record, lose it, and that is counted. The inbox takes a limited number of datagrams and drops the
-//! newest; orders have places of their own in it, so that a flood does not keep a robot from stopping.
+//! newest; robots in the same session have more places in it, and orders places of their own, so that a flood does not
+//! shut out a heartbeat or keep a robot from stopping.
 //!
 //! A robot that is told to stop leaves its session by name, says so for `T_farewell`, and then ends.
 
-mod epochs;
+mod clock;
+mod keeper;
+mod partners;
 mod reader;
+mod revoked;
+mod running;
+mod sampler;
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, SyncSender, sync_channel};
-use std::thread::JoinHandle;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, sync_channel};
+use std::time::Duration;
 
-use crossguard_codec::si::timestamp_its;
-use crossguard_codec::{Battery, Identifiers, SignalsShown};
+use crossguard_codec::{Battery, Identifiers, JobRole, MapPlace, SignalsShown};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
-use self::epochs::Epochs;
+pub use self::clock::Clock;
+use self::clock::{moment_at, unix_ms};
+use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
+pub use self::running::{Panicked, Running};
+use self::sampler::Sampler;
 use crate::application::{Application, Wish};
 use crate::around::Around;
 use crate::body::Pose;
 use crate::boot::Boot;
 use crate::channel::Monitored;
+use crate::clock::ClockState;
 use crate::journal::Journal;
 use crate::machine::{Machine, stimulus_of};
 use crate::observe;
@@ -52,6 +62,9 @@ use crate::transport::{Arrival, Halves, Sender};
 
 /// How many datagrams may wait.
 const DATAGRAMS: usize = 256;
+
+/// How many datagrams of robots in the same session may wait besides.
+const OF_PARTNERS: usize = 64;
 
 /// How many orders may wait besides, before who gives them has to.
 const ORDERS: usize = 16;
@@ -64,50 +77,6 @@ const BODY_PERIOD: Duration = Duration::from_millis(5);
 
 /// How often the log says who is around.
 const AROUND_PERIOD_US: u64 = 1_000_000;
-
-/// A clock that several robots share, so that their logs line up.
-#[derive(Clone, Copy, Debug)]
-pub struct Clock {
-    start: Instant,
-}
-
-impl Clock {
-    /// A clock that starts now.
-    #[must_use]
-    pub fn start() -> Self {
-        Self {
-            start: Instant::now(),
-        }
-    }
-
-    /// Microseconds since the start.
-    #[must_use]
-    pub fn now_us(&self) -> u64 {
-        u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
-    }
-
-    /// What it showed at an instant, in ms; 0 before the start.
-    fn at_ms(&self, instant: Instant) -> u64 {
-        let since = instant.saturating_duration_since(self.start);
-        u64::try_from(since.as_millis()).unwrap_or(u64::MAX)
-    }
-}
-
-/// This moment, which the clock shows as `now_us`.
-fn moment_at(now_us: u64) -> Moment {
-    let unix_ms = i64::try_from(unix_ms()).unwrap_or(i64::MAX);
-    Moment {
-        now_ms: now_us / 1_000,
-        timestamp_its: timestamp_its(unix_ms),
-    }
-}
-
-fn unix_ms() -> u64 {
-    let now = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .unwrap_or_default();
-    u64::try_from(now.as_millis()).unwrap_or(u64::MAX)
-}
 
 /// What a running robot can be told from outside.
 #[derive(Clone, Copy, Debug)]
@@ -131,6 +100,10 @@ pub enum Order {
     Battery(Battery),
     /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
     Show(SignalsShown),
+    /// Be there for this job.
+    Job(JobRole),
+    /// Serve this road segment or intersection, or none of a map.
+    Serve(Option<MapPlace>),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -143,6 +116,7 @@ enum Delivery {
     Arrived(Arrival),
     Order(Order),
     LinkFailed(std::io::Error),
+    Revoked(revoked::Read),
 }
 
 /// A robot that can be run.
@@ -171,19 +145,11 @@ pub struct Setup {
     pub clock: Clock,
 }
 
-/// A robot that runs.
-pub struct Running {
-    orders: SyncSender<Delivery>,
-    waiting: Arc<Waiting>,
-    threads: Vec<JoinHandle<()>>,
-    stop: Arc<AtomicBool>,
-}
-
 impl Setup {
     /// Starts the robot in threads of its own.
     #[must_use]
-    pub fn start(self) -> Running {
-        let (deliveries, inbox) = sync_channel(DATAGRAMS + ORDERS);
+    pub fn start(mut self) -> Running {
+        let (deliveries, inbox) = sync_channel(DATAGRAMS + OF_PARTNERS + ORDERS);
         let stop = Arc::new(AtomicBool::new(false));
         let waiting = Arc::new(Waiting::default());
         let reader = Reader {
@@ -195,13 +161,18 @@ impl Setup {
         // The log begins when the robot's clock does.
         let began_us = self.clock.now_us();
         let now_ms = began_us / 1_000;
-        let station = self.security.station_id(&self.identifiers, self.station);
-        let robot = Robot::new(station, self.boot.counter);
+        let memory = self.boot.take_memory();
+        let security = self.security.with_secret(memory.secret());
+        let security = security.since(memory.known());
+        let station = security.station_id(&self.identifiers, self.station);
+        let boot = self.boot.counter;
+        let epoch = security.epoch(station, boot);
+        let robot = Robot::new(station, epoch);
         let mut turn = Loop {
             began_us,
             machine: Machine::new(
                 Endpoint::new(robot, self.config, self.identifiers, now_ms)
-                    .with_security(self.security)
+                    .with_security(security)
                     .with_awareness(self.awareness),
                 self.application,
             ),
@@ -210,10 +181,13 @@ impl Setup {
             journal: self.journal,
             clock: self.clock,
             waiting: Arc::clone(&waiting),
-            epochs: Epochs::start(self.boot),
+            boot,
+            keeper: Keeper::start(self.boot, memory),
+            clock_state: None,
             channel: Monitored::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
+            sampler: Sampler::default(),
             stopping: false,
             is_dead: false,
         };
@@ -221,8 +195,14 @@ impl Setup {
         let threads = vec![
             std::thread::spawn(move || reader.run()),
             std::thread::spawn(move || {
-                turn.run(&inbox);
+                let ran = catch_unwind(AssertUnwindSafe(|| turn.run(&inbox)));
+                if ran.is_err() {
+                    turn.halt_body();
+                }
                 stopped.store(true, Ordering::Relaxed);
+                if let Err(panic) = ran {
+                    resume_unwind(panic);
+                }
             }),
         ];
         Running {
@@ -230,40 +210,6 @@ impl Setup {
             waiting,
             threads,
             stop,
-        }
-    }
-}
-
-impl Running {
-    /// Tells the robot something. It has no effect on a robot that has stopped.
-    pub fn order(&self, order: Order) {
-        let _ = self.orders.send(Delivery::Order(order));
-    }
-
-    /// Whether the robot has stopped, of its own accord or because it was told to.
-    #[must_use]
-    pub fn has_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    /// How many datagrams have been dropped so far because the inbox was full.
-    #[must_use]
-    pub fn inbox_full(&self) -> u64 {
-        self.waiting.dropped_in_all.load(Ordering::Relaxed)
-    }
-
-    /// Tells the robot to stop and waits until it has said farewell.
-    pub fn stop(self) {
-        self.order(Order::Stop);
-        self.wait();
-    }
-
-    /// Waits until the robot has stopped.
-    pub fn wait(self) {
-        drop(self.orders);
-        for thread in self.threads {
-            // A panic has been printed by its thread; there is nothing to add.
-            let _ = thread.join();
         }
     }
 }
@@ -277,18 +223,32 @@ struct Loop {
     journal: Journal,
     clock: Clock,
     waiting: Arc<Waiting>,
-    epochs: Epochs,
+    /// The boot counter that it started with.
+    boot: u16,
+    keeper: Keeper,
+    /// What the log says of the clock.
+    clock_state: Option<ClockState>,
     /// The radio channel, where the link measures it.
     channel: Monitored,
     /// The newest state that observers were told.
     observed: State,
     /// Who the log says is around, and since when.
     around: (Around, u64),
+    /// What is dropped more often than the log takes.
+    sampler: Sampler,
     stopping: bool,
     is_dead: bool,
 }
 
 impl Loop {
+    /// The loop has panicked: nothing that it decided can be relied on, and nobody will tell the body anything more.
+    fn halt_body(&mut self) {
+        let halt = || self.machine.application_mut().stop();
+        if catch_unwind(AssertUnwindSafe(halt)).is_err() {
+            tracing::error!("the body cannot be halted");
+        }
+    }
+
     fn run(&mut self, inbox: &Inbox<Delivery>) {
         let _span = tracing::info_span!("robot", name = self.name).entered();
         let since_ms = self.clock.now_us().saturating_sub(self.began_us) / 1_000;
@@ -296,7 +256,9 @@ impl Loop {
             self.began_us,
             Entry::Started {
                 station: self.machine.endpoint().robot().station(),
-                boot: self.machine.endpoint().robot().boot(),
+                boot: self.boot,
+                epoch: Some(self.machine.endpoint().robot().boot())
+                    .filter(|epoch| *epoch != self.boot),
                 settings: Box::new(self.machine.endpoint().config().settings().clone()),
                 identifiers: *self.machine.endpoint().identifiers(),
                 unix_ms: unix_ms().saturating_sub(since_ms),
@@ -310,6 +272,7 @@ impl Loop {
         while !self.is_done() {
             match inbox.recv_timeout(self.patience()) {
                 Ok(Delivery::Order(order)) => self.obey(order),
+                Ok(Delivery::Revoked(list)) => self.revoke(list),
                 Ok(delivery) => {
                     self.waiting.datagrams.fetch_sub(1, Ordering::Relaxed);
                     self.take(delivery);
@@ -322,9 +285,16 @@ impl Loop {
                 return;
             }
             self.renew_epoch();
+            self.keep_time();
             self.control_congestion();
         }
+        if let Some(time) = self.machine.endpoint().trusted_time() {
+            self.keeper.keep_last(time.mark());
+        }
         self.count_overflow();
+        if let Some(counters) = self.sampler.finish() {
+            self.log(Entry::Unrecorded { counters });
+        }
         let counters = self.machine.endpoint().counters().named();
         let last = self.record(Entry::Stopped { counters });
         self.journal.put_last(last, LAST_RECORD_WAIT);
@@ -372,6 +342,7 @@ impl Loop {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }
             Delivery::Order(order) => return self.obey(order),
+            Delivery::Revoked(list) => return self.revoke(list),
         }
         self.handle(Stimulus::Time);
     }
@@ -417,6 +388,14 @@ impl Loop {
                 self.machine.application_mut().show(signals);
                 Stimulus::Time
             }
+            Order::Job(job) => {
+                self.machine.application_mut().set_job(job);
+                Stimulus::Time
+            }
+            Order::Serve(place) => {
+                self.machine.application_mut().serve(place);
+                Stimulus::Time
+            }
             Order::Reset => {
                 self.machine.application_mut().reset();
                 Stimulus::Time
@@ -443,7 +422,7 @@ impl Loop {
 
     /// Tells the robot of a boot counter that has been persisted meanwhile.
     fn renew_epoch(&mut self) {
-        match self.epochs.answer() {
+        match self.keeper.answer() {
             None => {}
             Some(Ok(boot)) => self.handle(Stimulus::Event(Event::EpochRenewed(boot))),
             // The robot asks again with the next number that it gives out.
@@ -451,6 +430,24 @@ impl Loop {
                 tracing::error!(%error, "the boot counter is not renewed");
                 self.drop(Cause::EpochNotRenewed, error.to_string(), Vec::new());
             }
+        }
+    }
+
+    /// Remembers the time for the next boot, and says whether the clock can be relied on.
+    fn keep_time(&mut self) {
+        let Some(time) = self.machine.endpoint().trusted_time().copied() else {
+            return;
+        };
+        let state = ClockState::of(&time);
+        if state.is_trusted()
+            && let Some(error) = self.keeper.keep(time.mark())
+        {
+            tracing::error!(%error, "the time is not kept");
+            self.drop(Cause::TimeNotKept, error.to_string(), Vec::new());
+        }
+        if self.clock_state.map(ClockState::is_trusted) != Some(state.is_trusted()) {
+            self.clock_state = Some(state);
+            self.log(Entry::Clock(state));
         }
     }
 
@@ -484,6 +481,9 @@ impl Loop {
             self.log(Entry::People(sight));
         }
         self.look_around(shown);
+        if let Some(counters) = self.sampler.elapse(shown) {
+            self.log(Entry::Unrecorded { counters });
+        }
     }
 
     /// Says once a second who is on the map.
@@ -506,8 +506,13 @@ impl Loop {
             Effect::Transmit { packet, .. } => Some(packet.clone()),
             _ => None,
         };
-        if matches!(effect, Effect::Act(Act::RenewEpoch)) {
-            self.epochs.ask();
+        match &effect {
+            Effect::Act(Act::RenewEpoch) => self.keeper.ask(),
+            Effect::Stepped { state, .. } => {
+                let identifiers = self.machine.endpoint().identifiers();
+                self.waiting.partners.follow(state, identifiers);
+            }
+            _ => {}
         }
         // What is sent is logged first: no receiver logs it before its sender.
         if let Some(entry) = recorded(effect) {
@@ -530,6 +535,11 @@ impl Loop {
     }
 
     fn log(&mut self, entry: Entry) {
+        if let Entry::Dropped { cause, .. } = &entry
+            && !self.sampler.admits(cause)
+        {
+            return;
+        }
         let record = self.record(entry);
         self.put(record);
     }

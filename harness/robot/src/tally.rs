@@ -11,6 +11,7 @@ use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, Station
 
 use crate::around::Around;
 use crate::channel::ChannelState;
+use crate::clock::ClockState;
 use crate::sight::Sight;
 use crate::trace::{Entry, Record};
 
@@ -39,6 +40,10 @@ pub struct Tally {
     pub around: Around,
     /// The radio channel, where the link measures it.
     pub channel: Option<ChannelState>,
+    /// The boot counter that it started with, where its numbers do not tell it.
+    pub boot: Option<u16>,
+    /// Whether it trusts its clock, if it verifies what it hears.
+    pub clock: Option<ClockState>,
     /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
     pub go_until: Option<Instant>,
 }
@@ -71,10 +76,17 @@ impl Tally {
     pub fn record(&mut self, record: &Record) {
         self.at_us = record.at_us;
         match &record.entry {
-            Entry::Started { station, boot, .. } => {
+            Entry::Started {
+                station,
+                boot,
+                epoch,
+                ..
+            } => {
                 self.robot.clone_from(&record.robot);
                 self.around = Around::default();
-                self.state = Some(Robot::new(*station, *boot));
+                self.state = Some(Robot::new(*station, epoch.unwrap_or(*boot)));
+                self.boot = epoch.map(|_| *boot);
+                self.clock = None;
                 self.go_until = None;
             }
             Entry::Step { outputs, state, .. } => {
@@ -95,8 +107,14 @@ impl Tally {
             Entry::Dropped { cause, .. } => {
                 self.causes.add(cause, 1);
             }
+            Entry::Unrecorded { counters } => {
+                for (cause, count) in counters.iter() {
+                    self.causes.add(&cause, count);
+                }
+            }
             Entry::Zone(_) => {}
             Entry::Channel(channel) => self.channel = Some(*channel),
+            Entry::Clock(clock) => self.clock = Some(*clock),
             Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Around(around) => self.around.clone_from(around),
             Entry::Stopped { counters } => {
@@ -145,13 +163,23 @@ impl Tally {
     /// What was heard of other stations and who is around, for a person who asks.
     #[must_use]
     pub fn surroundings(&self) -> String {
-        format!(
+        let mut text = format!(
             "sent {}; heard {} of {} stations; around: {}",
             self.services(Way::Sent),
             self.services(Way::Heard),
             self.heard_us.len(),
             self.around
-        )
+        );
+        if let Some(clock) = self.untrusted_clock() {
+            let _ = write!(text, "; {clock}");
+        }
+        text
+    }
+
+    /// Why it does not trust its clock, if it does not.
+    #[must_use]
+    pub fn untrusted_clock(&self) -> Option<ClockState> {
+        self.clock.filter(|clock| !clock.is_trusted())
     }
 
     /// Whether the pedestrian may cross: the sign shows go now, whether the robot still runs or not.

@@ -4,8 +4,12 @@
 //! every message. `validate` of `crossguard-judge` replays it; so a log proves that the robot did what the
 //! verified transition function does, or shows the first record that does not fit.
 
+mod chain;
+mod file;
 mod reader;
 
+pub use chain::Unchained;
+pub use file::{LogFile, LogLimits, open};
 pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Timed, Unreadable};
 
 use std::io::Write;
@@ -16,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::around::Around;
 use crate::channel::ChannelState;
+use crate::clock::ClockState;
 use crate::sight::{Outline, Sight};
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
@@ -48,6 +53,9 @@ pub enum Entry {
         station: StationId,
         /// Its boot counter.
         boot: u16,
+        /// What its first session and offer numbers have for the boot counter, where that is told to nobody.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        epoch: Option<u16>,
         /// Its configuration.
         settings: Box<Settings>,
         /// What no standard has assigned; without it its messages are not understood.
@@ -102,6 +110,11 @@ pub enum Entry {
         #[serde(with = "hex::serde", default)]
         octets: Vec<u8>,
     },
+    /// So many were dropped, by cause, and have no record of their own, because more came than the log takes.
+    Unrecorded {
+        /// How often each cause occurred since the last such record.
+        counters: Counts,
+    },
     /// It watches this crossing zone from now on.
     Zone(Outline),
     /// Its sensors have these people now, and no others.
@@ -111,6 +124,8 @@ pub enum Entry {
     Around(Around),
     /// The radio channel is like this now, where the link measures it.
     Channel(ChannelState),
+    /// It trusts its clock from now on, or no longer. Of a robot that does not trust it nothing that is signed is heard.
+    Clock(ClockState),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

@@ -67,7 +67,7 @@ fn sent_at(busy_permyriad: u16) -> usize {
         unit.send_to(&channel.encode().unwrap(), robot).unwrap();
     }
     running.order(Order::Die);
-    running.wait();
+    running.wait().unwrap();
     packets
 }
 

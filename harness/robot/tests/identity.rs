@@ -13,7 +13,7 @@ use crossguard_codec::{
 };
 use crossguard_endpoint::station::{Credentials, Mode, NAMES_MAX, Security};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Availability, Config, Event, Lease, Phase, Robot, StationId};
+use crossguard_protocol::{Availability, Config, Event, Lease, Phase, Place, Robot, StationId};
 use crossguard_robot::pki::{self, Pki, Term};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::Site;
@@ -25,6 +25,8 @@ const FOLLOWER: StationId = StationId(2);
 const LIAR: StationId = StationId(3);
 
 const TAKEN: &str = "station id of another certificate";
+const ELSEWHERE: &str = "certificate for another place";
+const UNPINNED: &str = "another certificate than in the session";
 
 fn identifiers() -> Identifiers {
     Identifiers::default()
@@ -233,6 +235,45 @@ fn a_helper_cannot_take_over_a_follower_and_the_leader_learns_that_it_is_dead() 
     );
 }
 
+/// Two tickets that name one id, as of an authority that has made a mistake.
+#[test]
+fn a_member_and_a_leader_keep_the_ticket_under_which_they_joined() {
+    let mut street = Street::new(&[LEADER, FOLLOWER]);
+    let mut second_follower = Liar::new(&street.pki, &[Part::Help], Some(FOLLOWER));
+    let mut second_leader = Liar::new(&street.pki, &[Part::Lead], Some(LEADER));
+    // Outside of a session, whoever holds a ticket with this name goes by it.
+    let packet = second_follower.ram(street.now_ms, &Robot::new(FOLLOWER, 1));
+    street.hear(0, &packet);
+    assert_eq!(street.heard(0, FOLLOWER), 2, "each of them once");
+    street.pass(100, &mut |_| {});
+    street.team_up();
+
+    let robots = [0, 1].map(|place| street.robots[place].as_ref().unwrap().robot().clone());
+    let heard = [street.heard(0, FOLLOWER), street.heard(1, LEADER)];
+    let packet = second_follower.ram(street.now_ms, &robots[1]);
+    street.hear(0, &packet);
+    let packet = second_leader.ram(street.now_ms, &robots[0]);
+    street.hear(1, &packet);
+    for place in [0, 1] {
+        assert_eq!(
+            street.dropped(place, UNPINNED),
+            1,
+            "{:?}",
+            street.dropped[place]
+        );
+    }
+    assert_eq!([street.heard(0, FOLLOWER), street.heard(1, LEADER)], heard);
+    street.pass(1_000, &mut |_| {});
+    assert!(street.relies_on(FOLLOWER));
+    // When the session is over and the robot is gone, its name is free again.
+    street.tell(0, Stimulus::Event(Event::TaskCompleted));
+    street.pass(3_000, &mut |_| {});
+    let packet = second_follower.ram(street.now_ms, &Robot::new(FOLLOWER, 1));
+    let heard = street.heard(0, FOLLOWER);
+    street.hear(0, &packet);
+    assert_eq!(street.heard(0, FOLLOWER), heard + 1);
+}
+
 #[test]
 fn one_ticket_is_one_robot() {
     let mut street = Street::new(&[LEADER]);
@@ -333,4 +374,34 @@ fn a_robot_goes_by_the_id_of_its_ticket_from_the_start() {
     assert_eq!(id, StationId(u32::from_be_bytes([a, b, c, d])));
     let off = Security::default();
     assert_eq!(off.station_id(&identifiers(), StationId(7)), StationId(7));
+}
+
+/// A request and an offer of somebody whose ticket is for another crossing.
+#[test]
+fn a_ticket_for_one_crossing_leads_and_helps_at_no_other() {
+    let place = Plan::crossing(Site::default()).request().place;
+    for (permitted, hears) in [(place, true), (Place(place.0 + 1), false)] {
+        let mut street = Street::new(&[LEADER]);
+        let parts = [Part::Lead, Part::Help];
+        let permissions =
+            pki::robot_permissions_at(&identifiers(), &parts, Some(FOLLOWER), Some(permitted));
+        let bound = security(&street.pki, ticket(&street.pki, permissions));
+        let helper = Endpoint::new(Robot::new(FOLLOWER, 1), Config::default(), identifiers(), 0);
+        street.robots.push(Some(helper.with_security(bound)));
+        street.heard.push(BTreeMap::new());
+        street.dropped.push(BTreeMap::new());
+        street.pass(1_500, &mut |_| {});
+        assert!(street.heard(0, FOLLOWER) > 0, "outside of a session");
+        let request = Plan::crossing(Site::default()).request();
+        street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
+        street.pass(1_000, &mut |_| {});
+        assert_eq!(street.relies_on(FOLLOWER), hears);
+        assert_eq!(street.dropped(0, ELSEWHERE) > 0, !hears);
+        street.tell(0, Stimulus::Event(Event::LeaveRequested));
+        street.pass(5_000, &mut |_| {});
+        street.tell(1, Stimulus::Event(Event::PedestrianDetected(request)));
+        let dropped = street.dropped(0, ELSEWHERE);
+        street.pass(1_000, &mut |_| {});
+        assert_eq!(street.dropped(0, ELSEWHERE) > dropped, !hears);
+    }
 }

@@ -74,7 +74,7 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
             }
         }
     }
-    robot.stop();
+    robot.stop().unwrap();
     assert!(
         complained > 0,
         "a counter that cannot be written is complained about"

@@ -4,14 +4,16 @@
 use std::collections::BTreeSet;
 
 use crossguard_codec::geonet::{Address, BasicHeader, Headers};
-use crossguard_codec::security::{SignedMessage, Time64};
+use crossguard_codec::security::{PrivateKey, SignedMessage, Time64};
 use crossguard_codec::{Identifiers, Position, RobotState, TaskParameters};
 
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::listen::overhear;
-use crossguard_endpoint::station::{Mode, Security};
+use crossguard_endpoint::station::{Mode, Secret, Security};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
-    Config, Event, Identity, Input, ManeuverId, Phase, Robot, StationId, TaskType,
+    Config, Event, Identity, Input, ManeuverId, Phase, Robot, SessionId, StationId, TaskType,
 };
 use crossguard_robot::pki::Pki;
 use crossguard_robot::plan::Plan;
@@ -41,10 +43,11 @@ impl Street {
         let robots = [1, 2].map(|id| {
             let credentials = pki.credentials(&identifiers, (40, None), now).unwrap();
             let security = Security::new(Mode::Enforce, credentials, Some(PERIOD_MS), now);
-            let security = security.unwrap();
+            let number = u8::try_from(id).unwrap();
+            let security = security.unwrap().with_secret(Secret::new([number; 32]));
             let id = security.station_id(&identifiers, StationId(id));
-            Endpoint::new(Robot::new(id, 1), Config::default(), identifiers, 0)
-                .with_security(security)
+            let robot = Robot::new(id, security.epoch(id, 1));
+            Endpoint::new(robot, Config::default(), identifiers, 0).with_security(security)
         });
         Self {
             now_ms: 0,
@@ -76,7 +79,7 @@ impl Street {
                     self.tell(1 - robot, datagram);
                 }
                 Effect::Stepped { input, state, .. } => {
-                    if let Input::Local(Event::IdentityChanged(_)) = input {
+                    if let Input::Local(Event::IdentityChanged(..)) = input {
                         assert_eq!(identity, Identity::Unlocked);
                     }
                     identity = state.identity();
@@ -117,13 +120,14 @@ impl Street {
         self.robots[robot].robot().station()
     }
 
-    /// One session, longer than pseudonyms last.
-    fn cross(&mut self) {
+    /// One session, longer than pseudonyms last; its name.
+    fn cross(&mut self) -> SessionId {
         let request = Plan::crossing(Site::default()).request();
         self.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
         self.pass(1_000);
         let (leader, follower) = (self.id(0), self.id(1));
         assert!(matches!(self.robots[0].robot().phase(), Phase::Leading(_)));
+        let session = self.robots[0].robot().session().unwrap();
         let parameters = TaskParameters::default();
         let task = TaskType::INITIAL_POS;
         self.tell(
@@ -140,6 +144,7 @@ impl Street {
         self.pass(200);
         assert_eq!((self.id(0), self.id(1)), (leader, follower));
         self.tell(0, Stimulus::Event(Event::TaskCompleted));
+        session
     }
 }
 
@@ -147,8 +152,9 @@ impl Street {
 fn a_pseudonym_changes_outside_of_sessions_only_and_as_a_whole() {
     let mut street = Street::new();
     street.pass(2_500);
-    for _ in 0..2 {
-        street.cross();
+    let mut sessions = Vec::new();
+    for _ in 0..3 {
+        sessions.push(street.cross());
         let during = [street.id(0), street.id(1)];
         street.pass(5_000);
         for (robot, during) in during.into_iter().enumerate() {
@@ -157,6 +163,13 @@ fn a_pseudonym_changes_outside_of_sessions_only_and_as_a_whole() {
             assert_ne!(street.id(robot), during, "it changed after the session");
         }
     }
+    // The names of sessions do not tell that they are one leader's: no boot counter, and no running count.
+    let epochs: BTreeSet<_> = sessions.iter().map(|it| it.number.0.boot).collect();
+    assert_eq!(epochs.len(), sessions.len(), "{sessions:?}");
+    assert!(
+        sessions.iter().all(|it| it.number.0.count == 0),
+        "{sessions:?}"
+    );
     for heard_as in &street.heard_as {
         let signers: BTreeSet<_> = heard_as.iter().map(|(signer, _)| signer).collect();
         let stations: BTreeSet<_> = heard_as.iter().map(|(_, id)| id).collect();
@@ -164,4 +177,143 @@ fn a_pseudonym_changes_outside_of_sessions_only_and_as_a_whole() {
         assert_eq!(signers.len(), heard_as.len(), "none twice");
         assert_eq!(stations.len(), heard_as.len(), "none twice");
     }
+}
+
+/// One robot alone, with a pseudonym for five minutes; when it sends, in ms.
+struct Alone {
+    robot: Endpoint,
+    now_ms: u64,
+    sent_ms: Vec<u64>,
+    station: StationId,
+    changed_ms: Option<u64>,
+}
+
+impl Alone {
+    const PERIOD_MS: u64 = 300_000;
+
+    fn new(secret: u8) -> Self {
+        let identifiers = Identifiers::default();
+        let now = Time64::of_timestamp_its(EPOCH_ITS);
+        // The same pseudonyms in every run: how long the silence is follows from them and from the secret.
+        let mut numbers = 1_u8..;
+        let mut keys = || PrivateKey::of_octets(&[numbers.next().unwrap(); 32]).unwrap();
+        let pki = Pki::with_keys(&identifiers, now, &mut keys).unwrap();
+        let credentials = pki.credentials_with_keys(&identifiers, (3, None), now, &mut keys);
+        let credentials = credentials.unwrap();
+        let security = Security::new(Mode::Enforce, credentials, Some(Self::PERIOD_MS), now);
+        let security = security.unwrap().with_secret(Secret::new([secret; 32]));
+        let station = security.station_id(&identifiers, StationId(1));
+        let awareness = Awareness {
+            cam: true,
+            cluster_vam_interval_ms: Some(1_000),
+            ..Awareness::default()
+        };
+        let robot = Robot::new(station, security.epoch(station, 1));
+        Self {
+            robot: Endpoint::new(robot, Config::default(), identifiers, 0)
+                .with_security(security)
+                .with_awareness(awareness),
+            now_ms: 0,
+            sent_ms: Vec::new(),
+            station,
+            changed_ms: None,
+        }
+    }
+
+    fn tell(&mut self, stimulus: Stimulus<'_>) {
+        let moment = Moment {
+            now_ms: self.now_ms,
+            timestamp_its: EPOCH_ITS + self.now_ms,
+        };
+        let state = RobotState {
+            position: Position::at(48.765_432_1, 9.123_456_7),
+            ..RobotState::default()
+        };
+        for effect in self.robot.handle(moment, &state, stimulus) {
+            if let Effect::Transmit { .. } = effect {
+                self.sent_ms.push(self.now_ms);
+            }
+        }
+        let station = self.robot.robot().station();
+        if station != self.station {
+            self.station = station;
+            self.changed_ms = Some(self.now_ms);
+        }
+    }
+
+    /// Lets time pass until it changes its pseudonym; when that was.
+    fn change(&mut self) -> u64 {
+        self.changed_ms = None;
+        while self.changed_ms.is_none() {
+            self.now_ms += STEP_MS;
+            self.tell(Stimulus::Time);
+        }
+        self.changed_ms.unwrap()
+    }
+
+    fn pass(&mut self, milliseconds: u64) {
+        for _ in 0..milliseconds / STEP_MS {
+            self.now_ms += STEP_MS;
+            self.tell(Stimulus::Time);
+        }
+    }
+
+    /// Whether it has sent something since then.
+    fn has_sent_since(&self, ms: u64) -> bool {
+        self.sent_ms.last().is_some_and(|last_ms| *last_ms >= ms)
+    }
+}
+
+#[test]
+fn a_robot_is_silent_before_a_new_pseudonym_and_changes_when_all_do() {
+    let mut silences = BTreeSet::new();
+    for secret in 0..4 {
+        let mut alone = Alone::new(secret);
+        let changed_ms = alone.change();
+        let into_period_ms = (EPOCH_ITS + changed_ms) % Alone::PERIOD_MS;
+        assert!(into_period_ms < STEP_MS, "{into_period_ms}");
+        assert!(!alone.has_sent_since(changed_ms));
+        alone.pass(12_000);
+        let next = alone.sent_ms.iter().find(|sent_ms| **sent_ms >= changed_ms);
+        let silence_ms = next.unwrap() - changed_ms;
+        assert!(silence_ms < 10_100, "{silence_ms}");
+        silences.insert(silence_ms);
+    }
+    assert!(
+        silences.len() == 4 && silences.last() > Some(&1_500),
+        "{silences:?}"
+    );
+}
+
+/// A secret with a silence that is long enough to be broken.
+const SILENT: u8 = 1;
+
+/// Hazard: somebody waits at the kerb while a robot hides.
+#[test]
+fn who_needs_the_robot_breaks_its_silence() {
+    let mut alone = Alone::new(SILENT);
+    let changed_ms = alone.change();
+    alone.pass(200);
+    assert!(
+        !alone.has_sent_since(changed_ms),
+        "this secret is silent for too short"
+    );
+    let request = Plan::crossing(Site::default()).request();
+    alone.tell(Stimulus::Event(Event::PedestrianDetected(request)));
+    assert!(alone.has_sent_since(alone.now_ms));
+
+    let mut alone = Alone::new(SILENT);
+    let changed_ms = alone.change();
+    alone.pass(200);
+    assert!(!alone.has_sent_since(changed_ms));
+    let person = PerceivedVru {
+        id: 1,
+        position_m: [3.0, 0.0],
+        velocity_mps: [0.0, 0.0],
+        class: VruClass::Pedestrian,
+        confidence: 1.0,
+    };
+    alone.tell(Stimulus::Perceived(&[person]));
+    alone.pass(200);
+    assert!(alone.has_sent_since(alone.now_ms - 200));
 }

@@ -3,8 +3,8 @@
 
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{
-    Battery, ControlMode, Identifiers, JobRole, RobotCategory, RobotState, Service, decode,
-    state_of,
+    Battery, ControlMode, Identifiers, JobRole, MapPlace, RobotCategory, RobotState, Service,
+    decode, state_of,
 };
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Availability, Config, Event, Robot, StationId, Unavailability};
@@ -31,7 +31,7 @@ impl Said {
     fn by(file: &RobotFile) -> Self {
         let robot = Robot::new(file.station, 1);
         let endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
-        let application = Application::new(Box::new(file.body(1)), file.plan());
+        let application = Application::new(Box::new(file.body(1)), file.plan()).at(file.site);
         let machine = Machine::new(endpoint, application.with_traits(file.traits));
         Self { machine, now_ms: 0 }
     }
@@ -118,6 +118,35 @@ fn every_job_size_and_battery_of_a_file_is_in_its_ram() {
     assert_eq!(plain.job_role, JobRole::TrafficGuard);
     assert_eq!(plain.battery.state_of_charge, Some(80.0));
     assert_eq!(plain.dimensions.height, Some(1.7), "1.65 m in decimetres");
+}
+
+#[test]
+fn the_area_that_a_robot_serves_is_in_its_ram_and_can_be_changed_like_its_job() {
+    let area = |state: &RobotState| state.slow.as_ref().and_then(|slow| slow.area);
+    let (region, id) = (Some(276), 12);
+    let segment = MapPlace::RoadSegment { region, id };
+    let intersection = MapPlace::Intersection { region, id };
+    for (file, expected) in [
+        ("map_place = \"segment 276:12\"", Some(segment)),
+        ("crossing = \"276:12\"", Some(intersection)),
+        ("", None),
+    ] {
+        let text = format!("build = \"humanoid\"\n{file}");
+        let state = Said::by(&read(&text).unwrap()).next(Stimulus::Time);
+        assert_eq!(area(&state), expected, "{file}");
+    }
+    let mut said = Said::by(&read("build = \"humanoid\"\njob = \"escort\"").unwrap());
+    assert_eq!(said.next(Stimulus::Time).job_role, JobRole::Escort);
+    let application = said.machine.application_mut();
+    application.serve(Some(segment));
+    application.set_job(JobRole::Patrol);
+    let state = said.next(Stimulus::Time);
+    assert_eq!(
+        (area(&state), state.job_role),
+        (Some(segment), JobRole::Patrol)
+    );
+    said.machine.application_mut().serve(None);
+    assert_eq!(area(&said.next(Stimulus::Time)), None);
 }
 
 #[test]

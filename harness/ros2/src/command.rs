@@ -1,7 +1,7 @@
 //! What a message of the application tells the robot.
 
 use crossguard_codec::{
-    Battery, NoMapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
+    Battery, JobRole, MapPlace, NoMapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
 };
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{
@@ -52,6 +52,9 @@ pub enum Refused {
     /// No place of a map.
     #[error("map_place is '{0}': {1}")]
     MapPlace(String, NoMapPlace),
+    /// There is no such job.
+    #[error("job_role {0}: 0 to 6 are possible")]
+    Job(u8),
     /// There is no such signal.
     #[error("signal {0}: 0 to 3 are possible")]
     Signal(u8),
@@ -79,6 +82,12 @@ pub enum Refused {
     /// The body is moved by no other node.
     #[error("the body is simulated or at its port; --body external takes poses")]
     NotExternal,
+    /// The robot takes signed packets only, and nobody signs what a ROS graph says.
+    #[error(
+        "the robot takes nothing from the ROS graph with --security enforce; 'trust_ros_graph = true' in its robot \
+         file lets every node command it"
+    )]
+    Untrusted,
     /// There is no robot to tell it.
     #[error("the node is {0}; it takes commands when it is active")]
     NotActive(&'static str),
@@ -89,6 +98,7 @@ impl Refused {
     #[must_use]
     pub const fn cause(&self) -> &'static str {
         match self {
+            Self::Untrusted => "ros: graph not trusted",
             Self::NotActive(_) => "ros: not active",
             Self::Frame(_) | Self::Orientation | Self::NotExternal => "ros: impossible pose",
             Self::Battery(_) => "ros: impossible battery",
@@ -124,6 +134,8 @@ pub fn order(command: &Command, site: &Site, body: BodyKind) -> Result<Order, Re
         Command::LEAVE => Event::LeaveRequested,
         Command::SET_AVAILABILITY => Event::AvailabilityChanged(availability(command)?),
         Command::SHOW => return Ok(Order::Show(signals(command)?)),
+        Command::JOB => return Ok(Order::Job(job_role(command.job_role)?)),
+        Command::SERVE => return Ok(Order::Serve(map_place(command)?)),
         other => return Err(Refused::Kind(other)),
     };
     Ok(Order::Wish(Wish::Tell(event)))
@@ -173,18 +185,31 @@ fn parameters(command: &Command, site: &Site) -> Result<TaskParameters, Refused>
     if !speed.is_finite() || speed < 0.0 {
         return Err(Refused::Speed(speed));
     }
-    let map_place = match command.map_place.as_str() {
-        "" => site.map_place,
-        text => {
-            let place = text.parse();
-            Some(place.map_err(|error| Refused::MapPlace(text.to_owned(), error))?)
-        }
-    };
     Ok(TaskParameters {
-        map_place,
+        map_place: map_place(command)?.or(site.map_place),
         target: target.map(|place| site.target(place)),
         maximum_speed: (speed > 0.0).then_some(speed),
         ..TaskParameters::default()
+    })
+}
+
+/// The road segment or intersection that the command names, if it does.
+fn map_place(command: &Command) -> Result<Option<MapPlace>, Refused> {
+    let text = command.map_place.as_str();
+    let place = (!text.is_empty()).then(|| text.parse()).transpose();
+    place.map_err(|error| Refused::MapPlace(text.to_owned(), error))
+}
+
+fn job_role(code: u8) -> Result<JobRole, Refused> {
+    Ok(match code {
+        Command::ROLE_NONE => JobRole::None,
+        Command::ROLE_TRAFFIC_GUARD => JobRole::TrafficGuard,
+        Command::ROLE_ESCORT => JobRole::Escort,
+        Command::ROLE_PATROL => JobRole::Patrol,
+        Command::ROLE_DELIVERY => JobRole::Delivery,
+        Command::ROLE_MAINTENANCE => JobRole::Maintenance,
+        Command::ROLE_OTHER => JobRole::Other,
+        other => return Err(Refused::Job(other)),
     })
 }
 

@@ -110,6 +110,7 @@ pub struct Command {
     pub to_vehicles: u8,
     pub to_pedestrians: u8,
     pub signal_means: u8,
+    pub job_role: u8,
 }
 
 /// A person that the robot's sensors report.
@@ -181,10 +182,12 @@ messages! {
     Command => "Command" {
         DETECT = 1, ORDER = 2, DONE = 3, FAIL = 4, OPEN_CORRIDOR = 5, CLOSE_CORRIDOR = 6,
         TASK_COMPLETED = 7, LEAVE = 8, SET_AVAILABILITY = 9, IN_POSITION = 10, ROAD_CLEAR = 11,
-        SHOW = 12,
+        SHOW = 12, JOB = 13, SERVE = 14,
         URGENCY_LOW = 0, URGENCY_MEDIUM = 1, URGENCY_HIGH = 2, URGENCY_EMERGENCY = 3,
         SIGNAL_NONE = 0, SIGNAL_STOP = 1, SIGNAL_GO = 2, SIGNAL_CAUTION = 3,
         MEANS_GESTURE = 1, MEANS_DISPLAY = 2, MEANS_LIGHTS = 4, MEANS_SPEECH = 8,
+        ROLE_NONE = 0, ROLE_TRAFFIC_GUARD = 1, ROLE_ESCORT = 2, ROLE_PATROL = 3, ROLE_DELIVERY = 4,
+        ROLE_MAINTENANCE = 5, ROLE_OTHER = 6,
     }
     Person => "Person" {
         PEDESTRIAN = 0, BICYCLIST = 1, MOTORCYCLIST = 2, ANIMAL = 3, WHEELCHAIR_USER = 4, VEHICLE = 5,

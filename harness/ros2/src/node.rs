@@ -285,10 +285,13 @@ impl Turn {
         });
     }
 
-    /// The robot, if it is there and not about to leave.
+    /// The robot, if it is there and not about to leave, and trusts those who can speak on the graph.
     fn commanded(&self) -> Result<(&Active, &RobotFile), command::Refused> {
         let state = self.lifecycle.state();
         match (&self.active, &self.file) {
+            (Some(_), Some(file)) if !self.robot.trusts_graph(file) => {
+                Err(command::Refused::Untrusted)
+            }
             (Some(active), Some(file)) if state == LifecycleState::Active => Ok((active, file)),
             _ => Err(command::Refused::NotActive(state.label())),
         }

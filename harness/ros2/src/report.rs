@@ -203,6 +203,12 @@ impl Reporter {
                 STALE,
                 "nothing was heard of the robot for too long".to_owned(),
             ),
+            (true, _) if self.tally.untrusted_clock().is_some() => (
+                WARN,
+                self.tally
+                    .untrusted_clock()
+                    .map_or_else(String::new, |it| it.to_string()),
+            ),
             (true, 0) => (OK, self.tally.line()),
             (true, _) => (WARN, format!("{news} dropped since the last report")),
         };

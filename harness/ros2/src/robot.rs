@@ -1,7 +1,5 @@
 //! The robot of an active node: its endpoint, link, body and log.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
@@ -17,7 +15,7 @@ use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_robot::pki::{self, PkiError};
 use crossguard_robot::robot_file::{Besides, RobotFile, RobotFileError};
 use crossguard_robot::runtime::{Clock, Order, Running};
-use crossguard_robot::trace::{self, Record};
+use crossguard_robot::trace::{LogFile, LogLimits, Record};
 use crossguard_robot::transport::{LinkError, Reopening, Transport};
 
 use crate::acts::Acts;
@@ -78,6 +76,18 @@ pub enum NoRobot {
         /// Why.
         cause: std::io::Error,
     },
+    /// Its body is moved by a graph that it does not trust.
+    #[error(
+        "--security enforce takes nothing from the ROS graph, and --body external is moved by it: write \
+         'trust_ros_graph = true' into {} if every node that can publish on ~/command and ~/pose may move this robot",
+        .0.display()
+    )]
+    UntrustedBody(PathBuf),
+    /// A revocation list without anything that is signed.
+    #[error(
+        "'revoked' in {} is of no use without --security sign or --security enforce", .0.display()
+    )]
+    NothingToRevoke(PathBuf),
     /// There is no boot counter.
     #[error(transparent)]
     Boot(#[from] BootError),
@@ -118,10 +128,23 @@ impl Robot {
             plan_file: self.plan.as_deref(),
         };
         let file = RobotFile::read_with(&self.config, besides)?;
+        let path = || self.config.clone();
         match (self.body, &file.body_port) {
-            (BodyKind::External, Some(_)) => Err(NoRobot::TwoBodies(self.config.clone())),
+            (BodyKind::External, Some(_)) => Err(NoRobot::TwoBodies(path())),
+            (BodyKind::External, _) if !self.trusts_graph(&file) => {
+                Err(NoRobot::UntrustedBody(path()))
+            }
+            _ if self.security == Mode::Off && file.revoked.is_some() => {
+                Err(NoRobot::NothingToRevoke(path()))
+            }
             _ => Ok(file),
         }
+    }
+
+    /// Whether what comes over ROS topics, which nobody signs, reaches the robot: not where all packets have to be
+    /// signed, unless its file says so.
+    pub(crate) fn trusts_graph(&self, file: &RobotFile) -> bool {
+        self.security != Mode::Enforce || file.trust_ros_graph
     }
 }
 
@@ -134,7 +157,7 @@ impl Active {
         acts: &Acts,
     ) -> Result<(Self, Receiver<Arc<Record>>), NoRobot> {
         let link = Reopening(file.link.clone()).open()?;
-        let security = security(robot, &file.name)?;
+        let security = security(robot, file)?;
         let mut journal = Journal::new();
         let records = journal.reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
         let log = match &robot.log {
@@ -153,12 +176,18 @@ impl Active {
             BodyKind::External => Box::new(file.external_body(acts.driver())),
         };
         // The counter is taken last, when nothing else can go wrong, and before anything is sent.
-        let boot = boot::take(&file.boot_file)?;
+        let mut boot = boot::take(&file.boot_file)?;
+        if security.signs() {
+            boot = boot.remembering()?;
+        }
         let mut setup = file.setup(boot, body, security, link, journal);
         let listener = acts.listener(robot.body == BodyKind::Configured);
         setup.application = setup.application.heard_by(listener);
         let clock = setup.clock;
-        let running = setup.start();
+        let mut running = setup.start();
+        if let Some(list) = &file.revoked {
+            running.keep_revoked(list.clone());
+        }
         let active = Self {
             running,
             clock,
@@ -189,7 +218,8 @@ impl Active {
 
     /// Waits until the robot, which has stopped, has put everything away.
     pub(crate) fn put_away(self) {
-        self.running.wait();
+        // A panic has been logged.
+        let _ = self.running.wait();
         if let Some(log) = self.log {
             // A panic has been printed by its thread; there is nothing to add.
             let _ = log.join();
@@ -197,12 +227,12 @@ impl Active {
     }
 }
 
-fn security(robot: &Robot, name: &str) -> Result<Security, NoRobot> {
+fn security(robot: &Robot, file: &RobotFile) -> Result<Security, NoRobot> {
     if robot.security == Mode::Off {
         return Ok(Security::default());
     }
     let folder = robot.pki.as_deref().ok_or(NoRobot::NoPki)?;
-    let credentials = pki::credentials_of(folder, name)?;
+    let credentials = pki::credentials_but(folder, &file.name, file.revoked.as_deref())?.shuffled();
     let period = Some(PSEUDONYM_PERIOD_MS);
     Ok(Security::new(
         robot.security,
@@ -214,14 +244,15 @@ fn security(robot: &Robot, name: &str) -> Result<Security, NoRobot> {
 
 /// Writes records to a file, in a thread that ends with them.
 fn write_log(path: &Path, records: Receiver<Arc<Record>>) -> Result<JoinHandle<()>, NoRobot> {
-    let file = File::create(path).map_err(|cause| NoRobot::Log {
+    let file = LogFile::create(path, LogLimits::default()).map_err(|cause| NoRobot::Log {
         path: path.to_owned(),
         cause,
     })?;
     let path = path.to_owned();
     Ok(std::thread::spawn(move || {
-        let write = |to: &mut _, record: &Arc<_>| trace::write(to, record);
-        if let Err(error) = journal::write_out(&records, &mut BufWriter::new(file), write) {
+        let mut file = file;
+        let write = |to: &mut LogFile, record: &Arc<Record>| to.write(record);
+        if let Err(error) = journal::write_out(&records, &mut file, write, LogFile::flush) {
             tracing::error!(path = %path.display(), %error, "the log ends");
         }
     }))

@@ -1,5 +1,6 @@
 //! `crossguard check`.
 
+mod confinement;
 mod replay;
 
 use std::fs::File;
@@ -46,6 +47,10 @@ pub(super) struct Arguments {
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
     list: bool,
+    /// Print who can do what by a lie in its own name, and for how many milliseconds at most with the settings by
+    /// default, and check nothing.
+    #[arg(long, conflicts_with_all = ["scenarios", "all", "list"])]
+    confinement: bool,
     /// Threads to explore with; as many as there are processors by default.
     #[arg(long, value_name = "N", value_parser = threads)]
     threads: Option<NonZeroUsize>,
@@ -105,6 +110,9 @@ struct Coverage {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
+    }
+    if arguments.confinement {
+        return confinement::tell(arguments.json);
     }
     if let Some(file) = &arguments.replay {
         return replay::run(&arguments.scenarios, file, arguments.endpoints);
@@ -357,6 +365,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
     for line in table.lines() {
         print(format_args!("  {}", line.trim_end()))?;
     }
+    print_authentication(report)?;
     print_figures(&report.figures)?;
     for property in &report.properties {
         print_counterexample(report, property)?;
@@ -366,6 +375,28 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         print(format_args!("  - {assumption}"))?;
     }
     print("")
+}
+
+/// What the properties assume of those who speak: those that assume the same in one line.
+fn print_authentication(report: &ScenarioReport) -> Result<(), Failure> {
+    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+    for property in &report.properties {
+        let Some(assumed) = &property.authentication else {
+            continue;
+        };
+        match groups.iter_mut().find(|(known, _)| known == assumed) {
+            Some((_, ids)) => ids.push(&property.id),
+            None => groups.push((assumed, vec![&property.id])),
+        }
+    }
+    if groups.is_empty() {
+        return Ok(());
+    }
+    print("  authentication that is assumed:")?;
+    for (assumed, ids) in groups {
+        print(format_args!("  - {}: {assumed}", ids.join(", ")))?;
+    }
+    Ok(())
 }
 
 /// Where it is known, and the check was long enough to tell.

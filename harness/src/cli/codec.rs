@@ -138,7 +138,7 @@ fn convert_lines(
     on_error: impl Fn(usize, &str) -> String,
 ) -> Result<(), Failure> {
     let (mut lines, mut bad) = (0, 0);
-    for (place, line) in input.split(b'\n').enumerate() {
+    for (place, line) in crossguard_robot::lines::lines(input).enumerate() {
         let line = line.map_err(|error| Failure::Input(format!("line {}: {error}", place + 1)))?;
         if line.iter().all(u8::is_ascii_whitespace) {
             continue;

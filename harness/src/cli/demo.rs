@@ -1,6 +1,5 @@
 //! `crossguard demo`.
 
-use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,7 +12,7 @@ use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_judge::chart::Chart;
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::site_file::SiteFile;
-use crossguard_robot::trace::{self, Record};
+use crossguard_robot::trace::{LogFile, LogLimits, Record};
 use crossguard_robot::transport::Faults;
 
 use super::interrupts::interrupts;
@@ -191,7 +190,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         awareness: arguments.etsi.add_to(Awareness::default()),
         stop: Arc::clone(&interrupted),
     };
-    let mut log_file = arguments.log.as_deref().map(LogFile::create).transpose()?;
+    let mut log_file = arguments.log.as_deref().map(DemoLog::create).transpose()?;
     let is_told = !arguments.json && !arguments.quiet;
     let columns: Vec<_> = participants
         .iter()
@@ -240,22 +239,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The log as it is written: at any time all that has happened is in it.
-struct LogFile {
+struct DemoLog {
     path: PathBuf,
-    file: File,
-    line: Vec<u8>,
+    file: LogFile,
     has_failed: bool,
 }
 
-impl LogFile {
+impl DemoLog {
     fn create(path: &Path) -> Result<Self, Failure> {
         destinations::file(path)?;
-        let file = File::create(path)
+        let file = LogFile::create(path, LogLimits::default())
             .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
         Ok(Self {
             path: path.to_owned(),
             file,
-            line: Vec::new(),
             has_failed: false,
         })
     }
@@ -265,9 +262,8 @@ impl LogFile {
         if self.has_failed {
             return;
         }
-        self.line.clear();
-        let written = trace::write(&mut self.line, record);
-        if let Err(error) = written.and_then(|()| self.file.write_all(&self.line)) {
+        let written = self.file.write(record);
+        if let Err(error) = written.and_then(|()| self.file.flush()) {
             self.has_failed = true;
             let _ = writeln!(
                 std::io::stderr(),

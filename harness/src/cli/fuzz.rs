@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::interrupts::interrupts;
 use super::junit::{self, Ending, JunitArguments};
-use super::ranges::{any, whole};
+use super::ranges::{any, number, whole};
 use super::{Failure, destinations, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
@@ -31,6 +31,9 @@ pub(super) struct Arguments {
     /// and the rest are drawn all the same.
     #[arg(long, value_name = "LIST")]
     faults: Option<Faults>,
+    /// In which share of the seeds an insider lies: a station with a certificate that says anything in its own name.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = number(0.0..=1.0))]
+    liars: f64,
     /// How many threads work; by default one for each core.
     #[arg(long, value_parser = whole::<u8>(1..=255))]
     threads: Option<u8>,
@@ -51,7 +54,8 @@ const AFTER_HELP: &str = "\
 Whole endpoints with real packets run in virtual time. From each seed is drawn who there is, which \
 faults the radio has, who detects, crashes, hangs and boots again, who crosses the road. At first there \
 are faults, then the network is healed: no property may break, where a team can exist a crossing must be \
-completed, and all robots must come to rest. The same seed gives the same run.";
+completed, and all robots must come to rest. In a quarter of the seeds an insider lies until then: no property may \
+break that assumes no truth of it. The same seed gives the same run.";
 
 /// The results as JSON.
 #[derive(Serialize)]
@@ -74,6 +78,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         seeds: arguments.seeds,
         robots: usize::from(arguments.robots),
         faults: arguments.faults.as_ref(),
+        liars: arguments.liars,
         threads: arguments.threads.map_or(cores, usize::from),
         failures_max: usize::from(arguments.failures),
     };

@@ -61,6 +61,23 @@ pub(super) enum Command {
         #[command(flatten)]
         output: Form,
     },
+    /// Put certificates on the revocation list of a PKI, revoked.txt in its folder.
+    ///
+    /// A robot whose file has revoked = "…/revoked.txt" takes nothing any more that is signed with one of them, a
+    /// second after the list has changed. Copy the list to each robot, by a rename in the end.
+    #[command(group = clap::ArgGroup::new("which").required(true).multiple(true))]
+    Revoke {
+        /// The folder of the PKI.
+        folder: PathBuf,
+        /// A robot, with all its tickets; may be given several times.
+        #[arg(long = "robot", value_name = "NAME", group = "which")]
+        robots: Vec<String>,
+        /// A file with a certificate of a ticket, an authority or a root; may be given several times.
+        #[arg(long = "certificate", value_name = "FILE", group = "which")]
+        certificates: Vec<PathBuf>,
+        #[command(flatten)]
+        output: Form,
+    },
     /// Show certificates.
     Show {
         /// Certificates, or folders with them.
@@ -71,11 +88,11 @@ pub(super) enum Command {
     },
 }
 
-const AFTER_HELP: &str = "The PKI is for tests: keys lie in files, there is no enrolment, and nothing \
-is revoked.\n\nA robot goes by the station id that its pseudonym names, or by the first four octets of the \
+const AFTER_HELP: &str = "The PKI is for tests: keys lie in files, and there is no enrolment.\n\nA robot goes by the station id that its pseudonym names, or by the first four octets of the \
 pseudonym's digest: such an id changes with the pseudonym, and tells nobody which robot it is. Name ids where plans \
 give roles to stations.\n\nExamples:\n  crossguard pki init pki\n  crossguard demo --security enforce --pki pki\n  \
-crossguard pki tickets pki --robot guest --part help --hours 1\n  crossguard pki show pki --json";
+crossguard pki tickets pki --robot guest --part help --hours 1\n  crossguard pki revoke pki --robot guest\n  \
+crossguard pki show pki --json";
 
 #[derive(clap::Args)]
 pub(super) struct Form {
@@ -109,8 +126,9 @@ pub(super) struct Pseudonyms {
     /// How many.
     #[arg(long, default_value_t = 8, value_parser = whole::<u16>(1..=1_000))]
     count: u16,
-    /// For how many hours they are valid.
-    #[arg(long, default_value_t = 168, value_parser = whole::<u16>(1..=65_535))]
+    /// For how many hours they are valid. Each begins at another moment, up to a tenth of that time early. A ticket that
+    /// got lost is of use to others for as long.
+    #[arg(long, default_value_t = 24, value_parser = whole::<u16>(1..=65_535))]
     hours: u16,
     /// In how many hours they begin to be valid; negative for the past.
     #[arg(
@@ -123,6 +141,9 @@ pub(super) struct Pseudonyms {
     /// The parts that the robot may take in sessions.
     #[arg(long = "part", value_enum, default_values = ["lead", "help"])]
     parts: Vec<PartName>,
+    /// The only crossing where it may take them, as 'place' in robot files has it.
+    #[arg(long, value_name = "NUMBER", value_parser = whole::<u32>(1..=u32::MAX.into()))]
+    place: Option<u32>,
     /// Instead of RAM, RMCM, CAM and VAM: an ITS-AID, with its service specific permissions as a bitmap in
     /// hexadecimal digits if it has some.
     #[arg(long = "its-aid", value_name = "NUMBER[:DIGITS]", action = ArgAction::Append,
@@ -273,6 +294,12 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
             pseudonyms,
             output,
         } => (tickets(folder, robot, pseudonyms)?, output.json),
+        Command::Revoke {
+            folder,
+            robots,
+            certificates,
+            output,
+        } => (revoke(folder, robots, certificates)?, output.json),
         Command::Show { paths, output } => {
             let mut files = Vec::new();
             for path in paths {
@@ -341,6 +368,8 @@ fn init_in(
 ) -> Result<Vec<File>, Failure> {
     // Above pseudonyms that begin in the past are certificates that begin as early.
     let early = Pseudonyms::from(pseudonyms.start_in.min(0));
+    let early_us = pki::early_us(Duration::hours(pseudonyms.hours));
+    let early = Time64(early.0.saturating_sub(early_us));
     let office = |name: &str, years| Office {
         name: Some(name.to_owned()),
         years,
@@ -374,6 +403,7 @@ fn take_place(unfinished: &Path, folder: &Path) -> Result<(), Failure> {
             std::fs::rename(entry.path(), folder.join(entry.file_name()))
         })
     });
+    let moved = moved.and_then(|()| pki::sync_folder(folder));
     moved.map_err(|error| Failure::Input(format!("{}: {error}", folder.display())))
 }
 
@@ -452,9 +482,10 @@ fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File
     // All are made before any is written.
     let region = || wanted.where_valid.region();
     let ticket = |_| {
+        let from = pki::drawn_start(&authority.certificate, term.from, term.duration);
         pki::new_ticket(
             &authority,
-            term,
+            Term { from, ..term },
             region(),
             wanted.permissions(robot.station),
         )
@@ -478,6 +509,26 @@ fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File
     Ok(files)
 }
 
+/// Puts tickets of robots, and other certificates, on the list of a PKI.
+fn revoke(
+    folder: &Path,
+    robots: &[String],
+    certificates: &[PathBuf],
+) -> Result<Vec<File>, Failure> {
+    let mut files = Vec::new();
+    for robot in robots {
+        check_name(robot)?;
+        let tickets = pki::robot_folder(folder, robot).join("tickets");
+        find(&tickets, &mut files).map_err(Failure::input)?;
+    }
+    for certificate in certificates {
+        find(certificate, &mut files).map_err(Failure::input)?;
+    }
+    let ids: Vec<_> = files.iter().map(|(_, it)| it.id()).collect();
+    pki::add_revoked(&folder.join(pki::REVOKED_LIST), &ids).map_err(Failure::input)?;
+    Ok(files)
+}
+
 impl Pseudonyms {
     /// When it is in so many hours.
     fn from(hours: i32) -> Time64 {
@@ -494,7 +545,8 @@ impl Pseudonyms {
             PartName::Help => Part::Help,
         };
         let parts: Vec<_> = self.parts.iter().map(part).collect();
-        pki::robot_permissions(&Identifiers::default(), &parts, named)
+        let place = self.place.map(crossguard_protocol::Place);
+        pki::robot_permissions_at(&Identifiers::default(), &parts, named, place)
     }
 }
 

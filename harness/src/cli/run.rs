@@ -13,7 +13,7 @@
 mod output;
 
 use std::collections::{BTreeMap, VecDeque};
-use std::io::{BufRead, IsTerminal};
+use std::io::IsTerminal;
 use std::net::SocketAddrV4;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crossguard_codec::{Service, SignalsShown};
+use crossguard_codec::{MapPlace, Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_harness::operator::{self, HELP, Line};
@@ -162,29 +162,41 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let watch = arguments.watch.begin()?;
     let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
-    let security = arguments.security.of_robot(&file.name)?;
+    let revoked = file.revoked.as_deref();
+    let security = arguments.security.of_robot(&file.name, revoked)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
     let body = file.body_or_port(arguments.seed).map_err(|error| {
         let address = file.body_port.as_ref().map(|port| port.address.to_string());
         Failure::Input(format!("[body] {}: {error}", address.unwrap_or_default()))
     })?;
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
-    let boot = boot::take(&file.boot_file).map_err(Failure::input)?;
+    let boot = boot::take(&file.boot_file).and_then(|boot| {
+        if security.signs() {
+            boot.remembering()
+        } else {
+            Ok(boot)
+        }
+    });
+    let boot = boot.map_err(Failure::input)?;
     let counter = boot.counter;
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     setup.awareness = arguments.etsi.add_to(setup.awareness);
     let station = setup.security.station_id(&setup.identifiers, file.station);
-    let running = setup.start();
+    let mut running = setup.start();
+    if let Some(list) = &file.revoked {
+        running.keep_revoked(list.clone());
+    }
     let mut console = Console {
         file: &file,
         lines: outputs.lines,
         watch,
         robot: Robot::new(station, counter),
+        doubts_clock: false,
         pending: VecDeque::new(),
         hold: None,
         perceived,
         announced: Announced::default(),
-        shown: BTreeMap::new(),
+        described: BTreeMap::new(),
         missing: 0,
     };
     let name = &file.name;
@@ -199,12 +211,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let outcome = console.attend(&running, &outputs.records, &lines_typed());
     running.order(Order::Stop);
-    running.wait();
+    let ended = running.wait();
     let missing = console.missing;
     drop(console);
     let written = outputs.writings.finish(missing);
     super::finish_capture(capture)?;
     outcome?;
+    if let Err(panicked) = ended {
+        super::complain(panicked);
+        return Err(Failure::Wrong);
+    }
     written
 }
 
@@ -242,7 +258,8 @@ fn open_link(arguments: &Arguments, link: Link) -> Result<(Halves, String), Fail
 fn lines_typed() -> Receiver<String> {
     let (send, lines) = sync_channel(TYPED);
     std::thread::spawn(move || {
-        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+        for line in crossguard_robot::lines::lines(std::io::stdin().lock()).map_while(Result::ok) {
+            let line = String::from_utf8_lossy(&line).into_owned();
             if send.send(line).is_err() {
                 return;
             }
@@ -259,13 +276,15 @@ struct Console<'a> {
     watch: super::watch::Watch,
     /// The robot as its newest record shows it.
     robot: Robot,
+    /// Whether it does not trust its clock.
+    doubts_clock: bool,
     pending: VecDeque<Line>,
     hold: Option<Hold>,
     /// The people that the robot's sensors report, from a file.
     perceived: Option<Feed>,
     announced: Announced,
-    /// What the stations around show to people, as they said last.
-    shown: BTreeMap<StationId, SignalsShown>,
+    /// What the stations around show to people, and what they serve, as they said last.
+    described: BTreeMap<StationId, (Option<SignalsShown>, Option<MapPlace>)>,
     /// How many records did not get into a log, by the robot's own account.
     missing: u64,
 }
@@ -323,6 +342,7 @@ impl Console<'_> {
         }
         match &record.entry {
             Entry::Step { state, .. } => self.robot = (**state).clone(),
+            Entry::Clock(clock) => self.doubts_clock = !clock.is_trusted(),
             Entry::Stopped { counters } => {
                 self.missing = counters.of(&Cause::LogFull.into());
             }
@@ -364,6 +384,10 @@ impl Console<'_> {
             {
                 texts.push(format!("dropped, {cause}: {detail}"));
             }
+            // That it trusts its clock goes without saying, unless it did not.
+            Entry::Clock(clock) if self.doubts_clock || !clock.is_trusted() => {
+                texts.push(clock.to_string());
+            }
             Entry::Stopped { counters } => {
                 texts.push("stopped".to_owned());
                 let counted = counters.iter();
@@ -398,12 +422,20 @@ impl Console<'_> {
         if let Some(place) = heard.map_place {
             return Some(format!("station {from} commands at {place}"));
         }
-        let shown = heard.state?.slow?.signals?;
-        if self.shown.len() >= STATIONS && !self.shown.contains_key(from) {
+        let slow = heard.state?.slow?;
+        if self.described.len() >= STATIONS && !self.described.contains_key(from) {
             return None;
         }
-        let is_news = self.shown.insert(*from, shown) != Some(shown);
-        is_news.then(|| format!("station {from} shows {shown}"))
+        let now = (slow.signals, slow.area);
+        let before = self.described.insert(*from, now).unwrap_or_default();
+        let shows = now.0.filter(|_| now.0 != before.0);
+        let serves = now.1.filter(|_| now.1 != before.1);
+        let news = [
+            shows.map(|shown| format!("shows {shown}")),
+            serves.map(|place| format!("serves {place}")),
+        ];
+        let news: Vec<_> = news.into_iter().flatten().collect();
+        (!news.is_empty()).then(|| format!("station {from} {}", news.join(" and ")))
     }
 
     fn type_in(&mut self, text: &str) -> Result<(), Failure> {

@@ -53,9 +53,14 @@ impl SecurityArguments {
         self.pki.is_none()
     }
 
-    /// The security of a robot of this name, whose certificates are in a folder.
-    pub(super) fn of_robot(&self, name: &str) -> Result<Security, Failure> {
+    /// The security of a robot of this name, whose certificates are in a folder, and which does not trust what is on
+    /// a revocation list.
+    pub(super) fn of_robot(&self, name: &str, revoked: Option<&Path>) -> Result<Security, Failure> {
         match (self.security, &self.pki) {
+            (Mode::Off, _) if revoked.is_some() => Err(Failure::Input(
+                "'revoked' in the robot file is of no use without --security sign or --security enforce"
+                    .to_owned(),
+            )),
             (Mode::Off, Some(_)) => Err(Failure::Input(
                 "--pki is of no use without --security sign or --security enforce".to_owned(),
             )),
@@ -66,7 +71,8 @@ impl SecurityArguments {
                     .to_owned(),
             )),
             (_, Some(folder)) => {
-                self.with(pki::credentials_of(folder, name).map_err(Failure::input)?)
+                let credentials = pki::credentials_but(folder, name, revoked);
+                self.with(credentials.map_err(Failure::input)?.shuffled())
             }
         }
     }
@@ -77,7 +83,7 @@ impl SecurityArguments {
             check(folder, names)?;
         }
         if self.security == Mode::Off || self.pki.is_some() {
-            return names.iter().map(|name| self.of_robot(name)).collect();
+            return names.iter().map(|name| self.of_robot(name, None)).collect();
         }
         let (identifiers, now) = (Identifiers::default(), pki::now());
         let pki = Pki::for_a_day(&identifiers, now).map_err(Failure::input)?;

@@ -131,6 +131,17 @@ fn what_means_nothing_is_answered_with_what_would() {
         ("battery", "'battery' wants a charge in percent"),
         ("battery 120", "'120' is not a charge from 0 to 100 percent"),
         ("battery 20 full", "'full' is not 'charging'"),
+        ("job", "'job' wants a job"),
+        ("job king", "'king' is not a job; see 'help'"),
+        ("job patrol 2", "'2' is one word too many"),
+        (
+            "serve",
+            "'serve' wants a road segment, an intersection, or none",
+        ),
+        (
+            "serve bridge 3",
+            "'bridge 3' is not a road segment or intersection, like 'segment 276:12' or 'intersection 4711'",
+        ),
         ("show", "'show' wants what is shown to vehicles"),
         ("show hello", "'hello' is not none, stop, go or caution"),
         (
@@ -188,6 +199,9 @@ fn everything_that_the_help_names_is_understood() {
         "unavailable low-battery",
         "available",
         "battery 64 charging",
+        "job escort",
+        "serve intersection 276:4711",
+        "serve none",
         "status",
         "wait 1",
         "until idle 3",

@@ -11,6 +11,8 @@
 pub mod c;
 #[cfg(feature = "command")]
 pub mod command;
+#[cfg(feature = "markdown")]
+pub mod markdown;
 #[cfg(feature = "rules")]
 pub mod rules;
 #[cfg(feature = "story")]

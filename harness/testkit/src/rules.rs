@@ -232,7 +232,7 @@ pub struct TakesItsLeadersPseudonym;
 
 impl Rules for TakesItsLeadersPseudonym {
     fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Following(following), Input::Local(Event::IdentityChanged(_))) =
+        if let (Phase::Following(following), Input::Local(Event::IdentityChanged(..))) =
             (robot.phase(), input)
         {
             let mut state = serde_json::to_value(&*robot).unwrap();
@@ -387,5 +387,55 @@ impl Rules for StartsBeforeItAcknowledges {
         let starts = outputs.iter().filter(is_start);
         let others = outputs.iter().filter(|output| !is_start(output));
         starts.chain(others).copied().collect()
+    }
+}
+
+/// What one follower says of itself counts for all followers of the session.
+pub struct CountsOneForAll;
+
+impl Rules for CountsOneForAll {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let members: Vec<_> = match robot.phase() {
+            Phase::Leading(leading) => leading.members.iter().map(|it| it.station).collect(),
+            _ => Vec::new(),
+        };
+        let mut outputs: Vec<_> = robot.step(config, input).iter().copied().collect();
+        if let Input::Ram { mut ram, distance } = input
+            && matches!(ram.coordination, Coordination::Follower { .. })
+            && members.contains(&ram.station)
+        {
+            let sender = ram.station;
+            for other in members.into_iter().filter(|other| *other != sender) {
+                ram.station = other;
+                let more = robot.step(config, Input::Ram { ram, distance });
+                if more.ignored().is_none() {
+                    outputs.retain(|output| !matches!(output, Output::Ignored(_)));
+                    outputs.extend(more.iter().copied());
+                }
+            }
+        }
+        outputs.into_iter().collect()
+    }
+}
+
+/// Whoever says that it follows in the session is a follower there, with the record of the first.
+pub struct AdmitsWhoSaysThatItFollows;
+
+impl Rules for AdmitsWhoSaysThatItFollows {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if let (Some(own), Phase::Leading(leading), Input::Ram { ram, .. }) =
+            (robot.session(), robot.phase(), input)
+            && let Coordination::Follower { session, .. } = ram.coordination
+            && session == own
+            && leading.member(ram.station).is_none()
+        {
+            with_state(robot, |state| {
+                let members = &mut state["phase"]["leading"]["members"];
+                let mut member = members[0].clone();
+                member["station"] = serde_json::to_value(ram.station).unwrap();
+                members.as_array_mut().unwrap().push(member);
+            });
+        }
+        robot.step(config, input)
     }
 }

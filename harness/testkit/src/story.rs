@@ -90,6 +90,7 @@ impl Street {
             Entry::Started {
                 station: StationId(station),
                 boot: 1,
+                epoch: None,
                 settings,
                 identifiers: Identifiers::default(),
                 unix_ms: 0,

@@ -15,6 +15,7 @@ fn fuzz(seeds: u64) -> Fuzz<'static> {
         seeds,
         robots: 6,
         faults: None,
+        liars: 0.25,
         threads: 2,
         failures_max: 1,
     }

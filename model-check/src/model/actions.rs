@@ -28,6 +28,7 @@ impl Model {
             return;
         }
         let on_air = self.next_on_air(state);
+        self.lies(state, !on_air.is_empty(), actions);
         if on_air.is_empty() {
             self.actions_off_air(state, actions);
         }
@@ -77,6 +78,7 @@ impl Model {
                         actions.push(Action::Hang(i));
                     }
                 }
+                None if self.0.scenario.robots[usize::from(i)].lies.is_some() => {}
                 None if state.left.restarts > 0 => actions.push(Action::Restart(i)),
                 None => {}
             }
@@ -182,9 +184,8 @@ impl Model {
             push(Event::AvailabilityChanged(Availability::Available));
         }
         if left.disturbances > 0 {
-            push(Event::IdentityChanged(StationId(
-                robot.station().0 + PSEUDONYM_STEP,
-            )));
+            let alias = StationId(robot.station().0 + PSEUDONYM_STEP);
+            push(Event::IdentityChanged(alias, None));
         }
         match robot.phase() {
             Phase::Idle => {}

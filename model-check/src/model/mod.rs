@@ -6,6 +6,7 @@
 
 mod actions;
 mod canonical;
+mod lies;
 mod successor;
 mod world;
 
@@ -18,6 +19,7 @@ use crate::canonical::{Ranks, Renamings};
 use crate::exploration::Stop;
 use crate::history::History;
 use crate::intern::Interner;
+use crate::model::lies::KnownLies;
 use crate::monotone::Sets;
 use crate::network::{Message, Network, Transmission};
 use crate::node::{Node, Protocol, Rules};
@@ -98,6 +100,8 @@ pub enum Action {
     Hang(u8),
     /// A robot that hangs goes on.
     Resume(u8),
+    /// An insider says something in its own name that one robot hears.
+    Lie(Transmission),
 }
 
 /// How a message arrives.
@@ -126,6 +130,7 @@ struct Shared {
     /// Sets of messages on a monotone channel.
     sets: Sets,
     renamings: Arc<Renamings>,
+    lies: KnownLies,
     /// One bit per property whose premise has been met.
     premises_met: AtomicU32,
 }
@@ -176,6 +181,7 @@ impl Model {
             networks: Interner::new(&renamings),
             sets: Sets::new(&renamings),
             renamings,
+            lies: KnownLies::default(),
             premises_met: AtomicU32::new(0),
         };
         Self(Arc::new(shared), Stop::default())
@@ -202,7 +208,11 @@ impl Model {
     pub fn initial(&self) -> ModelState {
         let mut nodes = [0; MAX_ROBOTS];
         for (node, setup) in nodes.iter_mut().zip(&self.0.scenario.robots) {
-            *node = self.0.steps.nodes.number(Node::first_boot(setup.station));
+            let first = match setup.lies {
+                Some(_) => Node::down(setup.station),
+                None => Node::first_boot(setup.station),
+            };
+            *node = self.0.steps.nodes.number(first);
         }
         ModelState {
             nodes,

@@ -114,6 +114,10 @@ impl Model {
                 next.state.hung &= !(1 << i);
                 None
             }
+            Action::Lie(transmission) => {
+                let cause = Cause::Message(transmission.message);
+                Some(self.robot_step(&mut next, transmission.to.into(), cause)?)
+            }
             Action::StepOnRoad(i) => {
                 let session = self.step_on_road(&mut next.state, i.into())?;
                 self.set_pedestrian(&mut next.state, Pedestrian::OnRoad(session));
@@ -215,6 +219,9 @@ impl Model {
         }
         let step = steps.step(&scenario.config, &scenario.properties, before, cause)?;
         self.spend_growth(&mut next.state.left, before, cause, step)?;
+        if self.confirms_a_stranger(step.after) {
+            return None;
+        }
         let (mut premises, mut broken) = (step.premises, step.broken);
         if step.is_historic {
             let view = StepView {
@@ -281,7 +288,9 @@ impl Model {
         let channel = scenario.channel;
         for &number in &step.sends {
             let message = self.message(number);
-            for to in (0..scenario.robots.len()).filter(|&to| to != from) {
+            // An insider that lies needs to hear nothing: it may say all that it could have heard of.
+            let hears = |&to: &usize| to != from && scenario.robots[to].lies.is_none();
+            for to in (0..scenario.robots.len()).filter(hears) {
                 let receiver = steps.nodes.value(next.state.nodes[to]);
                 if !concerns(message, receiver.persisted.station) || !self.may_hear(next, to) {
                     continue;

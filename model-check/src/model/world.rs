@@ -42,4 +42,9 @@ impl Surroundings for InModel<'_> {
     fn restarts_are_over(&self) -> bool {
         self.state.left().restarts == 0
     }
+
+    fn lies(&self, station: StationId) -> bool {
+        let mut liars = self.model.scenario().liars();
+        liars.any(|(_, liar, _)| liar == station)
+    }
 }

@@ -232,6 +232,7 @@ fn what_holds(
         kind: kind.to_owned(),
         verdict,
         statement: statement.to_owned(),
+        authentication: None,
         counterexample: Vec::new(),
         repeats_after: None,
     };
@@ -264,6 +265,7 @@ fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> Propert
         kind: kind.to_owned(),
         verdict: CheckVerdict::of_property(counterexample.is_some(), None),
         statement: text.statement.to_owned(),
+        authentication: None,
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
         repeats_after: counterexample.and_then(Counterexample::repeats_after),
     }

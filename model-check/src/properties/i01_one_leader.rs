@@ -3,11 +3,13 @@
 //! The type of a robot's state allows one part in one session. The rest is checked: no two robots lead the same
 //! session, and no robot follows itself.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I1",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "no robot is leader and follower at once; a session has one leader",

@@ -2,11 +2,13 @@
 
 use crossguard_protocol::Confirmation;
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I2",
+    authentication: Authentication::truth_of(&[Insider::Leader]),
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a follower in a session was confirmed by its leader",

@@ -1,10 +1,12 @@
 //! I3: a follower executes `(s,q)` only if its leader sent exactly that command to it.
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::StepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I3",
+    authentication: Authentication::truth_of(&[Insider::Leader]),
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a follower starts only what its leader commanded it",

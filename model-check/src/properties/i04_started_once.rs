@@ -1,10 +1,12 @@
 //! I4: `(s,q)` is started at most once, whatever is duplicated.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::StepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I4",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a command is started at most once",

@@ -2,11 +2,13 @@
 
 use crate::serial::request_is_newer;
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::StepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I5",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::T,
         statement: "the started requestID only grows within a session",

@@ -3,11 +3,13 @@
 
 use crossguard_protocol::{Answer, ManeuverId, Output, Rmcm, StationId, Verdict};
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, StateRule, StepRule};
 use super::view::{StepView, View};
 
 pub(super) const PROPERTY: Property = Property {
     id: "I6",
+    authentication: Authentication::truth_of(&[Insider::Follower, Insider::Leader]),
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a leader counts a command as acknowledged only if the follower accepted it; a follower acknowledges a command before it starts",

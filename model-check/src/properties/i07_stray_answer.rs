@@ -2,11 +2,13 @@
 
 use crossguard_protocol::{Answer, Input, Rmcm};
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::{StepView, leading_of};
 
 pub(super) const PROPERTY: Property = Property {
     id: "I7",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::T,
         statement: "an answer that is not for the outstanding command changes nothing",

@@ -2,11 +2,13 @@
 
 use crossguard_protocol::{ManeuverId, Progress, StationId};
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I8",
+    authentication: Authentication::truth_of(&[Insider::Follower]),
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a leader counts a command as completed or in position only if the follower's body has done that",

@@ -1,10 +1,12 @@
 //! I9: after fallback of `(s,q)` that command is never executed again.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I9",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "after its fallback a command is never executed again",

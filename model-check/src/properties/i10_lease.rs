@@ -6,12 +6,14 @@
 
 use crossguard_protocol::{Contact, Lease, Phase, Robot, SessionId, StationId};
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::{TimedStepView, TimedView};
 use crate::node::Node;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I10",
+    authentication: Authentication::truth_of(&[Insider::Follower]),
     untimed: None,
     timed: Some(Claim {
         kind: Kind::S,

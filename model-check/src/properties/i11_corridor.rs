@@ -5,6 +5,7 @@
 
 use crossguard_protocol::{Config, Corridor, Leading, Member, Progress};
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StateRule, TimedPremise, TimedRule};
 use super::timed_view::{TimedStepView, TimedView};
 use super::view::{View, leading_of};
@@ -12,6 +13,7 @@ use crate::timed::watch::StopWatch;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I11",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "the corridor is open only while every required follower is engaged",

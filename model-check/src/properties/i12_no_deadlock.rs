@@ -4,6 +4,7 @@
 //! that arrives or a timer that expires, and that changes the state; it takes no application's help. The
 //! timer of periodic RAM does not count: it always runs, and what it sends may always get lost.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StateRule, TimedRule};
 use super::timed_view::TimedStepView;
 use super::view::View;
@@ -11,6 +12,7 @@ use crate::node::Node;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I12",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a robot with a part in a session can make progress, by more than its periodic RAM",

@@ -1,10 +1,12 @@
 //! I13: every input in every state yields a valid state, and an ignored input changes nothing.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::StepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I13",
+    authentication: Authentication::NONE,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "every input in every state yields a valid state",

@@ -4,11 +4,13 @@
 
 use crossguard_protocol::Phase;
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I14",
+    authentication: Authentication::NONE,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a released or idle robot executes nothing",

@@ -2,11 +2,13 @@
 
 use crossguard_protocol::{Phase, Robot};
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I15",
+    authentication: Authentication::truth_of(&[Insider::Leader]),
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "a rebooted robot takes part in no session from before its reboot",

@@ -2,12 +2,14 @@
 //!
 //! The timers' limits are among the clauses of `is_valid`, which I13 checks on every step.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StateRule, TimedRule};
 use super::timed_view::TimedStepView;
 use super::view::{View, leading_of};
 
 pub(super) const PROPERTY: Property = Property {
     id: "I16",
+    authentication: Authentication::NONE,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "commands are repeated at most N_ack times",

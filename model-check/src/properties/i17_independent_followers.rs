@@ -4,11 +4,13 @@ use crossguard_protocol::{
     Coordination, Countdown, EndReason, Input, Lease, Member, Millis, Notice, StationId,
 };
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::{StepView, leading_of};
 
 pub(super) const PROPERTY: Property = Property {
     id: "I17",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::T,
         statement: "dropping one follower leaves the others' records unchanged",

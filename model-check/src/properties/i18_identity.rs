@@ -4,11 +4,13 @@
 //! never carry the same station id needs no rule: the robots of a scenario differ, and a locked id does not
 //! change. A robot that takes its leader's id breaks I1.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StateRule};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I18",
+    authentication: Authentication::NONE,
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "the identity is locked while the robot is in a session",

@@ -4,11 +4,13 @@
 //! For how long it has heard nothing is judged from what was delivered, and not from its timers; see
 //! `timed/quiet.rs`.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::TimedStepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "I19",
+    authentication: Authentication::NAMES,
     untimed: None,
     timed: Some(Claim {
         kind: Kind::S,

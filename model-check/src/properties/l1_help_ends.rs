@@ -2,6 +2,7 @@
 
 use crossguard_protocol::State;
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, LivenessRule, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::TimedStepView;
 use super::view::{LivenessSubject, LivenessSubjects, View};
@@ -9,6 +10,7 @@ use crate::timed::watch::StopWatch;
 
 pub(super) const PROPERTY: Property = Property {
     id: "L1",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "HelpRequested leads to RoleEstablished or Idle",

@@ -1,10 +1,12 @@
 //! L2: an outstanding command leads to acknowledged or given up.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, LivenessRule, Property, Rule};
 use super::view::{LivenessSubject, LivenessSubjects, View, leading_of};
 
 pub(super) const PROPERTY: Property = Property {
     id: "L2",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "an outstanding command is acknowledged or given up at some time",

@@ -4,11 +4,17 @@
 
 use crossguard_protocol::{Member, Phase};
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, LivenessRule, Property, Rule};
 use super::view::{LivenessSubject, LivenessSubjects, View, leading_of};
 
 pub(super) const PROPERTY: Property = Property {
     id: "L3",
+    authentication: Authentication::truth_of(&[
+        Insider::Follower,
+        Insider::Leader,
+        Insider::Stranger,
+    ]),
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "if everything around the robots cooperates, a request leads to a completed task",

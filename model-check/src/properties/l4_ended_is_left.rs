@@ -2,11 +2,13 @@
 //!
 //! A follower has no way out of its session but to `Idle`, so it is enough to show that it leaves.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, LivenessRule, Property, Rule};
 use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
 
 pub(super) const PROPERTY: Property = Property {
     id: "L4",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "the end of a session leads to every former member being idle",

@@ -2,6 +2,7 @@
 //!
 //! Within which time is what the timed view finds.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, LivenessRule, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::{TimedStepView, TimedView};
 use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
@@ -10,6 +11,7 @@ use crate::timed::watch::StopWatch;
 
 pub(super) const PROPERTY: Property = Property {
     id: "L5",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "a permanent crash of a leader leads to its followers being stopped and idle",

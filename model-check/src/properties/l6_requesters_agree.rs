@@ -5,11 +5,13 @@
 
 use crossguard_protocol::Phase;
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, LivenessRule, Property, Rule};
 use super::view::{LivenessSubject, LivenessSubjects, View};
 
 pub(super) const PROPERTY: Property = Property {
     id: "L6",
+    authentication: Authentication::truth_of(&[Insider::Stranger]),
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "two robots that ask or lead at one place do not both do so for ever",

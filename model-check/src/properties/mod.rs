@@ -10,6 +10,10 @@
 //! A rule says what must hold, and its premise in which situation. A property counts only when its premise is
 //! reachable. The page `doc/verification.md` has a row for each.
 
+mod authentication;
+mod c1_moved_by_its_leader;
+mod c2_honest_guards_in_place;
+mod c3_each_for_itself;
 mod i01_one_leader;
 mod i02_confirmed;
 mod i03_commanded;
@@ -54,6 +58,7 @@ use std::str::FromStr;
 use crossguard_protocol::SessionId;
 use serde::Serialize;
 
+pub use authentication::{Authentication, Insider};
 pub use property::{Claim, Kind, Property};
 pub(crate) use property::{LivenessRule, Rule, StateRule, StepRule, TimedPremise, TimedRule};
 pub(crate) use view::{LivenessSubject, StepView, Surroundings, View};
@@ -122,6 +127,9 @@ properties! {
     W6: w6_application_is_informed,
     W7: w7_crossing_gets_done,
     W8: w8_go_or_a_reason,
+    C1: c1_moved_by_its_leader,
+    C2: c2_honest_guards_in_place,
+    C3: c3_each_for_itself,
 }
 
 /// The bit of each property among the properties that are claimed of one of the models, or 0.
@@ -154,6 +162,12 @@ impl PropertyId {
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.property().id
+    }
+
+    /// What it assumes of those who speak.
+    #[must_use]
+    pub const fn authentication(self) -> Authentication {
+        self.property().authentication
     }
 
     /// What is claimed of the model without time.

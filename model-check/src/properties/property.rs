@@ -4,6 +4,7 @@
 use crossguard_protocol::SessionId;
 use serde::Serialize;
 
+use super::authentication::Authentication;
 use super::timed_view::{TimedStepView, TimedView};
 use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
 
@@ -12,6 +13,8 @@ use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
 pub struct Property {
     /// Its id, the same everywhere: `I4`.
     pub id: &'static str,
+    /// What it assumes of those who speak.
+    pub authentication: Authentication,
     /// What is claimed of the model without time.
     pub untimed: Option<Claim>,
     /// What is claimed of the timed model.

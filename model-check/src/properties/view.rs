@@ -1,8 +1,8 @@
 //! What rules without time see: a state, a robot's step, and the robots that a liveness property is about.
 
 use crossguard_protocol::{
-    Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Robot,
-    SessionId, StationId,
+    Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Rmcm,
+    Robot, SessionId, StationId,
 };
 
 use crate::history::{History, told_end};
@@ -59,6 +59,9 @@ pub(crate) trait Surroundings {
 
     /// Whether no robot that is down boots again.
     fn restarts_are_over(&self) -> bool;
+
+    /// Whether the station of this id is an insider that lies.
+    fn lies(&self, station: StationId) -> bool;
 }
 
 impl<'a> View<'a> {
@@ -129,6 +132,16 @@ impl<'a> StepView<'a> {
             Output::StartManeuver(maneuver) => Some(*maneuver),
             _ => None,
         })
+    }
+
+    /// The station that said what the robot took in.
+    pub(crate) const fn sender(&self) -> Option<StationId> {
+        match self.input {
+            Input::Ram { ram, .. } => Some(ram.station),
+            Input::Rmcm(Rmcm::Command(command)) => Some(command.session.leader),
+            Input::Rmcm(Rmcm::Answer(answer)) => Some(answer.from),
+            Input::Expired(_) | Input::Elapsed(_) | Input::Local(_) => None,
+        }
     }
 
     /// Whether the step is one that the history records, or that a rule may look back from.

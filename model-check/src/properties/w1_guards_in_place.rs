@@ -7,12 +7,14 @@ use crossguard_protocol::SessionId;
 
 use crate::road::Body;
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::{TimedStepView, has_fallback};
 use super::view::View;
 
 pub(super) const PROPERTY: Property = Property {
     id: "W1",
+    authentication: Authentication::truth_of(&[Insider::Follower]),
     untimed: Some(Claim {
         kind: Kind::T,
         statement: "when a pedestrian steps on the road, every guard is in place, or is gone and its leader has not been informed",
@@ -34,7 +36,7 @@ pub(super) const PROPERTY: Property = Property {
 };
 
 /// Judged when a pedestrian steps on the road at the sign of `session`, where this number of guards is required.
-fn holds(view: &View, session: SessionId, required: usize) -> bool {
+pub(super) fn holds(view: &View, session: SessionId, required: usize) -> bool {
     let places = view.configured().enumerate();
     let counts = places.filter(|(place, (node, config))| {
         let body = node.actuation.body;

@@ -8,11 +8,13 @@ use crossguard_protocol::{FallbackPolicy, ManeuverId, Output, StopReason, TaskTy
 
 use crate::road::Body;
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::StepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "W2",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::T,
         statement: "while a pedestrian is on the road, every guard that is able to stay does",

@@ -6,6 +6,7 @@
 
 use crate::road::Heard;
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, StateRule, TimedPremise, TimedRule};
 use super::timed_view::{TimedStepView, TimedView};
 use super::view::View;
@@ -13,6 +14,7 @@ use crate::timed::watch::StopWatch;
 
 pub(super) const PROPERTY: Property = Property {
     id: "W3",
+    authentication: Authentication::truth_of(&[Insider::Stranger]),
     untimed: Some(Claim {
         kind: Kind::S,
         statement: "of two leaders at one place that hear each other, only one shows go",

@@ -9,11 +9,13 @@ use crossguard_protocol::{Coordination, Output, SessionId};
 use crate::node::Node;
 use crate::road::Body;
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, StepRule};
 use super::view::StepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "W4",
+    authentication: Authentication::NAMES,
     untimed: Some(Claim {
         kind: Kind::T,
         statement: "a robot begins nothing new before its duty on the road is over",

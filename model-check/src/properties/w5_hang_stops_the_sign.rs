@@ -2,12 +2,14 @@
 //!
 //! It ends no run: a hang ends.
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::{TimedStepView, TimedView};
 use crate::timed::watch::StopWatch;
 
 pub(super) const PROPERTY: Property = Property {
     id: "W5",
+    authentication: Authentication::truth_of(&[Insider::Follower]),
     untimed: None,
     timed: Some(Claim {
         kind: Kind::L,

@@ -2,6 +2,7 @@
 //!
 //! It ends no run: a follower that is gone is dropped at some time.
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::{TimedStepView, TimedView, has_fallback};
 use crate::node::Node;
@@ -10,6 +11,7 @@ use crate::timed::watch::StopWatch;
 
 pub(super) const PROPERTY: Property = Property {
     id: "W6",
+    authentication: Authentication::truth_of(&[Insider::Follower]),
     untimed: None,
     timed: Some(Claim {
         kind: Kind::L,

@@ -6,11 +6,17 @@ use crossguard_protocol::Phase;
 
 use crate::road::Pedestrian;
 
+use super::authentication::{Authentication, Insider};
 use super::property::{Claim, Kind, LivenessRule, Property, Rule};
 use super::view::{LivenessSubject, LivenessSubjects};
 
 pub(super) const PROPERTY: Property = Property {
     id: "W7",
+    authentication: Authentication::truth_of(&[
+        Insider::Follower,
+        Insider::Leader,
+        Insider::Stranger,
+    ]),
     untimed: Some(Claim {
         kind: Kind::L,
         statement: "if everything around the robots cooperates, a request leads to a finished crossing",

@@ -1,10 +1,12 @@
 //! W8: within the bound a noticed pedestrian sees go, or the application is informed why not.
 
+use super::authentication::Authentication;
 use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
 use super::timed_view::TimedStepView;
 
 pub(super) const PROPERTY: Property = Property {
     id: "W8",
+    authentication: Authentication::NAMES,
     untimed: None,
     timed: Some(Claim {
         kind: Kind::L,

@@ -10,7 +10,7 @@ use super::location::Location;
 use super::symmetric::SymmetryClaim;
 use super::{
     Bounds, ChannelSetup, Impossibility, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP,
-    RobotSetup, Scenario, ScenarioError, Size, monotone,
+    RobotSetup, Scenario, ScenarioError, Size, lies, monotone,
 };
 use crate::network::MAX_DELAYED;
 use crate::properties::PropertyId;
@@ -109,6 +109,13 @@ impl File {
             &self.properties,
         )
         .map_err(|(wrong, cause)| at(wrong, cause))?;
+        let others = [
+            ("monotone", self.channel.monotone),
+            ("symmetric", !self.symmetric.is_empty()),
+            ("timed", self.timed.is_some()),
+            ("cooperative", self.cooperative),
+        ];
+        lies::check(&self.robots, others).map_err(|(wrong, cause)| at(wrong, cause))?;
         let request = self.request.check()?;
         let mut settings = self.protocol;
         if self.timed.is_none() {
@@ -183,7 +190,8 @@ impl File {
                 I::UnusedUrgency(robot.station),
             ));
         }
-        if !self.robots.iter().any(|robot| robot.detects) {
+        let starts = |robot: &RobotSetup| robot.detects || robot.lies.is_some();
+        if !self.robots.iter().any(starts) {
             return Err(at(Location::Key("robots"), I::NobodyDetects));
         }
         Ok(())

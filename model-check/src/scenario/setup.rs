@@ -6,6 +6,8 @@ use std::hash::{Hash, Hasher};
 use crossguard_protocol::{Availability, Event, StationId, Urgency};
 use serde::{Deserialize, Serialize};
 
+use crate::confinement::LyingPart;
+
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 6;
 
@@ -34,6 +36,10 @@ pub struct RobotSetup {
     /// How urgent its requests are, where that differs from the scenario's request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub urgency: Option<Urgency>,
+    /// As what it lies, if it is an insider: a station with a certificate that says anything of its part in its own name, at
+    /// any moment and to each robot something else. It has no state; [`utterances`](crate::utterances) says what it says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lies: Option<LyingPart>,
 }
 
 /// How often each kind of event may happen in one run, over all robots together; never where a file
@@ -72,7 +78,7 @@ impl Bounds {
             Event::ManeuverFailed(_)
             | Event::LeaveRequested
             | Event::AvailabilityChanged(Availability::Unavailable(_))
-            | Event::IdentityChanged(_) => &mut self.disturbances,
+            | Event::IdentityChanged(..) => &mut self.disturbances,
             Event::InPosition(_)
             | Event::ManeuverCompleted(_)
             | Event::TaskCompleted

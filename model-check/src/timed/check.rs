@@ -74,6 +74,7 @@ fn rule(model: &TimedModel, explored: &Explored, id: PropertyId, claim: &Claim) 
         kind: claim.kind.name().to_owned(),
         verdict: CheckVerdict::of_property(path.is_some(), explored.cut_off),
         statement: claim.statement.to_owned(),
+        authentication: Some(id.authentication().to_string()),
         counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
         repeats_after: None,
     }
@@ -85,6 +86,7 @@ fn premise(explored: &Explored, id: PropertyId, claim: &Claim) -> Option<Propert
         kind: "premise".to_owned(),
         verdict: CheckVerdict::of_premise(explored.premises.met(id), explored.cut_off),
         statement: premise.to_owned(),
+        authentication: None,
         counterexample: Vec::new(),
         repeats_after: None,
     })

@@ -12,6 +12,8 @@ use super::clock::longest;
 pub struct Limits {
     /// From a request to roles or to giving up (L1).
     pub roles: Millis,
+    /// From a leader's command to its acknowledgement, or to the follower given up (L2).
+    pub commands: Millis,
     /// From the leader's crash to the follower stopped (L5).
     pub stopped: Millis,
     /// From the leader's crash to the follower idle (L5).
@@ -48,6 +50,7 @@ impl Limits {
         let two_periods = timer(settings.ram_period.saturating_add(settings.ram_period));
         Self {
             roles: timer(settings.t_help),
+            commands: acknowledged(settings),
             stopped,
             left: stopped.saturating_add(timer(settings.t_leave)),
             corridor_closed: lease,
@@ -77,13 +80,17 @@ impl Limits {
 /// its command; and its first report, for which the leader's lease on it waits.
 fn waiting(config: &Config) -> Millis {
     let settings: &Settings = config.settings();
-    let timer = |timer: Millis| longest(timer, settings);
-    let tries = (0..=settings.n_ack).map(|_| timer(settings.t_ack));
     [settings.t_help, config.t_lost(), settings.t_lease]
-        .map(timer)
+        .map(|timer| longest(timer, settings))
         .into_iter()
-        .chain(tries)
-        .fold(Millis::ZERO, Millis::saturating_add)
+        .fold(acknowledged(settings), Millis::saturating_add)
+}
+
+/// A command is sent once and repeated `n_ack` times; the leader waits `t_ack` after each, and each wait may
+/// end late.
+fn acknowledged(settings: &Settings) -> Millis {
+    let waits = (0..=settings.n_ack).map(|_| longest(settings.t_ack, settings));
+    waits.fold(Millis::ZERO, Millis::saturating_add)
 }
 
 #[cfg(test)]
@@ -100,6 +107,8 @@ mod tests {
         // Each timer may be told 50 ms late.
         assert_eq!(limits.stopped, Millis(30 + 2_050));
         assert_eq!(limits.left, Millis(30 + 2_050 + 5_050));
+        // One command and three repetitions.
+        assert_eq!(limits.commands, Millis(4 * 650));
         let waiting = 10_050 + 7_050 + 1_950 + 4 * 650;
         let road = [
             ("W1", Millis(1_950)),

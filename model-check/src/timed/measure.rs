@@ -74,7 +74,7 @@ impl Measure {
     }
 
     /// The properties that the figure is about.
-    const fn properties(self) -> &'static [PropertyId] {
+    pub(super) const fn properties(self) -> &'static [PropertyId] {
         use PropertyId as P;
         match self {
             Self::Roles => &[P::L1],

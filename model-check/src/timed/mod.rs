@@ -60,6 +60,7 @@
 //! - *Heartbeats* are counted from the oldest that occurs in a state, which keeps their distances.
 
 mod actions;
+mod bounds;
 mod broken;
 mod channel;
 mod check;
@@ -79,6 +80,7 @@ pub(crate) mod teams;
 pub(crate) mod told;
 pub(crate) mod watch;
 
+pub use bounds::{Bound, bounds};
 pub use channel::Flight;
 pub use check::check;
 pub use clock::{Clock, longest};

@@ -281,13 +281,23 @@ pub fn a_dropped_follower_leaves_the_others(step: &Taken) {
 
 /// I15, I18: a session or offer that is new has a number that was not given out, or was taken back since
 /// its request ended; a boot counter changes only to a larger one; a new one is asked for from half of the
-/// numbers on; and the station id changes only on its own event while unlocked.
+/// numbers on; and the station id changes only on its own event while unlocked, with the numbers that the event says.
 pub fn keeps_its_numbers(step: &Taken) {
     let (before, after) = (&step.before, &step.after);
     if let Input::Local(Event::EpochRenewed(boot)) = step.input
         && boot > before.boot()
     {
         assert!(after.next_number() == UniqueNumber { boot, count: 0 });
+        return;
+    }
+    if after.station() != before.station() {
+        let Input::Local(Event::IdentityChanged(station, next)) = step.input else {
+            panic!("the station id changes on its own event only");
+        };
+        assert!(after.station() == station);
+        assert!(before.identity() == Identity::Unlocked && before.session().is_none());
+        assert!(after.next_number() == next.unwrap_or(before.next_number()));
+        assert!(!step.said.has(Sort::RenewEpoch));
         return;
     }
     assert!(after.boot() == before.boot());
@@ -301,13 +311,6 @@ pub fn keeps_its_numbers(step: &Taken) {
     // A number that was given out is of the state after, or was given out and lost in one step.
     let is_late = next > free.count && next > u16::MAX / 2;
     assert!(step.said.has(Sort::RenewEpoch) == is_late);
-    if after.station() != before.station() {
-        assert!(matches!(
-            step.input,
-            Input::Local(Event::IdentityChanged(_))
-        ));
-        assert!(before.identity() == Identity::Unlocked && before.session().is_none());
-    }
 }
 
 /// The number of an offer of this boot that nobody has confirmed, where the input says that its request is

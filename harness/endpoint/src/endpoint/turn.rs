@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use crossguard_codec::core::ram::RAM;
-use crossguard_codec::geonet::{EgoPosition, Indication, PACKET_LEN_MAX, Signer};
+use crossguard_codec::geonet::{Address, EgoPosition, Indication, PACKET_LEN_MAX, Signer};
 use crossguard_codec::{Heard, Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{Event, Input, Output, Outputs, Robot, StationId};
 
@@ -58,6 +58,16 @@ impl<'a> Turn<'a> {
         if let Err(unplaced) = perceived {
             self.dropped(Cause::Unplaced, &unplaced, &[]);
         }
+    }
+
+    /// Whether it has people to announce, or to say of them that they are gone.
+    pub(super) fn announces_people(&self) -> bool {
+        self.around.surroundings.announces()
+    }
+
+    /// The people around are announced under other ids from now on.
+    pub(super) fn renew_clusters(&mut self, now_ms: u64, seed: u64) {
+        self.around.surroundings.renew_ids(now_ms, seed);
     }
 
     /// The longest interval between two RAM, in ms.
@@ -157,8 +167,9 @@ impl Host for Turn<'_> {
         }
     }
 
-    fn vouched(&mut self, moment: Moment, from: StationId, signer: Signer) {
-        self.around.neighbours.bind(from, signer, moment.now_ms);
+    fn vouched(&mut self, moment: Moment, from: StationId, (signer, address): (Signer, Address)) {
+        let neighbours = &mut self.around.neighbours;
+        neighbours.bind(from, signer, address, moment.now_ms);
     }
 
     fn other(
@@ -171,8 +182,7 @@ impl Host for Turn<'_> {
         let (service, octets) = (indication.service, indication.message);
         let ego = EgoPosition::of(self.state, moment.timestamp_its);
         let neighbours = &mut self.around.neighbours;
-        let heard = (service, octets, indication.signer);
-        match neighbours.observe(me.station(), heard, &ego, moment.now_ms) {
+        match neighbours.observe(me.station(), indication, &ego, moment.now_ms) {
             Ok(message) => {
                 // An event is nobody for the map, and changes nothing that the robot does.
                 if let Some(event) = message.event() {

@@ -3,7 +3,7 @@
 use core::fmt::Display;
 
 use crossguard_codec::core::ram::RAM;
-use crossguard_codec::geonet::{Indication, Request, Signer};
+use crossguard_codec::geonet::{Address, Indication, Request, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 
@@ -65,8 +65,8 @@ pub trait Host {
     /// The robot `me` understood a message.
     fn heard(&mut self, moment: Moment, me: &Robot, heard: &Heard, arrived: Arrived<'_>);
 
-    /// The certificate of `signer` vouches for the robot with this station id.
-    fn vouched(&mut self, _moment: Moment, _from: StationId, _signer: Signer) {}
+    /// The certificate of this signer vouches for the robot with this station id, whose packets come from this address.
+    fn vouched(&mut self, _moment: Moment, _from: StationId, _by: (Signer, Address)) {}
 
     /// A message of another service than those of robots arrived at the robot `me`, in this packet.
     fn other(

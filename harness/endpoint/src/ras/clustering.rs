@@ -306,6 +306,18 @@ impl Clustering {
         self.regroup(now_ms);
     }
 
+    /// Gives all clusters new ids, which follow from `seed`: those before belong to another station, so to speak, and
+    /// nothing is said of them any more.
+    pub fn renew_ids(&mut self, now_ms: u64, seed: u64) {
+        self.random = ChaCha8Rng::seed_from_u64(seed);
+        self.retired.clear();
+        self.ended.clear();
+        for (_, members) in std::mem::take(&mut self.groups) {
+            let id = self.new_id(now_ms, &[]);
+            self.groups.push((id, members));
+        }
+    }
+
     /// Leaves those within a cluster of a robot that precedes this one to that robot, so that nobody is
     /// announced twice, for 2 s (`timeClusterContinuity`). Which robot precedes has to be an order, as
     /// that of station ids is: then at least one of those who see somebody announces them.

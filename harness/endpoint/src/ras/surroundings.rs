@@ -174,6 +174,22 @@ impl Surroundings {
         self.note_ended();
     }
 
+    /// Whether there are people to announce, or clusters to say of that they are over.
+    #[must_use]
+    pub fn announces(&self) -> bool {
+        self.clustering.count() > 0 || !self.ended.is_empty() || !self.breakups.is_empty()
+    }
+
+    /// All clusters are announced under new ids, which follow from `seed`, as after a change of pseudonym. Devices hear
+    /// nothing of the clusters before any more, and join the new ones or speak for themselves again.
+    pub fn renew_ids(&mut self, now_ms: u64, seed: u64) {
+        self.clustering.renew_ids(now_ms, seed);
+        self.told.clear();
+        self.ended.clear();
+        self.breakups.clear();
+        self.last_cluster_vam_ms = None;
+    }
+
     /// The longest interval between two RAM at which up to 15 clusters are announced every 1.5 s, in ms; the
     /// shortest one when a cluster is over.
     #[must_use]

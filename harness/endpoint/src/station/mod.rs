@@ -8,10 +8,12 @@ pub mod listen;
 mod map;
 mod namesakes;
 mod neighbours;
+mod pseudonyms;
 mod security;
 
 pub use map::{LocalDynamicMap, Neighbour, USERS_MAX, lifetime_ms};
 pub use namesakes::{NAMES_MAX, NotAdmitted};
 pub(crate) use neighbours::Neighbours;
-pub(crate) use security::Pseudonyms;
+pub(crate) use pseudonyms::Pseudonyms;
+pub use pseudonyms::Secret;
 pub use security::{Credentials, Mode, NoSuchMode, Security};

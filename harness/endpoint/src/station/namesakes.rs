@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use crossguard_codec::geonet::Signer;
+use crossguard_codec::geonet::{Address, Signer};
 use crossguard_protocol::StationId;
 
 use crate::cause::Cause;
@@ -25,6 +25,9 @@ pub enum NotAdmitted {
     /// The ticket goes by another id.
     #[error("the certificate of station {0} goes by station {1} as well")]
     SecondId(StationId, StationId),
+    /// The ticket goes by this id with another address.
+    #[error("station {0} has another address")]
+    OtherAddress(StationId),
     /// As many are heard as can be told apart.
     #[error("{NAMES_MAX} stations are heard, and station {0} is one more")]
     TooMany(StationId),
@@ -35,56 +38,109 @@ impl From<NotAdmitted> for Cause {
         Self::Rejected(match why {
             NotAdmitted::OtherTicket(_) => "station id of another certificate",
             NotAdmitted::SecondId(..) => "second station id of a certificate",
+            NotAdmitted::OtherAddress(_) => "address of another station",
             NotAdmitted::TooMany(_) => "too many stations",
         })
     }
 }
 
+/// Who goes by an id.
+#[derive(Clone, Copy, Debug)]
+struct Owner {
+    signer: Signer,
+    /// The address of its packets.
+    address: Address,
+    heard_ms: u64,
+}
+
+impl Owner {
+    const fn is_heard(&self, now_ms: u64) -> bool {
+        now_ms.saturating_sub(self.heard_ms) < SILENCE_MS
+    }
+}
+
 /// The tickets by station id.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Namesakes(HashMap<StationId, (Signer, u64)>);
+pub(super) struct Namesakes {
+    /// Robots, whose ids follow from their tickets. They have places of their own, which others cannot fill.
+    robots: HashMap<StationId, Owner>,
+    /// Those whose ids do not.
+    others: HashMap<StationId, Owner>,
+}
 
 impl Namesakes {
     /// A robot was heard at `now_ms`, whose id follows from its ticket: the id is its own, whoever had it before.
-    pub(super) fn bind(&mut self, station: StationId, signer: Signer, now_ms: u64) {
-        if self.0.len() == NAMES_MAX && !self.0.contains_key(&station) {
-            let oldest = self.0.iter().min_by_key(|(_, (_, heard_ms))| *heard_ms);
-            if let Some(station) = oldest.map(|(station, _)| *station) {
-                self.0.remove(&station);
+    /// With more robots around than can be remembered, a new one is not: others may then go by its id, and its RAM
+    /// are its own all the same.
+    pub(super) fn bind(
+        &mut self,
+        station: StationId,
+        signer: Signer,
+        address: Address,
+        now_ms: u64,
+    ) {
+        self.others.remove(&station);
+        if !self.robots.contains_key(&station) {
+            self.robots.retain(|_, owner| owner.is_heard(now_ms));
+            if self.robots.len() == NAMES_MAX {
+                return;
             }
         }
-        self.0.insert(station, (signer, now_ms));
+        let owner = Owner {
+            signer,
+            address,
+            heard_ms: now_ms,
+        };
+        self.robots.insert(station, owner);
     }
 
-    /// Whether `signer` may go by this id at `now_ms`, which does not follow from its ticket; if so, that is
-    /// remembered.
+    /// Whether `signer` may go by this id at `now_ms`, which does not follow from its ticket, with this address; if so,
+    /// that is remembered.
     ///
     /// # Errors
     /// Why not.
     pub(super) fn admit(
         &mut self,
         station: StationId,
-        signer: Signer,
+        (signer, address): (Signer, Address),
         now_ms: u64,
     ) -> Result<(), NotAdmitted> {
-        let is_heard = |heard_ms: u64| now_ms.saturating_sub(heard_ms) < SILENCE_MS;
-        if let Some((owner, heard_ms)) = self.0.get_mut(&station)
-            && (*owner == signer || is_heard(*heard_ms))
+        self.robots.retain(|_, owner| owner.is_heard(now_ms));
+        let known = self.robots.get(&station);
+        let known = known.or_else(|| self.others.get(&station));
+        if let Some(owner) = known
+            && (owner.signer == signer || owner.is_heard(now_ms))
         {
-            if *owner != signer {
+            if owner.signer != signer {
                 return Err(NotAdmitted::OtherTicket(station));
             }
-            *heard_ms = now_ms;
+            if owner.address != address && owner.is_heard(now_ms) {
+                return Err(NotAdmitted::OtherAddress(station));
+            }
+            let owner = Owner {
+                signer,
+                address,
+                heard_ms: now_ms,
+            };
+            self.others
+                .entry(station)
+                .and_modify(|known| *known = owner);
             return Ok(());
         }
-        self.0.retain(|_, (_, heard_ms)| is_heard(*heard_ms));
-        if let Some((first, _)) = self.0.iter().find(|(_, (owner, _))| *owner == signer) {
+        self.others.retain(|_, owner| owner.is_heard(now_ms));
+        let mut all = self.robots.iter().chain(&self.others);
+        if let Some((first, _)) = all.find(|(_, owner)| owner.signer == signer) {
             return Err(NotAdmitted::SecondId(*first, station));
         }
-        if self.0.len() == NAMES_MAX {
+        if self.others.len() == NAMES_MAX {
             return Err(NotAdmitted::TooMany(station));
         }
-        self.0.insert(station, (signer, now_ms));
+        let owner = Owner {
+            signer,
+            address,
+            heard_ms: now_ms,
+        };
+        self.others.insert(station, owner);
         Ok(())
     }
 }
@@ -97,6 +153,20 @@ mod tests {
     const B: Signer = Signer([2; 8]);
     const OTHER: Result<(), NotAdmitted> = Err(NotAdmitted::OtherTicket(StationId(1)));
 
+    fn address(station: StationId) -> Address {
+        Address::of_station(station.0, 5)
+    }
+
+    /// A station that has one address.
+    fn admit(
+        names: &mut Namesakes,
+        (id, signer): (u32, Signer),
+        now_ms: u64,
+    ) -> Result<(), NotAdmitted> {
+        let station = StationId(id);
+        names.admit(station, (signer, address(station)), now_ms)
+    }
+
     /// A ticket for each number.
     fn ticket(number: usize) -> Signer {
         Signer(u64::try_from(number + 1_000).unwrap().to_be_bytes())
@@ -105,7 +175,7 @@ mod tests {
     #[test]
     fn an_id_belongs_to_one_ticket_until_it_is_silent() {
         let mut names = Namesakes::default();
-        let mut admit = |id, signer, now_ms| names.admit(StationId(id), signer, now_ms);
+        let mut admit = |id, signer, now_ms| admit(&mut names, (id, signer), now_ms);
         assert_eq!(admit(1, A, 0), Ok(()));
         assert_eq!(admit(1, B, 1), OTHER);
         assert_eq!(admit(1, A, 9_000), Ok(()));
@@ -117,7 +187,7 @@ mod tests {
     #[test]
     fn a_ticket_has_one_id_at_a_time() {
         let mut names = Namesakes::default();
-        let mut admit = |id, now_ms| names.admit(StationId(id), A, now_ms);
+        let mut admit = |id, now_ms| admit(&mut names, (id, A), now_ms);
         assert_eq!(admit(1, 0), Ok(()));
         let second = Err(NotAdmitted::SecondId(StationId(1), StationId(2)));
         assert_eq!(admit(2, 9_999), second);
@@ -127,28 +197,48 @@ mod tests {
     #[test]
     fn nobody_who_is_heard_is_forgotten_for_somebody_new() {
         let mut names = Namesakes::default();
-        let id = |number: usize| StationId(u32::try_from(number).unwrap());
-        for number in 0..NAMES_MAX {
-            assert_eq!(names.admit(id(number), ticket(number), 0), Ok(()));
+        for (id, number) in (0..).zip(0..NAMES_MAX) {
+            assert_eq!(admit(&mut names, (id, ticket(number)), 0), Ok(()));
         }
-        let one_more = names.admit(id(300), ticket(300), 9_999);
-        assert_eq!(one_more, Err(NotAdmitted::TooMany(id(300))));
-        assert_eq!(names.admit(id(5), ticket(5), 9_999), Ok(()));
+        let more = (300, ticket(300));
+        let one_more = admit(&mut names, more, 9_999);
+        assert_eq!(one_more, Err(NotAdmitted::TooMany(StationId(300))));
+        assert_eq!(admit(&mut names, (5, ticket(5)), 9_999), Ok(()));
         // The others have been silent for long enough by now.
-        assert_eq!(names.admit(id(300), ticket(300), 10_000), Ok(()));
-        assert_eq!(names.0.len(), 2);
+        assert_eq!(admit(&mut names, more, 10_000), Ok(()));
+        assert_eq!(names.others.len(), 2);
     }
 
     #[test]
     fn a_robots_id_is_its_own_whoever_squats_on_it() {
         let mut names = Namesakes::default();
-        assert_eq!(names.admit(StationId(1), A, 0), Ok(()));
-        names.bind(StationId(1), B, 1);
-        assert_eq!(names.admit(StationId(1), A, 2), OTHER);
-        assert_eq!(names.admit(StationId(1), B, 3), Ok(()));
-        for number in 0..2 * NAMES_MAX {
-            names.bind(StationId(u32::try_from(number).unwrap()), ticket(number), 4);
+        assert_eq!(admit(&mut names, (1, A), 0), Ok(()));
+        names.bind(StationId(1), B, address(StationId(1)), 1);
+        assert_eq!(admit(&mut names, (1, A), 2), OTHER);
+        assert_eq!(admit(&mut names, (1, B), 3), Ok(()));
+    }
+
+    #[test]
+    fn no_robot_that_is_heard_is_forgotten_for_others() {
+        let mut names = Namesakes::default();
+        names.bind(StationId(1), B, address(StationId(1)), 0);
+        for (id, number) in (1_000..).zip(0..2 * NAMES_MAX) {
+            let station = StationId(id);
+            names.bind(station, ticket(number), address(station), 4);
         }
-        assert_eq!(names.0.len(), NAMES_MAX);
+        assert_eq!(names.robots.len(), NAMES_MAX);
+        assert_eq!(admit(&mut names, (1, A), 5), OTHER);
+        // Vehicles have places of their own.
+        assert_eq!(admit(&mut names, (2, A), 5), Ok(()));
+    }
+
+    #[test]
+    fn an_id_has_one_address_while_it_is_heard() {
+        let mut names = Namesakes::default();
+        assert_eq!(admit(&mut names, (1, A), 0), Ok(()));
+        let elsewhere = (A, address(StationId(2)));
+        let moved = names.admit(StationId(1), elsewhere, 9_999);
+        assert_eq!(moved, Err(NotAdmitted::OtherAddress(StationId(1))));
+        assert_eq!(names.admit(StationId(1), elsewhere, 10_000), Ok(()));
     }
 }

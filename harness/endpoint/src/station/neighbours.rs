@@ -1,10 +1,10 @@
 //! Who is around a robot, and who goes by which station id.
 
+use crossguard_codec::Heard;
 use crossguard_codec::Identifiers;
-use crossguard_codec::geonet::{EgoPosition, Signer};
+use crossguard_codec::geonet::{Address, EgoPosition, Indication, Signer};
 use crossguard_codec::its::{ItsMessage, RoadUser};
 use crossguard_codec::si::rebuild_timestamp;
-use crossguard_codec::{Heard, Service};
 use crossguard_protocol::StationId;
 
 use super::listen::{Unobserved, service_of};
@@ -30,8 +30,8 @@ impl Neighbours {
     }
 
     /// The robot with this station id, which follows from the ticket of `signer`, is heard at `now_ms`.
-    pub(crate) fn bind(&mut self, from: StationId, signer: Signer, now_ms: u64) {
-        self.namesakes.bind(from, signer, now_ms);
+    pub(crate) fn bind(&mut self, from: StationId, signer: Signer, address: Address, now_ms: u64) {
+        self.namesakes.bind(from, signer, address, now_ms);
     }
 
     /// Who is around.
@@ -62,11 +62,12 @@ impl Neighbours {
     pub(crate) fn observe(
         &mut self,
         me: StationId,
-        (service, octets, signer): (Service, &[u8], Option<Signer>),
+        indication: &Indication<'_>,
         ego: &EgoPosition,
         now_ms: u64,
     ) -> Result<ItsMessage, Unobserved> {
-        let message = ItsMessage::decode(&self.identifiers, octets)?.message;
+        let service = indication.service;
+        let message = ItsMessage::decode(&self.identifiers, indication.message)?.message;
         let found = service_of(&message);
         if found != Some(service) {
             return Err(Unobserved::OtherService { service, found });
@@ -74,9 +75,10 @@ impl Neighbours {
         if message.header().station_id.0 == me.0 {
             return Err(Unobserved::OwnStation(me));
         }
-        if let Some(signer) = signer {
+        if let Some(signer) = indication.signer {
             let from = StationId(message.header().station_id.0);
-            self.namesakes.admit(from, signer, now_ms)?;
+            let as_whom = (signer, indication.source.address);
+            self.namesakes.admit(from, as_whom, now_ms)?;
         }
         for user in message.road_users(ego.timestamp_its) {
             self.map.observe(user, now_ms);

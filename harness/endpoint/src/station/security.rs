@@ -3,13 +3,15 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crossguard_codec::geonet::{Demand, EgoPosition, Envelope, Secured};
+use crossguard_codec::geonet::{Demand, Envelope, Secured};
 use crossguard_codec::security::{
-    HashedId8, Station, Ticket, Time64, Tolerances, TrustStore, Unsigned,
+    Station, Ticket, Time64, Tolerances, TrustStore, Unsigned, keyed_digest, random_octets,
 };
 use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::StationId;
 use serde::{Deserialize, Serialize};
+
+use super::pseudonyms::Secret;
 
 /// How much security there is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
@@ -69,6 +71,18 @@ pub struct Credentials {
     pub tickets: Vec<Ticket>,
 }
 
+impl Credentials {
+    /// The same, with the pseudonyms in an order that nobody can guess: a robot that starts again and again does not
+    /// begin with the same one.
+    #[must_use]
+    pub fn shuffled(mut self) -> Self {
+        let key = random_octets();
+        let place = |ticket: &Ticket| keyed_digest(&key, &ticket.certificate().id().0);
+        self.tickets.sort_by_cached_key(place);
+        self
+    }
+}
+
 /// The security of one robot; off by default.
 #[derive(Clone, Debug, Default)]
 pub struct Security {
@@ -76,6 +90,8 @@ pub struct Security {
     pub envelope: Envelope,
     /// After how long it changes its pseudonym, in milliseconds; `None` for never.
     pub pseudonym_period_ms: Option<u64>,
+    /// What it draws for its pseudonyms; not used without security.
+    pub secret: Secret,
 }
 
 impl Security {
@@ -99,7 +115,40 @@ impl Security {
         Ok(Self {
             envelope: Envelope::Secured(Box::new(Secured::new(station, demand))),
             pseudonym_period_ms,
+            secret: Secret::random(),
         })
+    }
+
+    /// Whether its packets are signed.
+    #[must_use]
+    pub const fn signs(&self) -> bool {
+        matches!(self.envelope, Envelope::Secured(_))
+    }
+
+    /// The same with the secret that the robot keeps, instead of one for this start.
+    #[must_use]
+    pub fn with_secret(self, secret: Secret) -> Self {
+        Self { secret, ..self }
+    }
+
+    /// The same with the time from before a restart: the newest that was known to have been. Until the clock is there,
+    /// nothing signed is accepted, and nothing from before it is accepted ever.
+    #[must_use]
+    pub fn since(mut self, known: Time64) -> Self {
+        if let Envelope::Secured(secured) = &mut self.envelope {
+            secured.remember_time(known);
+        }
+        self
+    }
+
+    /// What a robot that goes by this station id has in its session and offer numbers for its boot counter: the boot
+    /// counter itself without security, and otherwise a number that tells it to nobody.
+    #[must_use]
+    pub fn epoch(&self, station: StationId, boot: u16) -> u16 {
+        match &self.envelope {
+            Envelope::Secured(_) => self.secret.epoch(station, boot),
+            _ => boot,
+        }
     }
 
     /// The station id by which a robot goes that is `configured` to go by another one: that of its ticket, which the
@@ -107,60 +156,8 @@ impl Security {
     #[must_use]
     pub fn station_id(&self, identifiers: &Identifiers, configured: StationId) -> StationId {
         match &self.envelope {
-            Envelope::Secured(secured) => station_id(secured, identifiers),
+            Envelope::Secured(secured) => secured.station_id(Service::Ram.its_aid(identifiers)),
             _ => configured,
         }
-    }
-}
-
-fn station_id(secured: &Secured, identifiers: &Identifiers) -> StationId {
-    secured.station_id(Service::Ram.its_aid(identifiers))
-}
-
-/// The number of the first geo-broadcast under a pseudonym.
-const fn sequence_number(pseudonym: HashedId8) -> u16 {
-    let [.., a, b] = pseudonym.0;
-    u16::from_be_bytes([a, b])
-}
-
-/// When one robot changes its pseudonym.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Pseudonyms {
-    period_ms: Option<u64>,
-    /// When the pseudonym was taken.
-    since_ms: u64,
-}
-
-impl Pseudonyms {
-    /// The first pseudonym is taken at `now_ms`, and changed after `period_ms`.
-    pub(crate) const fn new(period_ms: Option<u64>, now_ms: u64) -> Self {
-        Self {
-            period_ms,
-            since_ms: now_ms,
-        }
-    }
-
-    /// Takes another ticket if that is due at `now_ms`, or if the ticket is over within `lock_ms`, as long as
-    /// a session may take. The station id and the first sequence number that go with it: the caller changes
-    /// them at once, and calls this only while the identity is not locked.
-    pub(crate) fn renew(
-        &mut self,
-        envelope: &mut Envelope,
-        identifiers: &Identifiers,
-        ego: &EgoPosition,
-        (now_ms, lock_ms): (u64, u64),
-    ) -> Option<(StationId, u16)> {
-        let Envelope::Secured(secured) = envelope else {
-            return None;
-        };
-        let age_ms = now_ms.saturating_sub(self.since_ms);
-        let is_due = self.period_ms.is_some_and(|period_ms| age_ms >= period_ms);
-        if is_due {
-            self.since_ms = now_ms;
-        }
-        let pseudonym = secured.renew_pseudonym(ego, is_due, lock_ms)?;
-        self.since_ms = now_ms;
-        let station = station_id(secured, identifiers);
-        Some((station, sequence_number(pseudonym)))
     }
 }

@@ -1,8 +1,18 @@
 //! Every verdict can go both ways.
 
+use crossguard_endpoint::ras::vru::Understands;
+
 use super::*;
 use crate::grid::{Preset, Site};
+use crate::matrix::{CbrCell, ObsCell};
 use crate::stationing::Stationing;
+
+fn streets() -> Grid {
+    Grid {
+        mobility: "Eclipse SUMO sumo 1.28.0".to_owned(),
+        ..Preset::Kerb.grid()
+    }
+}
 
 fn axes(site: Site) -> Axes {
     Axes {
@@ -16,7 +26,7 @@ fn axes(site: Site) -> Axes {
 
 /// The outcome of a statement about these coverages, by robots, people and radius.
 fn coverage(statement: Statement, percent: impl Fn(usize, usize, f64) -> Estimate) -> Outcome {
-    let (grid, axes) = (Preset::Kerb.grid(), axes(Site::SouthWest));
+    let (grid, axes) = (streets(), axes(Site::SouthWest));
     let mut cells = Vec::new();
     for robots in PAPER.robots {
         for pedestrians in PAPER.pedestrians {
@@ -25,6 +35,9 @@ fn coverage(statement: Statement, percent: impl Fn(usize, usize, f64) -> Estimat
                 pedestrians,
                 radius_m,
                 obs_percent: percent(robots, pedestrians, radius_m),
+                covered_at_intersections_percent: exactly(93.0),
+                at_intersections_percent: exactly(47.0),
+                ..ObsCell::default()
             }));
         }
     }
@@ -61,6 +74,7 @@ fn every_statement_on_coverage_can_be_met_and_missed() {
         CoverageOfNone,
         CoverageOfOne,
         CoverageOfNine,
+        CoverageAtIntersections,
         ProportionalDecrease,
         SeveralAreBetter,
     ] {
@@ -83,6 +97,83 @@ fn every_statement_on_coverage_can_be_met_and_missed() {
 }
 
 #[test]
+fn where_people_cross_walk_and_are_seen_is_judged_by_where_they_were() {
+    use Statement::*;
+    let (grid, axes) = (streets(), axes(Site::SouthWest));
+    let cell = ObsCell {
+        robots: 9,
+        pedestrians: 20,
+        radius_m: 15.0,
+        obs_percent: exactly(17.5),
+        covered_at_intersections_percent: exactly(93.0),
+        at_intersections_percent: exactly(47.0),
+        on_road_between_percent: exactly(0.0),
+        travel_s: exactly(4_010.0),
+    };
+    let without = ObsCell {
+        robots: 0,
+        obs_percent: exactly(0.0),
+        covered_at_intersections_percent: exactly(0.0),
+        ..cell
+    };
+    let all = [Crossings, SameRoutes, CoverageAtIntersections];
+    let of = |cells: &[ObsCell]| {
+        let lines = of_coverage(setting(&grid, &axes), cells);
+        all.map(|statement| outcome_of(statement, &lines))
+    };
+    assert_eq!(of(&[without, cell]), [Outcome::Met; 3]);
+    assert_eq!(of(&[]), [Outcome::NotMeasured; 3]);
+    let wrong = ObsCell {
+        covered_at_intersections_percent: exactly(49.0),
+        on_road_between_percent: exactly(0.1),
+        travel_s: exactly(4_011.0),
+        ..cell
+    };
+    assert_eq!(of(&[without, wrong]), [Outcome::NotMet; 3]);
+}
+
+#[test]
+fn a_set_up_that_is_not_the_papers_is_not_met() {
+    use Statement::*;
+    let mut axes = axes(Site::SouthWest);
+    axes.stationing.patrol_mps = Some(1.0);
+    let grid = crate::grid::Grid {
+        nodes_per_side: 4,
+        mobility: "a file of another program".to_owned(),
+        ..Preset::Kerb.grid()
+    };
+    let mut behaviour = Behaviour {
+        v2x_share: 0.9,
+        understands: Understands::ClusterVam,
+        ..Behaviour::default()
+    };
+    behaviour.radio.ideal = true;
+    behaviour.radio.power_dbm = 20.0;
+    let setting = Setting {
+        behaviour: Some(&behaviour),
+        vehicles: 21,
+        ..setting(&grid, &axes)
+    };
+    let lines = of_load(setting, &[]);
+    let of = |statement| outcome_of(statement, &lines);
+    let not_met = [
+        Statement::Grid,
+        Vehicles,
+        Mobility,
+        NetworkStack,
+        StaticRobots,
+        Equipped,
+        Power,
+        Access,
+    ];
+    for statement in not_met {
+        assert_eq!(of(statement), Outcome::NotMet, "{statement:?}");
+    }
+    assert_eq!(of(UnchangedDevices), Outcome::Met);
+    assert_eq!(of(ConservativeSilence), Outcome::NotMeasured);
+}
+
+#[test]
 fn a_band_holds_at_every_density_and_a_wide_deviation_is_allowed_for() {
     let with_20 = |percent: Estimate| {
         move |robots, people, radius_m| match (robots, people) {
@@ -96,20 +187,26 @@ fn a_band_holds_at_every_density_and_a_wide_deviation_is_allowed_for() {
     assert_eq!(of(4.5, 0.0), Outcome::Met);
 }
 
-fn load(percent: impl Fn(usize, usize, f64) -> [f64; 2]) -> Vec<Comparison> {
-    let (grid, axes) = (Preset::Kerb.grid(), axes(Site::SouthWest));
+/// Load, reduction, silent devices, how much of their silence is wrong, and RAM per second.
+type Load = [f64; 5];
+
+fn load(percent: impl Fn(usize, usize, f64) -> Load) -> Vec<Comparison> {
+    let (grid, axes) = (streets(), axes(Site::SouthWest));
     let behaviour = Behaviour::default();
     let mut cells = Vec::new();
     for robots in PAPER.robots {
         for pedestrians in PAPER.pedestrians {
             cells.extend(PAPER.radii_m.map(|radius_m| {
-                let [mcbr, reduction] = percent(robots, pedestrians, radius_m);
+                let [mcbr, reduction, silent, wrong, ram] = percent(robots, pedestrians, radius_m);
                 CbrCell {
                     robots,
                     pedestrians,
                     radius_m,
                     mcbr: exactly(mcbr / 100.0),
                     reduction_percent: exactly(reduction),
+                    passive_percent: exactly(silent),
+                    wrongly_silent_percent: exactly(silent * wrong / 100.0),
+                    messages_per_s: [exactly(0.0), exactly(0.0), exactly(ram)],
                     ..CbrCell::default()
                 }
             }));
@@ -128,22 +225,35 @@ fn every_statement_on_channel_load_can_be_met_and_missed() {
     use Statement::*;
     let as_stated = |robots: usize, people: usize, radius_m: f64| {
         let share = people as f64 / 100.0 * radius_m / 15.0;
+        let scale = |most: [f64; 3]| most[usize::from(robots > 0) + usize::from(robots > 1)];
         [
             20.0 * share,
-            [0.0, 6.0, 16.3][usize::from(robots > 0) + usize::from(robots > 1)] * share,
+            scale([0.0, 6.0, 16.3]) * share,
+            scale([0.0, 5.0, 18.0]) * share,
+            1.0,
+            scale([0.0, 1.5, 16.0]) * share,
         ]
     };
     let met = load(as_stated);
-    assert_eq!(met.len(), 15);
+    assert_eq!(met.len(), 25);
     for line in &met {
         let expected = match line.statement {
             DataRate => Outcome::Assumed,
+            NetworkStack | UnchangedDevices => Outcome::NotMet,
             _ => Outcome::Met,
         };
         assert_eq!(line.outcome, expected, "{line:?}");
     }
-    let high = load(|_, _, _| [30.0, 16.3]);
-    let missed = [LowLoad, GrowsWithDensity, SmallerRadius, DiminishingGain];
+    let high = load(|_, _, _| [30.0, 16.3, 18.0, 6.0, 16.0]);
+    let missed = [
+        LowLoad,
+        GrowsWithDensity,
+        SmallerRadius,
+        DiminishingGain,
+        LargerRadiusStandsForMore,
+        SmallerRadiusSendsLess,
+        ConservativeSilence,
+    ];
     for statement in missed {
         assert_eq!(
             outcome_of(statement, &high),
@@ -151,7 +261,7 @@ fn every_statement_on_channel_load_can_be_met_and_missed() {
             "{statement:?}"
         );
     }
-    let none = load(|_, _, _| [1.0, 0.0]);
+    let none = load(|_, _, _| [1.0, 0.0, 0.0, 0.0, 0.0]);
     for statement in [ConsistentReduction, LargestReduction] {
         assert_eq!(
             outcome_of(statement, &none),
@@ -171,7 +281,7 @@ fn every_statement_on_channel_load_can_be_met_and_missed() {
 
 #[test]
 fn a_run_of_other_cells_says_what_it_does_not_measure() {
-    let (grid, mut axes) = (Preset::Kerb.grid(), axes(Site::NorthEast));
+    let (grid, mut axes) = (streets(), axes(Site::NorthEast));
     axes.robots = vec![9];
     axes.radii_m = vec![15.0];
     let cell = ObsCell {
@@ -179,6 +289,7 @@ fn a_run_of_other_cells_says_what_it_does_not_measure() {
         pedestrians: 20,
         radius_m: 15.0,
         obs_percent: exactly(17.5),
+        ..ObsCell::default()
     };
     let lines = of_coverage(setting(&grid, &axes), &[cell]);
     let of = |statement| outcome_of(statement, &lines);

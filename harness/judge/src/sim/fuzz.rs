@@ -24,6 +24,8 @@ pub struct Fuzz<'a> {
     pub robots: usize,
     /// The faults of every way, in place of drawn ones.
     pub faults: Option<&'a Faults>,
+    /// In which share of the seeds, from 0 to 1, an insider lies.
+    pub liars: f64,
     /// How many threads work.
     pub threads: usize,
     /// After how many failures it is enough.
@@ -100,7 +102,7 @@ impl Fuzz<'_> {
     /// The swarm of a seed.
     #[must_use]
     pub fn swarm(&self, seed: u64) -> Swarm {
-        Swarm::draw(seed, self.robots, self.faults)
+        Swarm::draw(seed, self.robots, self.faults).with_insider(self.liars)
     }
 
     /// The command that runs one seed alone.
@@ -109,7 +111,8 @@ impl Fuzz<'_> {
         let robots = self.robots;
         let faults = self.faults.map(|faults| format!(" --faults '{faults}'"));
         let faults = faults.unwrap_or_default();
-        format!("crossguard fuzz --seeds 1 --robots {robots} --seed {seed}{faults}")
+        let liars = u8::from(self.swarm(seed).insider.is_some());
+        format!("crossguard fuzz --seeds 1 --robots {robots} --seed {seed} --liars {liars}{faults}")
     }
 
     /// Runs all seeds. `progress` is told what they amount to so far; when it says `false`, what runs

@@ -19,6 +19,7 @@
 
 mod clock;
 mod fuzz;
+mod insider;
 mod report;
 mod road;
 mod ruled;
@@ -31,6 +32,6 @@ mod world;
 pub use fuzz::{Failure, Fuzz, Totals};
 pub use report::{Files, write_failure, write_failure_with};
 pub use script::{Deed, Happening};
-pub use swarm::{Hazard, Replay, RobotDraw, Swarm};
+pub use swarm::{Hazard, InsiderDraw, Replay, RobotDraw, Swarm};
 pub use times::{Longest, Measure, Worst};
 pub use world::{Finding, Outcome, Watch, run, run_with};

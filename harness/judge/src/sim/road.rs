@@ -122,6 +122,8 @@ pub(super) struct Road {
     delay: Millis,
     /// Whether endpoints are told of time in time: W3's time, W6 and W8 need that.
     is_in_time: bool,
+    /// Whether an insider lies, which can keep two leaders from hearing each other twice: W3's time is left open.
+    has_insider: bool,
     worst: Worst,
 }
 
@@ -140,8 +142,15 @@ impl Road {
             meetings: Vec::new(),
             delay,
             is_in_time,
+            has_insider: false,
             worst: Worst::default(),
         }
+    }
+
+    /// The same road, beside an insider that lies or not.
+    pub(super) const fn beside(mut self, has_insider: bool) -> Self {
+        self.has_insider = has_insider;
+        self
     }
 
     pub(super) const fn worst(&self) -> Worst {
@@ -348,7 +357,10 @@ impl Road {
     /// A robot has understood a RAM that another one sent then (W3).
     pub(super) fn hear(&mut self, now_us: u64, to: usize, from: usize, sent_us: u64) {
         let shows = |place: usize| self.seats[place].go.map(|go| go.since_us);
-        if !self.is_in_time || shows(from).is_none_or(|since_us| sent_us < since_us) {
+        if !self.is_in_time
+            || self.has_insider
+            || shows(from).is_none_or(|since_us| sent_us < since_us)
+        {
             return;
         }
         let mut met = None;
@@ -401,12 +413,13 @@ impl Road {
     }
 
     /// Somebody steps on the road at the sign of a leader (W1): every required guard is in place, or it has not
-    /// been for less than the lease of the leader. The session, how many guards it requires, and the places of
+    /// been for less than the lease of the leader. So many of its followers are `liars`, which are nowhere. The session, how many guards it requires, and the places of
     /// the guards that are gone.
     pub(super) fn step_on_road(
         &mut self,
         now_us: u64,
         leader: usize,
+        liars: usize,
     ) -> Result<Option<(SessionId, usize, Vec<usize>)>, Overdue> {
         let RoadUser { post, go, .. } = &self.seats[leader];
         let Some(Go { session, .. }) = *go else {
@@ -423,7 +436,7 @@ impl Road {
             })
             .collect();
         gone.sort_unstable_by(|a, b| b.cmp(a));
-        let missing = required.saturating_sub(in_place);
+        let missing = required.saturating_sub(in_place + liars);
         gone.truncate(missing);
         let since_us = gone.last().map_or(now_us, |(since_us, _)| *since_us);
         self.worst

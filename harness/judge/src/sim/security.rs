@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crossguard_codec::Identifiers;
 use crossguard_codec::security::{PrivateKey, Time64};
 use crossguard_codec::si::timestamp_its;
-use crossguard_endpoint::station::{Mode, Security};
+use crossguard_endpoint::station::{Mode, Secret, Security};
 use crossguard_protocol::StationId;
 use crossguard_robot::pki::Pki;
 
@@ -49,5 +49,7 @@ pub(super) fn of(place: usize, station: StationId, now_ms: u64) -> Security {
         Some(PSEUDONYM_PERIOD_MS),
         at(now_ms),
     );
-    security.expect("the first pseudonym is valid")
+    let security = security.expect("the first pseudonym is valid");
+    let number = u8::try_from(place).unwrap_or(u8::MAX);
+    security.with_secret(Secret::new([number; 32]))
 }

@@ -6,6 +6,7 @@
 
 mod draws;
 mod hazards;
+mod insiders;
 
 use crossguard_model_check::timed::longest;
 use crossguard_protocol::{Config, Millis, Settings, StationId};
@@ -16,6 +17,7 @@ use crossguard_robot::transport::Faults;
 
 use self::draws::Draws;
 pub use self::hazards::Hazard;
+pub use self::insiders::InsiderDraw;
 use super::script::Happening;
 
 /// By how much a station id grows when the robot changes its pseudonym.
@@ -47,6 +49,8 @@ pub struct Swarm {
     pub replays: Vec<Replay>,
     /// Whether robots sign what they send, and take in nothing without a signature.
     pub is_secured: bool,
+    /// The insider that lies, if there is one.
+    pub insider: Option<InsiderDraw>,
     /// The corner at which somebody waits once the network is healed, where a team can exist.
     pub waits_at: Option<usize>,
 }

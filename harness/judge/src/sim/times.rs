@@ -2,7 +2,7 @@
 
 use crossguard_model_check::node::Node;
 use crossguard_model_check::timed::Limits;
-use crossguard_protocol::{Millis, Phase, SessionId, SessionNumber};
+use crossguard_protocol::{Millis, Phase, RequestId, SessionId, SessionNumber, StationId};
 use serde::Serialize;
 
 /// What is measured.
@@ -11,6 +11,8 @@ use serde::Serialize;
 pub enum Measure {
     /// From a request to roles or to giving up (L1).
     Roles,
+    /// From a command to its acknowledgement or to the follower given up (L2).
+    Commands,
     /// From the leader's crash to a follower stopped (L5).
     Stopped,
     /// From the leader's crash to a follower idle (L5).
@@ -58,8 +60,9 @@ impl Serialize for Worst {
 
 impl Measure {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Roles,
+        Self::Commands,
         Self::Stopped,
         Self::Left,
         Self::CorridorClosed,
@@ -78,6 +81,7 @@ impl Measure {
     pub const fn property(self) -> &'static str {
         match self {
             Self::Roles => "L1",
+            Self::Commands => "L2",
             Self::Stopped | Self::Left => "L5",
             Self::CorridorClosed => "I11",
             Self::GuardGone | Self::Unguarded => "W1",
@@ -94,6 +98,9 @@ impl Measure {
     pub const fn statement(self) -> &'static str {
         match self {
             Self::Roles => "a request has roles or is given up within the bound",
+            Self::Commands => {
+                "a command is acknowledged or its follower is given up within the bound"
+            }
             Self::Stopped => "after the leader's crash a follower stops within the bound",
             Self::Left => "after the leader's crash a follower is idle within the bound",
             Self::CorridorClosed => {
@@ -127,6 +134,7 @@ impl Measure {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Roles => "request to roles or giving up",
+            Self::Commands => "command to acknowledgement or giving up",
             Self::Stopped => "leader's crash to follower stopped",
             Self::Left => "leader's crash to follower idle",
             Self::CorridorClosed => "follower's failure to corridor closed",
@@ -145,6 +153,7 @@ impl Measure {
     const fn limit(self, limits: &Limits) -> Millis {
         match self {
             Self::Roles => limits.roles,
+            Self::Commands => limits.commands,
             Self::Stopped => limits.stopped,
             Self::Left => limits.left,
             _ => limits.corridor_closed,
@@ -198,6 +207,8 @@ pub(super) struct Times {
     judged: Judged,
     worst: Worst,
     requests: Vec<Option<(SessionNumber, u64)>>,
+    /// Of each robot, the commands that no follower has acknowledged yet, and since when.
+    commands: Vec<Vec<(CommandId, u64)>>,
     /// Who hangs: nothing in time is asked of such a robot.
     hung: Vec<bool>,
     running: Vec<Running>,
@@ -217,6 +228,7 @@ impl Times {
         Self {
             worst: Worst::default(),
             requests: vec![None; limits.len()],
+            commands: vec![Vec::new(); limits.len()],
             hung: vec![false; limits.len()],
             limits,
             judged,
@@ -232,6 +244,7 @@ impl Times {
     pub(super) fn hang(&mut self, place: usize) {
         self.hung[place] = true;
         self.requests[place] = None;
+        self.commands[place].clear();
         self.running.retain(|running| running.place != place);
     }
 
@@ -249,6 +262,7 @@ impl Times {
     ) {
         self.fail(now_us, place, nodes.clone());
         (self.requests[place], self.hung[place]) = (None, false);
+        self.commands[place].clear();
         // A robot that is down has nothing open and does nothing.
         self.running.retain(|running| running.place != place);
         let Some(session) = nodes.clone().nth(place).and_then(led_by) else {
@@ -307,7 +321,8 @@ impl Times {
 
     /// Looks at a robot after a step. What took too long, if anything did.
     pub(super) fn look(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
-        let mut late = self.look_at_request(now_us, place, node);
+        let late = self.look_at_request(now_us, place, node);
+        let mut late = late.or(self.look_at_commands(now_us, place, node));
         let (limits, worst) = (&self.limits[place], &mut self.worst);
         self.running.retain(|running| {
             if running.place != place {
@@ -330,6 +345,31 @@ impl Times {
             !is_over
         });
         late
+    }
+
+    fn look_at_commands(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
+        if !self.judged.is_in_time || self.hung[place] {
+            return None;
+        }
+        let bound_ms = self.limits[place].commands.0;
+        let open = outstanding(node);
+        let mut is_late = false;
+        let (known, worst) = (&mut self.commands[place], &mut self.worst);
+        known.retain(|(command, since_us)| {
+            let took_us = now_us - since_us;
+            is_late |= took_us > u64::from(bound_ms) * 1_000;
+            let is_over = !open.contains(command);
+            if is_over {
+                worst.note(Measure::Commands, bound_ms, took_us);
+            }
+            !is_over
+        });
+        for command in open {
+            if known.iter().all(|(known, _)| *known != command) {
+                known.push((command, now_us));
+            }
+        }
+        is_late.then_some(Measure::Commands)
     }
 
     fn look_at_request(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
@@ -356,6 +396,26 @@ impl Times {
         let is_late = took_us > u64::from(bound_ms) * 1_000;
         is_late.then_some(Measure::Roles)
     }
+}
+
+/// A command: session, follower, number.
+type CommandId = (SessionId, StationId, RequestId);
+
+/// The commands of this robot that are not acknowledged.
+fn outstanding(node: &Node) -> Vec<CommandId> {
+    let robot = node.robot.as_ref();
+    let leading = robot.and_then(|robot| match robot.phase() {
+        Phase::Leading(leading) => Some((robot.session()?, leading)),
+        _ => None,
+    });
+    let Some((session, leading)) = leading else {
+        return Vec::new();
+    };
+    let members = leading.members.iter();
+    let of = |station, request| (session, station, request);
+    members
+        .filter_map(|member| Some(of(member.station, member.outstanding?.request)))
+        .collect()
 }
 
 fn led_by(node: &Node) -> Option<SessionId> {

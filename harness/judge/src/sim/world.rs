@@ -1,6 +1,7 @@
 //! One run: robots, the radio between them, and time.
 
 mod deeds;
+mod lies;
 mod people;
 mod radio;
 
@@ -28,6 +29,7 @@ use serde::Serialize;
 use self::people::{Corner, OnRoad, Progress};
 use self::radio::Arrival;
 use super::clock::Drifting;
+use super::insider::Insider;
 use super::road::{Overdue, Post, Road, Sight};
 use super::ruled::Ruled;
 use super::swarm::{HEALED_DELAY_MS, Hazard, RobotDraw, Swarm};
@@ -138,6 +140,12 @@ fn left_out(swarm: &Swarm) -> Vec<&'static str> {
     if !swarm.is_in_time() || !swarm.replays.is_empty() {
         left_out.push("L5 in ms");
     }
+    if swarm.insider.is_some() {
+        left_out.extend(["I2", "I3", "I6", "I8", "I15"]);
+        if swarm.is_in_time() {
+            left_out.push("W3 in ms");
+        }
+    }
     if swarm.waits_at.is_none() {
         left_out.push("W7");
     }
@@ -167,6 +175,8 @@ enum Next {
     Wakes(usize),
     /// A robot that hung goes on.
     GoesOn(usize),
+    /// The insider says something.
+    Lies,
 }
 
 struct Seat<'a> {
@@ -214,6 +224,7 @@ struct World<'a> {
     /// What was sent so far, with its sender, where it is to be sent once more.
     aired: Vec<(usize, Rc<[u8]>)>,
     is_healed: bool,
+    insider: Option<Insider>,
     rests_since_us: Option<u64>,
     steps: u64,
     packets: u64,
@@ -245,7 +256,8 @@ impl<'a> World<'a> {
         let limits = limits(swarm);
         let mut world = Self {
             ways: ways.collect(),
-            road: Road::new(posts(swarm, &limits), swarm.delay_max(), swarm.is_in_time()),
+            road: Road::new(posts(swarm, &limits), swarm.delay_max(), swarm.is_in_time())
+                .beside(swarm.insider.is_some()),
             times: Times::new(limits, judged(swarm)),
             corners: people::corners(swarm),
             people: Vec::new(),
@@ -263,6 +275,7 @@ impl<'a> World<'a> {
             draws,
             monitor,
             is_healed: false,
+            insider: lies::insider(swarm),
             rests_since_us: None,
             steps: 0,
             packets: 0,
@@ -272,6 +285,10 @@ impl<'a> World<'a> {
         }
         for (i, replay) in swarm.replays.iter().enumerate() {
             world.at(replay.at_us, Next::Replays(i));
+        }
+        if let Some(insider) = &world.insider {
+            world.monitor.lies(insider.station());
+            world.at(0, Next::Lies);
         }
         world.at(swarm.heals_us, Next::Heals);
         world
@@ -311,6 +328,10 @@ impl<'a> World<'a> {
             Next::Arrives(arrival) => self.arrive(arrival),
             Next::Replays(i) => {
                 self.replay(self.swarm.replays[i]);
+                Ok(())
+            }
+            Next::Lies => {
+                self.lie();
                 Ok(())
             }
             Next::Looks(corner) => self.look(corner),

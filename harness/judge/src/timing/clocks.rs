@@ -87,11 +87,13 @@ impl Clocks {
             Entry::Sent { octets, .. } => self.sent(log, at_us, octets),
             Entry::Heard { octets, .. } => self.heard(log, at_us, octets),
             Entry::Dropped { .. }
+            | Entry::Unrecorded { .. }
             | Entry::Stopped { .. }
             | Entry::Zone(_)
             | Entry::People(_)
             | Entry::Around(_)
-            | Entry::Channel(_) => {}
+            | Entry::Channel(_)
+            | Entry::Clock(_) => {}
         }
     }
 

@@ -28,6 +28,10 @@ enum Owed {
 pub(super) struct Follow {
     place: usize,
     robot: Robot,
+    /// The boot counter that it started with.
+    boot: u16,
+    /// Whether its numbers do not tell the boot counter.
+    has_epoch: bool,
     config: Config,
     identifiers: Identifiers,
     time: ToldTime,
@@ -43,14 +47,16 @@ impl Follow {
         place: usize,
         at_us: u64,
         station: StationId,
-        boot: u16,
+        (boot, epoch): (u16, Option<u16>),
         settings: Settings,
         identifiers: Identifiers,
     ) -> Result<Self, Fault> {
         let time = ToldTime::new(&settings, at_us);
         Ok(Self {
             place,
-            robot: Robot::new(station, boot),
+            robot: Robot::new(station, epoch.unwrap_or(boot)),
+            boot,
+            has_epoch: epoch.is_some(),
             config: Config::new(settings).map_err(Fault::Settings)?,
             identifiers,
             time,
@@ -84,7 +90,7 @@ impl Follow {
     }
 
     pub(super) const fn may_reboot_with(&self, boot: u16) -> bool {
-        boot > self.robot.boot()
+        boot > self.boot && (self.has_epoch || boot > self.robot.boot())
     }
 
     /// The robot's clock goes on.
@@ -252,6 +258,13 @@ impl Follow {
             self.owed.pop_front();
         }
         self.counted.add(cause, 1);
+    }
+
+    /// So many were dropped without records of their own.
+    pub(super) fn unrecorded(&mut self, counters: &Counts) {
+        for (cause, count) in counters.iter() {
+            self.counted.add(&cause, count);
+        }
     }
 
     /// The robot has stopped. How many records are missing by its own account.

@@ -125,7 +125,9 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
         | Entry::People(_)
         | Entry::Around(_)
         | Entry::Channel(_)
+        | Entry::Clock(_)
         | Entry::Dropped { .. }
+        | Entry::Unrecorded { .. }
         | Entry::Stopped { .. } => Vec::new(),
     }
 }

@@ -185,6 +185,28 @@ class PastPosition:
 
 
 @dataclass(frozen=True, slots=True)
+class RoadSegment(Variant):
+    """A road segment of a map."""
+
+    region: int | None
+    """The region in which its number is unique."""
+    id: int
+
+
+@dataclass(frozen=True, slots=True)
+class Intersection(Variant):
+    """An intersection of a map."""
+
+    region: int | None
+    """The region in which its number is unique."""
+    id: int
+
+
+MapPlace: TypeAlias = RoadSegment | Intersection
+"""Where on a map a maneuver takes place, or what a robot is there for."""
+
+
+@dataclass(frozen=True, slots=True)
 class SlowState:
     """What changes slowly; it is in a RAM twice a second."""
 
@@ -198,6 +220,8 @@ class SlowState:
     """`None` for a robot without lights."""
     signals: SignalsShown | None = None
     """`None` for a robot that cannot show anything."""
+    area: MapPlace | None = None
+    """The road segment or intersection that it is there for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -262,28 +286,6 @@ class Lane(Positional):
 
 Target: TypeAlias = ToPosition | Offset | Lane
 """Where a maneuver leads."""
-
-
-@dataclass(frozen=True, slots=True)
-class RoadSegment(Variant):
-    """A road segment of a map."""
-
-    region: int | None
-    """The region in which its number is unique."""
-    id: int
-
-
-@dataclass(frozen=True, slots=True)
-class Intersection(Variant):
-    """An intersection of a map."""
-
-    region: int | None
-    """The region in which its number is unique."""
-    id: int
-
-
-MapPlace: TypeAlias = RoadSegment | Intersection
-"""Where on a map a maneuver takes place."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ._wire import Positional, Variant
-from .types import Availability, HelpRequest, ManeuverId, TaskType
+from .types import Availability, HelpRequest, ManeuverId, TaskType, UniqueNumber
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +92,9 @@ class IdentityChanged(Positional):
     """The robot has changed its pseudonym; only possible while the identity is not locked."""
 
     station: int
+    next: UniqueNumber | None = None
+    """Where the numbers of its sessions and offers begin anew, never given out before under this station id; `None`
+    to go on counting, which tells that both pseudonyms are one robot."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,8 @@
 //! What a robot is and how its battery is, as its robot file and its operator say: it stands in every RAM.
 
-use crossguard_codec::{Battery, Dimensions, JobRole, RobotState, SignalMeans, SignalsShown};
+use crossguard_codec::{
+    Battery, Dimensions, JobRole, MapPlace, RobotState, SignalMeans, SignalsShown,
+};
 use crossguard_protocol::{Availability, Event, Robot, Unavailability};
 
 use super::{Application, Wish, micros};
@@ -60,6 +62,7 @@ impl Application {
         if let Some(slow) = &mut state.slow {
             let shows_go = self.sign.shows_go(micros(self.at_s));
             slow.signals = self.shown.told(self.leads.then_some(shows_go));
+            slow.area = self.site.map_place;
         }
         RobotState {
             job_role: self.traits.job.unwrap_or(state.job_role),
@@ -72,6 +75,20 @@ impl Application {
     /// Its battery is like this now.
     pub const fn set_battery(&mut self, battery: Battery) {
         self.traits.battery = Some(battery);
+    }
+
+    /// It is there for this job from now on.
+    pub const fn set_job(&mut self, job: JobRole) {
+        self.traits.job = Some(job);
+    }
+
+    /// It serves this road segment or intersection from now on, and the commands of its plan name it; none, if it
+    /// serves no place of a map.
+    pub fn serve(&mut self, place: Option<MapPlace>) {
+        self.site.map_place = place;
+        if let Some(plan) = &mut self.plan {
+            plan.site.map_place = place;
+        }
     }
 
     /// Takes in whether the robot is available.

@@ -13,6 +13,8 @@
 
 use crossguard_codec::{Battery, Dimensions, JobRole};
 use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::{Error as Unknown, StrDeserializer};
 
 use crate::application::Traits;
 
@@ -44,6 +46,13 @@ impl From<JobName> for JobRole {
             JobName::Other => Self::Other,
         }
     }
+}
+
+/// The job that files and operators call so, like `traffic-guard`; `None` if there is none.
+#[must_use]
+pub fn job_named(name: &str) -> Option<JobRole> {
+    let name: StrDeserializer<'_, Unknown> = name.into_deserializer();
+    JobName::deserialize(name).ok().map(JobRole::from)
 }
 
 #[derive(Default, Deserialize)]

@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use crossguard_endpoint::cause::Cause;
 
-use super::{DATAGRAMS, Delivery};
-use crate::transport::Receiver;
+use super::partners::Partners;
+use super::{DATAGRAMS, Delivery, OF_PARTNERS};
+use crate::transport::{Arrival, Receiver};
 
 /// How long the reader leaves a link alone that has failed.
 const LINK_REST: Duration = Duration::from_millis(200);
@@ -25,9 +26,23 @@ pub(super) struct Waiting {
     /// How many were dropped and are not counted yet.
     pub(super) dropped: AtomicU64,
     pub(super) dropped_in_all: AtomicU64,
+    /// Whose datagrams have places of their own.
+    pub(super) partners: Partners,
 }
 
 impl Waiting {
+    /// Whether there is a place for what arrived.
+    fn has_place(&self, delivery: &Delivery) -> bool {
+        let taken = self.datagrams.load(Ordering::Relaxed);
+        if taken < DATAGRAMS {
+            return true;
+        }
+        let Delivery::Arrived(Arrival::Datagram { octets, .. }) = delivery else {
+            return false;
+        };
+        taken < DATAGRAMS + OF_PARTNERS && self.partners.include(octets)
+    }
+
     /// There is no place for one more.
     fn drop_one(&self) {
         self.dropped.fetch_add(1, Ordering::Relaxed);
@@ -67,7 +82,7 @@ impl Reader {
     /// Puts something into the inbox, if it has a place for it. Whether there still is an inbox.
     fn deliver(&self, delivery: Delivery) -> bool {
         let datagrams = &self.waiting.datagrams;
-        if datagrams.load(Ordering::Relaxed) >= DATAGRAMS {
+        if !self.waiting.has_place(&delivery) {
             self.waiting.drop_one();
             return true;
         }
@@ -81,5 +96,73 @@ impl Reader {
             }
             Err(TrySendError::Disconnected(_)) => false,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use crossguard_codec::geonet::{EgoPosition, Stack};
+    use crossguard_codec::{Identifiers, Service};
+    use crossguard_protocol::{Config, Decimetres, Heartbeat, SessionNumber, StationId};
+    use crossguard_protocol::{Coordination, Event, HelpRequest, Input, Place, Ram, Robot};
+    use crossguard_protocol::{TaskSet, UniqueNumber, Urgency};
+
+    use super::*;
+    use crate::transport::Source;
+
+    fn from(station: u32) -> Delivery {
+        let mut stack = Stack::of_robot(Identifiers::default(), StationId(station));
+        let packet = stack.packet(&EgoPosition::default(), Service::Ram, b"anything");
+        Delivery::Arrived(Arrival::Datagram {
+            from: Source::Unknown,
+            octets: packet.unwrap(),
+            at: Instant::now(),
+        })
+    }
+
+    /// A robot that has offered its help to station 1.
+    fn helper() -> Robot {
+        let mut robot = Robot::new(StationId(2), 1);
+        let request = HelpRequest {
+            urgency: Urgency::High,
+            followers: 1,
+            tasks: TaskSet(u16::MAX),
+            place: Place::UNKNOWN,
+        };
+        let ram = Ram {
+            station: StationId(1),
+            coordination: Coordination::NeedHelp {
+                number: SessionNumber(UniqueNumber { boot: 1, count: 0 }),
+                heartbeat: Heartbeat(0),
+                request,
+            },
+            farewell: None,
+            on_duty: false,
+        };
+        let distance = Decimetres(10);
+        robot.step(&Config::default(), Input::Ram { ram, distance });
+        assert!(robot.session().is_some());
+        robot
+    }
+
+    #[test]
+    fn a_flood_leaves_places_for_the_robots_of_the_session() {
+        let waiting = Waiting::default();
+        let identifiers = Identifiers::default();
+        waiting.partners.follow(&helper(), &identifiers);
+        let has_place = |taken, station| {
+            waiting.datagrams.store(taken, Ordering::Relaxed);
+            waiting.has_place(&from(station))
+        };
+        assert!(has_place(DATAGRAMS - 1, 9));
+        assert!(!has_place(DATAGRAMS, 9));
+        assert!(has_place(DATAGRAMS, 1));
+        assert!(!has_place(DATAGRAMS + OF_PARTNERS, 1));
+        let mut idle = helper();
+        idle.step(&Config::default(), Input::Local(Event::LeaveRequested));
+        waiting.partners.follow(&idle, &identifiers);
+        assert!(!has_place(DATAGRAMS, 1));
     }
 }

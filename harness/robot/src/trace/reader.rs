@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::io::BufRead;
 
+use super::chain::{Chain, Unchained};
 use super::{Entry, Record};
+use crate::lines::{LineError, read_line};
 
 /// How long a record is held back for one that is late in its log, in µs.
 pub const HELD_US: u64 = 1_000_000;
@@ -22,15 +24,18 @@ pub struct Log<'a> {
 /// Why a log cannot be read on.
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
-    /// The file cannot be read.
-    #[error("cannot be read: {0}")]
-    Io(std::io::Error),
+    /// A line cannot be read.
+    #[error(transparent)]
+    Line(#[from] LineError),
     /// It holds nothing.
     #[error("there is nothing in this log")]
     Empty,
     /// A line is no record.
     #[error("is not a record: {0}")]
     NotARecord(serde_json::Error),
+    /// A line does not follow the line before it.
+    #[error(transparent)]
+    Unchained(#[from] Unchained),
 }
 
 /// Which log cannot be read on, and where.
@@ -49,6 +54,7 @@ pub struct LogError {
 pub struct Records<'a> {
     log: Log<'a>,
     line: usize,
+    chain: Chain,
     /// When the log's clock showed 0, in µs since 1970, as far as is known.
     began_us: Option<i128>,
     at_us: u64,
@@ -61,6 +67,10 @@ impl<'a> Records<'a> {
         Self {
             log,
             line: 0,
+            chain: Chain {
+                last: None,
+                linked: 0,
+            },
             began_us: None,
             at_us: 0,
         }
@@ -78,30 +88,32 @@ impl<'a> Records<'a> {
         self.line
     }
 
+    /// How many records had a link to the record before, which fits.
+    #[must_use]
+    pub const fn linked(&self) -> usize {
+        self.chain.linked
+    }
+
     /// Takes the next record; `None` at the end. A last line without an end that is no record was cut
     /// off when the robot was killed, and is no error.
     ///
     /// # Errors
     /// When the file cannot be read, is empty, or a line is no record.
     pub fn take(&mut self) -> Result<Option<Record>, Unreadable> {
-        let mut text = String::new();
         self.line += 1;
-        let length = self
-            .log
-            .lines
-            .read_line(&mut text)
-            .map_err(Unreadable::Io)?;
-        if length == 0 {
+        let text = read_line(&mut self.log.lines)?;
+        if text.is_empty() {
             return match self.line {
                 1 => Err(Unreadable::Empty),
                 _ => Ok(None),
             };
         }
-        let record = match serde_json::from_str::<Record>(&text) {
+        let record = match serde_json::from_slice::<Record>(&text) {
             Ok(record) => record,
-            Err(_) if !text.ends_with('\n') && self.line > 1 => return Ok(None),
+            Err(_) if !text.ends_with(b"\n") && self.line > 1 => return Ok(None),
             Err(cause) => return Err(Unreadable::NotARecord(cause)),
         };
+        self.chain.follow(&text)?;
         self.follow_clock(&record);
         Ok(Some(record))
     }
@@ -248,6 +260,7 @@ mod tests {
             entry: Entry::Started {
                 station: StationId(1),
                 boot: 1,
+                epoch: None,
                 settings: Box::new(Config::default().settings().clone()),
                 identifiers: crossguard_codec::Identifiers::default(),
                 unix_ms,

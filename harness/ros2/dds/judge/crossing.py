@@ -302,6 +302,8 @@ def what_is_wrong_is_refused_in_words_and_counted(stack):
         (Command.of(kind=Command.SET_AVAILABILITY, availability=9), "availability 9"),
         (Command.of(kind=Command.SHOW, to_pedestrians=Command.SIGNAL_GO), "go is not shown"),
         (Command.of(kind=Command.SHOW, to_vehicles=9), "signal 9"),
+        (Command.of(kind=Command.JOB, job_role=7), "job_role 7"),
+        (Command.of(kind=Command.SERVE, map_place="road 3"), "map_place is 'road 3'"),
     ]
     far = Command.of(kind=Command.ORDER, follower=2, has_target=True)
     far.target.x = nan

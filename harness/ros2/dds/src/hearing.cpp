@@ -91,10 +91,14 @@ std::optional<crossguard::Event> event(const ros::Command &command, const Site &
     if (command.availability > CROSSGUARD_UNAVAILABILITY_NOT_SAFE)
       throw Refusal{"availability " + std::to_string(command.availability) + ": 0 to 5 are possible"};
     return Event::available(static_cast<crossguard::Unavailability>(command.availability));
-  case crossguard_msgs_msg_dds__Command_Constants_SHOW: return std::nullopt;
+  case crossguard_msgs_msg_dds__Command_Constants_SHOW:
+  case crossguard_msgs_msg_dds__Command_Constants_JOB:
+  case crossguard_msgs_msg_dds__Command_Constants_SERVE: return std::nullopt;
   default: throw Refusal{"kind " + std::to_string(command.kind) + " is no command"};
   }
 }
+
+namespace {
 
 void show(const ros::Command &command, crossguard::Body &body) {
   for (const std::uint8_t signal : {command.to_vehicles, command.to_pedestrians})
@@ -107,6 +111,25 @@ void show(const ros::Command &command, crossguard::Body &body) {
   if (command.signal_means != 0) body.signal_means = command.signal_means;
   body.to_vehicles = command.to_vehicles;
   body.to_pedestrians = command.to_pedestrians;
+}
+
+void serve(const ros::Command &command, crossguard::Body &body) {
+  const bool is_named = command.map_place && *command.map_place;
+  crossguard::MapPlace::write(is_named ? std::optional{map_place(command.map_place)} : std::nullopt, body);
+}
+
+} // namespace
+
+void describe(const ros::Command &command, crossguard::Body &body) {
+  switch (command.kind) {
+  case crossguard_msgs_msg_dds__Command_Constants_SERVE: return serve(command, body);
+  case crossguard_msgs_msg_dds__Command_Constants_JOB:
+    if (command.job_role > crossguard_msgs_msg_dds__Command_Constants_ROLE_OTHER)
+      throw Refusal{"job_role " + std::to_string(command.job_role) + ": 0 to 6 are possible"};
+    body.job_role = command.job_role;
+    return;
+  default: return show(command, body);
+  }
 }
 
 void place(const ros::PoseStamped &pose, const Site &site, crossguard::Body &body) {

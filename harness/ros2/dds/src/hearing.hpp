@@ -15,12 +15,12 @@ struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What a command tells the robot; nothing for SHOW, which `show` takes.
+// What a command tells the robot; nothing for SHOW, JOB and SERVE, which `describe` takes.
 // Throws `Refusal`.
 std::optional<crossguard::Event> event(const ros::Command &command, const Site &site);
 
-// Has the body show what the command says. Throws `Refusal`.
-void show(const ros::Command &command, crossguard::Body &body);
+// Has the body show, be there for and serve what the command says. Throws `Refusal`.
+void describe(const ros::Command &command, crossguard::Body &body);
 
 // Sets position and heading of the body to those of the pose. Throws `Refusal`.
 void place(const ros::PoseStamped &pose, const Site &site, crossguard::Body &body);

@@ -231,7 +231,7 @@ void Node::hear_command(const ros::Command &command) {
   std::string why;
   try {
     const auto told = event(command, options_.site);
-    if (!told) return show(command, turn_.body());
+    if (!told) return describe(command, turn_.body());
     prepare();
     is_commanded_ = true;
     const crossguard::Status status = robot_.tell(*told, turn_);

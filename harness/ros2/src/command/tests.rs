@@ -195,6 +195,42 @@ fn a_robot_can_be_told_what_it_shows() {
     assert_eq!(signals, expected);
 }
 
+#[test]
+fn a_robot_can_be_told_its_job_and_what_it_serves() {
+    let said = |command: &Command| order(command, &Site::default(), BodyKind::Configured);
+    let job = |job_role| {
+        said(&Command {
+            job_role,
+            ..of(Command::JOB)
+        })
+    };
+    assert!(matches!(
+        job(Command::ROLE_PATROL),
+        Ok(Order::Job(JobRole::Patrol))
+    ));
+    assert_eq!(
+        job(7).unwrap_err().to_string(),
+        "job_role 7: 0 to 6 are possible"
+    );
+    let serve = |text: &str| {
+        said(&Command {
+            map_place: text.to_owned(),
+            ..of(Command::SERVE)
+        })
+    };
+    let segment = MapPlace::RoadSegment {
+        region: Some(276),
+        id: 12,
+    };
+    let served = serve("segment 276:12");
+    assert!(
+        matches!(served, Ok(Order::Serve(Some(place))) if place == segment),
+        "{served:?}"
+    );
+    assert!(matches!(serve(""), Ok(Order::Serve(None))));
+    assert!(matches!(serve("road 3"), Err(Refused::MapPlace(..))));
+}
+
 fn facing(degrees: f64, place: [f64; 2], at_s: i32) -> PoseStamped {
     let half = degrees.to_radians() / 2.0;
     let mut pose = PoseStamped::default();

@@ -1,6 +1,6 @@
 //! What `crossguard run` writes, from threads of their own: nobody who does not read holds the robot up.
 
-use std::io::{BufWriter, ErrorKind, Stdout, Write};
+use std::io::{ErrorKind, Stdout, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError};
@@ -9,10 +9,11 @@ use std::time::Duration;
 
 use crossguard_endpoint::cause::Cause;
 use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
-use crossguard_robot::trace::{self, Record};
+use crossguard_robot::trace::{self, LogFile, LogLimits, Record};
 use indicatif::ProgressBar;
 
-use super::super::Failure;
+use super::super::printable::Printable;
+use super::super::{Failure, complain};
 
 /// How many lines for people wait for their reader.
 const LINES: usize = 1_024;
@@ -91,32 +92,30 @@ impl Writing {
     /// Writes records to a file.
     fn to_file(path: &Path, records: Receiver<Arc<Record>>) -> Result<Self, Failure> {
         let name = path.display().to_string();
-        let file = std::fs::File::create(path);
+        let file = LogFile::create(path, LogLimits::default());
         let file = file.map_err(|error| Failure::Input(format!("{name}: {error}")))?;
-        Ok(Self::start(
-            name,
-            records,
-            BufWriter::new(file),
-            write_record,
-        ))
+        let write = |to: &mut LogFile, record: &Arc<Record>| to.write(record);
+        Ok(Self::start(name, records, file, write, LogFile::flush))
     }
 
     /// Writes records to standard output.
     fn to_stdout(records: Receiver<Arc<Record>>) -> Self {
         let name = "standard output".to_owned();
-        Self::start(name, records, std::io::stdout(), write_record)
+        let write = |to: &mut Stdout, record: &Arc<Record>| trace::write(to, record);
+        Self::start(name, records, std::io::stdout(), write, Stdout::flush)
     }
 
-    fn start<T: Send + 'static, W: Write + Send + 'static>(
+    fn start<T: Send + 'static, W: Send + 'static>(
         name: String,
         queue: Receiver<T>,
         mut to: W,
         write: impl Fn(&mut W, &T) -> std::io::Result<()> + Send + 'static,
+        flush: impl Fn(&mut W) -> std::io::Result<()> + Send + 'static,
     ) -> Self {
         let (tell, result) = channel();
         let of_thread = name.clone();
         std::thread::spawn(move || {
-            let result = journal::write_out(&queue, &mut to, write);
+            let result = journal::write_out(&queue, &mut to, write, flush);
             if let Err(error) = &result
                 && error.kind() != ErrorKind::BrokenPipe
             {
@@ -148,15 +147,6 @@ impl Writing {
     }
 }
 
-fn write_record(to: &mut impl Write, record: &Arc<Record>) -> std::io::Result<()> {
-    trace::write(to, record)
-}
-
-/// Tells on standard error. If that is gone as well, there is nobody to tell.
-fn complain(what: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "crossguard: {what}");
-}
-
 /// Lines for people on standard output. Lines that do not get through are counted, and that is said
 /// when lines get through again.
 pub(super) struct Lines {
@@ -169,8 +159,10 @@ impl Lines {
     fn start(bar: ProgressBar) -> (Self, Writing) {
         let (queue, lines) = sync_channel(LINES);
         let name = "standard output".to_owned();
-        let write = move |to: &mut Stdout, line: &String| bar.suspend(|| writeln!(to, "{line}"));
-        let writing = Writing::start(name, lines, std::io::stdout(), write);
+        let write = move |to: &mut Stdout, line: &String| {
+            bar.suspend(|| writeln!(to, "{}", Printable(line)))
+        };
+        let writing = Writing::start(name, lines, std::io::stdout(), write, Stdout::flush);
         let lines = Self { queue, left_out: 0 };
         (lines, writing)
     }

@@ -29,7 +29,13 @@ fn percent(it: Estimate) -> String {
 
 impl Row for ObsCell {
     fn head() -> Vec<&'static str> {
-        vec!["robots", "pedestrians", "radius", "coverage"]
+        vec![
+            "robots",
+            "pedestrians",
+            "radius",
+            "coverage",
+            "of it at intersections",
+        ]
     }
 
     fn columns(&self) -> Vec<String> {
@@ -38,6 +44,7 @@ impl Row for ObsCell {
             self.pedestrians.to_string(),
             format!("{} m", self.radius_m),
             percent(self.obs_percent),
+            format!("{:.1} %", self.covered_at_intersections_percent.mean),
         ]
     }
 }
@@ -175,10 +182,18 @@ impl Csv for ObsCell {
         "radius_m",
         "obs_percent_mean",
         "obs_percent_sd",
+        "covered_at_intersections_percent_mean",
+        "travel_s_mean",
     ];
 
     fn row(&self) -> Vec<String> {
-        let numbers = [self.radius_m, self.obs_percent.mean, self.obs_percent.sd];
+        let numbers = [
+            self.radius_m,
+            self.obs_percent.mean,
+            self.obs_percent.sd,
+            self.covered_at_intersections_percent.mean,
+            self.travel_s.mean,
+        ];
         let counts = [self.robots, self.pedestrians].map(|it| it.to_string());
         counts
             .into_iter()

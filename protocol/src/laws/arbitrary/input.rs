@@ -1,8 +1,8 @@
 //! Arbitrary inputs, by kind.
 
 use super::{
-    BOOT, ME, PEER, Source, answer, availability, choice, command, help_request, maneuver_id, ram,
-    station, task,
+    BOOT, ME, PEER, Source, answer, availability, choice, command, help_request, maneuver_id,
+    number, option, ram, station, task,
 };
 use crate::input::{Decimetres, Event, Input, Timer};
 use crate::message::Rmcm;
@@ -184,7 +184,9 @@ pub fn event(source: &mut impl Source, happening: Happening) -> Event {
         Happening::AvailabilityChanged => Event::AvailabilityChanged(availability(source)),
         Happening::OpenCorridor => Event::OpenCorridor,
         Happening::CloseCorridor => Event::CloseCorridor,
-        Happening::IdentityChanged => Event::IdentityChanged(station(source, ME)),
+        Happening::IdentityChanged => {
+            Event::IdentityChanged(station(source, ME), option(source, number))
+        }
         Happening::EpochRenewed => Event::EpochRenewed(source.u16(BOOT + 1)),
     }
 }

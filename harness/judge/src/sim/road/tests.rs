@@ -63,11 +63,11 @@ const LEASE_MS: u64 = 1_952;
 #[test]
 fn who_steps_on_the_road_finds_the_guard_in_place_or_gone_for_less_than_the_lease() {
     let mut road = open(60_000);
-    assert!(road.step_on_road(2_000 * MS, 0).unwrap().is_some());
+    assert!(road.step_on_road(2_000 * MS, 0, 0).unwrap().is_some());
     road.see(2_000 * MS, 2, GONE).unwrap();
-    let found = road.step_on_road((2_000 + LEASE_MS) * MS, 0).unwrap();
+    let found = road.step_on_road((2_000 + LEASE_MS) * MS, 0, 0).unwrap();
     assert_eq!(found, Some((session(0), 1, vec![2])));
-    let late = road.step_on_road((2_000 + LEASE_MS) * MS + 1, 0);
+    let late = road.step_on_road((2_000 + LEASE_MS) * MS + 1, 0, 0);
     assert_eq!(late, Err((Measure::GuardGone, 0)));
 }
 
@@ -75,7 +75,7 @@ fn who_steps_on_the_road_finds_the_guard_in_place_or_gone_for_less_than_the_leas
 fn a_guard_that_was_never_there_is_missed_at_once() {
     let mut road = road();
     road.see(0, 0, leader(0, Some(60_000 * MS))).unwrap();
-    let broken = road.step_on_road(1, 0);
+    let broken = road.step_on_road(1, 0, 0);
     assert_eq!(broken, Err((Measure::GuardGone, 0)));
 }
 

@@ -89,6 +89,7 @@ impl Draws {
             strikes: self.perhaps(0.8),
             replays: self.replays(heals_us),
             is_secured,
+            insider: None,
             waits_at: None,
         };
         let mut corners = 0..common.corners;

@@ -51,11 +51,13 @@ pub enum Hazard {
     Strike,
     /// Somebody takes more than half of `t_cross`.
     SlowPeople,
+    /// A station with a certificate says anything in its own name.
+    Insider,
 }
 
 impl Hazard {
     /// All of them.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Loss,
         Self::Duplication,
         Self::Reordering,
@@ -75,6 +77,7 @@ impl Hazard {
         Self::Security,
         Self::Strike,
         Self::SlowPeople,
+        Self::Insider,
     ];
 
     /// Its name.
@@ -100,6 +103,7 @@ impl Hazard {
             Self::Security => "security enforced",
             Self::Strike => "failures while the sign shows go",
             Self::SlowPeople => "slow people",
+            Self::Insider => "an insider that lies",
         }
     }
 
@@ -140,6 +144,7 @@ impl Hazard {
             Self::Replay => !swarm.replays.is_empty(),
             Self::Security => swarm.is_secured,
             Self::Strike => swarm.strikes > 0.0,
+            Self::Insider => swarm.insider.is_some(),
             Self::SlowPeople => swarm.robots.iter().any(lets_slow_people_cross),
         }
     }

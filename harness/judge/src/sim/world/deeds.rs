@@ -88,7 +88,7 @@ impl World<'_> {
             Deed::ChangeIdentity => {
                 seat.changes += 1;
                 let station = seat.draw.station.0 + seat.changes * PSEUDONYM_STEP;
-                Event::IdentityChanged(StationId(station))
+                Event::IdentityChanged(StationId(station), None)
             }
             Deed::Crash | Deed::Boot | Deed::Hang(_) => return None,
         })
@@ -147,7 +147,8 @@ impl World<'_> {
             Security::default()
         };
         let station = security.station_id(&identifiers, draw.station);
-        let robot = Robot::new(station, seat.boot);
+        let epoch = security.epoch(station, seat.boot);
+        let robot = Robot::new(station, epoch);
         self.monitor.boot(place, &robot, &draw.config);
         let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
         let rules = self.rules;
@@ -170,6 +171,7 @@ impl World<'_> {
         let entry = Entry::Started {
             station,
             boot: self.seats[place].boot,
+            epoch: Some(epoch).filter(|_| self.swarm.is_secured),
             settings: Box::new(draw.config.settings().clone()),
             identifiers,
             unix_ms: u64::try_from(EPOCH_UNIX_MS).unwrap_or(0) + self.now_us / 1_000,

@@ -85,7 +85,9 @@ impl World<'_> {
             self.plan_look(corner);
             return Ok(());
         };
-        let stepped = self.road.step_on_road(self.now_us, leader);
+        let stepped = self
+            .road
+            .step_on_road(self.now_us, leader, self.liars_among(leader));
         let stepped = stepped.map_err(|late| self.too_late(late))?;
         let Some((session, required, gone)) = stepped else {
             return Ok(());
@@ -213,6 +215,13 @@ impl World<'_> {
         let falls_back = |output: &Output| matches!(output, Output::FallBack(..));
         for notice in outputs.notices() {
             match notice {
+                // No body is gone with it.
+                Notice::FollowerGone(guard, _)
+                | Notice::LeaseExpired(guard)
+                | Notice::ManeuverFailed(guard, ..)
+                | Notice::ManeuverCompleted(guard, _)
+                | Notice::FollowerSafeIdle(guard, _)
+                    if self.is_insider(guard) => {}
                 Notice::FollowerGone(guard, _)
                 | Notice::LeaseExpired(guard)
                 | Notice::ManeuverFailed(guard, ..)

@@ -1,0 +1,176 @@
+//! Certificates and envelopes octet by octet, also such as must not be: nothing of the kit encodes or signs here.
+#![allow(
+    clippy::cast_possible_truncation,
+    reason = "lengths are split into octets"
+)]
+
+use p256::ecdsa::signature::hazmat::PrehashSigner;
+use p256::ecdsa::{Signature, SigningKey};
+use sha2::{Digest, Sha256};
+
+/// The key of this number.
+pub(crate) fn key(number: u8) -> SigningKey {
+    SigningKey::from_slice(&[number; 32]).unwrap()
+}
+
+/// IEEE 1609.2, clause 5.3.1: what is signed is the digest of both digests.
+pub(crate) fn sign(key: &SigningKey, data: &[u8], signer: &[u8]) -> Vec<u8> {
+    let both = [Sha256::digest(data), Sha256::digest(signer)].concat();
+    let signature: Signature = key.sign_prehash(&Sha256::digest(both)).unwrap();
+    [&[0x80, 0x80][..], &signature.to_bytes()].concat()
+}
+
+/// The last eight octets of a certificate's digest.
+pub(crate) fn hashed_id8(certificate: &[u8]) -> Vec<u8> {
+    Sha256::digest(certificate)[24..].to_vec()
+}
+
+/// A length of an open type or OCTET STRING, and its octets.
+pub(crate) fn opaque(octets: &[u8]) -> Vec<u8> {
+    let length = octets.len();
+    let head = match length {
+        0..0x80 => vec![length as u8],
+        0x80..0x100 => vec![0x81, length as u8],
+        _ => vec![0x82, (length >> 8) as u8, length as u8],
+    };
+    [head.as_slice(), octets].concat()
+}
+
+/// An ITS-AID as its COER integer.
+pub(crate) fn psid(its_aid: u32) -> Vec<u8> {
+    let octets = its_aid.to_be_bytes();
+    let first = octets.iter().position(|octet| *octet != 0).unwrap_or(3);
+    opaque(&octets[first..])
+}
+
+/// A latitude and a longitude.
+pub(crate) fn location((latitude, longitude): (i32, i32)) -> Vec<u8> {
+    [latitude.to_be_bytes(), longitude.to_be_bytes()].concat()
+}
+
+/// `SEQUENCE OF PsidSsp`, each with the bitmap of its service.
+pub(crate) fn permissions(its_aids: &[u32]) -> Vec<u8> {
+    let mut octets = vec![1, its_aids.len() as u8];
+    for its_aid in its_aids {
+        let bitmap = opaque(&[1, 0xc0]);
+        octets.push(0x80);
+        octets.extend(psid(*its_aid));
+        octets.push(0x81);
+        octets.extend(opaque(&bitmap));
+    }
+    octets
+}
+
+/// `SEQUENCE OF PsidGroupPermissions` with one for these services: `head` is its preamble, `tail` what follows the
+/// services.
+pub(crate) fn issue_permissions(head: u8, its_aids: &[u32], tail: &[u8]) -> Vec<u8> {
+    let mut octets = vec![1, 1, head, 0x80, 1, its_aids.len() as u8];
+    for its_aid in its_aids {
+        octets.push(0x80);
+        octets.extend(psid(*its_aid));
+        octets.push(0x81);
+    }
+    [&octets[..], tail].concat()
+}
+
+/// `ToBeSignedCertificate`, part by part.
+#[derive(Clone)]
+pub(crate) struct Terms {
+    pub(crate) name: Option<&'static str>,
+    pub(crate) start: u32,
+    pub(crate) hours: u16,
+    /// `GeographicRegion`; nothing where there is none.
+    pub(crate) region: Vec<u8>,
+    pub(crate) permissions: Vec<u8>,
+    pub(crate) issue: Vec<u8>,
+    /// The bitmap of additions and what follows it; nothing where there are none.
+    pub(crate) additions: Vec<u8>,
+    pub(crate) key: u8,
+}
+
+impl Terms {
+    fn octets(&self) -> Vec<u8> {
+        let bit = |part: &[u8], bit: u8| if part.is_empty() { 0 } else { bit };
+        let mut octets = vec![
+            bit(&self.additions, 0x80)
+                | bit(&self.region, 0x40)
+                | bit(&self.permissions, 0x10)
+                | bit(&self.issue, 0x08),
+        ];
+        match self.name {
+            Some(name) => {
+                octets.push(0x81);
+                octets.extend(opaque(name.as_bytes()));
+            }
+            None => octets.push(0x83),
+        }
+        octets.extend([0; 5]);
+        octets.extend(self.start.to_be_bytes());
+        octets.push(0x84);
+        octets.extend(self.hours.to_be_bytes());
+        octets.extend(&self.region);
+        octets.extend(&self.permissions);
+        octets.extend(&self.issue);
+        let point = key(self.key).verifying_key().to_sec1_point(true);
+        octets.extend([0x80, 0x80, 0x80 | point.as_bytes()[0]]);
+        octets.extend(&point.as_bytes()[1..]);
+        octets.extend(&self.additions);
+        octets
+    }
+
+    /// The certificate, signed by `issuer` with the key of this number; by itself without one.
+    pub(crate) fn signed(&self, issuer: Option<&[u8]>, by: u8) -> Vec<u8> {
+        let to_be_signed = self.octets();
+        let mut octets = vec![0x80, 3, 0];
+        match issuer {
+            Some(issuer) => {
+                octets.push(0x80);
+                octets.extend(hashed_id8(issuer));
+            }
+            None => octets.extend([0x81, 0]),
+        }
+        octets.extend(&to_be_signed);
+        octets.extend(sign(&key(by), &to_be_signed, issuer.unwrap_or_default()));
+        octets
+    }
+}
+
+/// An envelope, part by part.
+#[derive(Clone)]
+pub(crate) struct Envelope {
+    pub(crate) payload: Vec<u8>,
+    /// Bits of the preamble of `HeaderInfo` besides that of `generationTime`.
+    pub(crate) preamble: u8,
+    pub(crate) its_aid: u32,
+    pub(crate) generated_us: u64,
+    /// `expiryTime`, `generationLocation`.
+    pub(crate) fields: Vec<u8>,
+    /// The bitmap of additions and what follows it.
+    pub(crate) additions: Vec<u8>,
+    pub(crate) certificate: Vec<u8>,
+    pub(crate) in_full: bool,
+    pub(crate) key: u8,
+}
+
+impl Envelope {
+    pub(crate) fn octets(&self) -> Vec<u8> {
+        let mut signed = vec![0x40, 3, 0x80];
+        signed.extend(opaque(&self.payload));
+        let additions = if self.additions.is_empty() { 0 } else { 0x80 };
+        signed.push(0x40 | self.preamble | additions);
+        signed.extend(psid(self.its_aid));
+        signed.extend(self.generated_us.to_be_bytes());
+        signed.extend(&self.fields);
+        signed.extend(&self.additions);
+        let mut octets = [&[3, 0x81, 0][..], &signed].concat();
+        if self.in_full {
+            octets.extend([0x81, 1, 1]);
+            octets.extend(&self.certificate);
+        } else {
+            octets.push(0x80);
+            octets.extend(hashed_id8(&self.certificate));
+        }
+        octets.extend(sign(&key(self.key), &signed, &self.certificate));
+        octets
+    }
+}

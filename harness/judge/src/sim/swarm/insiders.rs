@@ -1,0 +1,51 @@
+//! What is drawn for a station that lies.
+
+use crossguard_model_check::confinement::LyingPart;
+use crossguard_protocol::StationId;
+use crossguard_robot::site::Place;
+use rand::seq::IndexedRandom;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::Swarm;
+
+/// What is drawn for the insider of a run.
+#[derive(Clone, Debug)]
+pub struct InsiderDraw {
+    /// Its station id.
+    pub station: StationId,
+    /// What it mostly lies as.
+    pub part: LyingPart,
+    /// How long it is silent at most after it has said something, in milliseconds.
+    pub pause_ms: u32,
+    /// Where it says that it is.
+    pub place: Place,
+}
+
+impl Swarm {
+    /// The same run, with an insider that lies until the network is healed in this share of the seeds.
+    #[must_use]
+    pub fn with_insider(mut self, share: f64) -> Self {
+        let mut draws = ChaCha8Rng::seed_from_u64(self.seed ^ 0x4c49_4152);
+        if !draws.random_bool(share) {
+            return self;
+        }
+        let parts = [
+            LyingPart::Follower,
+            LyingPart::Helper,
+            LyingPart::Bystander,
+            LyingPart::Leader,
+        ];
+        let station = u32::try_from(self.robots.len()).unwrap_or(0) + 1;
+        self.insider = Some(InsiderDraw {
+            station: StationId(station),
+            part: *parts.choose(&mut draws).unwrap_or(&LyingPart::Bystander),
+            pause_ms: draws.random_range(20..400),
+            place: Place::new(
+                draws.random_range(-10.0..10.0),
+                draws.random_range(-10.0..10.0),
+            ),
+        });
+        self
+    }
+}

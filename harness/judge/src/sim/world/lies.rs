@@ -1,0 +1,96 @@
+//! The insider among the robots: what it says arrives everywhere.
+
+use std::rc::Rc;
+use std::time::Duration;
+
+use crossguard_codec::si::timestamp_its;
+use crossguard_endpoint::Moment;
+use crossguard_endpoint::station::Security;
+use crossguard_protocol::{Phase, StationId};
+
+use super::radio::Arrival;
+use super::{EPOCH_UNIX_MS, Next, World};
+use crate::sim::insider::Insider;
+use crate::sim::security;
+use crate::sim::swarm::Swarm;
+
+/// How long a lie is under way at most, in microseconds.
+const WAY_US: u64 = 10_000;
+
+/// The insider of a run, if it has one.
+pub(super) fn insider(swarm: &Swarm) -> Option<Insider> {
+    let draw = swarm.insider.as_ref()?;
+    let security = if swarm.is_secured {
+        security::of(swarm.robots.len(), draw.station, 0)
+    } else {
+        Security::default()
+    };
+    let site = &swarm.robots.first()?.plan.site;
+    Some(Insider::new(draw, swarm.seed, site, security))
+}
+
+impl World<'_> {
+    /// The insider says something, until the network is healed.
+    pub(super) fn lie(&mut self) {
+        let Some(mut insider) = self.insider.take() else {
+            return;
+        };
+        if !self.is_healed {
+            self.say(&mut insider);
+            let pause_us = insider.pause_us();
+            self.at(self.now_us + pause_us, Next::Lies);
+        }
+        self.insider = Some(insider);
+    }
+
+    fn say(&mut self, insider: &mut Insider) {
+        let seat = &self.seats[insider.hearer(self.seats.len())];
+        let Some(machine) = &seat.machine else { return };
+        let since_ms = i64::try_from(self.now_us / 1_000).unwrap_or(i64::MAX);
+        let moment = Moment {
+            now_ms: self.now_us / 1_000,
+            timestamp_its: timestamp_its(EPOCH_UNIX_MS + since_ms),
+        };
+        let (hearer, request) = (machine.endpoint().robot(), seat.draw.plan.request());
+        let packets = insider.lie(moment, hearer, &seat.draw.config, request);
+        for packet in packets {
+            self.spread(&packet);
+        }
+    }
+
+    /// A packet of the insider reaches all robots.
+    fn spread(&mut self, packet: &Rc<[u8]>) {
+        self.packets += 1;
+        if let Some(watch) = &mut self.watch {
+            let epoch = Duration::from_millis(EPOCH_UNIX_MS.unsigned_abs());
+            watch.packet(epoch + Duration::from_micros(self.now_us), packet);
+        }
+        for to in 0..self.seats.len() {
+            let arrived_us = self.now_us + WAY_US;
+            let arrival = Arrival {
+                to,
+                from: to,
+                arrived_us,
+                ram_sent_us: None,
+                packet: Rc::clone(packet),
+            };
+            self.at(arrived_us, Next::Arrives(arrival));
+        }
+    }
+
+    /// How many followers of the leader of a session are the insider: 1 or none.
+    pub(super) fn liars_among(&self, leader: usize) -> usize {
+        let insider = self.insider.as_ref().map(Insider::station);
+        let leads = self.monitor.node(leader).robot.as_ref();
+        let is_member = leads.is_some_and(|robot| match robot.phase() {
+            Phase::Leading(leading) => insider.is_some_and(|it| leading.member(it).is_some()),
+            _ => false,
+        });
+        usize::from(is_member)
+    }
+
+    /// Whether this station is the insider.
+    pub(super) fn is_insider(&self, station: StationId) -> bool {
+        self.insider.as_ref().map(Insider::station) == Some(station)
+    }
+}

@@ -1,0 +1,59 @@
+//! Whether a robot trusts its clock, for its log and for who watches it.
+
+use std::fmt::{self, Display, Formatter};
+
+use crossguard_codec::security::{Doubt, TrustedTime};
+use serde::{Deserialize, Serialize};
+
+/// Whether a robot that verifies trusts its clock. If it does not, it accepts nothing that is signed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum ClockState {
+    /// It does.
+    Trusted,
+    /// The clock is behind a time that has been.
+    Behind {
+        /// By so many ms.
+        ms: u64,
+    },
+    /// The clock has leapt ahead.
+    Ahead {
+        /// By so many ms.
+        ms: u64,
+    },
+}
+
+impl ClockState {
+    pub(crate) const fn of(time: &TrustedTime) -> Self {
+        match time.doubt() {
+            None => Self::Trusted,
+            Some(Doubt::Behind(us)) => Self::Behind { ms: us / 1_000 },
+            Some(Doubt::Ahead(us)) => Self::Ahead { ms: us / 1_000 },
+        }
+    }
+
+    /// Whether it trusts its clock.
+    #[must_use]
+    pub const fn is_trusted(self) -> bool {
+        matches!(self, Self::Trusted)
+    }
+}
+
+impl Display for ClockState {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Trusted => write!(f, "the clock is trusted"),
+            Self::Behind { ms } => write!(
+                f,
+                "time not trusted: the clock is {ms} ms behind a time that has been, and nothing signed is accepted until \
+                 it is there. If it is right, and was wrong before, stop the robot and delete the file '.time' beside its \
+                 boot counter"
+            ),
+            Self::Ahead { ms } => write!(
+                f,
+                "time not trusted: the clock has leapt {ms} ms ahead, and nothing signed is accepted until it is back or has \
+                 gone on for a minute"
+            ),
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! What a property assumes of those who speak: who could break it by a lie.
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// Where an insider that lies stands towards the robots that a property is about. An insider has a certificate, and
+/// speaks in its own name alone.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Insider {
+    /// A follower that its leader has confirmed.
+    Follower,
+    /// The leader of those that follow it.
+    Leader,
+    /// Neither: a helper that is not confirmed, or a bystander, which may ask for help and lead a team of its own.
+    Stranger,
+}
+
+impl Insider {
+    /// In a sentence.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Follower => "a follower",
+            Self::Leader => "a leader",
+            Self::Stranger => "a stranger",
+        }
+    }
+}
+
+/// What a property assumes of those who speak.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Authentication {
+    /// Whether each message has to be of the station that it names.
+    names: bool,
+    liars: &'static [Insider],
+}
+
+impl Authentication {
+    /// It holds whatever anybody says in any name.
+    pub(super) const NONE: Self = Self {
+        names: false,
+        liars: &[],
+    };
+
+    /// Each message is of the station that it names, and stations may lie about themselves.
+    pub(super) const NAMES: Self = Self {
+        names: true,
+        liars: &[],
+    };
+
+    /// Each message is of the station that it names, and these do not lie about themselves.
+    pub(super) const fn truth_of(liars: &'static [Insider]) -> Self {
+        Self { names: true, liars }
+    }
+
+    /// Whether somebody who speaks in another's name could break the property.
+    #[must_use]
+    pub const fn assumes_names(self) -> bool {
+        self.names
+    }
+
+    /// The insiders that can break the property by what they say in their own name.
+    #[must_use]
+    pub const fn liars(self) -> &'static [Insider] {
+        self.liars
+    }
+}
+
+impl fmt::Display for Authentication {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.names {
+            return f.write_str("none: whatever anybody says in any name");
+        }
+        f.write_str("each message is of the station that it names")?;
+        if self.liars.is_empty() {
+            return f.write_str("; stations may lie about themselves");
+        }
+        for (i, liar) in self.liars.iter().enumerate() {
+            let before = if i == 0 { "; no lie of " } else { ", of " };
+            write!(f, "{before}{}", liar.name())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,52 @@
+//! C1: what a station says starts, stops or ends nothing at a robot that does not follow it.
+//!
+//! So an insider moves the robots that joined it, and no others, whatever it says in its own name.
+
+use crossguard_protocol::{Output, StationId};
+
+use super::authentication::Authentication;
+use super::property::{Claim, Kind, Property, Rule, StepRule};
+use super::view::{StepView, following_of};
+
+pub(super) const PROPERTY: Property = Property {
+    id: "C1",
+    authentication: Authentication::NAMES,
+    untimed: Some(Claim {
+        kind: Kind::T,
+        statement: "what a station says starts, stops or ends nothing at a robot that does not follow it",
+        premise: Some("a robot that executes takes in what a station says that it does not follow"),
+        rule: Rule::Step(StepRule {
+            holds,
+            premise,
+            looks_back: false,
+            of_two: false,
+        }),
+        weakening: "ObeysCommandsOfAnySession",
+    }),
+    timed: None,
+};
+
+fn follows(step: &StepView, sender: StationId) -> bool {
+    following_of(step.before).is_some_and(|following| following.session.leader == sender)
+}
+
+fn holds(step: &StepView) -> bool {
+    let Some(sender) = step.sender() else {
+        return true;
+    };
+    let moves = |output: &Output| {
+        matches!(
+            output,
+            Output::StartManeuver(_) | Output::StopManeuver(..) | Output::FallBack(..)
+        )
+    };
+    let session = |node| following_of(node).map(|following| following.session);
+    let was = session(step.before);
+    follows(step, sender)
+        || (!step.outputs.iter().any(moves) && (was.is_none() || session(step.after) == was))
+}
+
+fn premise(step: &StepView) -> bool {
+    let executes = step.before.actuation.running.is_some();
+    executes && step.sender().is_some_and(|sender| !follows(step, sender))
+}

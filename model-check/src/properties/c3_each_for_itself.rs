@@ -1,0 +1,81 @@
+//! C3: a corridor rests on followers that its leader confirmed, each of which speaks for itself alone.
+//!
+//! So a corridor is never open on the word of a station that was not confirmed.
+
+use crossguard_protocol::Confirmation;
+
+use super::authentication::Authentication;
+use super::property::{Claim, Kind, Property, Rule, StateRule, StepRule};
+use super::view::{StepView, View, leading_of};
+
+pub(super) const PROPERTY: Property = Property {
+    id: "C3",
+    authentication: Authentication::NAMES,
+    untimed: Some(Claim {
+        kind: Kind::S,
+        statement: "an open corridor rests on followers that were confirmed; what a station says changes no record but its own",
+        premise: Some("a leader takes in what a station says that is not its only follower"),
+        rule: Rule::StateAndStep(
+            StateRule {
+                holds: rests_on_the_confirmed,
+                premise: |_| false,
+                of_two: false,
+            },
+            StepRule {
+                holds: speaks_for_itself,
+                premise,
+                looks_back: false,
+                of_two: false,
+            },
+        ),
+        weakening: "AdmitsWhoSaysThatItFollows",
+    }),
+    timed: None,
+};
+
+fn rests_on_the_confirmed(view: &View) -> bool {
+    view.nodes().all(|node| {
+        let (Some(leading), Some(robot)) = (leading_of(node), &node.robot) else {
+            return true;
+        };
+        let members = leading.members.iter();
+        let mut followers = members.map(|member| Confirmation {
+            station: member.station,
+            offer: member.offer,
+        });
+        let Some(session) = robot.session() else {
+            return true;
+        };
+        !node.actuation.corridor_open
+            || followers.all(|follower| view.history().is_confirmed(session, follower))
+    })
+}
+
+fn speaks_for_itself(step: &StepView) -> bool {
+    let (Some(sender), Some(before)) = (step.sender(), leading_of(step.before)) else {
+        return true;
+    };
+    let Some(after) = leading_of(step.after) else {
+        return true;
+    };
+    let others_before = before
+        .members
+        .iter()
+        .filter(|member| member.station != sender);
+    let others_after = after
+        .members
+        .iter()
+        .filter(|member| member.station != sender);
+    let joins = after.member(sender).is_some() && before.member(sender).is_none();
+    others_before.eq(others_after) && !joins
+}
+
+fn premise(step: &StepView) -> bool {
+    let (Some(sender), Some(leading)) = (step.sender(), leading_of(step.before)) else {
+        return false;
+    };
+    leading
+        .members
+        .iter()
+        .any(|member| member.station != sender)
+}

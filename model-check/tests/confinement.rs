@@ -1,0 +1,399 @@
+//! The confinement table, measured: real robots meet each lie, and it lasts no longer than the table says, and almost
+//! that long.
+
+use crossguard_model_check::confinement::{Confinement, Harm, table};
+use crossguard_protocol::{
+    Answer, Command, Config, Confirmation, Coordination, Decimetres, Event, Heartbeat, HelpRequest,
+    Input, Millis, OfferNumber, Output, Outputs, Phase, Place, Progress, Ram, Report, RequestId,
+    Rmcm, Robot, SessionId, SessionNumber, StationId, TaskSet, TaskType, UniqueNumber, Urgency,
+    Verdict,
+};
+
+const HONEST: StationId = StationId(2);
+const LIAR: StationId = StationId(9);
+const TASK: TaskType = TaskType::BLOCK;
+const TICK_MS: u32 = 10;
+/// A RAM period, one lateness, and what the drift makes of 300 s.
+const SLACK_MS: u32 = 100 + 50 + 310;
+
+const fn number(count: u16) -> UniqueNumber {
+    UniqueNumber { boot: 1, count }
+}
+
+fn request(urgency: Urgency) -> HelpRequest {
+    HelpRequest {
+        urgency,
+        followers: 1,
+        tasks: TaskSet::of(&[TASK]),
+        place: Place(7),
+    }
+}
+
+/// A robot that does not lie, and its clock.
+struct Honest {
+    robot: Robot,
+    config: Config,
+    now_ms: u32,
+}
+
+impl Honest {
+    fn new() -> Self {
+        Self {
+            robot: Robot::new(HONEST, 1),
+            config: Config::default(),
+            now_ms: 0,
+        }
+    }
+
+    fn take(&mut self, input: Input) -> Outputs {
+        self.robot.step(&self.config, input)
+    }
+
+    fn event(&mut self, event: Event) -> Outputs {
+        self.take(Input::Local(event))
+    }
+
+    fn hears(&mut self, coordination: Coordination) -> Outputs {
+        let ram = Ram {
+            station: LIAR,
+            coordination,
+            farewell: None,
+            on_duty: false,
+        };
+        self.take(Input::Ram {
+            ram,
+            distance: Decimetres(0),
+        })
+    }
+
+    fn elapse(&mut self) -> Outputs {
+        self.now_ms += TICK_MS;
+        self.take(Input::Elapsed(Millis(TICK_MS)))
+    }
+
+    /// Lets time pass, with what the liar says at each tick, until that is so; how long that took.
+    fn until(
+        &mut self,
+        is_over: impl Fn(&Robot, &Outputs) -> bool,
+        mut lies: impl FnMut(&mut Self),
+    ) -> u32 {
+        let began_ms = self.now_ms;
+        for _ in 0..100_000 {
+            let outputs = self.elapse();
+            if is_over(&self.robot, &outputs) {
+                return self.now_ms - began_ms;
+            }
+            lies(self);
+        }
+        panic!("it goes on for ever: {:?}", self.robot);
+    }
+
+    /// Asks for help and leads the liar, which has joined.
+    fn leads() -> Self {
+        let mut honest = Self::asks();
+        while !matches!(honest.robot.phase(), Phase::Leading(_)) {
+            offers(&mut honest);
+            honest.elapse();
+        }
+        honest
+    }
+
+    fn asks() -> Self {
+        let mut honest = Self::new();
+        honest.event(Event::PedestrianDetected(request(Urgency::Medium)));
+        honest
+    }
+
+    /// Has shown the liar's command for acknowledged, and shows go.
+    fn shows_go() -> Self {
+        let mut honest = Self::leads();
+        echoes(&mut honest, None);
+        honest.event(Event::CommandManeuver {
+            follower: LIAR,
+            task: TASK,
+        });
+        let answer = Answer {
+            from: LIAR,
+            session: honest.robot.session().unwrap(),
+            request: RequestId(0),
+            verdict: Verdict::Accepted,
+        };
+        honest.take(Input::Rmcm(Rmcm::Answer(answer)));
+        honest
+    }
+
+    /// Follows the liar, which has commanded it.
+    fn follows() -> Self {
+        let mut honest = Self::new();
+        honest.hears(asks(Heartbeat(0)));
+        let Phase::Offering(offering) = honest.robot.phase() else {
+            panic!("{:?}", honest.robot);
+        };
+        let offer = offering.number;
+        honest.hears(leads(Heartbeat(1), Some(offer), number(0), Urgency::High));
+        honest
+    }
+
+    fn offer(&self) -> Option<OfferNumber> {
+        match self.robot.phase() {
+            Phase::Following(following) => Some(following.offer),
+            _ => None,
+        }
+    }
+}
+
+fn asks(heartbeat: Heartbeat) -> Coordination {
+    Coordination::NeedHelp {
+        number: SessionNumber(number(0)),
+        heartbeat,
+        request: request(Urgency::High),
+    }
+}
+
+fn leads(
+    heartbeat: Heartbeat,
+    follower: Option<OfferNumber>,
+    session: UniqueNumber,
+    urgency: Urgency,
+) -> Coordination {
+    let confirmation = |offer| Confirmation {
+        station: HONEST,
+        offer,
+    };
+    Coordination::Leader {
+        number: SessionNumber(session),
+        heartbeat,
+        followers: follower.map(confirmation).into_iter().collect(),
+        urgency,
+        place: Place(7),
+        yields: false,
+    }
+}
+
+fn offers(honest: &mut Honest) {
+    if let Phase::Requesting(requesting) = honest.robot.phase() {
+        let (session, echo) = (honest.robot.session().unwrap(), requesting.heartbeat);
+        honest.hears(Coordination::OfferHelp {
+            session,
+            offer: OfferNumber(number(0)),
+            capabilities: TaskSet::of(&[TASK]),
+            echo,
+            t_safety: Millis(2_000),
+        });
+    }
+}
+
+fn echoes(honest: &mut Honest, last: Option<Progress>) {
+    if let Phase::Leading(leading) = honest.robot.phase() {
+        let (session, echo) = (honest.robot.session().unwrap(), leading.heartbeat);
+        let last = last.map(|progress| Report {
+            request: RequestId(0),
+            progress,
+        });
+        honest.hears(Coordination::Follower {
+            session,
+            echo,
+            last,
+        });
+    }
+}
+
+fn row(harm: Harm) -> Confinement {
+    let rows = table(&Config::default());
+    rows.into_iter().find(|row| row.harm == harm).unwrap()
+}
+
+/// A lie lasts no longer than its row says, and almost that long.
+fn assert_lasts(harm: Harm, took_ms: u32) {
+    let at_most = row(harm).at_most.expect("it ends").0;
+    println!("{harm:?}: {took_ms} ms, at most {at_most} ms");
+    assert!(took_ms <= at_most, "{harm:?}: {took_ms} > {at_most}");
+    assert!(
+        took_ms + SLACK_MS >= at_most,
+        "{harm:?}: {took_ms} << {at_most}"
+    );
+}
+
+fn closes(_: &Robot, outputs: &Outputs) -> bool {
+    outputs
+        .iter()
+        .any(|it| matches!(it, Output::CorridorClosed(_)))
+}
+
+fn is_idle(robot: &Robot, _: &Outputs) -> bool {
+    matches!(robot.phase(), Phase::Idle)
+}
+
+fn beat(ms: u32) -> Heartbeat {
+    Heartbeat(u16::try_from(2 + ms / TICK_MS).unwrap())
+}
+
+#[test]
+fn a_follower_that_says_that_it_guards_keeps_the_corridor_open_until_the_execution_limit() {
+    let mut honest = Honest::shows_go();
+    echoes(&mut honest, Some(Progress::InPosition));
+    assert_eq!(honest.event(Event::OpenCorridor).ignored(), None);
+    let lies = |honest: &mut Honest| echoes(honest, Some(Progress::InPosition));
+    let took_ms = honest.until(closes, lies);
+    assert_lasts(Harm::SaysThatItGuards, took_ms);
+}
+
+#[test]
+fn a_follower_that_is_silent_keeps_it_open_for_a_lease() {
+    let mut honest = Honest::shows_go();
+    echoes(&mut honest, Some(Progress::InPosition));
+    assert_eq!(honest.event(Event::OpenCorridor).ignored(), None);
+    let took_ms = honest.until(closes, |_| ());
+    assert_lasts(Harm::GuardsAndIsSilent, took_ms);
+}
+
+#[test]
+fn a_helper_that_takes_its_offers_back_costs_a_request() {
+    let mut honest = Honest::asks();
+    let took_ms = honest.until(is_idle, |honest| {
+        offers(honest);
+        let session = honest.robot.session().unwrap();
+        let farewell = crossguard_protocol::Farewell::Left(session, OfferNumber(number(0)));
+        let ram = Ram {
+            station: LIAR,
+            coordination: Coordination::None,
+            farewell: Some(farewell),
+            on_duty: false,
+        };
+        honest.take(Input::Ram {
+            ram,
+            distance: Decimetres(0),
+        });
+    });
+    assert_lasts(Harm::OffersAndTakesBack, took_ms);
+}
+
+#[test]
+fn a_helper_that_does_not_join_costs_its_place_for_as_long_as_a_lost_follower() {
+    let mut honest = Honest::leads();
+    let took_ms = honest.until(is_idle, |_| ());
+    assert_lasts(Harm::DoesNotJoin, took_ms);
+}
+
+#[test]
+fn a_bystander_that_asks_on_and_on_reserves_a_robot_until_the_identity_limit() {
+    let mut honest = Honest::new();
+    honest.hears(asks(Heartbeat(0)));
+    let took_ms = honest.until(is_idle, |honest| {
+        let heartbeat = beat(honest.now_ms);
+        honest.hears(asks(heartbeat));
+    });
+    assert_lasts(Harm::Reserves, took_ms);
+}
+
+#[test]
+fn a_bystander_that_asked_once_reserves_a_robot_for_one_reservation() {
+    let mut honest = Honest::new();
+    honest.hears(asks(Heartbeat(0)));
+    let took_ms = honest.until(is_idle, |_| ());
+    assert_lasts(Harm::ReservesAndIsSilent, took_ms);
+}
+
+#[test]
+fn a_leader_keeps_a_robot_until_the_identity_limit() {
+    let mut honest = Honest::follows();
+    let took_ms = honest.until(is_idle, |honest| {
+        let (heartbeat, offer) = (beat(honest.now_ms), honest.offer());
+        honest.hears(leads(heartbeat, offer, number(0), Urgency::High));
+    });
+    assert_lasts(Harm::Keeps, took_ms);
+}
+
+fn commanded() -> Honest {
+    let mut honest = Honest::follows();
+    let command = Command {
+        session: SessionId {
+            leader: LIAR,
+            number: SessionNumber(number(0)),
+        },
+        to: HONEST,
+        request: RequestId(0),
+        task: TASK,
+    };
+    let outputs = honest.take(Input::Rmcm(Rmcm::Command(command)));
+    assert!(
+        outputs
+            .iter()
+            .any(|it| matches!(it, Output::StartManeuver(_)))
+    );
+    honest
+}
+
+#[test]
+fn a_leader_that_is_silent_is_obeyed_until_the_safety_timeout() {
+    let mut honest = commanded();
+    let ends =
+        |_: &Robot, outputs: &Outputs| outputs.iter().any(|it| matches!(it, Output::FallBack(..)));
+    let took_ms = honest.until(ends, |_| ());
+    assert_lasts(Harm::LeadsAndIsSilent, took_ms);
+}
+
+#[test]
+fn a_leader_that_is_silent_is_left_after_that() {
+    let mut honest = commanded();
+    let took_ms = honest.until(is_idle, |_| ());
+    assert_lasts(Harm::LeadsAndIsGone, took_ms);
+}
+
+#[test]
+fn a_bystander_that_leads_there_ends_every_request() {
+    assert_eq!(row(Harm::LeadsThere).at_most, None);
+    for session in 0..5 {
+        let mut honest = Honest::asks();
+        let took_ms = honest.until(is_idle, |honest| {
+            let heartbeat = beat(honest.now_ms);
+            honest.hears(leads(heartbeat, None, number(session), Urgency::Low));
+        });
+        assert!(took_ms <= 200, "{took_ms} ms");
+    }
+}
+
+/// What the table says plainly: two robots that lead at one place yield to each other once they hear each other
+/// twice, unless a bystander is the last that they hear before each.
+#[test]
+fn a_bystander_with_ever_new_sessions_keeps_two_leaders_from_yielding() {
+    assert_eq!(row(Harm::KeepsApart).at_most, None);
+    let other = StationId(1);
+    let yields = |with_liar: bool| {
+        let mut honest = Honest::shows_go();
+        echoes(&mut honest, Some(Progress::InPosition));
+        for period in 0..50 {
+            for _ in 0..10 {
+                honest.elapse();
+            }
+            echoes(&mut honest, Some(Progress::InPosition));
+            let goes_before = Coordination::Leader {
+                number: SessionNumber(number(0)),
+                heartbeat: Heartbeat(period),
+                followers: crossguard_protocol::Followers::EMPTY,
+                urgency: Urgency::Medium,
+                place: Place(7),
+                yields: false,
+            };
+            if with_liar {
+                honest.hears(leads(Heartbeat(0), None, number(period), Urgency::High));
+            }
+            let ram = Ram {
+                station: other,
+                coordination: goes_before,
+                farewell: None,
+                on_duty: false,
+            };
+            honest.take(Input::Ram {
+                ram,
+                distance: Decimetres(0),
+            });
+            if !matches!(honest.robot.phase(), Phase::Leading(it) if it.yields_to.is_none()) {
+                return Some(period);
+            }
+        }
+        None
+    };
+    assert_eq!(yields(false), Some(1));
+    assert_eq!(yields(true), None);
+}
