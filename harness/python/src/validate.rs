@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor};
 
 use crossguard_judge::validate::{self as harness, Fault, Invalid, Log, Validated};
+use crossguard_robot::lines::LineError;
 use pyo3::prelude::*;
 use serde::Serialize;
 
