@@ -51,7 +51,7 @@ inline end_session(how) {
 /* Somebody still believes in a session that is over. */
 inline hear_of_old_session() {
     if
-    :: (leader.phase == IDLE || m.session != leader.session) && m.session != leader.farewell ->
+    :: (leader.phase == IDLE || m.session != leader.session) && leader.farewell == 0 ->
         say_ended(m.session, ABORTED)
     :: else
     fi

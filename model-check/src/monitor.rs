@@ -233,7 +233,7 @@ impl Monitor {
                 self.premises |= id.bit();
                 let is_open = self.has_strangers || self.unrecorded().leaves_open(id, false);
                 if !holds && !is_open {
-                    broken = Some(id);
+                    broken = broken.or(Some(id));
                 }
             }
         }

@@ -226,6 +226,8 @@ pub enum Ignored {
     OtherSession,
     /// The message repeats what is known.
     NothingNew,
+    /// The session is over, and this robot is naming another one as over or left.
+    AnsweringAnother,
     /// The heartbeat is not newer than the newest one heard.
     OldHeartbeat,
     /// The echo names a heartbeat that was never sent.

@@ -4,7 +4,7 @@
 //! farewell stands for a while, and is repeated to every robot that still believes in the session.
 
 use crate::id::{OfferNumber, SessionId, StationId};
-use crate::message::{Coordination, Ending, Farewell, Ram};
+use crate::message::{Ending, Farewell};
 use crate::output::{
     CorridorClosure, EndReason, GoneReason, Ignored, Maneuver, Notice, Output, ReleaseReason, Sink,
     StopReason,
@@ -224,42 +224,24 @@ impl Robot {
 
     /// Somebody still takes part in a session of this robot that is over, perhaps one of an earlier
     /// life: name it as ended once more.
+    ///
+    /// Anybody can ask so, with any number. While a farewell stands nobody is answered, so made-up numbers bring about
+    /// one RAM in the time of a farewell, and take no farewell's place.
     pub(crate) fn answer_stale_session(
         &mut self,
         step: &mut Step<'_, impl Sink>,
         session: SessionId,
     ) -> Effect {
-        self.is_to_be_named(session)?;
-        self.say_farewell(step, Farewell::Ended(session.number, Ending::Aborted))
-    }
-
-    /// Whether a session of this robot is over, and that is not being said.
-    fn is_to_be_named(&self, session: SessionId) -> Effect {
         if self.session() == Some(session) {
             // It is not over; the sender claims a part in it that nobody gave it.
             return Err(Ignored::NotAFollower);
         }
-        if self.farewell_session() == Some(session) {
+        match self.farewell_session() {
             // How it ended is being said.
-            return Err(Ignored::NothingNew);
+            Some(named) if named == session => Err(Ignored::NothingNew),
+            Some(_) => Err(Ignored::AnsweringAnother),
+            None => self.say_farewell(step, Farewell::Ended(session.number, Ending::Aborted)),
         }
-        Ok(())
-    }
-
-    /// The session of this robot that `ram` claims a part in although it is over: the robot answers by naming it as
-    /// ended, at once and for `T_farewell`.
-    ///
-    /// Anybody can ask so, with any number, and each answer is in the place of the farewell before. An endpoint
-    /// therefore takes such a RAM in only while no other farewell stands, as if it had been lost.
-    #[must_use]
-    pub fn asked_of_over(&self, ram: &Ram) -> Option<SessionId> {
-        let (Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. }) =
-            ram.coordination
-        else {
-            return None;
-        };
-        let is_own = session.leader == self.station && ram.station != self.station;
-        (is_own && self.is_to_be_named(session).is_ok()).then_some(session)
     }
 
     /// The robot takes part in `session`: to go on saying that it is over would undo that.

@@ -596,6 +596,8 @@ enum CrossguardReason
   CROSSGUARD_REASON_NUMBERS_EXHAUSTED = 59,
   // No such timer is armed.
   CROSSGUARD_REASON_TIMER_NOT_ARMED = 60,
+  // The session is over, and this robot is naming another one as over or left.
+  CROSSGUARD_REASON_ANSWERING_ANOTHER = 61,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -422,4 +422,6 @@ pub enum CrossguardReason {
     NumbersExhausted = 59,
     /// No such timer is armed.
     TimerNotArmed = 60,
+    /// The session is over, and this robot is naming another one as over or left.
+    AnsweringAnother = 61,
 }

@@ -157,6 +157,7 @@ impl From<Ignored> for Why {
             Ignored::NotAddressed => Reason::NotAddressed,
             Ignored::OtherSession => Reason::OtherSession,
             Ignored::NothingNew => Reason::NothingNew,
+            Ignored::AnsweringAnother => Reason::AnsweringAnother,
             Ignored::OldHeartbeat => Reason::OldHeartbeat,
             Ignored::EchoFromFuture => Reason::EchoFromFuture,
             Ignored::OldCommand => Reason::OldCommand,

@@ -115,8 +115,6 @@ pub enum Cause {
     Undecodable(&'static str),
     /// A message contradicts itself.
     Contradictory(&'static str),
-    /// A message claims a part in a session of this robot that is over, and the robot is naming another one.
-    AnsweringAnother,
     /// The transition function ignored an input.
     Ignored(Ignored),
     /// The robot perceived people and does not know its own position.
@@ -152,7 +150,7 @@ impl Cause {
             Self::NoUse(_) => Layer::Service,
             Self::Undecodable(_) => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
-            Self::AnsweringAnother | Self::Ignored(_) => Layer::Protocol,
+            Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
             Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread => Layer::Storage,
@@ -186,7 +184,6 @@ impl Display for Reason {
             | Cause::Undecodable(why)
             | Cause::Contradictory(why) => why,
             Cause::NoUse(service) => return write!(f, "no use for {}", service.name()),
-            Cause::AnsweringAnother => "over, and another session is being named",
             Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",
             Cause::Ignored(why) => return why.fmt(f),
             Cause::Unplaced => "own position unknown",

@@ -20,8 +20,8 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, SessionId, StateMachine,
-    StationId, TaskType, Timer, UniqueNumber,
+    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine, StationId,
+    TaskType, Timer, UniqueNumber,
 };
 
 pub use self::entitled::NotEntitled;
@@ -236,11 +236,6 @@ impl<P: StateMachine> Exchange<P> {
             let why = NotEntitled::Unpinned(heard.from);
             return host.dropped(why.into(), &why, arrived.octets);
         }
-        let me = self.protocol.robot();
-        if let Some(session) = asked_of_another(me, &heard) {
-            let detail = format_args!("session {session}");
-            return host.dropped(Cause::AnsweringAnother, &detail, arrived.octets);
-        }
         let arrived = Arrived {
             octets: message,
             ..arrived
@@ -405,15 +400,4 @@ impl<P: StateMachine> Exchange<P> {
         };
         (state, status)
     }
-}
-
-/// The session of `me` that a message claims a part in although it is over, while another one is being named as such.
-/// Whoever makes up numbers gets one answer in the time of a farewell, which is three RAM periods at least, and cannot
-/// put an answer in the place of what followers have to hear.
-fn asked_of_another(me: &Robot, heard: &Heard) -> Option<SessionId> {
-    me.farewell()?;
-    heard.inputs.iter().find_map(|input| match input {
-        Input::Ram { ram, .. } => me.asked_of_over(ram),
-        _ => None,
-    })
 }

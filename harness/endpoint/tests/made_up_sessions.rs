@@ -5,8 +5,9 @@ use crossguard_codec::{Identifiers, RobotState, Service, encode, ram_from};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
-    Availability, Config, Coordination, Ending, Event, Farewell, Heartbeat, HelpRequest, Place,
-    Ram, Robot, SessionId, SessionNumber, StationId, TaskSet, TaskType, UniqueNumber, Urgency,
+    Availability, Config, Coordination, Ending, Event, Farewell, Heartbeat, HelpRequest, Ignored,
+    Place, Ram, Robot, SessionId, SessionNumber, StationId, TaskSet, TaskType, UniqueNumber,
+    Urgency,
 };
 
 const LEADER: StationId = StationId(1);
@@ -83,7 +84,9 @@ fn made_up_numbers_bring_about_no_ram_each() {
         .sum();
     // One in a RAM period while it names a session as over, and one at once in each time of a farewell.
     assert!((4..=4 * 10 + 5).contains(&sent), "{sent} RAM");
-    let turned_away = leader.counters().of(Cause::AnsweringAnother);
+    let turned_away = leader
+        .counters()
+        .of(Cause::Ignored(Ignored::AnsweringAnother));
     assert!(turned_away > 1_900, "{turned_away}");
 }
 

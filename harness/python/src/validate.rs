@@ -60,8 +60,9 @@ fn misfit(invalid: Invalid) -> PyResult<Misfit> {
     let text = invalid.to_string();
     match *invalid.fault {
         Fault::Unreadable(LineError::Io(cause)) => Err(io::Error::new(cause.kind(), text).into()),
-        Fault::Unreadable(LineError::TooLong) => Err(UnreadableLog::new_err(text)),
-        Fault::Empty | Fault::NotARecord(_) => Err(UnreadableLog::new_err(text)),
+        Fault::Unreadable(LineError::TooLong) | Fault::Empty | Fault::NotARecord(_) => {
+            Err(UnreadableLog::new_err(text))
+        }
         fault => Ok(Misfit {
             log: invalid.log,
             line: invalid.line,

@@ -271,6 +271,11 @@ class NothingNew(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class AnsweringAnother(Variant):
+    """The session is over, and this robot is naming another one as over or left."""
+
+
+@dataclass(frozen=True, slots=True)
 class OldHeartbeat(Variant):
     """The heartbeat is not newer than the newest one heard."""
 
@@ -406,6 +411,7 @@ Ignored: TypeAlias = (
     | NotAddressed
     | OtherSession
     | NothingNew
+    | AnsweringAnother
     | OldHeartbeat
     | EchoFromFuture
     | OldCommand

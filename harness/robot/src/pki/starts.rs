@@ -16,9 +16,9 @@ pub const fn early_us(duration: Duration) -> u64 {
 /// A start for a pseudonym that is wanted at `from`, drawn from the time before, in which its issuer is valid.
 #[must_use]
 pub fn drawn_start(issuer: &Certificate, from: Time64, duration: Duration) -> Time64 {
-    let drawn = random_octets();
-    let drawn = drawn.first_chunk().expect("it has 32 octets");
-    start_of(issuer, from, duration, u64::from_be_bytes(*drawn))
+    let drawn = random_octets().into_iter().take(8);
+    let drawn = drawn.fold(0, |drawn, octet| drawn << 8 | u64::from(octet));
+    start_of(issuer, from, duration, drawn)
 }
 
 /// [`drawn_start`] by this number.
