@@ -183,6 +183,7 @@ pub fn text(tally: &Tally) -> String {
     if let Some(channel) = tally.channel {
         page.channel(robot, channel);
     }
+    equipment(&mut page, robot, tally);
     page.family(
         "crossguard_steps_total",
         "counter",
@@ -211,6 +212,35 @@ pub fn text(tally: &Tally) -> String {
         page.value(&labels, count);
     }
     page.text
+}
+
+/// The link, the security, and the clock.
+fn equipment(page: &mut Page, robot: (&str, &str), tally: &Tally) {
+    if !tally.link.is_empty() {
+        page.family(
+            "crossguard_link_info",
+            "gauge",
+            "Where its link is, and whether packets are signed and verified.",
+        );
+        let labels = [robot, ("link", &tally.link), ("security", tally.security)];
+        page.value(&labels, 1);
+    }
+    if let Some(clock) = tally.clock_quality {
+        page.family(
+            "crossguard_clock_is_right",
+            "gauge",
+            "Whether it is known how wrong its wall clock may be.",
+        );
+        page.value(&[robot], u8::from(clock.error_ms.is_some()));
+        if let Some(error_ms) = clock.error_ms {
+            page.family(
+                "crossguard_clock_error_seconds",
+                "gauge",
+                "The largest error that its wall clock may have.",
+            );
+            page.value(&[robot], f64::from(error_ms) / 1e3);
+        }
+    }
 }
 
 /// Who was heard, and who is on the map.

@@ -17,6 +17,7 @@ use crossguard_robot::perception;
 use crossguard_robot::robot_file::job_named;
 use crossguard_robot::runtime::Order;
 use crossguard_robot::site::{Place, Site};
+use crossguard_robot::wall_clock::{ClockQuality, ERROR_MAX_MS};
 
 /// A line that was typed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -52,6 +53,8 @@ pub enum Tell {
     Perceived(Option<PerceivedVru>),
     /// Its battery is like this now.
     Battery(Battery),
+    /// Its wall clock is like this.
+    Clock(ClockQuality),
     /// It shows this to people.
     Show(SignalsShown),
     /// It is there for this job.
@@ -69,6 +72,7 @@ impl From<Tell> for Order {
             Tell::Clear => Self::Clear,
             Tell::Perceived(vru) => Self::Perceived(vru),
             Tell::Battery(battery) => Self::Battery(battery),
+            Tell::Clock(quality) => Self::Clock(quality),
             Tell::Show(signals) => Self::Show(signals),
             Tell::Job(job) => Self::Job(job),
             Tell::Serve(place) => Self::Serve(place),
@@ -103,7 +107,10 @@ job ROLE               the job that its RAM says it is there for: none, traffic-
 serve segment|intersection [REGION:]NUMBER | none
                        the road segment or intersection that its RAM says it serves, and that the commands
                        of its plan name
-status                 what the robot is doing, what it heard, and who is around
+clock MILLISECONDS | lost
+                       how wrong the wall clock may be, as its receiver or NTP says; it holds for five minutes. While
+                       it is known, packets older than their lifetime are dropped
+status                 what the robot is doing, what it heard, who is around, and how link, security and clock are
 wait SECONDS           before the next line
 until STATE [SECONDS]  wait for idle, help-requested, role-established or maneuver-executing
 {\"id\": N, \"position_m\": [EAST, NORTH], \"velocity_mps\": [1, 0], \"class\": \"pedestrian\",
@@ -197,6 +204,7 @@ pub fn parse_with(
             wanted: "a job",
         }),
         ("serve", words) => serve(words),
+        ("clock", words) => clock(words),
         ("unavailable", []) => Err(Misunderstood::Missing {
             command: "unavailable",
             wanted: "a reason",
@@ -223,6 +231,28 @@ pub fn parse_with(
         ) => Err(Misunderstood::Surplus((*last).to_owned())),
         (other, _) => Err(Misunderstood::Command(other.to_owned())),
     }
+}
+
+fn clock(words: &[&str]) -> Result<Line, Misunderstood> {
+    let error_ms = match words {
+        ["lost"] => None,
+        [word] => {
+            let error_ms = word
+                .parse()
+                .ok()
+                .filter(|error_ms| *error_ms <= ERROR_MAX_MS);
+            let wanted = || format!("'lost', or an error from 0 to {ERROR_MAX_MS} ms");
+            Some(error_ms.ok_or_else(|| wrong(word, wanted()))?)
+        }
+        [] => {
+            return Err(Misunderstood::Missing {
+                command: "clock",
+                wanted: "its error in ms, or 'lost'",
+            });
+        }
+        [.., last] => return Err(Misunderstood::Surplus((*last).to_owned())),
+    };
+    Ok(Line::Order(Tell::Clock(ClockQuality { error_ms })))
 }
 
 fn battery(words: &[&str]) -> Result<Line, Misunderstood> {

@@ -5,9 +5,10 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpStream, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Stdio};
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::golden;
+use crossguard_codec::si::timestamp_its;
 use crossguard_testkit::command::{
     crossguard, records, robot_file, run, stderr, stdout, two_free_ports, type_to, wait_for,
 };
@@ -126,6 +127,70 @@ fn stations_of_others_are_in_status_metrics_log_recording_and_map() {
     assert_eq!(validated.status.code(), Some(0), "{}", stderr(&validated));
     in_recording(&log, &folder.path().join("ari.mcap"));
     in_report(&log, &folder.path().join("ari.html"));
+}
+
+/// A CAM of another station that was sent so long ago, by its own time stamp. It lives for a minute.
+fn sent_ago(ago: Duration) -> Vec<u8> {
+    let mut packet = packet(golden::ITS, "C2", 2_001, 100);
+    let sent = SystemTime::now() - ago;
+    let unix_ms = sent.duration_since(UNIX_EPOCH).unwrap().as_millis();
+    let timestamp = timestamp_its(i64::try_from(unix_ms).unwrap());
+    // The low half of it stands behind the address of the source.
+    packet[20..24].copy_from_slice(&timestamp.to_be_bytes()[4..]);
+    packet
+}
+
+/// Hazard: a packet that was held up on its way speaks of a street as it was.
+#[test]
+fn a_clock_that_is_known_to_be_right_is_shown_and_drops_what_outlived_its_lifetime() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = two_free_ports();
+    let config = robot_file(folder.path(), "ARI", ROBOT, port, port + 1);
+    let log = folder.path().join("ari.jsonl");
+    let mut robot = start(&config, &log);
+    let station = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let send = |ago| {
+        let packet = sent_ago(Duration::from_secs(ago));
+        station.send_to(&packet, ("127.0.0.1", port)).unwrap();
+        std::thread::sleep(Duration::from_millis(300));
+    };
+    send(120);
+    type_to(&mut robot.child, "status\nclock 20\nwait 0.1\nstatus\n");
+    std::thread::sleep(Duration::from_secs(1));
+    send(120);
+    send(0);
+    let scraped = metrics(&robot.metrics);
+    type_to(&mut robot.child, "clock lost\nwait 0.3\nstatus\nquit\n");
+    let said: Vec<_> = robot.lines.collect();
+    let status = wait_for(&mut robot.child, Duration::from_mins(1));
+    assert_eq!(status.code(), Some(0), "{said:?}");
+    for part in [
+        "; clock: nobody says how right it is; channel: nobody measures it",
+        "; clock right to 20 ms;",
+        "; clock not known to be right;",
+        "security off, 0 rejected",
+    ] {
+        let shows = |line: &&String| line.starts_with("link ") && line.contains(part);
+        assert!(said.iter().any(|line| shows(&line)), "'{part}': {said:#?}");
+    }
+    for line in [
+        "crossguard_clock_is_right{robot=\"ARI\"} 1",
+        "crossguard_clock_error_seconds{robot=\"ARI\"} 0.02",
+        "security=\"off\"} 1",
+    ] {
+        assert!(scraped.contains(line), "{line} is not in:\n{scraped}");
+    }
+    let records = records(&std::fs::read_to_string(&log).unwrap());
+    assert_eq!(of(&records, "heard").len(), 2, "the first and the last");
+    let dropped = of(&records, "dropped");
+    assert_eq!(dropped.len(), 1, "{dropped:?}");
+    assert_eq!(dropped[0]["cause"], "lifetime over");
+    let clocks = of(&records, "clockQuality").into_iter();
+    let errors: Vec<_> = clocks.map(|it| it["errorMs"].clone()).collect();
+    assert_eq!(errors, [20.into(), Value::Null]);
+    let log = log.display().to_string();
+    let validated = run(&["validate", &log]);
+    assert_eq!(validated.status.code(), Some(0), "{}", stderr(&validated));
 }
 
 fn in_status(said: &[String]) {

@@ -128,7 +128,7 @@ fn a_plan_and_a_site_of_ones_own_are_checked_drawn_and_demonstrated() {
         "role 'blocker' wants 'waits'",
     );
     std::fs::write(&plan, text.replace("\"far-lane\"", "\"near-lane\"")).unwrap();
-    let cause = "two.toml:21: roles 'blocker' and 'leader' are 0.00 m apart in this stage";
+    let cause = "two.toml:22: roles 'blocker' and 'leader' are 0.00 m apart in this stage";
     assert_refused(&run(&[&["site", "check"], &files[..]].concat()), cause);
     let ari = robot_file(folder.path(), "ARI", 1, 47_000, 47_001);
     let refused = run(&[&["run", "--config", &ari], &files[..]].concat());

@@ -265,6 +265,7 @@ impl Chart {
             | Entry::Around(_)
             | Entry::Channel(_)
             | Entry::Clock(_)
+            | Entry::ClockQuality(_)
             | Entry::Stopped { .. } => Vec::new(),
         }
     }

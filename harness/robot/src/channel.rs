@@ -1,5 +1,7 @@
 //! The radio channel of a link that measures it, and what congestion control makes of it.
 
+use std::fmt::{self, Display, Formatter};
+
 use crossguard_endpoint::ras::congestion::Reactive;
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +20,16 @@ pub struct ChannelState {
     pub power_dbm: Option<f64>,
     /// How far apart RAM outside of sessions, and CAM, have to be, in ms.
     pub interval_ms: u64,
+}
+
+impl Display for ChannelState {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.busy_ratio {
+            Some(ratio) => write!(f, "channel {:.0} % busy", ratio * 100.0)?,
+            None => f.write_str("channel not measured")?,
+        }
+        write!(f, ", RAM at most every {} ms", self.interval_ms)
+    }
 }
 
 /// The channel as it was measured and told of.

@@ -50,4 +50,5 @@ pub mod street;
 pub mod tally;
 pub mod trace;
 pub mod transport;
+pub mod wall_clock;
 pub mod zone;

@@ -1,5 +1,6 @@
 //! What a leader has its followers do: stage by stage, each follower its part.
 
+use crossguard_codec::PublicSignal;
 use crossguard_protocol::{HelpRequest, StationId, TaskSet, TaskType, Urgency};
 
 use crate::site::{Place, Site};
@@ -49,6 +50,8 @@ pub struct Plan {
     pub roles: Vec<Option<StationId>>,
     /// Where the leader itself stands while it leads, if it is to go there.
     pub own_place: Option<Place>,
+    /// What the leader shows to vehicles while it leads, if the plan says that.
+    pub shows: Option<PublicSignal>,
     /// How long a simulated pedestrian takes to cross, in seconds of the robots' own time.
     pub crossing_s: f64,
     /// After which time the leader gives up, in seconds.
@@ -110,6 +113,7 @@ impl Plan {
             stages,
             roles: Vec::new(),
             own_place: None,
+            shows: None,
             crossing_s: 8.0,
             patience_s: 200.0,
             kerbs: None,

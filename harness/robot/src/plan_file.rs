@@ -23,6 +23,7 @@ mod tables;
 
 use std::path::Path;
 
+use crossguard_codec::PublicSignal;
 use crossguard_protocol::{EndReason, ReleaseReason, StationId, Urgency};
 
 use crate::body::Build;
@@ -84,6 +85,8 @@ pub struct Role {
     pub waits: Option<Place>,
     /// Where a leader stands while it leads.
     pub stands: Option<Place>,
+    /// What a leader shows to vehicles while it leads.
+    pub shows: Option<PublicSignal>,
 }
 
 /// How a demonstration ends.
@@ -179,6 +182,7 @@ impl PlanFile {
                 roles.push(follower.station.filter(|_| !follower.any));
             }
         }
+        let leader = self.leader(leader);
         let stages = self.stages.iter().map(|stage| {
             let parts = stage.parts.iter().filter_map(|(who, leg)| match who {
                 Who::Role(number) => Some((Who::Role((*seats.get(*number)?)?), *leg)),
@@ -196,7 +200,8 @@ impl PlanFile {
             urgency: self.urgency,
             stages,
             roles,
-            own_place: self.leader(leader).and_then(|role| role.stands),
+            own_place: leader.and_then(|role| role.stands),
+            shows: leader.and_then(|role| role.shows),
             crossing_s: self.crossing_s,
             patience_s: self.patience_s,
             kerbs: self.either_way,

@@ -59,6 +59,7 @@ use crate::observe;
 use crate::perception::seen_from;
 use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Sender};
+use crate::wall_clock::{ClockQuality, WallClock};
 
 /// How many datagrams may wait.
 const DATAGRAMS: usize = 256;
@@ -98,6 +99,8 @@ pub enum Order {
     Moved(Pose),
     /// The battery is like this now.
     Battery(Battery),
+    /// The wall clock is like this, as whatever keeps it says.
+    Clock(ClockQuality),
     /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
     Show(SignalsShown),
     /// Be there for this job.
@@ -185,6 +188,7 @@ impl Setup {
             keeper: Keeper::start(self.boot, memory),
             clock_state: None,
             channel: Monitored::default(),
+            wall_clock: WallClock::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
             sampler: Sampler::default(),
@@ -230,6 +234,8 @@ struct Loop {
     clock_state: Option<ClockState>,
     /// The radio channel, where the link measures it.
     channel: Monitored,
+    /// How right its wall clock is.
+    wall_clock: WallClock,
     /// The newest state that observers were told.
     observed: State,
     /// Who the log says is around, and since when.
@@ -287,6 +293,9 @@ impl Loop {
             self.renew_epoch();
             self.keep_time();
             self.control_congestion();
+            let now_ms = self.clock.now_us() / 1_000;
+            let news = self.wall_clock.check(now_ms);
+            self.judge_ages(news);
         }
         if let Some(time) = self.machine.endpoint().trusted_time() {
             self.keeper.keep_last(time.mark());
@@ -384,6 +393,12 @@ impl Loop {
                 self.machine.application_mut().set_battery(battery);
                 Stimulus::Time
             }
+            Order::Clock(quality) => {
+                let now_ms = self.clock.now_us() / 1_000;
+                let news = self.wall_clock.say(quality, now_ms);
+                self.judge_ages(news);
+                Stimulus::Time
+            }
             Order::Show(signals) => {
                 self.machine.application_mut().show(signals);
                 Stimulus::Time
@@ -417,6 +432,14 @@ impl Loop {
             if let Some(state) = news {
                 self.log(Entry::Channel(state));
             }
+        }
+    }
+
+    /// Judges the age of packets by a wall clock that is known to be right, and by no other.
+    fn judge_ages(&mut self, news: Option<ClockQuality>) {
+        if let Some(quality) = news {
+            self.machine.endpoint_mut().keep_time(quality.error_ms);
+            self.log(Entry::ClockQuality(quality));
         }
     }
 

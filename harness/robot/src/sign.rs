@@ -67,6 +67,13 @@ impl Shown {
         self.0 = Some(SignalsShown { means, ..signals });
     }
 
+    /// Shows this to vehicles from now on, if it shows anything to people.
+    pub(crate) const fn to_vehicles(&mut self, signal: PublicSignal) {
+        if let Some(shown) = &mut self.0 {
+            shown.to_vehicles = signal;
+        }
+    }
+
     /// What a RAM says, of a leader whose sign shows *go* or not, or of a robot that has no sign now.
     pub(crate) fn told(self, by_sign: Option<bool>) -> Option<SignalsShown> {
         let shown = self.0?;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::Service;
-use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
 
@@ -14,6 +14,7 @@ use crate::channel::ChannelState;
 use crate::clock::ClockState;
 use crate::sight::Sight;
 use crate::trace::{Entry, Record};
+use crate::wall_clock::ClockQuality;
 
 /// The newest known of a robot, and how often what happened, from its records as they come.
 #[derive(Clone, Debug, Default)]
@@ -44,6 +45,12 @@ pub struct Tally {
     pub boot: Option<u16>,
     /// Whether it trusts its clock, if it verifies what it hears.
     pub clock: Option<ClockState>,
+    /// Its wall clock, once somebody has said how it is.
+    pub clock_quality: Option<ClockQuality>,
+    /// Where its link is, and whether packets are signed and verified; empty, if nobody has said so.
+    pub link: String,
+    /// The mode of security, likewise.
+    pub security: &'static str,
     /// Until when its sign shows go. It ends although the robot hangs and nothing more is recorded.
     pub go_until: Option<Instant>,
 }
@@ -87,6 +94,7 @@ impl Tally {
                 self.state = Some(Robot::new(*station, epoch.unwrap_or(*boot)));
                 self.boot = epoch.map(|_| *boot);
                 self.clock = None;
+                self.clock_quality = None;
                 self.go_until = None;
             }
             Entry::Step { outputs, state, .. } => {
@@ -114,7 +122,7 @@ impl Tally {
             }
             Entry::Zone(_) => {}
             Entry::Channel(channel) => self.channel = Some(*channel),
-            Entry::Clock(clock) => self.clock = Some(*clock),
+            Entry::ClockQuality(clock) => self.clock_quality = Some(*clock),
             Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Around(around) => self.around.clone_from(around),
             Entry::Stopped { counters } => {
@@ -180,6 +188,23 @@ impl Tally {
     #[must_use]
     pub fn untrusted_clock(&self) -> Option<ClockState> {
         self.clock.filter(|clock| !clock.is_trusted())
+    }
+
+    /// Its link, its security, its clock and its channel, for a person who asks.
+    #[must_use]
+    pub fn equipment(&self) -> String {
+        let mut text = format!("link {}; security {}", self.link, self.security);
+        let rejected = self.causes.total(|layer| layer == Layer::Security);
+        let _ = write!(text, ", {rejected} rejected");
+        let _ = match self.clock_quality {
+            None => write!(text, "; clock: nobody says how right it is"),
+            Some(clock) => write!(text, "; {clock}"),
+        };
+        let _ = match self.channel {
+            None => write!(text, "; channel: nobody measures it"),
+            Some(channel) => write!(text, "; {channel}"),
+        };
+        text
     }
 
     /// Whether the pedestrian may cross: the sign shows go now, whether the robot still runs or not.
@@ -264,11 +289,10 @@ impl Tally {
             );
         }
         if let Some(channel) = self.channel {
-            let _ = match channel.busy_ratio {
-                Some(ratio) => write!(line, ", channel {:.0} % busy", ratio * 100.0),
-                None => write!(line, ", channel not measured"),
-            };
-            let _ = write!(line, ", RAM at most every {} ms", channel.interval_ms);
+            let _ = write!(line, ", {channel}");
+        }
+        if let Some(clock) = self.clock_quality {
+            let _ = write!(line, ", {clock}");
         }
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());

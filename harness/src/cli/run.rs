@@ -160,7 +160,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(capture) = &capture {
         link = capture.of_all(link);
     }
-    let watch = arguments.watch.begin()?;
+    let watch = arguments
+        .watch
+        .begin(address.clone(), arguments.security.name())?;
     let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
     let revoked = file.revoked.as_deref();
     let security = arguments.security.of_robot(&file.name, revoked)?;
@@ -473,6 +475,7 @@ impl Console<'_> {
             Some(Line::Status) => {
                 self.say(&self.robot.to_string());
                 self.say(&self.watch.surroundings());
+                self.say(&self.watch.equipment());
             }
             Some(Line::Help) => self.say(HELP),
             Some(Line::Quit) => return Ok(true),

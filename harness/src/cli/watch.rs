@@ -55,9 +55,10 @@ pub(super) struct Watch {
 }
 
 impl WatchArguments {
-    /// Begins to show a robot. Nothing but its log may be on a standard output that is for programs.
-    pub(super) fn begin(&self) -> Result<Watch, Failure> {
+    /// Begins to show a robot on this link, in this mode of security. Nothing but its log may be on a standard output that is for programs.
+    pub(super) fn begin(&self, link: String, security: &'static str) -> Result<Watch, Failure> {
         let tally = Shared::default();
+        tally.with(|tally| (tally.link, tally.security) = (link, security));
         let metrics = match self.metrics {
             None => None,
             Some(address) => {
@@ -124,6 +125,11 @@ impl Watch {
     /// What was heard of other stations, and who is around.
     pub(super) fn surroundings(&self) -> String {
         self.tally.with(|tally| tally.surroundings())
+    }
+
+    /// Its link, its security, its clock and its channel.
+    pub(super) fn equipment(&self) -> String {
+        self.tally.with(|tally| tally.equipment())
     }
 
     /// Takes in what no record tells.

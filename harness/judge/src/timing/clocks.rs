@@ -93,7 +93,8 @@ impl Clocks {
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
-            | Entry::Clock(_) => {}
+            | Entry::Clock(_)
+            | Entry::ClockQuality(_) => {}
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crossguard_codec::TaskParameters;
+use crossguard_codec::{PublicSignal, TaskParameters};
 use crossguard_protocol::{Corridor, Event, Failure, Notice, Rejection, StationId};
 
 use super::{Application, Wish};
@@ -56,6 +56,9 @@ impl Application {
             if let Some(place) = plan.own_place {
                 self.body.walk_to(place);
             }
+            if let Some(signal) = plan.shows {
+                self.shown.to_vehicles(signal);
+            }
             if let Road::Own(street) = &self.road {
                 street.arrive(plan.crossing_us(self.body.time_scale()));
             }
@@ -80,7 +83,12 @@ impl Application {
             | Notice::CommandRejected(follower, ..) => self.command_again(follower),
             Notice::FollowerGone(follower, _) => self.miss(follower),
             // The session ends once the road is clear.
-            Notice::Yielded(_) | Notice::SessionEnded(..) => self.errand = None,
+            Notice::Yielded(_) | Notice::SessionEnded(..) => {
+                self.errand = None;
+                if self.plan.as_ref().is_some_and(|plan| plan.shows.is_some()) {
+                    self.shown.to_vehicles(PublicSignal::None);
+                }
+            }
             _ => {}
         }
         self.finish_stage();

@@ -1,8 +1,8 @@
 //! What an application does with its body and its plan.
 
-use crossguard_codec::Target;
+use crossguard_codec::{PublicSignal, SignalMeans, Target};
 use crossguard_protocol::{
-    Notice, Rejection, RequestId, SessionId, SessionNumber, StopReason, UniqueNumber,
+    EndReason, Notice, Rejection, RequestId, SessionId, SessionNumber, StopReason, UniqueNumber,
 };
 
 use super::*;
@@ -67,6 +67,37 @@ fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
 }
 
 /// A guard that reports from beside the road must not let anybody cross.
+/// Hazard: the pedestrian is told to go, and vehicles are told nothing.
+#[test]
+fn a_leader_shows_vehicles_what_its_plan_says_and_nothing_after_its_session() {
+    let leader = StationId(1);
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let session = SessionId { leader, number };
+    let site = Site::default();
+    let plan = Plan {
+        shows: Some(PublicSignal::Stop),
+        ..Plan::crossing(site)
+    };
+    for means in [Some(SignalMeans::GESTURE), None] {
+        let body = Simulated::new(Build::Humanoid, site, Place::default(), 1.0, 1);
+        let mut application =
+            Application::new(Box::new(body), Some(plan.clone())).showing_by(means);
+        let shown = |application: &Application| {
+            let signals = application.state().slow?.signals?;
+            Some(signals.to_vehicles)
+        };
+        let mut seen = vec![shown(&application)];
+        application.act(&Act::Notice(Notice::RolesEstablished(session)));
+        seen.push(shown(&application));
+        let ended = Notice::SessionEnded(session, EndReason::NoFollowers);
+        application.act(&Act::Notice(ended));
+        seen.push(shown(&application));
+        let expected = [PublicSignal::None, PublicSignal::Stop, PublicSignal::None];
+        let expected = expected.map(|signal| means.map(|_| signal));
+        assert_eq!(seen, expected, "{means:?}");
+    }
+}
+
 #[test]
 fn a_follower_that_reports_from_elsewhere_is_commanded_again_and_in_the_end_given_up() {
     let follower = StationId(2);

@@ -2,12 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use crossguard_codec::PublicSignal;
 use crossguard_protocol::{
     EndReason, MAX_FOLLOWERS, ReleaseReason, StationId, TaskNames, TaskSet, TaskType, Urgency,
 };
 use toml::Spanned;
 
-use super::tables::{DemoTable, EndName, PartTable, PlanTables, RoleTable, SpotName, UrgencyName};
+use super::tables::{
+    DemoTable, EndName, PartTable, PlanTables, RoleTable, SignalName, SpotName, UrgencyName,
+};
 use super::{APART_M, Ending, PlanFile, Role};
 use crate::located::{self, METRES_MAX, Misfit};
 use crate::plan::{Leg, Stage, Who};
@@ -88,6 +91,12 @@ fn roles(tables: &[Spanned<RoleTable>], site: &SiteFile) -> Result<Vec<Role>, Mi
                 "role '{name}' does not lead: where it stands is the target of its part in a stage"
             ));
         }
+        if !table.leads && table.shows.is_some() {
+            let name = &table.name;
+            return refuse(format!(
+                "role '{name}' does not lead: no command says what a follower shows"
+            ));
+        }
         let spot = |name: &Option<Spanned<SpotName>>| {
             let name = name.as_ref();
             name.map(|name| place(site, name, None)).transpose()
@@ -102,6 +111,11 @@ fn roles(tables: &[Spanned<RoleTable>], site: &SiteFile) -> Result<Vec<Role>, Mi
             build: table.build,
             waits: spot(&table.waits)?,
             stands: spot(&table.stands)?,
+            shows: table.shows.map(|shows| match shows {
+                SignalName::Stop => PublicSignal::Stop,
+                SignalName::Go => PublicSignal::Go,
+                SignalName::Caution => PublicSignal::Caution,
+            }),
         });
     }
     let followers = roles.iter().filter(|role| !role.leads).count();

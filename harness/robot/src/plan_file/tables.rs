@@ -47,6 +47,15 @@ pub(super) struct RoleTable {
     pub(super) build: Option<Build>,
     pub(super) waits: Option<Spanned<SpotName>>,
     pub(super) stands: Option<Spanned<SpotName>>,
+    pub(super) shows: Option<SignalName>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum SignalName {
+    Stop,
+    Go,
+    Caution,
 }
 
 #[derive(Deserialize)]

@@ -130,6 +130,16 @@ fn a_plan_that_does_not_fit_is_refused_with_its_line() {
             "name = \"first\"\nstands = \"corner\"",
             "role 'first' does not lead",
         ),
+        (
+            "name = \"first\"",
+            "name = \"first\"\nshows = \"stop\"",
+            "role 'first' does not lead: no command says what a follower shows",
+        ),
+        (
+            "leads = true",
+            "leads = true\nshows = \"dance\"",
+            "unknown variant `dance`",
+        ),
         ("to = [2.5, -1.0]", "to = [1e30, 0.0]", "p.toml:13: [1"),
         (
             "to = [2.5, -1.0]",
