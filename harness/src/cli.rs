@@ -7,6 +7,7 @@ mod bounds;
 mod check;
 mod choices;
 mod codec;
+mod conform;
 mod demo;
 mod destinations;
 mod etsi;
@@ -77,6 +78,8 @@ enum Command {
     Explore(explore::Arguments),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.
     Fuzz(fuzz::Arguments),
+    /// Test anybody's robot from outside, over its link: play the others, and say for each rule whether it was kept.
+    Conform(Box<conform::Arguments>),
     /// Tell whether logs of one or several robots are of something that could have happened.
     Validate(validate::Arguments),
     /// Write a page about a run: states, map, times, verdicts, sequence chart.
@@ -148,6 +151,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Bounds(arguments) => bounds::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
+        Command::Conform(arguments) => conform::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Timing(arguments) => timing::run(&arguments),

@@ -15,7 +15,7 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 13] = [
+const GENERATED: [Generated; 14] = [
     Generated {
         path: "protocol/src/task.rs: the named tasks, in other languages",
         by: "cargo test -p crossguard-testkit --test named_tasks",
@@ -51,6 +51,10 @@ const GENERATED: [Generated; 13] = [
     Generated {
         path: "model-check/stories/",
         by: "cargo test -p crossguard-model-check --test paper_literal",
+    },
+    Generated {
+        path: "harness/conform/src/cases.txt",
+        by: "cargo test -p crossguard-conform --test generated",
     },
     Generated {
         path: "protocol/doc/protocol.md: the state diagram",

@@ -57,6 +57,8 @@ pub(super) enum Ending {
     Wrong(String, String),
     /// It was cut off before it could tell.
     Incomplete(String),
+    /// It was not tried, and why.
+    Skipped(String),
 }
 
 /// A case of a suite.
@@ -71,6 +73,11 @@ pub(super) fn case(suite: &mut TestSuite, name: &str, ending: Ending) {
         Ending::Incomplete(what) => {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
             status.set_message(what);
+            status
+        }
+        Ending::Skipped(why) => {
+            let mut status = TestCaseStatus::skipped();
+            status.set_message(why);
             status
         }
     };

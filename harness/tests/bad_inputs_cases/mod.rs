@@ -319,6 +319,49 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
         ],
     ),
     (
+        "conform",
+        &[
+            ("conform", 2),
+            ("conform --config nosuch.toml", 2),
+            ("conform --config folder", 2),
+            ("conform --config timers.toml", 2),
+            ("conform --config robot.toml", 2),
+            ("conform --config robot.toml --rule R0", 2),
+            ("conform --list --rule R27", 2),
+            ("conform --list --slack 0", 2),
+            ("conform --list --slack -1", 2),
+            ("conform --list --tester 0", 2),
+            ("conform --config robot.toml --typed", 2),
+            ("conform --config robot.toml --ask --unattended", 2),
+            (
+                "conform --address nowhere --peer 127.0.0.1:1 --station 2",
+                2,
+            ),
+            ("conform --address 127.0.0.1:0", 2),
+            ("conform --address 127.0.0.1:0 --peer 127.0.0.1:1", 2),
+            (
+                "conform --address 127.0.0.1:0 --peer 127.0.0.1:1 --station -1",
+                2,
+            ),
+            (
+                "conform --address 127.0.0.1:0 --peer 127.0.0.1:1 --station 9001",
+                2,
+            ),
+            (
+                "conform --address 192.0.2.1:7 --peer 192.0.2.2:7 --station 2",
+                2,
+            ),
+            (
+                "conform --address 127.0.0.1:0 --peer 127.0.0.1:1 --station 2 --junit nosuch/junit.xml",
+                2,
+            ),
+            (
+                "conform --address 127.0.0.1:0 --peer 127.0.0.1:1 --station 2 --security sign --pki nosuch",
+                2,
+            ),
+        ],
+    ),
+    (
         "validate",
         &[
             ("validate", 2),

@@ -1,0 +1,152 @@
+//! Cases: what the tester does one after the other, and playing one.
+
+use crossguard_codec::geonet::Envelope;
+use crossguard_protocol::StationId;
+
+use crate::bench::{Bench, Terms};
+use crate::exchange::Exchange;
+use crate::perform::Performed;
+use crate::play::Play;
+use crate::subject::{Gone, NotTold, Subject};
+
+/// The cases that were generated, see [`generate`](crate::generate).
+const CASES: &str = include_str!("cases.txt");
+
+/// A case.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Case {
+    /// What the tester does.
+    pub plays: Vec<Play>,
+    /// The statements that it is there for, by name.
+    pub statements: Vec<String>,
+}
+
+/// A line of the file of cases that is none.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("'{0}' is no case")]
+pub struct NoCase(String);
+
+impl Case {
+    /// The generated cases, in the order in which they are played.
+    ///
+    /// # Panics
+    /// Never: a test reads the file.
+    #[must_use]
+    pub fn generated() -> Vec<Self> {
+        let lines = CASES.lines().filter(|line| !line.is_empty());
+        let cases: Result<_, _> = lines.map(Self::parse).collect();
+        cases.expect("the generated file is well-formed")
+    }
+
+    /// Reads a line.
+    ///
+    /// # Errors
+    /// It is no case.
+    pub fn parse(line: &str) -> Result<Self, NoCase> {
+        let no_case = || NoCase(line.to_owned());
+        let (plays, statements) = line.split_once(" => ").ok_or_else(no_case)?;
+        let plays: Option<_> = plays.split("; ").map(Play::of_words).collect();
+        Ok(Self {
+            plays: plays.ok_or_else(no_case)?,
+            statements: statements.split(' ').map(str::to_owned).collect(),
+        })
+    }
+
+    /// The line of the file.
+    #[must_use]
+    pub fn line(&self) -> String {
+        format!("{} => {}", self.words(), self.statements.join(" "))
+    }
+
+    /// What the tester does, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let words: Vec<_> = self.plays.iter().map(|play| play.words()).collect();
+        words.join("; ")
+    }
+}
+
+/// What became of a case.
+#[derive(Clone, Debug)]
+pub struct Played {
+    /// All that was seen.
+    pub exchange: Exchange,
+    /// How many of the plays were done.
+    pub done: usize,
+    /// Why no more of them were.
+    pub stopped: Option<Stopped>,
+}
+
+/// Why a case was not played to its end.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Stopped {
+    /// The robot's situation is not the one that the next play needs.
+    #[error("the robot is {situation}, which is no situation for '{play}'")]
+    OutOfPlace {
+        /// What the robot says.
+        situation: String,
+        /// What was to be done.
+        play: &'static str,
+    },
+    /// Something could not be brought about at the robot.
+    #[error(transparent)]
+    NotTold(#[from] NotTold),
+}
+
+/// The tester's side of a case: who plays, under which signatures, and how often it has booted.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// The robot under test.
+    pub robot: StationId,
+    /// What is assumed of it.
+    pub terms: Terms,
+    /// What stands around the packets of the tester's stations.
+    pub envelopes: [Envelope; 2],
+    /// The boot counter of the tester's stations; larger at each case.
+    pub boot: u16,
+}
+
+/// How long a robot may take to say something after it was started, in ms.
+const STARTS_MS: u64 = 15_000;
+
+/// Plays a case against a robot that is at rest. The robot is borrowed, so that it can be played against again.
+///
+/// # Errors
+/// The robot or the link is gone.
+pub fn play<S: Subject>(subject: &mut S, table: &Table, plays: &[Play]) -> Result<Played, Gone> {
+    let mut bench = Bench::new(
+        subject,
+        table.robot,
+        table.terms.clone(),
+        table.envelopes.clone(),
+        table.boot,
+    );
+    if !bench.pass_until(STARTS_MS, |bench| bench.said().is_some())? {
+        let station = table.robot;
+        let text = format!("station {station} says nothing for {} s", STARTS_MS / 1_000);
+        return Err(Gone::Robot(text));
+    }
+    let (mut done, mut stopped) = (0, None);
+    for (i, play) in plays.iter().enumerate() {
+        let performed = bench.perform(*play, i + 1 == plays.len())?;
+        if let Some(why) = bench.not_told.take() {
+            stopped = Some(why.into());
+            break;
+        }
+        if performed == Performed::OutOfPlace {
+            let now_ms = bench.subject.now_ms();
+            stopped = Some(Stopped::OutOfPlace {
+                situation: bench.exchange.situation_at(now_ms),
+                play: play.words(),
+            });
+            break;
+        }
+        done += 1;
+    }
+    let exchange = bench.exchange;
+    Ok(Played {
+        exchange,
+        done,
+        stopped,
+    })
+}

@@ -1,0 +1,221 @@
+//! How the tester does what a case says, and what tells one situation from another.
+
+mod asking;
+mod helping;
+mod leading;
+
+use crossguard_protocol::{
+    Coordination, Ending, Farewell, Progress, Ram, SessionNumber, UniqueNumber,
+};
+
+use crate::bench::{APART_MS, Bench};
+use crate::exchange::{Happening, Player, session_of};
+use crate::play::{Play, Side};
+use crate::station::{Beating, Part};
+use crate::subject::{Gone, Subject};
+
+/// What became of a play.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Performed {
+    /// It was done.
+    Yes,
+    /// The robot's situation is not one for it.
+    OutOfPlace,
+}
+
+/// How long a robot that does things by itself is waited for, in ms.
+const AWAITED_MS: u64 = 6_000;
+
+impl<S: Subject> Bench<S> {
+    /// Does it, and listens to what comes of it.
+    pub(crate) fn perform(&mut self, play: Play, is_last: bool) -> Result<Performed, Gone> {
+        let begun = self.exchange.seen.len();
+        self.note(Happening::Play(play.words()));
+        let performed = self.begin(play)?;
+        if performed == Performed::OutOfPlace {
+            self.exchange.seen.truncate(begun);
+            return Ok(performed);
+        }
+        let soon_ms = self.terms.soon_ms();
+        if let Some(span_ms) = play.span_ms(&self.terms) {
+            self.pass(span_ms)?;
+        } else if is_last || play == Play::Restart {
+            let more_ms = if self.generates {
+                100
+            } else {
+                self.terms.ms(|s| s.t_ack) + 150
+            };
+            self.pass(soon_ms + more_ms)?;
+        } else {
+            let before = self.essence();
+            let answers = self.exchange.answers().count() + self.exchange.commands().count();
+            let has_changed = |bench: &Self| {
+                let now = bench.exchange.answers().count() + bench.exchange.commands().count();
+                bench.essence() != before || now > answers
+            };
+            if self.pass_until(soon_ms, has_changed)? {
+                self.pass(self.terms.ms(|s| s.ram_period) + 50)?;
+            }
+        }
+        Ok(performed)
+    }
+
+    /// What the robot says, but for what changes with every RAM.
+    fn essence(&self) -> Option<String> {
+        let said = self.said()?;
+        let part = crate::words::part(&said.ram.coordination);
+        let list = match said.ram.coordination {
+            Coordination::Leader { followers, .. } => followers.iter().count(),
+            _ => 0,
+        };
+        let (farewell, duty) = (said.ram.farewell, said.ram.on_duty);
+        let session = session_of(&said.ram);
+        let (sign, available) = (said.sign, said.availability);
+        Some(format!(
+            "{part} {session:?} {list} {farewell:?} {duty} {sign:?} {available:?}"
+        ))
+    }
+
+    fn begin(&mut self, play: Play) -> Result<Performed, Gone> {
+        if let Some(local) = play.local(self.terms.players[0]) {
+            if !self.can_be_told(play) {
+                return Ok(Performed::OutOfPlace);
+            }
+            let before = self.essence();
+            if self.tell(local) {
+                let has_changed = |bench: &Self| bench.essence() != before;
+                self.pass_until(AWAITED_MS, has_changed)?;
+            }
+            return Ok(Performed::Yes);
+        }
+        let fits = match play {
+            Play::Wait(_) => true,
+            Play::Noise => return self.make_noise(),
+            Play::OwnName => return self.speak_as_the_robot(),
+            Play::Restart => {
+                self.restart();
+                true
+            }
+            Play::Beat(beating) => {
+                let ada = self.station(Player::Ada);
+                let fits = ada.part != Part::Nothing && ada.beating != beating;
+                ada.beating = beating;
+                fits
+            }
+            _ => match play.side() {
+                Side::Asks => self.begin_as_requester(play),
+                Side::Leads => self.begin_as_leader(play)?,
+                Side::Helps => self.begin_as_helper(play)?,
+            },
+        };
+        Ok(if fits {
+            Performed::Yes
+        } else {
+            Performed::OutOfPlace
+        })
+    }
+
+    /// Whether such a thing can happen at the robot, by what it says of itself.
+    fn can_be_told(&self, play: Play) -> bool {
+        let Some(said) = self.said() else {
+            return false;
+        };
+        let part = said.ram.coordination;
+        let leads = matches!(part, Coordination::Leader { .. });
+        let executes = |progress: Progress| match part {
+            Coordination::Follower {
+                last: Some(report), ..
+            } => report.progress == progress,
+            _ => false,
+        };
+        let is_available = said.availability == crossguard_protocol::Availability::Available;
+        match play {
+            Play::Detect | Play::DetectTwo => part == Coordination::None,
+            Play::OrderMove
+            | Play::OrderBlock
+            | Play::OrderInitialPos
+            | Play::Open
+            | Play::Close => leads,
+            Play::InPosition => executes(Progress::Executing),
+            Play::Done | Play::Fail => {
+                executes(Progress::Executing) || executes(Progress::InPosition)
+            }
+            Play::Clear => said.ram.on_duty || leads,
+            Play::TaskCompleted => leads || matches!(part, Coordination::NeedHelp { .. }),
+            Play::Leave => part != Coordination::None,
+            Play::LowBattery | Play::LocalFault => is_available,
+            Play::Available => !is_available,
+            _ => true,
+        }
+    }
+
+    /// Octets that are no packet, a packet that is cut off, and one whose message is none.
+    fn make_noise(&mut self) -> Result<Performed, Gone> {
+        let packet = self.packet_of(&[0xFF; 40])?;
+        self.send_noise("octets that are no packet", &[0x5A; 64])?;
+        self.send_noise("a packet that is cut off", &packet[..packet.len() / 2])?;
+        self.send_noise("a packet without a message", &packet)?;
+        self.send_noise("an empty datagram", &[])?;
+        Ok(Performed::Yes)
+    }
+
+    /// A RAM under the robot's own name, which ends and leads.
+    fn speak_as_the_robot(&mut self) -> Result<Performed, Gone> {
+        let robot = self.exchange.robot;
+        let Some(said) = self.said() else {
+            return Ok(Performed::OutOfPlace);
+        };
+        let number = session_of(&said.ram).map_or(
+            SessionNumber(UniqueNumber { boot: 1, count: 0 }),
+            |session| session.number,
+        );
+        let ram = Ram {
+            station: robot,
+            coordination: Coordination::None,
+            farewell: Some(Farewell::Ended(number, Ending::Completed)),
+            on_duty: false,
+        };
+        for _ in 0..3 {
+            self.send_ram(Player::Ada, ram)?;
+            self.pass(APART_MS)?;
+        }
+        Ok(Performed::Yes)
+    }
+
+    /// What tells this situation from others: what the robot says, what the tester's stations do, and what is
+    /// outstanding between them.
+    pub(crate) fn key(&self) -> String {
+        let mut key = self.essence().unwrap_or_default();
+        // Names of sessions differ, and make no difference.
+        key.retain(|c| !c.is_ascii_digit());
+        for station in &self.stations {
+            let part = match station.part {
+                Part::Nothing => "nothing",
+                Part::SaysNothing => "says nothing",
+                Part::Asks { .. } => "asks",
+                Part::Leads { .. } => "leads",
+                Part::Offers { .. } => "offers",
+                Part::Follows { last: None, .. } => "follows",
+                Part::Follows {
+                    last: Some(last), ..
+                } => crate::words::progress(last.progress),
+            };
+            let beating = if station.speaks() {
+                station.beating
+            } else {
+                Beating::Mute
+            };
+            key.push_str(&format!(" | {part} {beating:?}"));
+        }
+        let newest = self.exchange.commands().next_back();
+        let outstanding = newest.map(|(_, command)| {
+            let mut answers = self.exchange.played_answers();
+            let is_answered = answers.any(|(_, it)| it.request == command.request);
+            format!("{} {is_answered}", command.task)
+        });
+        let ordered = self.command.map(|command| command.task);
+        let count = newest.map_or(0, |(_, command)| command.request.0.min(1));
+        key.push_str(&format!(" | {outstanding:?} {count} {ordered:?}"));
+        key
+    }
+}

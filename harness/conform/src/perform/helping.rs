@@ -1,0 +1,202 @@
+//! The tester helps and follows the robot.
+
+use crossguard_protocol::{
+    Answer, Coordination, Failure, Farewell, Millis, OfferNumber, Progress, Rejection, Report,
+    RequestId, SessionId, SessionNumber, StationId, TaskSet, UniqueNumber, Verdict,
+};
+
+use crate::bench::{APART_MS, Bench};
+use crate::exchange::{Player, session_of};
+use crate::play::Play;
+use crate::station::{Part, other_number};
+use crate::subject::{Gone, Subject};
+
+impl<S: Subject> Bench<S> {
+    pub(super) fn begin_as_helper(&mut self, play: Play) -> Result<bool, Gone> {
+        let Some(said) = self.said().copied() else {
+            return Ok(false);
+        };
+        let robot = self.exchange.robot;
+        let session = session_of(&said.ram).filter(|session| session.leader == robot);
+        let asks = matches!(said.ram.coordination, Coordination::NeedHelp { .. });
+        let listed = |player: StationId| match said.ram.coordination {
+            Coordination::Leader { followers, .. } => {
+                followers.iter().find(|it| it.station == player).copied()
+            }
+            _ => None,
+        };
+        let t_safety = self.terms.settings.t_safety;
+        let [ada, bo] = self.terms.players;
+        match (play, session) {
+            (Play::Offer | Play::OfferUnfit | Play::OfferElsewhere, Some(session)) if asks => {
+                self.older_offer = Some(OfferNumber(self.station(Player::Ada).issue()));
+                let number = match play {
+                    Play::OfferElsewhere => other_number(session.number),
+                    _ => session.number,
+                };
+                let t_safety = match play {
+                    Play::OfferUnfit => Millis(1),
+                    _ => t_safety,
+                };
+                self.offer(Player::Ada, SessionId { number, ..session }, t_safety);
+            }
+            (Play::BoOffers, Some(session)) if asks => self.offer(Player::Bo, session, t_safety),
+            (Play::OfferOlder, Some(session)) if asks => {
+                let Some(offer) = self.older_offer else {
+                    return Ok(false);
+                };
+                let station = self.station(Player::Ada);
+                let mut ram = station.next_ram(None);
+                ram.coordination = Coordination::OfferHelp {
+                    session,
+                    offer,
+                    capabilities: TaskSet(0b111),
+                    echo: station.echo,
+                    t_safety,
+                };
+                self.send_ram(Player::Ada, ram)?;
+            }
+            (Play::Join, Some(session)) if listed(ada).is_some() => {
+                self.follow(Player::Ada, session, None);
+            }
+            (Play::BoJoins, Some(session)) if listed(bo).is_some() => {
+                self.follow(Player::Bo, session, None);
+            }
+            (Play::AdaLeaves | Play::BoLeaves, Some(session)) => {
+                let player = if play == Play::AdaLeaves {
+                    Player::Ada
+                } else {
+                    Player::Bo
+                };
+                let id = self.station(player).id;
+                let Some(confirmed) = listed(id) else {
+                    return Ok(false);
+                };
+                let station = self.station(player);
+                station.part = Part::Nothing;
+                station.farewell = Some(Farewell::Left(session, confirmed.offer));
+                self.hurry(player);
+            }
+            (Play::BoClaims, _) => {
+                // The newest session of the robot that is over, or one that it never opened.
+                let sessions: Vec<SessionId> = self
+                    .exchange
+                    .rams()
+                    .filter_map(|(_, it)| session_of(&it.ram))
+                    .collect();
+                let is_over = |it: &&SessionId| it.leader == robot && Some(**it) != session;
+                let over = sessions.iter().rfind(is_over).copied();
+                let over = over.unwrap_or(SessionId {
+                    leader: robot,
+                    number: SessionNumber(UniqueNumber { boot: 0, count: 7 }),
+                });
+                self.follow(Player::Bo, over, None);
+            }
+            _ => return self.answer_or_report(play, session),
+        }
+        Ok(true)
+    }
+
+    fn offer(&mut self, player: Player, session: SessionId, t_safety: Millis) {
+        let offer = OfferNumber(self.station(player).issue());
+        let station = self.station(player);
+        station.farewell = None;
+        station.part = Part::Offers {
+            session,
+            offer,
+            t_safety,
+        };
+        self.hurry(player);
+    }
+
+    fn follow(&mut self, player: Player, session: SessionId, last: Option<Report>) {
+        let station = self.station(player);
+        // Who takes part says no farewell.
+        (station.part, station.farewell) = (Part::Follows { session, last }, None);
+        self.hurry(player);
+    }
+
+    fn answer_or_report(&mut self, play: Play, session: Option<SessionId>) -> Result<bool, Gone> {
+        let [ada, bo] = self.terms.players;
+        let newest = self.exchange.commands().rfind(|(_, it)| it.to == ada);
+        let (Some((_, command)), Some(session)) = (newest, session) else {
+            return Ok(false);
+        };
+        if command.session != session {
+            return Ok(false);
+        }
+        let accepted = Answer {
+            from: ada,
+            session,
+            request: command.request,
+            verdict: Verdict::Accepted,
+        };
+        let other = |by: i16| RequestId((i16::from(command.request.0) + by).rem_euclid(256) as u8);
+        let (player, answers) = match play {
+            Play::Ack => (Player::Ada, vec![accepted; 3]),
+            Play::Reject => {
+                let verdict = Verdict::Rejected(Rejection::UnsupportedTask);
+                (
+                    Player::Ada,
+                    vec![
+                        Answer {
+                            verdict,
+                            ..accepted
+                        };
+                        3
+                    ],
+                )
+            }
+            Play::AckOther => {
+                let of = |by| Answer {
+                    request: other(by),
+                    ..accepted
+                };
+                (Player::Ada, vec![of(-1), of(1), of(-1), of(1)])
+            }
+            Play::AckElsewhere => {
+                let session = SessionId {
+                    number: other_number(session.number),
+                    ..session
+                };
+                (
+                    Player::Ada,
+                    vec![
+                        Answer {
+                            session,
+                            ..accepted
+                        };
+                        3
+                    ],
+                )
+            }
+            Play::BoAcks => (
+                Player::Bo,
+                vec![
+                    Answer {
+                        from: bo,
+                        ..accepted
+                    };
+                    3
+                ],
+            ),
+            _ => {
+                let (request, progress) = match play {
+                    Play::ReportExecuting => (command.request, Progress::Executing),
+                    Play::ReportInPosition => (command.request, Progress::InPosition),
+                    Play::ReportCompleted => (command.request, Progress::Completed),
+                    Play::ReportFailed => (command.request, Progress::Failed(Failure::Maneuver)),
+                    Play::ReportOther => (other(-1), Progress::Completed),
+                    _ => return Ok(false),
+                };
+                self.follow(Player::Ada, session, Some(Report { request, progress }));
+                return Ok(true);
+            }
+        };
+        for answer in answers {
+            self.send_answer(player, answer)?;
+            self.pass(APART_MS)?;
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,46 @@
+//! Words for reports, and for lines that are typed.
+
+use crossguard_protocol::{Coordination, Progress, Unavailability};
+
+/// The word that `crossguard run` knows for a reason.
+pub(crate) const fn reason(why: Unavailability) -> &'static str {
+    match why {
+        Unavailability::LowBattery => "low-battery",
+        Unavailability::Teleoperated => "teleoperated",
+        Unavailability::EmergencyStop => "emergency-stop",
+        Unavailability::LocalFault => "local-fault",
+        Unavailability::NotSafe => "not-safe",
+    }
+}
+
+/// How far a command is, in a word.
+pub(crate) const fn progress(progress: Progress) -> &'static str {
+    match progress {
+        Progress::Executing => "executing",
+        Progress::InPosition => "in position",
+        Progress::Completed => "completed",
+        Progress::Failed(_) => "failed",
+        Progress::SafeIdle => "safe idle",
+    }
+}
+
+/// A robot's part in a session, in a few words.
+pub(crate) fn part(coordination: &Coordination) -> &'static str {
+    match coordination {
+        Coordination::None => "idle",
+        Coordination::NeedHelp { .. } => "asking",
+        Coordination::OfferHelp { .. } => "offering",
+        Coordination::Leader { yields: true, .. } => "leading, yields",
+        Coordination::Leader { .. } => "leading",
+        Coordination::Follower { last: None, .. } => "following",
+        Coordination::Follower {
+            last: Some(report), ..
+        } => match report.progress {
+            Progress::Executing => "following, executing",
+            Progress::InPosition => "following, in position",
+            Progress::Completed => "following, completed",
+            Progress::Failed(_) => "following, failed",
+            Progress::SafeIdle => "following, safe idle",
+        },
+    }
+}
