@@ -53,7 +53,7 @@ pub(super) const ALL: &[Statement] = &[
     Statement {
         name: "stale-sessions-are-named",
         rule: "R21",
-        says: "A robot that hears of a session of its own which is over names it as ended.",
+        says: "A robot that hears of a session of its own which is over names it as ended, unless it is naming another one.",
         judge: stale_is_named,
     },
     Statement {
@@ -348,7 +348,16 @@ fn stale_is_named(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         let is_own = claimed.leader == exchange.robot;
         let is_over = session_of(&state.ram) != Some(claimed);
         let is_known = all.iter().any(|(known, _)| *known == claimed);
-        if !is_own || !is_over || is_known || played.ram.station == exchange.robot {
+        let names_another = |state: &RamSeen| {
+            let farewell = state.ram.farewell;
+            farewell.is_some_and(
+                |it| !matches!(it, Farewell::Ended(number, _) if number == claimed.number),
+            )
+        };
+        // It may have begun to name another one just now.
+        let next = exchange.rams().find(|(then, _)| *then > at);
+        let is_busy = names_another(state) || next.is_some_and(|(_, next)| names_another(next));
+        if !is_own || !is_over || is_known || is_busy || played.ram.station == exchange.robot {
             continue;
         }
         let is_named = |state: &RamSeen| matches!(state.ram.farewell, Some(Farewell::Ended(number, _)) if number == claimed.number);
