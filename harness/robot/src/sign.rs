@@ -68,7 +68,7 @@ impl Shown {
     }
 
     /// Shows this to vehicles from now on, if it shows anything to people.
-    pub(crate) const fn to_vehicles(&mut self, signal: PublicSignal) {
+    pub(crate) const fn face_vehicles(&mut self, signal: PublicSignal) {
         if let Some(shown) = &mut self.0 {
             shown.to_vehicles = signal;
         }

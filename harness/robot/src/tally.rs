@@ -122,6 +122,7 @@ impl Tally {
             }
             Entry::Zone(_) => {}
             Entry::Channel(channel) => self.channel = Some(*channel),
+            Entry::Clock(clock) => self.clock = Some(*clock),
             Entry::ClockQuality(clock) => self.clock_quality = Some(*clock),
             Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Around(around) => self.around.clone_from(around),

@@ -57,7 +57,7 @@ impl Application {
                 self.body.walk_to(place);
             }
             if let Some(signal) = plan.shows {
-                self.shown.to_vehicles(signal);
+                self.shown.face_vehicles(signal);
             }
             if let Road::Own(street) = &self.road {
                 street.arrive(plan.crossing_us(self.body.time_scale()));
@@ -86,7 +86,7 @@ impl Application {
             Notice::Yielded(_) | Notice::SessionEnded(..) => {
                 self.errand = None;
                 if self.plan.as_ref().is_some_and(|plan| plan.shows.is_some()) {
-                    self.shown.to_vehicles(PublicSignal::None);
+                    self.shown.face_vehicles(PublicSignal::None);
                 }
             }
             _ => {}
