@@ -10,7 +10,7 @@
 //! The transition function only says how situations are reached. What a robot must do there is said by the
 //! [statements](crate::statements), which do not know it.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeSet, VecDeque};
 
 use crossguard_codec::geonet::Envelope;
 use crossguard_protocol::{Config, StationId};
@@ -75,8 +75,8 @@ pub fn generate() -> Generated {
     let mut broken = Vec::new();
     let mut candidates = Vec::new();
     let mut seen: BTreeSet<String> = [bench.key()].into_iter().collect();
-    let mut todo: VecDeque<(Bench<Reference>, Vec<Play>)> =
-        [(bench, Vec::new())].into_iter().collect();
+    let mut todo: VecDeque<(Bench<Reference>, Vec<Play>)> = VecDeque::new();
+    todo.push_back((bench, Vec::new()));
     while let Some((bench, plays)) = todo.pop_front() {
         for play in Play::all() {
             if !is_sensible(&plays, play) {
@@ -206,13 +206,10 @@ fn cover(mut candidates: Vec<Candidate>) -> Vec<(Case, BTreeSet<Edge>)> {
             let Some((i, _)) = best else { break };
             let chosen = candidates.swap_remove(i);
             met.extend(chosen.edges.iter().cloned());
-            let mut statements: BTreeMap<&str, ()> = BTreeMap::new();
-            for (statement, _) in &chosen.edges {
-                statements.insert(statement, ());
-            }
+            let statements: BTreeSet<&str> = chosen.edges.iter().map(|(name, _)| *name).collect();
             let case = Case {
                 plays: chosen.plays,
-                statements: statements.keys().map(|name| (*name).to_owned()).collect(),
+                statements: statements.into_iter().map(str::to_owned).collect(),
             };
             cases.push((case, chosen.edges));
         }

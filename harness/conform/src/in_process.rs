@@ -118,15 +118,15 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> InProcess<P, F> {
                     at_ms: self.now_ms,
                     octets: packet,
                 }),
-                Effect::Act(act) => self.act(act),
+                Effect::Act(act) => self.act(&act),
                 _ => {}
             }
         }
     }
 
-    fn act(&mut self, act: Act) {
+    fn act(&mut self, act: &Act) {
         let now_ms = self.now_ms;
-        match act {
+        match *act {
             Act::Start(maneuver, _) => {
                 let arrives = maneuver.task != TaskType::MOVE;
                 self.body.maneuver = Some(maneuver);

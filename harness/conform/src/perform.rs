@@ -4,6 +4,8 @@ mod asking;
 mod helping;
 mod leading;
 
+use std::fmt::Write as _;
+
 use crossguard_protocol::{
     Coordination, Ending, Farewell, Progress, Ram, SessionNumber, UniqueNumber,
 };
@@ -205,7 +207,7 @@ impl<S: Subject> Bench<S> {
             } else {
                 Beating::Mute
             };
-            key.push_str(&format!(" | {part} {beating:?}"));
+            let _ = write!(key, " | {part} {beating:?}");
         }
         let newest = self.exchange.commands().next_back();
         let outstanding = newest.map(|(_, command)| {
@@ -215,7 +217,7 @@ impl<S: Subject> Bench<S> {
         });
         let ordered = self.command.map(|command| command.task);
         let count = newest.map_or(0, |(_, command)| command.request.0.min(1));
-        key.push_str(&format!(" | {outstanding:?} {count} {ordered:?}"));
+        let _ = write!(key, " | {outstanding:?} {count} {ordered:?}");
         key
     }
 }

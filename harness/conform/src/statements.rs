@@ -23,6 +23,12 @@ use crossguard_protocol::{Coordination, Heartbeat};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, RamSeen, Seen, session_of};
 
+/// How a statement was broken, if it was.
+type Broken = Option<String>;
+
+/// When something was seen, if it was.
+type SeenAt = Option<u64>;
+
 /// A place in an exchange where the premise of a statement was met.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Met {
@@ -104,7 +110,7 @@ fn reaction(
     at_ms: u64,
     limit_ms: u64,
     is_it: impl Fn(&Seen) -> bool,
-) -> Option<Option<u64>> {
+) -> Option<SeenAt> {
     let until_ms = at_ms + limit_ms;
     let mut after = exchange
         .seen
@@ -133,10 +139,7 @@ fn due(
 
 /// The RAM that the robot said while nothing else was done after `at_ms`, but not before what was done can have had
 /// an effect.
-fn afterwards<'a>(
-    exchange: &'a Exchange,
-    at_ms: u64,
-) -> impl Iterator<Item = (u64, &'a RamSeen)> + 'a {
+fn afterwards(exchange: &Exchange, at_ms: u64) -> impl Iterator<Item = (u64, &RamSeen)> + '_ {
     let until_ms = exchange.undisturbed_until(at_ms);
     exchange
         .rams()
@@ -145,7 +148,7 @@ fn afterwards<'a>(
 
 /// Whether the robot's part was the same in all RAM while nothing else was done after `at_ms`; `None` if there were
 /// too few of them to say.
-fn part_unchanged(exchange: &Exchange, terms: &Terms, at_ms: u64) -> Option<Option<String>> {
+fn part_unchanged(exchange: &Exchange, terms: &Terms, at_ms: u64) -> Option<Broken> {
     let (_, before) = exchange.state_at(at_ms)?;
     // A requester with an offer leads when its time comes.
     let selects = matches!(before.ram.coordination, Coordination::NeedHelp { .. });
@@ -183,11 +186,10 @@ fn is_in_contact(exchange: &Exchange, at_ms: u64) -> bool {
     let session = session_of(&state.ram).filter(|session| session.leader != exchange.robot);
     let Some(session) = session else { return true };
     let beats = exchange.played_rams().filter_map(|(at, _, played)| {
-        let heartbeat = match played.ram.coordination {
-            Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. } => {
-                heartbeat
-            }
-            _ => return None,
+        let (Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. }) =
+            played.ram.coordination
+        else {
+            return None;
         };
         (session_of(&played.ram) == Some(session) && at <= at_ms).then_some((at, heartbeat))
     });

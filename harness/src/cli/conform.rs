@@ -27,6 +27,10 @@ use super::{Failure, print, print_json, shows_progress};
 const NAMES: [&str; 2] = ["Ada", "Bo"];
 
 #[derive(clap::Args)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of the command"
+)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct Arguments {
     /// The robot's configuration, if it is one of 'crossguard run': its station id, addresses, timers and identifiers.

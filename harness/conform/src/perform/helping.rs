@@ -131,7 +131,7 @@ impl<S: Subject> Bench<S> {
             request: command.request,
             verdict: Verdict::Accepted,
         };
-        let other = |by: i16| RequestId((i16::from(command.request.0) + by).rem_euclid(256) as u8);
+        let other = |by: i8| RequestId(command.request.0.wrapping_add_signed(by));
         let (player, answers) = match play {
             Play::Ack => (Player::Ada, vec![accepted; 3]),
             Play::Reject => {

@@ -229,13 +229,11 @@ fn echoes_what_it_heard(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let mut begun = (None, 0);
     let mut situations = Vec::new();
     for (at, state) in exchange.rams() {
-        let (session, echo) = match state.ram.coordination {
-            Coordination::OfferHelp { session, echo, .. }
-            | Coordination::Follower { session, echo, .. } => (session, echo),
-            _ => {
-                before = None;
-                continue;
-            }
+        let (Coordination::OfferHelp { session, echo, .. }
+        | Coordination::Follower { session, echo, .. }) = state.ram.coordination
+        else {
+            before = None;
+            continue;
         };
         let part = (session, offer_of(&state.ram).map(|(_, offer)| offer));
         if begun.0 != Some(part) {
@@ -288,14 +286,11 @@ fn heart_beats_in_time(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let mut first: Option<(SessionId, u64, Heartbeat)> = None;
     let mut newest: Option<(u64, Heartbeat)> = None;
     for (at, state) in exchange.rams() {
-        let heartbeat = match state.ram.coordination {
-            Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. } => {
-                heartbeat
-            }
-            _ => {
-                first = None;
-                continue;
-            }
+        let (Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. }) =
+            state.ram.coordination
+        else {
+            first = None;
+            continue;
         };
         let Some(session) = session_of(&state.ram) else {
             continue;

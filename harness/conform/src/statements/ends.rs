@@ -212,11 +212,10 @@ fn own_ends_are_named(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 fn leaving_is_named(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let judge = |(at, local): (u64, Local)| {
         let (_, state) = exchange.state_at(at)?;
-        let session = match state.ram.coordination {
-            Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
-                session
-            }
-            _ => return None,
+        let (Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. }) =
+            state.ram.coordination
+        else {
+            return None;
         };
         if local != Local::Leave {
             return None;
@@ -336,11 +335,14 @@ fn farewells_last(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 fn stale_is_named(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let mut all: Vec<(SessionId, Met)> = Vec::new();
     for (at, _, played) in exchange.played_rams() {
-        let claimed = match played.ram.coordination {
-            Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
-                session
-            }
-            _ => continue,
+        let (Coordination::OfferHelp {
+            session: claimed, ..
+        }
+        | Coordination::Follower {
+            session: claimed, ..
+        }) = played.ram.coordination
+        else {
+            continue;
         };
         let Some((_, state)) = exchange.state_at(at) else {
             continue;

@@ -71,7 +71,7 @@ pub(super) const ALL: &[Statement] = &[
 struct Request {
     at_ms: u64,
     session: SessionId,
-    request: HelpRequest,
+    asked: HelpRequest,
 }
 
 fn requests(exchange: &Exchange) -> Vec<Request> {
@@ -84,7 +84,7 @@ fn requests(exchange: &Exchange) -> Vec<Request> {
             all.push(Request {
                 at_ms,
                 session,
-                request,
+                asked: request,
             });
         }
     }
@@ -99,7 +99,7 @@ fn free_robots_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let can = terms.settings.capabilities;
     let judge = |it: Request| {
         let (_, state) = exchange.state_at(it.at_ms)?;
-        let tasks = can.intersection(it.request.tasks);
+        let tasks = can.intersection(it.asked.tasks);
         let is_free = state.ram.coordination == Coordination::None
             && !state.ram.on_duty
             && state.availability == Availability::Available;
@@ -144,7 +144,7 @@ fn not_offered(
 /// Whether the robot can do a task that is asked for, so that only another rule keeps it from an offer.
 fn is_possible(terms: &Terms, it: &Request) -> bool {
     let can = terms.settings.capabilities;
-    !can.intersection(it.request.tasks).is_empty()
+    !can.intersection(it.asked.tasks).is_empty()
 }
 
 fn impossible_gets_no_offer(exchange: &Exchange, terms: &Terms) -> Vec<Met> {

@@ -136,13 +136,13 @@ fn leads_whom_it_asked_for(exchange: &Exchange, _: &Terms) -> Vec<Met> {
             let mut made = offers(exchange, session).filter(|(then, ..)| *then <= at);
             !made.any(|(_, by, offer, _)| by == *station && offer == *number)
         });
-        let broken = if listed.len() != asked {
+        let broken = if listed.len() == asked {
+            unknown.map(|(station, _)| format!("it lists {station}, which made no such offer"))
+        } else {
             Some(format!(
                 "it lists {} followers and asked for {asked}",
                 listed.len()
             ))
-        } else {
-            unknown.map(|(station, _)| format!("it lists {station}, which made no such offer"))
         };
         met_when(at, format!("{asked} asked for"), broken).into()
     };

@@ -246,7 +246,7 @@ fn go_ends_by_itself(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         }
     }
     // Where a follower was silent for long enough, go had to end.
-    let shown = exchange.rams().filter(|(_, state)| shows_go(state)).last();
+    let shown = exchange.rams().rfind(|(_, state)| shows_go(state));
     if let Some((last, state)) = shown
         && let Some(session) = session_of(&state.ram)
     {
