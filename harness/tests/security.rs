@@ -217,6 +217,8 @@ impl Attackers {
             self.repeated = None;
         }
         vec![
+            // Its ticket is in it once in a second.
+            good,
             tampered,
             expired(&self.pki),
             say(&mut self.foreign, &idle),

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// Whether a robot that verifies trusts its clock. If it does not, it accepts nothing that is signed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase", rename_all_fields = "camelCase")]
+#[serde(tag = "is", rename_all = "camelCase")]
 pub enum ClockState {
     /// It does.
     Trusted,
@@ -54,6 +54,21 @@ impl Display for ClockState {
                 "time not trusted: the clock has leapt {ms} ms ahead, and nothing signed is accepted until it is back or has \
                  gone on for a minute"
             ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ClockState;
+
+    /// In a log, other fields stand beside it.
+    #[test]
+    fn it_is_read_beside_the_link_of_its_line() {
+        for state in [ClockState::Trusted, ClockState::Behind { ms: 4_000 }] {
+            let mut fields = serde_json::to_value(state).unwrap();
+            fields["link"] = "8ab20a3e3fff82c4".into();
+            assert_eq!(serde_json::from_value::<ClockState>(fields).unwrap(), state);
         }
     }
 }
