@@ -201,7 +201,7 @@ fn while_the_lock_runs_out_no_further_farewell_prolongs_it() {
     );
     assert_eq!(
         street.hears_ram(ARI, stale).ignored(),
-        Some(Ignored::IdentityLockLimit)
+        Some(Ignored::AnsweringAnother)
     );
     assert_eq!(street[ARI].farewell(), farewell);
     street.pass(1_000);

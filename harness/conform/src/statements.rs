@@ -24,7 +24,7 @@ use crate::bench::Terms;
 use crate::exchange::{Exchange, RamSeen, Seen, session_of};
 
 /// How a statement was broken, if it was.
-type Broken = Option<String>;
+type Breach = Option<String>;
 
 /// When something was seen, if it was.
 type SeenAt = Option<u64>;
@@ -148,7 +148,7 @@ fn afterwards(exchange: &Exchange, at_ms: u64) -> impl Iterator<Item = (u64, &Ra
 
 /// Whether the robot's part was the same in all RAM while nothing else was done after `at_ms`; `None` if there were
 /// too few of them to say.
-fn part_unchanged(exchange: &Exchange, terms: &Terms, at_ms: u64) -> Option<Broken> {
+fn part_unchanged(exchange: &Exchange, terms: &Terms, at_ms: u64) -> Option<Breach> {
     let (_, before) = exchange.state_at(at_ms)?;
     // A requester with an offer leads when its time comes.
     let selects = matches!(before.ram.coordination, Coordination::NeedHelp { .. });

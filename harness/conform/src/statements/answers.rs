@@ -4,7 +4,7 @@ use crossguard_protocol::{
     Answer, Availability, Command, Progress, Rejection, Report, SessionId, TaskSet, Verdict,
 };
 
-use super::{Broken, Met, Statement, afterwards, due, met};
+use super::{Breach, Met, Statement, afterwards, due, met};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, Seen, following, offer_of};
 use crate::subject::Local;
@@ -281,7 +281,7 @@ const fn rank(progress: Progress) -> u8 {
 }
 
 /// Whether the robot starts something anew after `at_ms`; `None` if nothing was heard of it.
-fn starts_anew(exchange: &Exchange, at_ms: u64) -> Option<Broken> {
+fn starts_anew(exchange: &Exchange, at_ms: u64) -> Option<Breach> {
     let (_, before) = exchange.state_at(at_ms)?;
     let (session, last) = following(&before.ram)?;
     let stands = |state: &RamSeen| {

@@ -3,7 +3,7 @@
 use crossguard_protocol::{Answer, Command, Coordination, Farewell, RequestId, StationId};
 
 use super::select::{begun, listed};
-use super::{Broken, Met, Statement, due, met, met_when};
+use super::{Breach, Met, Statement, due, met, met_when};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
 use crate::subject::Local;
@@ -201,7 +201,7 @@ fn given_up(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 }
 
 /// Whether a command goes on after it was answered; only where a repetition would have been due by the end.
-fn goes_on(exchange: &Exchange, terms: &Terms, sent: &Sent, answered_ms: u64) -> Option<Broken> {
+fn goes_on(exchange: &Exchange, terms: &Terms, sent: &Sent, answered_ms: u64) -> Option<Breach> {
     let last = sent
         .times
         .iter()
