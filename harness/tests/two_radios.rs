@@ -92,7 +92,7 @@ fn logs(happens: &str, pace: &str) -> [Vec<Value>; 2] {
     assert_eq!(verdict.status.code(), Some(0), "{}", stdout(&verdict));
     let counts = read("air.txt");
     let counts: Vec<u32> = counts.split(' ').map(|it| it.parse().unwrap()).collect();
-    assert!(counts[0] > 50 && counts[1] > 0, "relayed, lost: {counts:?}");
+    assert!(counts[0] > 20 && counts[1] > 0, "relayed, lost: {counts:?}");
     logs.map(|log| records(&log))
 }
 

@@ -22,7 +22,7 @@ use super::region::Place;
 use super::rejected::Rejected;
 use super::thrift::{Budget, Refused};
 use super::time::Time64;
-use super::trust::{TrustStore, check_validity};
+use super::trust::{TrustStore, Untrusted, check_validity};
 use super::trusted_time::TrustedTime;
 
 /// How many certificates of authorities that were asked for are verified in a second.
@@ -273,7 +273,6 @@ impl Verifier {
 
     fn check_time(&self, now: Time64, message: &SignedMessage) -> Result<(), Rejected> {
         let generated = message.header.generation_time;
-        self.time.check(generated)?;
         let age_us = now.0.saturating_sub(generated.0);
         if age_us > self.tolerances.age_max_us {
             return Err(Rejected::TooOld { age_us });
@@ -284,7 +283,7 @@ impl Verifier {
         }
         match message.header.expiry_time {
             Some(expiry) if expiry <= now => Err(Rejected::MessageExpired),
-            _ => Ok(()),
+            _ => self.time.check(generated),
         }
     }
 
@@ -364,7 +363,8 @@ impl Verifier {
         self.signatures += 1;
         let learnt =
             Certificate::decode(octets).map(|authority| self.trust.learn_authority(authority, now));
-        if !matches!(learnt, Ok(Ok(()))) {
+        // One that there was no room for may be asked for again.
+        if !matches!(learnt, Ok(Ok(()) | Err(Untrusted::TooMany(_)))) {
             self.untrusted.remember(id);
         }
     }
