@@ -8,7 +8,7 @@
 //!
 //! | third octet | then | the holder |
 //! |---|---|---|
-//! | 0 | a station id | goes by this id and by no other; without one, by the first four octets of its `HashedId8` |
+//! | 0 | a station id | goes by this id and by no other; without one, by the first four octets of its `HashedId8`, or of that of its mirror with n - s for s, whichever s is lower |
 //! | 1 | a place | leads and helps at this crossing alone |
 //! | 2 | a station id and a place | both |
 

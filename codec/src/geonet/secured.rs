@@ -51,7 +51,7 @@ impl Secured {
     #[must_use]
     pub fn station_id(&self, its_aid: u32) -> StationId {
         let certificate = self.station.ticket().certificate();
-        station_of(certificate, its_aid).unwrap_or_else(|| Signer(certificate.id().0).station())
+        station_of(certificate, its_aid).unwrap_or_else(|| Signer(certificate.holder().0).station())
     }
 
     /// Takes up the time from before a restart, in microseconds since 2004.
@@ -148,7 +148,7 @@ impl Secured {
 pub fn station_of(ticket: &Certificate, its_aid: u32) -> Option<StationId> {
     let permissions = &ticket.content().permissions;
     let permission = permissions.iter().find(|it| it.its_aid == its_aid)?;
-    Some(permits(&permission.ssp).station(Signer(ticket.id().0)))
+    Some(permits(&permission.ssp).station(Signer(ticket.holder().0)))
 }
 
 /// Where and when a packet says that it was sent. A station that does not know where it is says 0, 0, and that this is

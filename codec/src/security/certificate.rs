@@ -30,6 +30,8 @@ pub enum Issuer {
 pub struct Certificate {
     octets: Box<[u8]>,
     digest: Digest,
+    /// What its mirror is called, in which n - s stands in the place of s.
+    mirror: HashedId8,
     to_be_signed: Digest,
     signature: Signature,
     content: Content,
@@ -96,8 +98,13 @@ impl Certificate {
             let field = "certificate";
             return Err(Malformed::TooMany { field }.into());
         }
+        let mirror = [
+            &octets[..octets.len() - SIGNATURE_LEN],
+            &signature.mirrored().octets()[..],
+        ];
         Ok(Self {
             digest: crypto::sha256(octets),
+            mirror: HashedId8::of(&crypto::sha256(&mirror.concat())),
             to_be_signed: crypto::sha256(to_be_signed),
             octets: octets.into(),
             signature,
@@ -122,6 +129,24 @@ impl Certificate {
     #[must_use]
     pub const fn id(&self) -> HashedId8 {
         HashedId8::of(&self.digest)
+    }
+
+    /// Under what its holder goes: what the certificate is called, or its mirror, whichever has the lower s.
+    ///
+    /// Whoever holds a certificate can put n - s in the place of s in its signature: it says the same, is signed, and is
+    /// called otherwise. Both have one holder.
+    #[must_use]
+    pub fn holder(&self) -> HashedId8 {
+        if self.signature.low() == self.signature {
+            self.id()
+        } else {
+            self.mirror
+        }
+    }
+
+    /// What it and its mirror are called.
+    pub(super) const fn ids(&self) -> [HashedId8; 2] {
+        [self.id(), self.mirror]
     }
 
     pub(super) const fn digest(&self) -> &Digest {

@@ -217,6 +217,17 @@ impl Signature {
         ))
     }
 
+    /// The other signature that is right wherever this one is: with n - s in the place of s.
+    pub(super) fn mirrored(&self) -> Self {
+        let (r, s) = self.0.split_scalars();
+        ecdsa::Signature::from_scalars(r.to_bytes(), (-*s).to_bytes()).map_or(*self, Self)
+    }
+
+    /// This one or its mirror, whichever has the lower s.
+    pub(super) fn low(&self) -> Self {
+        Self(self.0.normalize_s())
+    }
+
     /// The octets of a `Signature`.
     pub(super) fn octets(&self) -> [u8; SIGNATURE_LEN] {
         let mut octets = [0; SIGNATURE_LEN];

@@ -82,7 +82,7 @@ impl TrustStore {
     ) -> Result<(), Untrusted> {
         self.learned
             .retain(|known| now < known.content().validity.until());
-        if self.is_revoked(authority.id()) {
+        if self.is_revoked(&authority) {
             return Err(Rejected::Revoked(authority.id()).into());
         }
         check_validity_in_time(&authority, now)?;
@@ -93,7 +93,7 @@ impl TrustStore {
     /// Certificates that are not to be trusted any more, instead of those that were: tickets, authorities or roots.
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
         self.learned
-            .retain(|authority| !revoked.contains(&authority.id()));
+            .retain(|authority| !authority.ids().iter().any(|id| revoked.contains(id)));
         self.revoked = revoked;
     }
 
@@ -103,10 +103,10 @@ impl TrustStore {
         &self.revoked
     }
 
-    /// Whether a certificate is not to be trusted any more.
+    /// Whether a certificate, or its mirror with the other s, is not to be trusted any more.
     #[must_use]
-    pub fn is_revoked(&self, id: HashedId8) -> bool {
-        self.revoked.contains(&id)
+    pub fn is_revoked(&self, certificate: &Certificate) -> bool {
+        certificate.ids().iter().any(|id| self.revoked.contains(id))
     }
 
     /// Whether a trusted root vouches for an authority.
@@ -151,7 +151,7 @@ impl TrustStore {
         let authority = find(self.authorities(), ticket.content().issuer)?;
         let root = find(&self.roots, authority.content().issuer)?;
         let above = [authority, root];
-        match above.iter().find(|it| self.is_revoked(it.id())) {
+        match above.iter().find(|it| self.is_revoked(it)) {
             Some(revoked) => Err(Rejected::Revoked(revoked.id())),
             None => Ok(above),
         }

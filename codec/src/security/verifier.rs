@@ -95,7 +95,7 @@ pub struct Verifier {
 /// A message that can be relied on.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Verified {
-    /// The ticket of its signer.
+    /// The ticket of its signer: [`Certificate::holder`].
     pub signer: HashedId8,
     /// What the ticket permits within the service.
     pub ssp: Ssp,
@@ -226,7 +226,7 @@ impl Verifier {
             return Err(Rejected::OwnTicket);
         }
         let now = self.time.read(now)?;
-        if self.trust.is_revoked(id) {
+        if self.trust.revoked().contains(&id) {
             return Err(Rejected::Revoked(id));
         }
         self.check_time(now, message)?;
@@ -241,6 +241,9 @@ impl Verifier {
                 return Err(Rejected::UnknownSigner(*id));
             }
         };
+        if self.trust.is_revoked(&ticket) {
+            return Err(Rejected::Revoked(id));
+        }
         let ssp = self.check_ticket(now, place, message, &ticket)?;
         let generated = message.header.generation_time;
         self.cache.check(id, generated, message.to_be_signed())?;
@@ -265,7 +268,7 @@ impl Verifier {
             self.vouched.retain(|vouched| vouched.id() != id);
         }
         Ok(Verified {
-            signer: id,
+            signer: ticket.holder(),
             ssp,
             is_new,
         })

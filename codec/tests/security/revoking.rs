@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use crossguard_codec::security::{
-    AUTHORITIES_MAX, Duration, HashedId8, Rejected, Station, Time64, Tolerances, TrustStore,
-    issue::Terms,
+    AUTHORITIES_MAX, Duration, HashedId8, Rejected, Station, Ticket, Time64, Tolerances,
+    TrustStore, issue::Terms,
 };
 
 use crate::pki::{
-    NOW, NOW_S, PAYLOAD, Pki, RAM, after_ms, authority_terms, hear, root_terms, ticket_terms,
-    validity,
+    NOW, NOW_S, PAYLOAD, Pki, RAM, after_ms, authority_terms, hear, key, mirrored, root_terms,
+    ticket_terms, validity,
 };
 
 fn revoked(ids: &[HashedId8]) -> BTreeSet<HashedId8> {
@@ -45,6 +45,43 @@ fn what_is_revoked_is_rejected_from_then_on_and_all_that_is_below_it() {
     receiver.set_revoked(BTreeSet::new());
     let message = said(&mut sender, 300);
     assert!(hear(&mut receiver, after_ms(310), &message).is_ok());
+}
+
+/// Hazard: who holds a revoked ticket gives it another digest, by the other signature that is right as well.
+#[test]
+fn a_revoked_ticket_stays_revoked_under_its_other_digest() {
+    let pki = Pki::new(1);
+    let certificate = pki.ticket(10, &ticket_terms()).certificate().clone();
+    let mirror = mirrored(&certificate);
+    assert_ne!(certificate.id(), mirror.id());
+    assert_eq!(certificate.holder(), mirror.holder());
+    let tickets = vec![Ticket::new(mirror.clone(), key(10)).unwrap()];
+    let tolerances = Tolerances::default;
+    let mut thief = Station::new(pki.trust(), tickets, tolerances(), NOW).unwrap();
+    let mut receiver = pki.station(11);
+    let message = thief.seal(NOW, RAM, PAYLOAD).unwrap();
+    let heard = hear(&mut receiver, NOW, &message).expect("it is as good as the other");
+    assert_eq!(heard.signer, certificate.holder());
+    for listed in [certificate.id(), mirror.id()] {
+        for mut receiver in [pki.station(11), receiver.clone()] {
+            receiver.set_revoked(revoked(&[listed]));
+            let message = thief.seal(after_ms(100), RAM, PAYLOAD).unwrap();
+            let rejected = hear(&mut receiver, after_ms(100), &message);
+            // A receiver that has never heard of it may know the digest alone.
+            assert!(
+                matches!(
+                    rejected,
+                    Err(Rejected::Revoked(_) | Rejected::UnknownSigner(_))
+                ),
+                "{rejected:?}"
+            );
+        }
+    }
+    let mut newcomer = pki.station(12);
+    newcomer.set_revoked(revoked(&[certificate.id()]));
+    let message = thief.seal(after_ms(1_100), RAM, PAYLOAD).unwrap();
+    let rejected = hear(&mut newcomer, after_ms(1_100), &message);
+    assert_eq!(rejected, Err(Rejected::Revoked(mirror.id())));
 }
 
 /// A receiver that knows only the root, and learns authorities from messages.

@@ -7,14 +7,14 @@
 use std::collections::BTreeMap;
 
 use crossguard_codec::geonet::{Address, EgoPosition, Stack};
-use crossguard_codec::security::{Permission, Ticket, Time64};
+use crossguard_codec::security::{Certificate, Permission, Ticket, Time64};
 use crossguard_codec::{
     Identifiers, Part, Position, RobotState, Service, encode, golden, ram_from,
 };
 use crossguard_endpoint::station::{Credentials, Mode, NAMES_MAX, Security};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Availability, Config, Event, Lease, Phase, Place, Robot, StationId};
-use crossguard_robot::pki::{self, Pki, Term};
+use crossguard_robot::pki::{self, Holder, Pki, Term};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::Site;
 
@@ -92,6 +92,25 @@ impl Liar {
         cam[2..6].copy_from_slice(&station.0.to_be_bytes());
         self.say(now_ms, Service::Cam, station, &cam)
     }
+}
+
+/// The order of NIST P-256.
+const ORDER: [u8; 32] = [
+    0xff, 0xff, 0xff, 0xff, 0, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xbc, 0xe6,
+    0xfa, 0xad, 0xa7, 0x17, 0x9e, 0x84, 0xf3, 0xb9, 0xca, 0xc2, 0xfc, 0x63, 0x25, 0x51,
+];
+
+/// The certificate with n - s in the place of s in its signature: it is signed as well, and has another digest.
+fn mirrored(certificate: &Certificate) -> Certificate {
+    let mut octets = certificate.octets().to_vec();
+    let at = octets.len() - ORDER.len();
+    let mut borrow = 0;
+    for (digit, of_order) in octets[at..].iter_mut().zip(ORDER).rev() {
+        let difference = i16::from(of_order) - i16::from(*digit) - borrow;
+        borrow = i16::from(difference < 0);
+        *digit = u8::try_from(difference.rem_euclid(256)).unwrap();
+    }
+    Certificate::decode(&octets).unwrap()
 }
 
 /// A leader and a follower within reach of each other; what each drops.
@@ -285,6 +304,36 @@ fn one_ticket_is_one_robot() {
     }
     assert_eq!(street.heard(0, LIAR), 2);
     assert_eq!(street.dropped(0, TAKEN), 2);
+}
+
+/// Hazard: who holds a ticket gives it another digest, and speaks as two robots.
+#[test]
+fn a_ticket_and_its_mirror_are_one_robot() {
+    let mut street = Street::new(&[LEADER]);
+    let permissions = pki::robot_permissions(&identifiers(), &[Part::Help], None);
+    let term = Term {
+        from: epoch(),
+        duration: crossguard_codec::security::Duration::hours(1),
+    };
+    let Holder { certificate, key } =
+        pki::new_ticket(&street.pki.authority, term, None, permissions).unwrap();
+    let mirror = mirrored(&certificate);
+    let first_four = |it: &Certificate| it.id().0[..4].try_into().map(u32::from_be_bytes).unwrap();
+    let ids = [first_four(&certificate), first_four(&mirror)].map(StationId);
+    let mut packets = |certificate, id| {
+        let mut stack = Stack::of_robot(identifiers(), LIAR);
+        let ticket = Ticket::new(certificate, key.clone()).unwrap();
+        *stack.envelope_mut() = security(&street.pki, ticket).envelope;
+        let packet = Liar(stack).ram(street.now_ms, &Robot::new(id, 1));
+        street.hear(0, &packet);
+        street.pass(10, &mut |_| {});
+    };
+    packets(certificate, ids[0]);
+    packets(mirror.clone(), ids[1]);
+    packets(mirror, ids[0]);
+    assert_eq!(street.heard(0, ids[0]), 2);
+    assert_eq!(street.heard(0, ids[1]), 0, "no second robot");
+    assert_eq!(street.dropped(0, TAKEN), 1);
 }
 
 #[test]
