@@ -11,8 +11,8 @@
 //!                 └── what a security envelope covers, and stands around
 //! ```
 //!
-//! - [`Headers::decode`] accepts exactly what [`Headers::encode`] gives: reserved bits are zero, and
-//!   the payload length is that of what follows. All integers are big-endian.
+//! - [`Headers::decode`] accepts what [`Headers::encode`] gives, whatever the reserved bits are: they are sent as zero and
+//!   ignored. The payload length is that of what follows. All integers are big-endian.
 //! - [`Stack`] makes whole packets of messages and messages of packets, without input and output. It
 //!   is an end point: it forwards nothing.
 //! - [`ethernet`] frames a packet for a link that is no UDP socket.

@@ -492,3 +492,16 @@ fn the_identifiers_on_the_its_page_can_be_configured() {
     assert_eq!(read(table).unwrap().identifiers.ram.message_id, 250);
     assert!(read(&table.replace("250", "16")).is_err());
 }
+
+/// Whatever a signed packet can be refused for is in the table that says where it is checked.
+#[test]
+fn each_cause_of_a_rejection_is_on_the_page_of_security() {
+    let (_, source) = read("codec/src/security/rejected.rs");
+    let (_, page) = read("codec/doc/security.md");
+    let named = source.lines().filter_map(|line| line.split_once("=> \""));
+    let causes = named.filter_map(|(_, rest)| rest.strip_suffix("\","));
+    let missing: Vec<_> = causes
+        .filter(|cause| *cause != "not secured" && !page.contains(&format!("`{cause}`")))
+        .collect();
+    assert_eq!(missing, Vec::<&str>::new());
+}

@@ -88,7 +88,7 @@ impl Repository {
             .unwrap_or_default();
         let is_id = |id: &&str| {
             let number = id.get(1..).and_then(|number| number.parse::<u8>().ok());
-            id.starts_with(['I', 'L', 'W']) && number.is_some()
+            id.starts_with(['I', 'L', 'W', 'C']) && number.is_some()
         };
         let rows = page.lines().filter_map(|line| line.strip_prefix("| "));
         let ids = rows.filter_map(|row| row.split(" | ").next()).filter(is_id);
