@@ -51,6 +51,27 @@ fn the_results_have_the_papers_times_for_each_maneuver() {
     assert_eq!(of_paper(&maneuvers[1]), (Some(0.129), Some(21.729)));
 }
 
+/// On cores that are busy a thread may wake up late, so one crossing of several is enough.
+#[test]
+fn on_sockets_t_neg_is_the_delay_that_was_put_in_to_a_millisecond() {
+    const DELAY_S: f64 = 0.074;
+    let beyond_s = || {
+        let result = json(&demo(&["--json", "--faults", "delay=74..74"]));
+        assert_all_well(&result);
+        let maneuvers = result["maneuvers"].as_array().unwrap().clone();
+        assert_eq!(maneuvers.len(), 2);
+        let means = maneuvers
+            .into_iter()
+            .map(|it| it["t_neg_s"]["mean"].as_f64());
+        means
+            .map(|mean| mean.unwrap() - DELAY_S)
+            .fold(f64::MIN, f64::max)
+    };
+    let all: Vec<f64> = (0..5).map(|_| beyond_s()).collect();
+    let best = all.iter().copied().fold(f64::MAX, f64::min);
+    assert!((0.0..0.001).contains(&best), "{all:?}");
+}
+
 #[test]
 fn a_person_sees_the_chart_the_table_and_the_verdict_on_the_log() {
     let output = demo(&[]);

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::coer::OerReader;
 
-use super::crypto::{self, Digest, PublicKey, Signature, Verifying};
+use super::crypto::{self, Digest, PublicKey, SIGNATURE_LEN, Signature, Verifying};
 use super::hashed_id::HashedId8;
 use super::permissions::{IssuePermission, Permission, Ssp, SspRange, Subjects};
 use super::region::{Place, Region};

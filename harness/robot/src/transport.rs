@@ -20,6 +20,7 @@ mod framing;
 mod layer;
 mod link;
 mod memory;
+mod readiness;
 mod reopening;
 mod stamps;
 mod udp;

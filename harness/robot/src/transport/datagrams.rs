@@ -7,6 +7,7 @@ use nix::errno::Errno;
 use nix::sys::socket::{MsgFlags, SockaddrStorage};
 
 use super::attention::Attention;
+use super::readiness::wait_for;
 use super::stamps::{Stamped, Stamps};
 use super::{DATAGRAM_MAX, Source};
 
@@ -15,10 +16,6 @@ use super::{DATAGRAM_MAX, Source};
 pub(super) struct Datagrams {
     socket: UdpSocket,
     buffer: Box<[u8; DATAGRAM_MAX]>,
-    /// For how long the socket waits.
-    wait: Duration,
-    /// Whether it waits at all.
-    waits: bool,
     attention: Attention,
     stamps: Stamps,
 }
@@ -30,8 +27,6 @@ impl Datagrams {
             stamps: Stamps::of(&socket),
             socket,
             buffer: Box::new([0; DATAGRAM_MAX]),
-            wait: Duration::ZERO,
-            waits: true,
             attention: Attention::new(Instant::now()),
         }
     }
@@ -44,21 +39,11 @@ impl Datagrams {
         &mut self,
         at_most: Duration,
     ) -> std::io::Result<Option<(Source, &[u8], Instant)>> {
-        // Zero would stand for no limit.
-        let wait = at_most.max(Duration::from_micros(1));
-        if wait != self.wait {
-            self.socket.set_read_timeout(Some(wait))?;
-            self.wait = wait;
-        }
-        let may_wait = self.attention.may_wait(wait);
-        let waits = may_wait > Duration::ZERO;
-        if waits != self.waits {
-            self.socket.set_nonblocking(!waits)?;
-            self.waits = waits;
-        }
+        let may_wait = self.attention.may_wait(at_most);
         let called = Instant::now();
-        let (socket, flags) = (&self.socket, MsgFlags::empty());
-        let received = self.stamps.receive(socket, &mut *self.buffer, flags);
+        let (socket, flags) = (&self.socket, MsgFlags::MSG_DONTWAIT);
+        let ready = wait_for(socket, may_wait);
+        let received = ready.and_then(|()| self.stamps.receive(socket, &mut *self.buffer, flags));
         let now = Instant::now();
         match received {
             Ok(Stamped { length, from, age }) => {

@@ -13,12 +13,11 @@ use crossguard_endpoint::station::listen::link_layer_of;
 use nix::errno::Errno;
 use nix::ifaddrs::getifaddrs;
 use nix::sys::socket::{
-    AddressFamily, LinkAddr, MsgFlags, SockFlag, SockProtocol, SockType, bind, send, setsockopt,
-    socket, sockopt::ReceiveTimeout,
+    AddressFamily, LinkAddr, MsgFlags, SockFlag, SockProtocol, SockType, bind, send, socket,
 };
-use nix::sys::time::TimeVal;
 
 use super::attention::Attention;
+use super::readiness::wait_for;
 use super::stamps::{Stamped, Stamps};
 use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
@@ -44,7 +43,6 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
         stamps: Stamps::of(&*socket),
         socket: Arc::clone(&socket),
         buffer: Box::new([0; DATAGRAM_MAX]),
-        wait: Duration::ZERO,
         attention: Attention::new(Instant::now()),
     };
     Ok(Halves {
@@ -97,29 +95,17 @@ impl Sender for EthernetSender {
 struct EthernetReceiver {
     socket: Arc<OwnedFd>,
     buffer: Box<[u8; DATAGRAM_MAX]>,
-    /// For how long the socket waits.
-    wait: Duration,
     attention: Attention,
     stamps: Stamps,
 }
 
 impl Receiver for EthernetReceiver {
     fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
-        // Zero would stand for no limit.
-        let wait = at_most.max(Duration::from_micros(1));
-        if wait != self.wait {
-            let (seconds, micros) = (wait.as_secs(), wait.subsec_micros());
-            let time = TimeVal::new(i64::try_from(seconds).unwrap_or(i64::MAX), micros.into());
-            setsockopt(&*self.socket, ReceiveTimeout, &time)?;
-            self.wait = wait;
-        }
-        let may_wait = self.attention.may_wait(wait);
-        let flags = match may_wait {
-            Duration::ZERO => MsgFlags::MSG_DONTWAIT,
-            _ => MsgFlags::empty(),
-        };
+        let may_wait = self.attention.may_wait(at_most);
         let called = Instant::now();
-        let received = self.stamps.receive(&*self.socket, &mut *self.buffer, flags);
+        let (socket, flags) = (&*self.socket, MsgFlags::MSG_DONTWAIT);
+        let ready = wait_for(socket, may_wait);
+        let received = ready.and_then(|()| self.stamps.receive(socket, &mut *self.buffer, flags));
         let now = Instant::now();
         let Stamped { length, age, .. } = match received {
             Ok(stamped) => stamped,

@@ -205,7 +205,7 @@ pub enum FaultsError {
     /// There is no such fault.
     #[error(
         "no fault '{0}'; there are loss=P, burst=PxLENGTH, duplication=P, reordering=P, \
-         delay=MIN..MAX or delay=MIN..MAX~MEAN, and outage=FROM..UNTIL, in ms"
+         delay=MIN..MAX or delay=MIN..MAX~MEAN (the mean above MIN), and outage=FROM..UNTIL, in ms"
     )]
     Unknown(String),
     /// The value means nothing.
