@@ -5,7 +5,7 @@ use crossguard_protocol::{Place, StationId};
 use super::Headers;
 use crate::service::Service;
 
-/// Who vouches for a packet: the digest of its certificate (`HashedId8`).
+/// Who vouches for a packet: the digest of its certificate (`HashedId8`), or of its mirror, so that both are one.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Signer(pub [u8; 8]);
 

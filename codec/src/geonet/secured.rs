@@ -108,7 +108,7 @@ impl Secured {
             rejected => EnvelopeError::from(rejected).into(),
         })?;
         let opened = Opened {
-            signer: Signer(verified.signer.0),
+            signer: Signer(verified.holder.0),
             permits: permits(&verified.ssp),
         };
         Ok((admitted, opened))

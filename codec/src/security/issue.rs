@@ -110,9 +110,7 @@ pub fn certificate(
     let to_be_signed = to_be_signed(holder, terms)?;
     let octets = rasn::coer::encode(&to_be_signed).map_err(inexpressible)?;
     let above = (!issuer_octets.is_empty()).then(|| crypto::sha256(issuer_octets));
-    let signature = issuer_key
-        .sign(&crypto::to_be_signed(&octets, above.as_ref()))?
-        .low();
+    let signature = issuer_key.sign(&crypto::to_be_signed(&octets, above.as_ref()))?;
     let whole = dot2::CertificateBase {
         version: dot2::CertificateBase::VERSION,
         r#type: dot2::CertificateType::Explicit,

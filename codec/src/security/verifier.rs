@@ -95,8 +95,10 @@ pub struct Verifier {
 /// A message that can be relied on.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Verified {
-    /// The ticket of its signer: [`Certificate::holder`].
+    /// The ticket of its signer.
     pub signer: HashedId8,
+    /// Under what the signer goes: [`Certificate::holder`].
+    pub holder: HashedId8,
     /// What the ticket permits within the service.
     pub ssp: Ssp,
     /// Whether the ticket was heard of for the first time.
@@ -268,7 +270,8 @@ impl Verifier {
             self.vouched.retain(|vouched| vouched.id() != id);
         }
         Ok(Verified {
-            signer: ticket.holder(),
+            signer: id,
+            holder: ticket.holder(),
             ssp,
             is_new,
         })

@@ -61,7 +61,8 @@ fn a_revoked_ticket_stays_revoked_under_its_other_digest() {
     let mut receiver = pki.station(11);
     let message = thief.seal(NOW, RAM, PAYLOAD).unwrap();
     let heard = hear(&mut receiver, NOW, &message).expect("it is as good as the other");
-    assert_eq!(heard.signer, certificate.holder());
+    assert_eq!(heard.signer, mirror.id());
+    assert_eq!(heard.holder, certificate.holder());
     for listed in [certificate.id(), mirror.id()] {
         for mut receiver in [pki.station(11), receiver.clone()] {
             receiver.set_revoked(revoked(&[listed]));
