@@ -153,7 +153,9 @@ def assert_holds(arm: type[_wire.Variant], held: Any) -> None:
     elif form == "NEWTYPE":
         assert len(dataclasses.fields(arm)) - len(required) <= 1  # type: ignore[arg-type]
     elif form == "TUPLE":
-        assert positional and len(required) == len(inner)
+        # What may be missing may be left out.
+        optional = sum("OPTION" in element for element in inner)
+        assert positional and len(inner) - optional <= len(required) <= len(inner)
     else:
         assert form == "STRUCT" and not positional
         assert field_names(arm) == [only(field) for field in inner]
