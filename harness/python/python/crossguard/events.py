@@ -93,8 +93,8 @@ class IdentityChanged(Positional):
 
     station: int
     next: UniqueNumber | None = None
-    """Where the numbers of its sessions and offers begin anew, never given out before under this station id; `None`
-    to go on counting, which tells that both pseudonyms are one robot."""
+    """Where the numbers of its sessions and offers begin anew, never given out before under this station
+    id; `None` to go on counting, which tells that both pseudonyms are one robot."""
 
 
 @dataclass(frozen=True, slots=True)
