@@ -188,13 +188,66 @@ fn an_explorer_and_a_listener_end_well_when_they_are_told_to() {
         &["explore", "pair", "--address", "127.0.0.1:0"][..],
         &["sniff", "--address", "127.0.0.1:0"],
     ] {
-        let output = cut_short(arguments, Duration::from_secs(1), "-TERM");
-        assert_eq!(
-            output.status.code(),
-            Some(0),
-            "{arguments:?}: {}",
-            stderr(&output)
+        for name in ["-INT", "-TERM"] {
+            let output = cut_short(arguments, Duration::from_secs(1), name);
+            let said = stderr(&output);
+            assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_conformance_test_that_is_told_to_stop_reports_the_cases_so_far() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["-INT", "-TERM"] {
+        let port = two_free_ports();
+        let config = robot_file(folder.path(), "Go2", 2, port, port + 1);
+        let robot = format!(
+            "'{}' run --config '{config}'",
+            env!("CARGO_BIN_EXE_crossguard")
         );
+        let junit = path(&folder, "junit.xml");
+        let arguments = ["conform", "--config", &config, "--start", &robot, "--typed"];
+        let arguments = [&arguments[..], &["--json", "--junit", &junit]].concat();
+        let output = cut_short(&arguments, Duration::from_secs(5), name);
+        assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+        let report = json(&output);
+        let count = |key: &str| report[key].as_u64().unwrap();
+        assert!(count("played") < count("cases"), "{report}");
+        let suites = std::fs::read_to_string(&junit).unwrap();
+        assert!(suites.contains("</testsuites>"), "{suites}");
+    }
+}
+
+#[test]
+fn a_file_on_a_full_disk_is_named_by_each_command_that_writes_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = path(&folder, "log.jsonl");
+    let port = two_free_ports().to_string();
+    let demo = run(&[
+        "demo", "--speed", "50", "--port", &port, "--log", &log, "--quiet",
+    ]);
+    assert_eq!(demo.status.code(), Some(0), "{}", stderr(&demo));
+    for arguments in [
+        &["check", "crossing", "--junit", "/dev/full"][..],
+        &[
+            "fuzz",
+            "--seeds",
+            "1",
+            "--robots",
+            "2",
+            "--junit",
+            "/dev/full",
+        ],
+        &["report", &log, "--output", "/dev/full"],
+        &["export", &log, "--mcap", "/dev/full"],
+        &["sniff", "--address", "127.0.0.1:0", "--pcap", "/dev/full"],
+    ] {
+        let output = run(arguments);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        let expected = "/dev/full: No space left on device";
+        assert!(said.contains(expected), "{arguments:?}: {said}");
     }
 }
 
@@ -249,6 +302,8 @@ fn a_full_standard_output_is_named() {
         &["check", "paper-literal"],
         &["fuzz", "--seeds", "1", "--robots", "2"],
         &["simulate", "obs", "--pedestrians", "20", "--seeds", "1"],
+        &["bounds"],
+        &["conform", "--list"],
     ] {
         let output = to_a_full_disk(arguments);
         let said = stderr(&output);

@@ -91,6 +91,9 @@ pub enum Stopped {
     /// Something could not be brought about at the robot.
     #[error(transparent)]
     NotTold(#[from] NotTold),
+    /// The robot ended, as a program does that is there for one crossing. Nothing is asked of it from then on.
+    #[error("the robot has ended by itself")]
+    Ended,
 }
 
 /// The tester's side of a case: who plays, under which signatures, and how often it has booted.
@@ -128,7 +131,13 @@ pub fn play<S: Subject>(subject: &mut S, table: &Table, plays: &[Play]) -> Resul
     }
     let (mut done, mut stopped) = (0, None);
     for (i, play) in plays.iter().enumerate() {
-        let performed = bench.perform(*play, i + 1 == plays.len())?;
+        let performed = match bench.perform(*play, i + 1 == plays.len()) {
+            Err(Gone::Ended) => {
+                stopped = Some(Stopped::Ended);
+                break;
+            }
+            performed => performed?,
+        };
         if let Some(why) = bench.not_told.take() {
             stopped = Some(why.into());
             break;

@@ -67,6 +67,12 @@ impl Live {
         }
     }
 
+    /// Whether the process that was started here has ended.
+    fn has_ended(&mut self) -> bool {
+        let child = self.child.as_mut();
+        child.is_some_and(|child| matches!(child.try_wait(), Ok(Some(_))))
+    }
+
     fn type_line(&mut self, line: &str) -> Result<(), String> {
         let child = self.child.as_mut();
         let input = child.and_then(|child| child.stdin.as_mut());
@@ -141,6 +147,7 @@ impl Subject for Live {
                     let at_ms = u64::try_from(at_ms).unwrap_or(u64::MAX);
                     return Ok(Some(Packet { at_ms, octets }));
                 }
+                _ if self.has_ended() => return Err(Gone::Ended),
                 _ if self.now_ms() >= until_ms => return Ok(None),
                 _ => {}
             }

@@ -93,6 +93,9 @@ pub enum Gone {
     /// The robot under test cannot be started, or has ended at once.
     #[error("the robot under test: {0}")]
     Robot(String),
+    /// The robot under test, which was started here, has ended by itself.
+    #[error("the robot under test has ended by itself")]
+    Ended,
     /// The tester was told to stop.
     #[error("stopped")]
     Stopped,

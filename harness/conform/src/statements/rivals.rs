@@ -166,6 +166,15 @@ fn insists(exchange: &Exchange, terms: &Terms, it: &Rivalry) -> Option<Met> {
         .rams()
         .filter(|(at, _)| (it.first_ms..until_ms).contains(at));
     let gives_up = after.find(|(_, state)| gives_up(state, it.own.session));
+    // A leader whose only follower acknowledges nothing ends its session for that.
+    let is_acknowledged = |request| {
+        let mut answers = exchange.played_answers();
+        answers.any(|(_, it)| it.request == request)
+    };
+    let mut commands = exchange.commands();
+    if gives_up.is_some() && commands.any(|(_, command)| !is_acknowledged(command.request)) {
+        return None;
+    }
     let broken = gives_up.map(|(at, _)| format!("it gives way {} ms later", at - it.first_ms));
     Some(met_when(it.first_ms, words(it), broken))
 }
