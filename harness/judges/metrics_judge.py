@@ -17,6 +17,7 @@ def main():
         "crossguard_followers": "gauge",
         "crossguard_corridor_open": "gauge",
         "crossguard_on_duty": "gauge",
+        "crossguard_link_info": "gauge",
         "crossguard_steps": "counter",
         "crossguard_messages": "counter",
         "crossguard_stations_heard": "gauge",
