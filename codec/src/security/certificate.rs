@@ -1,5 +1,6 @@
 //! Certificates (IEEE 1609.2, clause 6.4; TS 103 097, clauses 6 and 7.2).
 
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use super::coer::OerReader;
@@ -30,26 +31,33 @@ pub enum Issuer {
 pub struct Certificate {
     octets: Box<[u8]>,
     digest: Digest,
-    /// What its mirror is called, in which n - s stands in the place of s.
-    mirror: HashedId8,
     to_be_signed: Digest,
     signature: Signature,
     content: Content,
-    point: Point,
+    /// The point of its key; `None` in it, if there is no such point on the curve.
+    point: Derived<Option<Verifying>>,
+    /// What its mirror is called, in which n - s stands in the place of s.
+    mirror: Derived<HashedId8>,
 }
 
-/// The point of a certificate's key, once it was needed; `None` in it, if there is no such point on the curve.
-#[derive(Clone, Debug, Default)]
-struct Point(OnceLock<Option<Verifying>>);
+/// What follows from the octets of a certificate, once it was needed.
+#[derive(Clone, Debug)]
+struct Derived<T>(OnceLock<T>);
 
-impl PartialEq for Point {
-    /// It follows from the key.
+impl<T> Default for Derived<T> {
+    fn default() -> Self {
+        Self(OnceLock::new())
+    }
+}
+
+impl<T> PartialEq for Derived<T> {
+    /// Whether it was needed makes no difference.
     fn eq(&self, _: &Self) -> bool {
         true
     }
 }
 
-impl Eq for Point {}
+impl<T> Eq for Derived<T> {}
 
 /// What a certificate says.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -98,18 +106,14 @@ impl Certificate {
             let field = "certificate";
             return Err(Malformed::TooMany { field }.into());
         }
-        let mirror = [
-            &octets[..octets.len() - SIGNATURE_LEN],
-            &signature.mirrored().octets()[..],
-        ];
         Ok(Self {
             digest: crypto::sha256(octets),
-            mirror: HashedId8::of(&crypto::sha256(&mirror.concat())),
             to_be_signed: crypto::sha256(to_be_signed),
             octets: octets.into(),
             signature,
             content,
-            point: Point::default(),
+            point: Derived::default(),
+            mirror: Derived::default(),
         })
     }
 
@@ -131,22 +135,31 @@ impl Certificate {
         HashedId8::of(&self.digest)
     }
 
-    /// Under what its holder goes: what the certificate is called, or its mirror, whichever has the lower s.
+    /// The name of its holder: the id of the certificate or of its mirror, whichever has the lower s.
     ///
-    /// Whoever holds a certificate can put n - s in the place of s in its signature: it says the same, is signed, and is
-    /// called otherwise. Both have one holder.
+    /// A holder can put n - s in the place of s in the signature. The mirror is as valid as the certificate and has
+    /// another id, so the id does not tell two holders apart.
     #[must_use]
     pub fn holder(&self) -> HashedId8 {
         if self.signature.low() == self.signature {
             self.id()
         } else {
-            self.mirror
+            self.mirror()
         }
     }
 
-    /// What it and its mirror are called.
-    pub(super) const fn ids(&self) -> [HashedId8; 2] {
-        [self.id(), self.mirror]
+    /// Whether the certificate or its mirror is among these.
+    #[must_use]
+    pub fn is_among(&self, ids: &BTreeSet<HashedId8>) -> bool {
+        !ids.is_empty() && (ids.contains(&self.id()) || ids.contains(&self.mirror()))
+    }
+
+    fn mirror(&self) -> HashedId8 {
+        *self.mirror.0.get_or_init(|| {
+            let signed = &self.octets[..self.octets.len() - SIGNATURE_LEN];
+            let signature = self.signature.mirrored().octets();
+            HashedId8::of(&crypto::sha256(&[signed, &signature].concat()))
+        })
     }
 
     pub(super) const fn digest(&self) -> &Digest {

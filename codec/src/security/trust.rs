@@ -93,7 +93,7 @@ impl TrustStore {
     /// Certificates that are not to be trusted any more, instead of those that were: tickets, authorities or roots.
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
         self.learned
-            .retain(|authority| !authority.ids().iter().any(|id| revoked.contains(id)));
+            .retain(|authority| !authority.is_among(&revoked));
         self.revoked = revoked;
     }
 
@@ -106,7 +106,7 @@ impl TrustStore {
     /// Whether a certificate, or its mirror with the other s, is not to be trusted any more.
     #[must_use]
     pub fn is_revoked(&self, certificate: &Certificate) -> bool {
-        certificate.ids().iter().any(|id| self.revoked.contains(id))
+        certificate.is_among(&self.revoked)
     }
 
     /// Whether a trusted root vouches for an authority.

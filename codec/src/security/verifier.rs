@@ -228,6 +228,7 @@ impl Verifier {
             return Err(Rejected::OwnTicket);
         }
         let now = self.time.read(now)?;
+        // Before its certificate is known: it need not be asked for.
         if self.trust.revoked().contains(&id) {
             return Err(Rejected::Revoked(id));
         }

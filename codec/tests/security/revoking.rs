@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crossguard_codec::security::{
-    AUTHORITIES_MAX, Duration, HashedId8, Rejected, Station, Ticket, Time64, Tolerances,
-    TrustStore, issue::Terms,
+    AUTHORITIES_MAX, Certificate, Duration, HashedId8, Rejected, Station, Ticket, Time64,
+    Tolerances, TrustStore, issue::Terms,
 };
 
 use crate::pki::{
@@ -54,30 +54,28 @@ fn a_revoked_ticket_stays_revoked_under_its_other_digest() {
     let certificate = pki.ticket(10, &ticket_terms()).certificate().clone();
     let mirror = mirrored(&certificate);
     assert_ne!(certificate.id(), mirror.id());
-    assert_eq!(certificate.holder(), mirror.holder());
+    // The lower s says under what both go: the last number in a certificate.
+    let s_of = |it: &Certificate| it.octets()[it.octets().len() - 32..].to_vec();
+    let lower = [&certificate, &mirror]
+        .into_iter()
+        .min_by_key(|it| s_of(it));
+    let holder = lower.unwrap().id();
+    assert_eq!(certificate.holder(), holder);
+    assert_eq!(mirror.holder(), holder);
     let tickets = vec![Ticket::new(mirror.clone(), key(10)).unwrap()];
-    let tolerances = Tolerances::default;
-    let mut thief = Station::new(pki.trust(), tickets, tolerances(), NOW).unwrap();
+    let mut thief = Station::new(pki.trust(), tickets, Tolerances::default(), NOW).unwrap();
     let mut receiver = pki.station(11);
     let message = thief.seal(NOW, RAM, PAYLOAD).unwrap();
     let heard = hear(&mut receiver, NOW, &message).expect("it is as good as the other");
     assert_eq!(heard.signer, mirror.id());
-    assert_eq!(heard.holder, certificate.holder());
+    assert_eq!(heard.holder, holder);
     for listed in [certificate.id(), mirror.id()] {
-        for mut receiver in [pki.station(11), receiver.clone()] {
-            receiver.set_revoked(revoked(&[listed]));
-            let message = thief.seal(after_ms(100), RAM, PAYLOAD).unwrap();
-            let rejected = hear(&mut receiver, after_ms(100), &message);
-            // A receiver that has never heard of it may know the digest alone.
-            assert!(
-                matches!(
-                    rejected,
-                    Err(Rejected::Revoked(_) | Rejected::UnknownSigner(_))
-                ),
-                "{rejected:?}"
-            );
-        }
+        receiver.set_revoked(revoked(&[listed]));
+        let message = thief.seal(after_ms(100), RAM, PAYLOAD).unwrap();
+        let rejected = hear(&mut receiver, after_ms(100), &message);
+        assert_eq!(rejected, Err(Rejected::Revoked(mirror.id())));
     }
+    // Also with a receiver that hears of it for the first time.
     let mut newcomer = pki.station(12);
     newcomer.set_revoked(revoked(&[certificate.id()]));
     let message = thief.seal(after_ms(1_100), RAM, PAYLOAD).unwrap();

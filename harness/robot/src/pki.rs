@@ -460,8 +460,8 @@ pub fn credentials_but(
     let mut credentials = credentials_of(folder, robot)?;
     if let Some(list) = list {
         let revoked = RevokedList::new(list.to_owned()).read()?;
-        let is_revoked = |ticket: &Ticket| revoked.contains(&ticket.certificate().id());
-        credentials.tickets.retain(|ticket| !is_revoked(ticket));
+        let tickets = &mut credentials.tickets;
+        tickets.retain(|ticket| !ticket.certificate().is_among(&revoked));
         credentials.trust.set_revoked(revoked);
         if credentials.tickets.is_empty() {
             return Err(PkiError::AllRevoked {

@@ -319,8 +319,9 @@ fn a_ticket_and_its_mirror_are_one_robot() {
         pki::new_ticket(&street.pki.authority, term, None, permissions).unwrap();
     let mirror = mirrored(&certificate);
     let first_four = |it: &Certificate| it.id().0[..4].try_into().map(u32::from_be_bytes).unwrap();
-    // The one with the lower s says under what both go.
-    let (certificate, mirror) = if certificate.holder() == certificate.id() {
+    // The one with the lower s, the last number in it, says under what both go.
+    let s_of = |it: &Certificate| it.octets()[it.octets().len() - ORDER.len()..].to_vec();
+    let (certificate, mirror) = if s_of(&certificate) < s_of(&mirror) {
         (certificate, mirror)
     } else {
         (mirror, certificate)
