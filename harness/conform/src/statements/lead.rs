@@ -72,14 +72,14 @@ pub(super) const ALL: &[Statement] = &[
 ];
 
 /// A command of the robot: when it was sent each time, and when it was answered.
-struct Sent {
+pub(super) struct Sent {
     command: Command,
     times: Vec<u64>,
     /// When it was answered, and whether by a report in a RAM alone.
-    answered: Option<(u64, bool)>,
+    pub(super) answered: Option<(u64, bool)>,
 }
 
-fn sent(exchange: &Exchange) -> Vec<Sent> {
+pub(super) fn sent(exchange: &Exchange) -> Vec<Sent> {
     let mut all: Vec<Sent> = Vec::new();
     for (at, command) in exchange.commands() {
         let is_it = |sent: &&mut Sent| {

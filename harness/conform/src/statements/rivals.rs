@@ -2,6 +2,7 @@
 
 use crossguard_protocol::{Coordination, Farewell, Heartbeat, Place, SessionId, Urgency};
 
+use super::lead::sent;
 use super::{Met, Statement, due, met_when, news};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, session_of};
@@ -167,12 +168,7 @@ fn insists(exchange: &Exchange, terms: &Terms, it: &Rivalry) -> Option<Met> {
         .filter(|(at, _)| (it.first_ms..until_ms).contains(at));
     let gives_up = after.find(|(_, state)| gives_up(state, it.own.session));
     // A leader whose only follower acknowledges nothing ends its session for that.
-    let is_acknowledged = |request| {
-        let mut answers = exchange.played_answers();
-        answers.any(|(_, it)| it.request == request)
-    };
-    let mut commands = exchange.commands();
-    if gives_up.is_some() && commands.any(|(_, command)| !is_acknowledged(command.request)) {
+    if gives_up.is_some() && sent(exchange).iter().any(|it| it.answered.is_none()) {
         return None;
     }
     let broken = gives_up.map(|(at, _)| format!("it gives way {} ms later", at - it.first_ms));
