@@ -293,8 +293,7 @@ impl Loop {
             self.renew_epoch();
             self.keep_time();
             self.control_congestion();
-            let now_ms = self.clock.now_us() / 1_000;
-            let news = self.wall_clock.check(now_ms);
+            let news = self.wall_clock.check(self.now_ms());
             self.judge_ages(news);
         }
         if let Some(time) = self.machine.endpoint().trusted_time() {
@@ -339,7 +338,7 @@ impl Loop {
                 }
             }
             Delivery::Arrived(Arrival::Channel(radio)) => {
-                let now_ms = self.clock.now_us() / 1_000;
+                let now_ms = self.now_ms();
                 self.channel.measure(radio, now_ms);
             }
             Delivery::Arrived(Arrival::Misframed {
@@ -394,8 +393,7 @@ impl Loop {
                 Stimulus::Time
             }
             Order::Clock(quality) => {
-                let now_ms = self.clock.now_us() / 1_000;
-                let news = self.wall_clock.say(quality, now_ms);
+                let news = self.wall_clock.say(quality, self.now_ms());
                 self.judge_ages(news);
                 Stimulus::Time
             }
@@ -426,13 +424,17 @@ impl Loop {
 
     /// Holds messages back on a busy channel, where the link measures one.
     fn control_congestion(&mut self) {
-        let now_ms = self.clock.now_us() / 1_000;
+        let now_ms = self.now_ms();
         if let Some((interval_ms, news)) = self.channel.evaluate(now_ms) {
             self.machine.endpoint_mut().hold_back(interval_ms);
             if let Some(state) = news {
                 self.log(Entry::Channel(state));
             }
         }
+    }
+
+    fn now_ms(&self) -> u64 {
+        self.clock.now_us() / 1_000
     }
 
     /// Judges the age of packets by a wall clock that is known to be right, and by no other.

@@ -162,7 +162,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let watch = arguments
         .watch
-        .begin(address.clone(), arguments.security.name())?;
+        .begin(address.clone(), arguments.security.mode().name())?;
     let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
     let revoked = file.revoked.as_deref();
     let security = arguments.security.of_robot(&file.name, revoked)?;

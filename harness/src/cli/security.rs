@@ -33,15 +33,6 @@ impl SecurityArguments {
         self.security
     }
 
-    /// The name of its mode, as it is typed.
-    pub(super) const fn name(&self) -> &'static str {
-        match self.security {
-            Mode::Off => "off",
-            Mode::Sign => "sign",
-            Mode::Enforce => "enforce",
-        }
-    }
-
     /// Says on standard error that anybody can forge what a robot without security hears on this link.
     pub(super) fn warn_if_unsigned(&self, link: &Link) {
         if self.security == Mode::Off && link.leaves_machine() {

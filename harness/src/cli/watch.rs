@@ -55,7 +55,8 @@ pub(super) struct Watch {
 }
 
 impl WatchArguments {
-    /// Begins to show a robot on this link, in this mode of security. Nothing but its log may be on a standard output that is for programs.
+    /// Begins to show a robot on this link, in this mode of security. Nothing but its log may be on a standard output
+    /// that is for programs.
     pub(super) fn begin(&self, link: String, security: &'static str) -> Result<Watch, Failure> {
         let tally = Shared::default();
         tally.with(|tally| (tally.link, tally.security) = (link, security));
