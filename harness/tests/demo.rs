@@ -67,9 +67,14 @@ fn on_sockets_t_neg_is_the_delay_that_was_put_in_to_a_millisecond() {
             .map(|mean| mean.unwrap() - DELAY_S)
             .fold(f64::MIN, f64::max)
     };
-    let all: Vec<f64> = (0..5).map(|_| beyond_s()).collect();
-    let best = all.iter().copied().fold(f64::MAX, f64::min);
-    assert!((0.0..0.001).contains(&best), "{all:?}");
+    let mut tries = Vec::new();
+    let is_close = (0..5).any(|_| {
+        let beyond_s = beyond_s();
+        tries.push(beyond_s);
+        (0.0..0.001).contains(&beyond_s)
+    });
+    let is_never_early = tries.iter().all(|beyond_s| *beyond_s >= 0.0);
+    assert!(is_close && is_never_early, "{tries:?}");
 }
 
 #[test]
