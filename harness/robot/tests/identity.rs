@@ -113,6 +113,23 @@ fn mirrored(certificate: &Certificate) -> Certificate {
     Certificate::decode(&octets).unwrap()
 }
 
+/// The certificate and its mirror. The one with the lower s, the last number in it, says under what both go.
+fn lower_first(certificate: Certificate) -> [Certificate; 2] {
+    let mirror = mirrored(&certificate);
+    let s_of = |it: &Certificate| it.octets()[it.octets().len() - ORDER.len()..].to_vec();
+    if s_of(&certificate) < s_of(&mirror) {
+        [certificate, mirror]
+    } else {
+        [mirror, certificate]
+    }
+}
+
+/// The first octets of a certificate's digest, as a station id.
+fn first_four(certificate: &Certificate) -> StationId {
+    let [a, b, c, d, ..] = certificate.id().0;
+    StationId(u32::from_be_bytes([a, b, c, d]))
+}
+
 /// A leader and a follower within reach of each other; what each drops.
 struct Street {
     pki: Pki,
@@ -317,16 +334,8 @@ fn a_ticket_and_its_mirror_are_one_robot() {
     };
     let Holder { certificate, key } =
         pki::new_ticket(&street.pki.authority, term, None, permissions).unwrap();
-    let mirror = mirrored(&certificate);
-    let first_four = |it: &Certificate| it.id().0[..4].try_into().map(u32::from_be_bytes).unwrap();
-    // The one with the lower s, the last number in it, says under what both go.
-    let s_of = |it: &Certificate| it.octets()[it.octets().len() - ORDER.len()..].to_vec();
-    let (certificate, mirror) = if s_of(&certificate) < s_of(&mirror) {
-        (certificate, mirror)
-    } else {
-        (mirror, certificate)
-    };
-    let ids = [first_four(&certificate), first_four(&mirror)].map(StationId);
+    let [certificate, mirror] = lower_first(certificate);
+    let ids = [first_four(&certificate), first_four(&mirror)];
     let mut packets = |certificate, id| {
         let mut stack = Stack::of_robot(identifiers(), LIAR);
         let ticket = Ticket::new(certificate, key.clone()).unwrap();
@@ -423,11 +432,14 @@ fn a_vehicle_has_one_name_and_keeps_it_while_it_is_heard() {
 #[test]
 fn a_robot_goes_by_the_id_of_its_ticket_from_the_start() {
     let pki = Pki::for_a_day(&identifiers(), epoch()).unwrap();
-    let permissions = pki::robot_permissions(&identifiers(), &[Part::Help], None);
-    let ticket = ticket(&pki, permissions);
-    let [a, b, c, d, ..] = ticket.certificate().id().0;
-    let id = security(&pki, ticket).station_id(&identifiers(), StationId(7));
-    assert_eq!(id, StationId(u32::from_be_bytes([a, b, c, d])));
+    // Half of the tickets go by the digest of their mirror: among twenty there are both kinds.
+    for _ in 0..20 {
+        let permissions = pki::robot_permissions(&identifiers(), &[Part::Help], None);
+        let ticket = ticket(&pki, permissions);
+        let [lower, _] = lower_first(ticket.certificate().clone());
+        let id = security(&pki, ticket).station_id(&identifiers(), StationId(7));
+        assert_eq!(id, first_four(&lower));
+    }
     let off = Security::default();
     assert_eq!(off.station_id(&identifiers(), StationId(7)), StationId(7));
 }
