@@ -61,8 +61,6 @@ pub struct RuleVerdict {
     pub broken: Vec<Broken>,
     /// Its statements that were never met.
     pub not_observed: Vec<&'static str>,
-    /// Whether a pass says little: no robot that breaks the rule has tried this verdict.
-    pub weak_evidence: bool,
     /// What of it cannot be judged from outside.
     pub unjudged: Option<&'static str>,
 }
@@ -120,7 +118,6 @@ impl Campaign {
             kept: 0,
             broken: Vec::new(),
             not_observed: Vec::new(),
-            weak_evidence: !rule.is_tried(),
             unjudged: rule.unjudged,
         };
         let is_asked = |it: &Statement| rules.iter().any(|rule| rule.id == it.rule);
@@ -139,7 +136,7 @@ impl Campaign {
         RULES.iter()
     }
 
-    /// The generated cases that meet one of its statements.
+    /// The cases that meet one of its statements: first the generated ones, then those written by hand.
     #[must_use]
     pub fn cases(&self) -> Vec<Case> {
         let names: Vec<_> = self.statements.iter().map(|it| it.name).collect();
@@ -148,7 +145,8 @@ impl Campaign {
                 .iter()
                 .any(|it| names.contains(&it.as_str()))
         };
-        Case::generated().into_iter().filter(is_asked).collect()
+        let all = Case::generated().into_iter().chain(Case::written());
+        all.filter(is_asked).collect()
     }
 
     /// Plays a case against a robot that is at rest. What is broken is played once more, with the robot started anew,

@@ -75,6 +75,7 @@ pub enum Play {
     AdaLeaves,
     BoLeaves,
     BoClaims,
+    BoIntrudes,
     BoAsksFirst,
     BoAsksFirstOnce,
     BoAsksLater,
@@ -186,6 +187,10 @@ const WORDS: &[(Play, &str)] = &[
     (
         Play::BoClaims,
         "Bo follows the robot in a session that is over",
+    ),
+    (
+        Play::BoIntrudes,
+        "Bo follows the robot in its session, unasked",
     ),
     (
         Play::BoAsksFirst,

@@ -11,13 +11,6 @@ pub struct Rule {
     pub unjudged: Option<&'static str>,
 }
 
-/// Those whose verdicts have been tried: a test runs a robot that breaks the rule, and its verdict says so. That
-/// another rule passes is weak evidence: only the kit's own robot, which keeps it, has met its statements.
-const TRIED: &[&str] = &[
-    "R1", "R2", "R4", "R5", "R6", "R7", "R8", "R10", "R11", "R12", "R14", "R19", "R21", "R24",
-    "R26",
-];
-
 /// All of them, in order. A test compares them with the page.
 pub const RULES: &[Rule] = &[
     Rule {
@@ -173,12 +166,6 @@ impl Rule {
     #[must_use]
     pub fn of_id(id: &str) -> Option<&'static Self> {
         RULES.iter().find(|rule| rule.id.eq_ignore_ascii_case(id))
-    }
-
-    /// Whether its verdict has been tried on a robot that breaks it. If not, that it passes is weak evidence.
-    #[must_use]
-    pub fn is_tried(&self) -> bool {
-        TRIED.contains(&self.id)
     }
 
     /// Whether nothing of it can be judged.

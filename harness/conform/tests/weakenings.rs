@@ -164,6 +164,92 @@ impl Rules for IsNotTold {
     }
 }
 
+/// A leader with other settings, as soon as it leads.
+struct WhileItLeads(fn(&mut Settings));
+
+impl Rules for WhileItLeads {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        if !matches!(robot.phase(), Phase::Leading(_)) {
+            return robot.step(config, input);
+        }
+        With(self.0).step(robot, config, input)
+    }
+}
+
+/// A follower that fell back reports that it executes when its command is repeated.
+struct RunsAgainAfterItsFallback;
+
+impl Rules for RunsAgainAfterItsFallback {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        if let (Phase::Following(following), Input::Rmcm(Rmcm::Command(command))) =
+            (robot.phase(), input)
+            && let Some(job) = following.job
+            && (job.request, job.progress) == (command.request, Progress::SafeIdle)
+        {
+            let progress = serde_json::to_value(Progress::Executing).unwrap();
+            with_state(robot, |state| {
+                state["phase"]["following"]["job"]["progress"] = progress;
+            });
+        }
+        outputs
+    }
+}
+
+/// A leader commands its guards although people may be on the road.
+struct CommandsItsGuardsAway;
+
+impl Rules for CommandsItsGuardsAway {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let corridor = |robot: &mut Robot, it: Corridor| {
+            with_state(robot, |state| {
+                state["phase"]["leading"]["corridor"] = serde_json::to_value(it).unwrap();
+            });
+        };
+        let before = match (robot.phase(), input) {
+            (Phase::Leading(leading), Input::Local(Event::CommandManeuver { .. })) => {
+                leading.corridor
+            }
+            _ => return robot.step(config, input),
+        };
+        corridor(robot, Corridor::Clear);
+        let outputs = robot.step(config, input);
+        corridor(robot, before);
+        outputs
+    }
+}
+
+/// A leader that loses one follower lists none any more.
+struct LosesAllForOne;
+
+impl Rules for LosesAllForOne {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let mut notices = outputs.notices();
+        let one_is_gone = notices.any(|notice| matches!(notice, Notice::FollowerGone(..)));
+        if one_is_gone && matches!(robot.phase(), Phase::Leading(_)) {
+            with_state(robot, |state| {
+                state["phase"]["leading"]["members"] = serde_json::json!([]);
+            });
+        }
+        outputs
+    }
+}
+
+/// A leader overlooks some of what stands in the way of an open corridor, and shows go for long enough to be seen.
+struct Opens(fn(CorridorClosure) -> bool);
+
+impl Rules for Opens {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = Overlooks(self.0).step(robot, config, input);
+        let seen = |output: &Output| match *output {
+            Output::CorridorOpened(_) => Output::CorridorOpened(Millis(1_000)),
+            output => output,
+        };
+        outputs.iter().map(seen).collect()
+    }
+}
+
 /// Acknowledgements and rejections are not sent.
 const ANSWERS_NOTHING: Drops = Drops(|output| matches!(output, Output::SendRmcm(Rmcm::Answer(_))));
 
@@ -176,7 +262,17 @@ fn named() -> Vec<Weakening> {
         ("R1", &ObeysCommandsOfAnySession, "commands of any session"),
         ("R2", &ConfirmsByStationAlone, "confirmations of any offer"),
         ("R2", &NeedsNoConfirmation, "a request confirms"),
+        (
+            "R3",
+            &With(|it| it.t_offer = it.t_help),
+            "an offer that lapses late",
+        ),
         ("R4", &AsksForFewer, "a request for too few"),
+        (
+            "R4",
+            &AdmitsWhoSaysThatItFollows,
+            "a follower that nobody asked for",
+        ),
         (
             "R5",
             &With(|it| it.t_help = Millis(60_000)),
@@ -195,6 +291,11 @@ fn named() -> Vec<Weakening> {
             "repeated commands are started",
         ),
         ("R8", &StartsOlderCommands, "older commands are started"),
+        (
+            "R9",
+            &TakesAnyAcknowledgement,
+            "acknowledgements of other commands count",
+        ),
         ("R10", &RepeatsOnceTooOften, "one repetition too many"),
         (
             "R10",
@@ -202,11 +303,21 @@ fn named() -> Vec<Weakening> {
             "no repetitions",
         ),
         ("R11", &ReadsNoProgress, "progress is not read"),
+        (
+            "R11",
+            &TakesAnyProgress,
+            "progress of other commands counts",
+        ),
         ("R12", &FollowersWaitForEver, "followers wait for ever"),
         (
             "R12",
             &WaitsAQuarter,
             "followers wait for less than they told",
+        ),
+        (
+            "R13",
+            &With(|it| it.t_leave = Millis(60_000)),
+            "a silent follower that is kept",
         ),
         ("R14", &FollowersWaitForEver, "followers wait for ever"),
         (
@@ -214,17 +325,52 @@ fn named() -> Vec<Weakening> {
             &With(|it| it.t_leave = Millis(60_000)),
             "followers leave late",
         ),
+        (
+            "R15",
+            &RunsAgainAfterItsFallback,
+            "a command that runs again after the fallback",
+        ),
+        (
+            "R16",
+            &Opens(|_| true),
+            "a corridor that opens over missing guards",
+        ),
+        (
+            "R16",
+            &NEVER_CLOSES_THE_CORRIDOR,
+            "a corridor that does not close",
+        ),
+        (
+            "R17",
+            &WhileItLeads(|it| (it.t_safety, it.t_lease) = (Millis(60_000), Millis(50_000))),
+            "go that outlives the lease",
+        ),
+        (
+            "R18",
+            &CommandsItsGuardsAway,
+            "guards that are commanded away",
+        ),
         ("R19", &NEVER_STOPS, "what is released goes on"),
         (
             "R19",
             &IsNotTold(|it| matches!(it, Event::TaskCompleted)),
             "a session that is not ended",
         ),
+        (
+            "R20",
+            &ForgetsItsDuty,
+            "a duty that is forgotten for a request",
+        ),
         ("R21", &Forgets("farewell"), "nothing is named"),
         (
             "R21",
             &With(|it| it.t_farewell = Millis(300)),
             "what is over is named for too short a time",
+        ),
+        (
+            "R22",
+            &LosesAllForOne,
+            "all followers are lost with one of them",
         ),
         (
             "R24",
@@ -245,51 +391,33 @@ fn a_robot_without_a_rule_fails_its_verdict() {
     assert_eq!(missed, Vec::<String>::new());
 }
 
+/// Each check that stands before an open corridor, left out alone.
 #[test]
-fn a_pass_is_said_to_be_weak_evidence_where_no_weakening_is_named() {
-    let tried: BTreeSet<_> = named().into_iter().map(|(rule, ..)| rule).collect();
-    for rule in RULES {
-        assert_eq!(rule.is_tried(), tried.contains(rule.id), "{}", rule.id);
-    }
+fn each_check_of_an_open_corridor_is_missed() {
+    use CorridorClosure::{FollowerMissing, NotEngaged};
+    use Disengagement as D;
+    static CHECKS: [Opens; 7] = [
+        Opens(|why| why == FollowerMissing),
+        Opens(|why| matches!(why, NotEngaged(_, D::NoLease))),
+        Opens(|why| matches!(why, NotEngaged(_, D::CommandOutstanding))),
+        Opens(|why| matches!(why, NotEngaged(_, D::NotExecuting))),
+        Opens(|why| matches!(why, NotEngaged(_, D::NotGuarding))),
+        Opens(|why| matches!(why, NotEngaged(_, D::NotInPosition))),
+        Opens(|why| {
+            let is_over = |why| matches!(why, D::Completed | D::Failed(_) | D::SafeIdle);
+            matches!(why, NotEngaged(_, why) if is_over(why))
+        }),
+    ];
+    let is_missed = |i: &usize| broken(&CHECKS[*i], &["R16"]).is_empty();
+    let missed: Vec<_> = (0..CHECKS.len()).filter(is_missed).collect();
+    assert_eq!(missed, Vec::<usize>::new());
 }
 
-/// Weakenings that a black box could see, and no verdict on their rule does: no generated case comes far enough.
-/// What is named one day goes into the table above, and out of the page's list.
 #[test]
-fn what_is_not_named_yet_is_known() {
-    let unnamed: Vec<Weakening> = vec![
-        (
-            "R9",
-            &TakesAnyAcknowledgement,
-            "acknowledgements of other commands count",
-        ),
-        (
-            "R11",
-            &TakesAnyProgress,
-            "progress of other commands counts",
-        ),
-        (
-            "R16",
-            &Overlooks(|_| true),
-            "a corridor that opens over missing guards",
-        ),
-        (
-            "R16",
-            &NEVER_CLOSES_THE_CORRIDOR,
-            "a corridor that does not close",
-        ),
-        (
-            "R20",
-            &ForgetsItsDuty,
-            "a duty that is forgotten for a request",
-        ),
-    ];
-    for (rule, rules, what) in unnamed {
-        assert_eq!(
-            broken(rules, &[rule]),
-            Vec::<&str>::new(),
-            "it is named: {what}"
-        );
+fn every_verdict_has_been_tried_on_a_robot_that_breaks_its_rule() {
+    let tried: BTreeSet<_> = named().into_iter().map(|(rule, ..)| rule).collect();
+    for rule in RULES {
+        assert_ne!(rule.is_beyond(), tried.contains(rule.id), "{}", rule.id);
     }
 }
 

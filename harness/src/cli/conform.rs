@@ -81,9 +81,6 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-/// What is said of rules whose verdicts nobody has tried.
-const WEAK: &str = "a pass is weak evidence: no robot that breaks the rule has tried this verdict";
-
 const AFTER_HELP: &str =
     "The tester plays two stations, Ada and Bo, against the robot, and judges what it hears. Try:
 
@@ -265,9 +262,6 @@ fn show(report: &Report) -> Result<(), Failure> {
         print(format_args!(
             "{id:<4} {verdict:<16} {says} ({kept} times kept)"
         ))?;
-        if rule.verdict == Verdict::Pass && rule.weak_evidence {
-            print(format_args!("       {WEAK}"))?;
-        }
         if let Some(why) = rule.unjudged {
             print(format_args!("       not judged: {why}"))?;
         }
@@ -314,9 +308,6 @@ fn list(rules: &[&'static Rule], cases: &[Case]) -> Result<(), Failure> {
         print(format_args!("{}: {}", rule.id, rule.says))?;
         for statement in statements.iter().filter(|it| it.rule == rule.id) {
             print(format_args!("  {}: {}", statement.name, statement.says))?;
-        }
-        if !rule.is_tried() && !rule.is_beyond() {
-            print(format_args!("  {WEAK}"))?;
         }
         if let Some(why) = rule.unjudged {
             print(format_args!("  not judged: {why}"))?;

@@ -77,6 +77,9 @@ impl<S: Subject> Bench<S> {
                 station.farewell = Some(Farewell::Left(session, confirmed.offer));
                 self.hurry(player);
             }
+            (Play::BoIntrudes, Some(session)) if listed(bo).is_none() => {
+                self.follow(Player::Bo, session, None);
+            }
             (Play::BoClaims, _) => {
                 // The newest session of the robot that is over, or one that it never opened.
                 let sessions: Vec<SessionId> = self

@@ -4,7 +4,7 @@ use crossguard_protocol::{Coordination, OfferNumber, SessionId, StationId};
 
 use super::{Met, Statement, met_when};
 use crate::bench::Terms;
-use crate::exchange::{Exchange, RamSeen, session_of};
+use crate::exchange::{Exchange, RamSeen, following, session_of};
 
 pub(super) const ALL: &[Statement] = &[
     Statement {
@@ -16,7 +16,7 @@ pub(super) const ALL: &[Statement] = &[
     Statement {
         name: "leads-whom-it-asked-for",
         rule: "R4",
-        says: "A leader lists as many followers as it asked for, each by an offer that was made to its session.",
+        says: "A leader lists as many followers as it asked for, each by an offer that was made to its session, and adds nobody.",
         judge: leads_whom_it_asked_for,
     },
     Statement {
@@ -144,9 +144,33 @@ fn leads_whom_it_asked_for(exchange: &Exchange, _: &Terms) -> Vec<Met> {
                 listed.len()
             ))
         };
-        met_when(at, format!("{asked} asked for"), broken).into()
+        Some(met_when(at, format!("{asked} asked for"), broken))
     };
-    begun(exchange).into_iter().filter_map(judge).collect()
+    let mut all: Vec<Met> = begun(exchange).into_iter().filter_map(judge).collect();
+    all.extend(nobody_is_added(exchange));
+    all
+}
+
+/// Who says that it follows, and is not listed, is not listed for that.
+fn nobody_is_added(exchange: &Exchange) -> Option<Met> {
+    let (at, session, who) = exchange.played_rams().find_map(|(at, _, played)| {
+        let (session, _) = following(&played.ram)?;
+        let (_, state) = exchange.state_at(at)?;
+        let is_led = matches!(state.ram.coordination, Coordination::Leader { .. })
+            && session_of(&state.ram) == Some(session);
+        let who = played.ram.station;
+        let is_listed = listed(state).iter().any(|(station, _)| *station == who);
+        (is_led && !is_listed).then_some((at, session, who))
+    })?;
+    let mut later = exchange
+        .rams()
+        .filter(|(then, state)| *then > at && session_of(&state.ram) == Some(session));
+    let added = later.find(|(_, state)| listed(state).iter().any(|(station, _)| *station == who));
+    let broken = added.map(|(then, _)| {
+        let late_ms = then - at;
+        format!("it lists {who} {late_ms} ms after it said that it follows")
+    });
+    Some(met_when(at, "somebody follows unasked", broken))
 }
 
 /// How long before it leads an offer must have been sent to be sure to count, in ms.

@@ -1,7 +1,7 @@
 //! What a leader shows to pedestrians, where its RAM say so.
 
 use crossguard_codec::PublicSignal;
-use crossguard_protocol::{Coordination, Progress, SessionId, StationId, TaskType};
+use crossguard_protocol::{Command, Coordination, Progress, SessionId, StationId};
 
 use super::{Met, Statement, due, met_when, news};
 use crate::bench::Terms;
@@ -55,34 +55,51 @@ fn listed(state: &RamSeen) -> Vec<StationId> {
     }
 }
 
-/// The task of the newest command to a follower that it has answered or reported, by this time.
-fn task_of(
+/// The newest command to a follower by this time.
+fn command_to(
     exchange: &Exchange,
     session: SessionId,
     to: StationId,
     until_ms: u64,
-) -> Option<TaskType> {
-    let (_, last) = report_at(exchange, session, to, until_ms)?;
-    let request = last?.request;
+) -> Option<Command> {
     let mut commands = exchange.commands();
-    let command = commands.find(|(at, it)| {
-        *at <= until_ms && it.session == session && it.to == to && it.request == request
-    });
-    command.map(|(_, command)| command.task)
+    let newest = commands.rfind(|(at, it)| *at <= until_ms && it.session == session && it.to == to);
+    newest.map(|(_, command)| command)
 }
 
-/// What a follower has reported at last by this time.
-fn report_at(
+/// What a follower has reported at last of a command by this time.
+fn progress_of(exchange: &Exchange, command: Command, until_ms: u64) -> Option<Progress> {
+    let reports = exchange.played_rams().filter_map(|(at, _, played)| {
+        let (session, report) = following(&played.ram)?;
+        let report = report.filter(|it| it.request == command.request)?;
+        let is_of_it = (played.ram.station, session) == (command.to, command.session);
+        (at <= until_ms && is_of_it).then_some(report.progress)
+    });
+    // A report of the way to a place that comes after one from the place is an old one.
+    reports.reduce(|before, now| match (before, now) {
+        (Progress::InPosition, Progress::Executing) => before,
+        _ => now,
+    })
+}
+
+/// When a follower echoed something new for the last time by this time.
+fn newest_echo(
     exchange: &Exchange,
     session: SessionId,
     from: StationId,
     until_ms: u64,
-) -> Option<(u64, Option<crossguard_protocol::Report>)> {
-    let mut rams = exchange.played_rams().filter(|(at, ..)| *at <= until_ms);
-    rams.rfind(|(_, _, played)| {
-        played.ram.station == from && following(&played.ram).is_some_and(|(now, _)| now == session)
-    })
-    .and_then(|(at, _, played)| Some((at, following(&played.ram)?.1)))
+) -> Option<u64> {
+    let echoes = exchange.played_rams().filter_map(|(at, _, played)| {
+        let Coordination::Follower {
+            session: now, echo, ..
+        } = played.ram.coordination
+        else {
+            return None;
+        };
+        let is_of_it = (played.ram.station, now) == (from, session);
+        (is_of_it && at <= until_ms).then_some((at, echo))
+    });
+    news(echoes).last().map(|(at, _)| at)
 }
 
 /// Why go may not be shown at this time.
@@ -101,21 +118,24 @@ fn obstacle(exchange: &Exchange, terms: &Terms, session: SessionId, at_ms: u64) 
         return Some("a follower is missing".to_owned());
     }
     for station in listed {
-        let report = report_at(exchange, session, station, at_ms).and_then(|(_, last)| last);
-        let Some(report) = report else {
-            return Some(format!("{station} reports nothing"));
+        let Some(command) = command_to(exchange, session, station, at_ms) else {
+            return Some(format!("{station} has no command"));
         };
-        let Some(task) = task_of(exchange, session, station, at_ms) else {
-            return Some(format!("{station} reports no command of it"));
+        let Some(progress) = progress_of(exchange, command, at_ms) else {
+            return Some(format!("{station} reports nothing of its command"));
         };
-        if !terms.settings.guarding.contains(task) {
+        if !terms.settings.guarding.contains(command.task) {
             return Some(format!("{station} does not guard"));
         }
-        let is_in_place = report.progress == Progress::InPosition
-            || (report.progress == Progress::Executing && !terms.settings.holding.contains(task));
+        let is_in_place = progress == Progress::InPosition
+            || (progress == Progress::Executing && !terms.settings.holding.contains(command.task));
         if !is_in_place {
-            let progress = crate::words::progress(report.progress);
+            let progress = crate::words::progress(progress);
             return Some(format!("{station} reports {progress}"));
+        }
+        let since = newest_echo(exchange, session, station, at_ms);
+        if since.is_none_or(|since| since + terms.ms(|s| s.t_lease) < at_ms) {
+            return Some(format!("{station} echoes nothing new"));
         }
     }
     None
@@ -224,17 +244,7 @@ fn go_ends_by_itself(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             continue;
         };
         for station in listed(state) {
-            let echoes = exchange.played_rams().filter_map(|(then, _, played)| {
-                match played.ram.coordination {
-                    Coordination::Follower {
-                        session: now, echo, ..
-                    } if now == session && played.ram.station == station && then <= at => {
-                        Some((then, echo))
-                    }
-                    _ => None,
-                }
-            });
-            let Some((since, _)) = news(echoes).last() else {
+            let Some(since) = newest_echo(exchange, session, station, at) else {
                 continue;
             };
             let shown_ms = at - since;
