@@ -3,7 +3,7 @@
 shipped! {
     quick plain pair "pair";
     quick plain contention "contention";
-    quick plain pair_reboot "pair-reboot";
+    long plain pair_reboot "pair-reboot";
     quick plain leader_crash "leader-crash";
     quick plain offer_race "offer-race";
     quick plain bilateral "bilateral";

@@ -295,7 +295,11 @@ fn ending(rule: &RuleVerdict) -> Ending {
             let charts: Vec<_> = rule
                 .broken
                 .iter()
-                .map(|broken| format!("{}: {}\n{}", broken.says, broken.how, broken.chart))
+                .map(|broken| {
+                    let (name, says, how) = (broken.statement, broken.says, &broken.how);
+                    let (situation, chart) = (&broken.situation, &broken.chart);
+                    format!("{name}: {says}\n{situation}: {how}\n{chart}")
+                })
                 .collect();
             Ending::Wrong(rule.says.to_owned(), charts.join("\n"))
         }

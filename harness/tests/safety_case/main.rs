@@ -125,7 +125,7 @@ fn an_ignored_test_a_helper_and_a_proof_that_was_not_finished_are_no_evidence() 
     let with = |piece: &'static str| changed(move |it| it.evidence.push(piece.to_owned()));
     let helper = "test:harness/tests/safety_case/main.rs::assert_found";
     assert_found(&with(helper), "assert_found is no test");
-    let ignored = "test:harness/tests/body_port.rs::nosuch";
+    let ignored = "test:harness/tests/processes/body_port.rs::nosuch";
     assert_found(&with(ignored), "no test nosuch");
     let open = "proof:protocol::leading::conduct::repeats_itself";
     assert_found(&with(open), "Kani has not proved");

@@ -2,9 +2,6 @@
 //! attachment protocol; the units speak Ethernet over veth with loss and delay, and measure a channel that is full. Packets
 //! are signed, the crossing is from site and plan files, and two Python processes are the bodies.
 
-#[path = "../examples/unit.rs"]
-mod unit;
-
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -12,22 +9,13 @@ use std::process::{Command, Output, Stdio};
 use crossguard_testkit::command::*;
 use serde_json::{Value, json};
 
-/// The environment variable with the arguments of a unit.
-const ARGUMENTS: &str = "CROSSGUARD_EXAMPLE_UNIT";
-
-#[test]
-#[ignore = "the other tests start it, as a process of its own"]
-fn a_radio_in_a_process_of_its_own() {
-    let arguments = std::env::var(ARGUMENTS).unwrap();
-    let arguments: Vec<_> = arguments.split(' ').map(str::to_owned).collect();
-    unit::serve(&arguments).unwrap();
-}
+use crate::unit_process::AS_UNIT;
 
 /// Runs `two_radios/street.sh` in namespaces of its own, with bodies that are so many times as fast as real ones.
 fn street(arguments: &[&str], pace: &str) -> Output {
     let tests = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
     let unit = std::env::current_exe().unwrap();
-    let as_unit = "--exact a_radio_in_a_process_of_its_own --ignored --nocapture";
+    let as_unit = AS_UNIT.join(" ");
     Command::new("unshare")
         .args(["--user", "--map-root-user", "--net", "--pid", "--fork"])
         .args(["--kill-child", "--mount-proc", "sh"])

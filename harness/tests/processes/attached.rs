@@ -1,9 +1,6 @@
 //! Robots attached to on-board units by the attachment protocol: `examples/unit.rs` and `examples/unit.py`, and
 //! units of the test's own, which measure a busy channel or send what is no frame.
 
-#[path = "../examples/unit.rs"]
-mod unit;
-
 use std::io::{Read, Write};
 use std::net::{TcpStream, UdpSocket};
 use std::process::{Child, Command, Stdio};
@@ -13,26 +10,9 @@ use crossguard_robot::attachment::{Frame, Kind, Radio, Side};
 use crossguard_testkit::command::*;
 use serde_json::Value;
 
+use crate::unit_process::{ARGUMENTS, AS_UNIT};
+
 const PATIENCE: Duration = Duration::from_mins(1);
-
-/// The environment variable with the arguments of a unit.
-const ARGUMENTS: &str = "CROSSGUARD_EXAMPLE_UNIT";
-
-/// The arguments with which this program is a unit: cargo builds no example for a test alone.
-const AS_UNIT: [&str; 4] = [
-    "--exact",
-    "a_unit_in_a_process_of_its_own",
-    "--ignored",
-    "--nocapture",
-];
-
-#[test]
-#[ignore = "the other tests start it, as a process of its own"]
-fn a_unit_in_a_process_of_its_own() {
-    let arguments = std::env::var(ARGUMENTS).unwrap();
-    let arguments: Vec<_> = arguments.split(' ').map(str::to_owned).collect();
-    unit::serve(&arguments).unwrap();
-}
 
 /// A unit on the loopback interface, which ends with the test.
 struct Unit(Child);

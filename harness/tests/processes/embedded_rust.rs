@@ -1,7 +1,7 @@
 //! `examples/follower.rs`, a stack that embeds the endpoint, follows a robot of `crossguard run` through a
 //! crossing.
 
-#[path = "../examples/follower.rs"]
+#[path = "../../examples/follower.rs"]
 mod follower;
 use std::fs::File;
 use std::io::BufReader;
