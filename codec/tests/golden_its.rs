@@ -3,7 +3,9 @@
 
 mod support;
 
-use crossguard_codec::asn1::cam::{HighFrequencyContainer, SpecialVehicleContainer};
+use crossguard_codec::asn1::cam::{
+    CAM, CauseCodeV2, HighFrequencyContainer, SpecialVehicleContainer,
+};
 use crossguard_codec::asn1::cdd::VruProfileAndSubprofile;
 use crossguard_codec::asn1::cdd211::{VruProfileAndSubprofile211, VruSubProfilePedestrian211};
 use crossguard_codec::asn1::cpm::{ObjectClass, Velocity3dWithConfidence};
@@ -102,6 +104,26 @@ fn a_cam_has_the_values_that_it_was_made_of() {
     };
     assert_eq!(emergency.light_bar_siren_in_use.0.count_ones(), 2);
     assert!(emergency.incident_indication.is_none());
+}
+
+#[test]
+fn a_cause_beyond_those_of_release_2_is_kept_in_a_cam() {
+    let vectors = vectors();
+    let (_, identifiers, octets) = vectors.iter().find(|(name, ..)| *name == "C3").unwrap();
+    for cause in [128, 200, 255] {
+        let ItsMessage::Cam(mut cam) = message("C3") else {
+            panic!("not a CAM")
+        };
+        let special = &mut cam.cam.cam_parameters.special_vehicle_container;
+        let Some(SpecialVehicleContainer::emergencyContainer(emergency)) = special else {
+            panic!("not an emergency vehicle")
+        };
+        emergency.incident_indication = Some(CauseCodeV2::new(cause, 1));
+        let with_cause = crossguard_codec::encode(identifiers, &*cam).unwrap();
+        assert!(with_cause.len() > octets.len());
+        let again = crossguard_codec::decode::<CAM>(identifiers, &with_cause).unwrap();
+        assert_eq!(again.message, *cam, "cause {cause}");
+    }
 }
 
 #[test]

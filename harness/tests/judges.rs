@@ -45,6 +45,7 @@ fn log_of(seed: u64, path: &Path) {
         seeds: 1,
         robots: 6,
         faults: None,
+        plan: None,
         liars: 0.0,
         threads: 1,
         failures_max: 1,

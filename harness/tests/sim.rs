@@ -153,6 +153,25 @@ fn the_command_tells_what_it_ran_and_finds_nothing_wrong() {
     assert!(!out.exists(), "nothing is written of runs that went well");
 }
 
+#[test]
+fn a_plan_of_ones_own_is_what_all_leaders_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = format!("--out={}", folder.path().join("out").display());
+    let seeds = [
+        "fuzz", "--seeds", "12", "--robots", "4", "--liars", "0", "--json",
+    ];
+    let shares = |plan: &[&str]| {
+        let output = run_command(&[&seeds[..], plan].concat(), &out);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let report = json(&output);
+        assert!(report["premises"]["W7"].as_u64().unwrap() > 0, "{report}");
+        report["packets"].as_u64().unwrap()
+    };
+    let (drawn, trio) = (shares(&[]), shares(&["--plan", "trio"]));
+    assert_ne!(drawn, trio, "the plan says what happens");
+    assert_eq!(shares(&["--plan", "trio"]), trio);
+}
+
 fn run_command(arguments: &[&str], out: &str) -> std::process::Output {
     command::run(&[arguments, &[out]].concat())
 }
@@ -164,6 +183,7 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
         seeds: 10,
         robots: 4,
         faults: None,
+        plan: None,
         liars: 0.0,
         threads: 1,
         failures_max: 1,

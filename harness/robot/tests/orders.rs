@@ -1,4 +1,4 @@
-//! A command has the parameters that it was given with, and not those of the one before.
+//! Two machines: what is ordered, shown and selected.
 
 #![allow(clippy::large_stack_arrays, reason = "a pair of machines, in a test")]
 
@@ -7,7 +7,7 @@ use crossguard_codec::{
     Identifiers, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
 };
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, Event, Robot, StationId, TaskType};
+use crossguard_protocol::{Config, Event, Phase, Robot, StationId, TaskType};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::machine::Machine;
@@ -15,7 +15,7 @@ use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
 
 const FOLLOWER: StationId = StationId(2);
-const TICK_MS: u64 = 10;
+const TICK_MS: u32 = 10;
 
 fn machine(station: StationId) -> Machine {
     let endpoint = Endpoint::new(
@@ -61,12 +61,16 @@ impl Street {
         }
     }
 
+    fn step(&mut self) {
+        self.now_ms += TICK_MS;
+        for robot in 0..2 {
+            self.tell(robot, Stimulus::Time);
+        }
+    }
+
     fn pass(&mut self, seconds: u32) {
-        for _ in 0..u64::from(seconds) * 1_000 / TICK_MS {
-            self.now_ms += u32::try_from(TICK_MS).expect("a few");
-            for robot in 0..2 {
-                self.tell(robot, Stimulus::Time);
-            }
+        for _ in 0..seconds * 1_000 / TICK_MS {
+            self.step();
         }
     }
 }
@@ -107,6 +111,53 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
     street.robots[0].application_mut().show(quiet);
     street.pass(1);
     assert_eq!(on_the_map(&street), Some(shown(PublicSignal::None, stop)));
+}
+
+/// How long a robot that asks for help takes to lead, with a follower nearby, in ms.
+fn selects_after(street: &mut Street) -> u32 {
+    let request = Plan::crossing(Site::default()).request();
+    let asked_ms = street.now_ms;
+    street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
+    while !matches!(
+        street.robots[0].endpoint().robot().phase(),
+        Phase::Leading(_)
+    ) {
+        street.step();
+        assert!(street.now_ms < asked_ms + 2_000, "it never leads");
+    }
+    street.now_ms - asked_ms
+}
+
+#[test]
+fn a_request_that_all_robots_nearby_have_answered_waits_for_no_other() {
+    let pair = || Street {
+        robots: [machine(StationId(1)), machine(FOLLOWER)],
+        now_ms: 0,
+        started: Vec::new(),
+    };
+    let t_select_ms = Config::default().settings().t_select.0;
+    let mut alone = pair();
+    alone.pass(2);
+    assert!(selects_after(&mut alone) < t_select_ms);
+    // A third robot was heard a moment ago, and may answer still.
+    let mut street = pair();
+    street.pass(2);
+    let moment = Moment {
+        now_ms: street.now_ms.into(),
+        timestamp_its: 694_694_401_000 + u64::from(street.now_ms),
+    };
+    let mut third = machine(StationId(3));
+    let effects = third.handle(moment, f64::from(street.now_ms) / 1e3, Stimulus::Time);
+    let packet = effects.into_iter().find_map(|effect| match effect {
+        Effect::Transmit { packet, .. } => Some(packet),
+        _ => None,
+    });
+    let heard = Stimulus::Datagram {
+        packet: &packet.expect("a RAM"),
+        arrived_ms: street.now_ms.into(),
+    };
+    street.tell(0, heard);
+    assert!(selects_after(&mut street) >= t_select_ms);
 }
 
 #[test]

@@ -291,6 +291,13 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
         None => 26.0 / options.time_scale + 1.5,
         Some(_) => 4.0 / options.time_scale + 9.0,
     };
+    let together = match options.trials {
+        1 => String::new(),
+        trials => {
+            let all_s = seconds * f64::from(u32::try_from(trials).unwrap_or(u32::MAX));
+            format!(", {all_s:.0} s for all {trials}")
+        }
+    };
     let (port, last_port) = (options.port, usize::from(options.port) + robots - 1);
     let over = match options.zenoh {
         None => format!("UDP on 127.0.0.1, ports {port} to {last_port}"),
@@ -299,7 +306,7 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
     };
     print(format_args!(
         "A pedestrian wants to cross. {}\nThe robots coordinate over {over}, and move {} times as fast as \
-         real: about\n{seconds:.0} s per crossing. Packets {security}{pki}.\n",
+         real: about\n{seconds:.0} s per crossing{together}. Packets {security}{pki}.\n",
         options.scenario.summary(),
         options.time_scale,
     ))

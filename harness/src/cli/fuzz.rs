@@ -4,7 +4,10 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use crossguard_judge::sim::{Files, Fuzz, Longest, Measure, Totals, write_failure};
+use crossguard_judge::sim::{Files, Fuzz, Longest, Measure, Planned, Totals, write_failure};
+use crossguard_protocol::StationId;
+use crossguard_robot::plan_file::PlanFile;
+use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::transport::Faults;
 use indicatif::{ProgressBar, ProgressStyle};
 use quick_junit::TestSuite;
@@ -31,6 +34,13 @@ pub(super) struct Arguments {
     /// and the rest are drawn all the same.
     #[arg(long, value_name = "LIST")]
     faults: Option<Faults>,
+    /// What every leader does: a plan of your own, or one that comes with the kit, by name. Drawn by default.
+    /// Any robot takes any role; a plan that takes more followers than there are robots crosses nobody.
+    #[arg(long, value_name = "FILE")]
+    plan: Option<PathBuf>,
+    /// The site that the plan is on; by default the street of the demonstrations.
+    #[arg(long, value_name = "FILE", requires = "plan")]
+    site: Option<PathBuf>,
     /// In which share of the seeds an insider lies: a station with a certificate that says anything in its own name.
     #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = number(0.0..=1.0))]
     liars: f64,
@@ -72,12 +82,14 @@ struct FuzzReport<'a> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     destinations::folder(&arguments.out)?;
     arguments.junit.check()?;
+    let plan = planned(arguments)?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let fuzz = Fuzz {
         first: arguments.seed,
         seeds: arguments.seeds,
         robots: usize::from(arguments.robots),
         faults: arguments.faults.as_ref(),
+        plan: plan.as_ref(),
         liars: arguments.liars,
         threads: arguments.threads.map_or(cores, usize::from),
         failures_max: usize::from(arguments.failures),
@@ -116,6 +128,33 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         0 => Ok(()),
         _ => Err(Failure::Wrong),
     }
+}
+
+/// The plan that is asked for, if one is.
+fn planned(arguments: &Arguments) -> Result<Option<Planned>, Failure> {
+    let Some(path) = &arguments.plan else {
+        return Ok(None);
+    };
+    let mut said = format!("--plan '{}'", path.display());
+    let site = match &arguments.site {
+        Some(path) => {
+            said.push_str(&format!(" --site '{}'", path.display()));
+            SiteFile::read(path).map_err(Failure::input)?
+        }
+        None => SiteFile::street(),
+    };
+    let file = PlanFile::open(path, site).map_err(Failure::input)?;
+    if file.followers >= arguments.robots {
+        return Err(Failure::Input(format!(
+            "--robots {}: plan {} takes a leader and {} followers",
+            arguments.robots, file.name, file.followers
+        )));
+    }
+    let plan = file.plan(StationId(0), file.followers);
+    Ok(Some(Planned {
+        plan,
+        arguments: said,
+    }))
 }
 
 /// A case for each seed that failed, and one for the others.

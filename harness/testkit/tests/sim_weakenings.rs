@@ -15,6 +15,7 @@ fn fuzz(seeds: u64) -> Fuzz<'static> {
         seeds,
         robots: 6,
         faults: None,
+        plan: None,
         liars: 0.25,
         threads: 2,
         failures_max: 1,
@@ -30,6 +31,7 @@ fn assert_found_with(faults: &str, rules: &'static dyn Rules, properties: &[&str
     let faults = faults.parse().unwrap();
     let fuzz = Fuzz {
         faults: Some(&faults),
+        plan: None,
         ..fuzz(SEEDS)
     };
     judge(&fuzz.run_with(rules, &|_| true), properties);

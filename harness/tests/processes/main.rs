@@ -16,5 +16,6 @@ mod leader_that_hangs;
 mod map_and_signals;
 mod person_at_the_kerb;
 mod stalled_output;
+mod two_hosts;
 mod two_radios;
 mod unit_process;

@@ -146,9 +146,18 @@ fn silences(exchange: &Exchange) -> Vec<(u64, SessionId, bool)> {
         let (_, state) = exchange.state_at(since + 300)?;
         let (now, last) = following(&state.ram)?;
         let runs = last.is_some_and(|last| last.progress.is_running());
-        let is_over = exchange.played_rams().any(|(_, _, played)| {
-            matches!(played.ram.farewell, Some(Farewell::Ended(number, _))
-                if played.ram.station == session.leader && number == session.number)
+        // The leader ends the session, or lists the robot no more.
+        let is_over = exchange.played_rams().any(|(at, _, played)| {
+            let ends = matches!(played.ram.farewell, Some(Farewell::Ended(number, _))
+                if number == session.number);
+            let releases = match played.ram.coordination {
+                Coordination::Leader { followers, .. } if at > since => {
+                    session_of(&played.ram) == Some(session)
+                        && followers.iter().all(|it| it.station != exchange.robot)
+                }
+                _ => false,
+            };
+            played.ram.station == session.leader && (ends || releases)
         });
         let intervened =
             exchange.told().any(|(at, _)| at > since) || exchange.restarts().any(|at| at > since);

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crossguard_model_check::node::{Protocol, Rules};
+use crossguard_robot::plan::Plan;
 use crossguard_robot::transport::Faults;
 use serde::Serialize;
 
@@ -24,12 +25,23 @@ pub struct Fuzz<'a> {
     pub robots: usize,
     /// The faults of every way, in place of drawn ones.
     pub faults: Option<&'a Faults>,
+    /// What every leader does, in place of a drawn plan.
+    pub plan: Option<&'a Planned>,
     /// In which share of the seeds, from 0 to 1, an insider lies.
     pub liars: f64,
     /// How many threads work.
     pub threads: usize,
     /// After how many failures it is enough.
     pub failures_max: usize,
+}
+
+/// A plan from a file.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// The plan.
+    pub plan: Plan,
+    /// The arguments of `crossguard fuzz` that say so.
+    pub arguments: String,
 }
 
 /// A seed whose run was wrong.
@@ -102,7 +114,11 @@ impl Fuzz<'_> {
     /// The swarm of a seed.
     #[must_use]
     pub fn swarm(&self, seed: u64) -> Swarm {
-        Swarm::draw(seed, self.robots, self.faults).with_insider(self.liars)
+        let mut swarm = Swarm::draw(seed, self.robots, self.faults);
+        if let Some(planned) = self.plan {
+            swarm = swarm.with_plan(&planned.plan);
+        }
+        swarm.with_insider(self.liars)
     }
 
     /// The command that runs one seed alone.
@@ -111,8 +127,12 @@ impl Fuzz<'_> {
         let robots = self.robots;
         let faults = self.faults.map(|faults| format!(" --faults '{faults}'"));
         let faults = faults.unwrap_or_default();
+        let plan = self.plan.map(|it| format!(" {}", it.arguments));
+        let plan = plan.unwrap_or_default();
         let liars = u8::from(self.swarm(seed).insider.is_some());
-        format!("crossguard fuzz --seeds 1 --robots {robots} --seed {seed} --liars {liars}{faults}")
+        format!(
+            "crossguard fuzz --seeds 1 --robots {robots} --seed {seed} --liars {liars}{faults}{plan}"
+        )
     }
 
     /// Runs all seeds. `progress` is told what they amount to so far; when it says `false`, what runs

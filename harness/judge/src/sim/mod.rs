@@ -29,7 +29,7 @@ mod swarm;
 mod times;
 mod world;
 
-pub use fuzz::{Failure, Fuzz, Totals};
+pub use fuzz::{Failure, Fuzz, Planned, Totals};
 pub use report::{Files, write_failure, write_failure_with};
 pub use script::{Deed, Happening};
 pub use swarm::{Hazard, InsiderDraw, Replay, RobotDraw, Swarm};

@@ -116,6 +116,31 @@ impl Swarm {
         Draws::new(seed).swarm(seed, robots, faults)
     }
 
+    /// The same robots, each of which does what this plan says when it leads. Any robot takes any role. Nobody takes
+    /// longer across than `t_cross`, a leader is as patient as a drawn one, and whether it names its crossing stays as drawn.
+    #[must_use]
+    pub fn with_plan(mut self, plan: &Plan) -> Self {
+        for robot in &mut self.robots {
+            let drawn = &robot.plan;
+            // As where a plan is drawn.
+            let t_cross_s = f64::from(robot.config.settings().t_cross.0) / 1_000.0;
+            let slowest_s = 0.95 * t_cross_s * robot.time_scale;
+            let mut site = plan.site;
+            site.crossing = drawn.site.crossing;
+            robot.plan = Plan {
+                site,
+                roles: vec![None; plan.roles.len()],
+                crossing_s: plan.crossing_s.min(slowest_s),
+                patience_s: drawn.patience_s,
+                ..plan.clone()
+            };
+        }
+        let corners = self.robots.iter().map(|robot| robot.corner + 1).max();
+        let mut corners = 0..corners.unwrap_or(0);
+        self.waits_at = corners.find(|corner| !self.who_can_lead(*corner).is_empty());
+        self
+    }
+
     /// The longest time that a message is under way, in milliseconds.
     pub(super) fn delay_max(&self) -> Millis {
         let delays = self.ways.iter().map(Faults::delay_max_ms);
