@@ -88,9 +88,20 @@ impl Liar {
 
     /// The CAM of a vehicle with this station id.
     fn cam(&mut self, now_ms: u64, station: StationId) -> Vec<u8> {
-        let mut cam = hex::decode(golden::vector(golden::ITS, "C2")).unwrap();
-        cam[2..6].copy_from_slice(&station.0.to_be_bytes());
-        self.say(now_ms, Service::Cam, station, &cam)
+        self.golden(now_ms, Service::Cam, (golden::ITS, "C2"), station)
+    }
+
+    /// A golden vector with this station id.
+    fn golden(
+        &mut self,
+        now_ms: u64,
+        service: Service,
+        (file, name): (&'static str, &str),
+        station: StationId,
+    ) -> Vec<u8> {
+        let mut message = hex::decode(golden::vector(file, name)).unwrap();
+        message[2..6].copy_from_slice(&station.0.to_be_bytes());
+        self.say(now_ms, service, station, &message)
     }
 }
 
@@ -427,6 +438,21 @@ fn a_vehicle_has_one_name_and_keeps_it_while_it_is_heard() {
     let packet = vehicle.cam(street.now_ms, named);
     street.hear(0, &packet);
     assert_eq!(street.heard(0, named), 2);
+}
+
+/// Hazard: a phone that is one person says that it is many.
+#[test]
+fn who_tells_of_people_has_one_name_too() {
+    let mut street = Street::new(&[LEADER]);
+    let mut phone = Liar::new(&street.pki, &[], None);
+    let vam = (golden::VAM, "V1");
+    for (id, heard) in [(100, 1), (101, 0), (100, 2)] {
+        let packet = phone.golden(street.now_ms, Service::Vam, vam, StationId(id));
+        street.hear(0, &packet);
+        assert_eq!(street.heard(0, StationId(id)), heard);
+        street.pass(100, &mut |_| {});
+    }
+    assert_eq!(street.dropped(0, "second station id of a certificate"), 1);
 }
 
 #[test]

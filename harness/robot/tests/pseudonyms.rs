@@ -317,3 +317,21 @@ fn who_needs_the_robot_breaks_its_silence() {
     alone.pass(200);
     assert!(alone.has_sent_since(alone.now_ms - 200));
 }
+
+/// A robot that starts again and again would be known by a first pseudonym that is always the same.
+#[test]
+fn the_first_pseudonym_after_a_start_is_any_of_them() {
+    let now = Time64::of_timestamp_its(EPOCH_ITS);
+    let pki = Pki::for_a_day(&Identifiers::default(), now).unwrap();
+    let credentials = pki.credentials(&Identifiers::default(), (8, None), now);
+    let credentials = credentials.unwrap();
+    let starts = (0..40).map(|_| {
+        let tickets = credentials.clone().shuffled().tickets;
+        let ids: BTreeSet<_> = tickets.iter().map(|it| it.certificate().id().0).collect();
+        assert_eq!(ids.len(), 8, "all of them are there");
+        tickets[0].certificate().id().0
+    });
+    let firsts: BTreeSet<_> = starts.collect();
+    // That five or fewer of eight come first in forty starts happens in one of a million times.
+    assert!(firsts.len() > 5, "{firsts:?}");
+}
