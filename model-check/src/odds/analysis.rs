@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::chain::MarkovChain;
 use super::enclosure::Enclosure;
 use super::figures::{Beginning, Frame, LossOdds, MilestoneOdds, StageSize};
-use super::flow::{Flow, FlowLimits, Stopped, flow};
+use super::flow::{Flow, FlowCut, FlowLimits, flow};
 use super::setup::{Coupling, OddsImpossibility, OddsSetup};
 use super::space::{StageSpace, probability};
 use super::stage::{Milestone, Stage};
@@ -45,12 +45,9 @@ pub enum ChainError {
     /// There is no such channel.
     #[error(transparent)]
     Impossible(#[from] OddsImpossibility),
-    /// Somebody asked to stop.
+    /// It was given up.
     #[error(transparent)]
-    Stopped(#[from] Stopped),
-    /// There are too many states.
-    #[error("the stage has more than {0} states")]
-    TooLarge(usize),
+    Cut(#[from] FlowCut),
     /// The stage does not begin with any probability that is worth following.
     #[error("the stage never begins at this loss rate")]
     NeverBegins,
@@ -82,7 +79,7 @@ impl OddsModel {
     /// What is known of the team at these loss rates, up to the end of stage `last`. `watch` receives the progress.
     ///
     /// # Errors
-    /// There is no such channel, or somebody asked to stop.
+    /// There is no such channel, or it was given up.
     pub fn odds(
         &mut self,
         losses: &[f64],
@@ -122,7 +119,7 @@ impl OddsModel {
         links: u8,
         stop: &Stop,
         counted: &mut Counted<'_>,
-    ) -> Result<TeamOdds, Stopped> {
+    ) -> Result<TeamOdds, FlowCut> {
         let mut interim: Vec<Interim> = losses.iter().map(|&loss| Interim::at(loss)).collect();
         let mut sizes = Vec::new();
         for &stage in stages {
@@ -181,10 +178,10 @@ impl OddsModel {
         let mut number = 0;
         while number < space.states() {
             if space.states() > states_max {
-                return Err(ChainError::TooLarge(states_max));
+                return Err(FlowCut::TooLarge(states_max).into());
             }
             if stop.is_requested() {
-                return Err(Stopped.into());
+                return Err(FlowCut::Stopped.into());
             }
             let _ = space.arcs(u32::try_from(number).expect("fewer than 2^32 states"));
             number += 1;
@@ -261,7 +258,7 @@ impl Interim {
         limits: FlowLimits,
         frame: Frame,
         stop: &Stop,
-    ) -> Result<(), Stopped> {
+    ) -> Result<(), FlowCut> {
         let start = self.start(space);
         let beginning = Beginning {
             mass: start.iter().map(|(_, mass)| mass).sum(),

@@ -76,10 +76,22 @@ fn threshold(shares: &[(u32, f64)], allowed: f64) -> f64 {
     threshold.max(NEGLIGIBLE)
 }
 
-/// Somebody asked to stop.
+/// The most states that a stage may have: they take about 200 bytes each.
+const STATES_MAX: usize = 12_000_000;
+
+/// Why an analysis was given up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-#[error("it was told to stop before it was done")]
-pub struct Stopped;
+pub enum FlowCut {
+    /// Somebody asked to stop.
+    #[error("it was told to stop before it was done")]
+    Stopped,
+    /// There are too many states.
+    #[error(
+        "the stage has more than {0} states: with bounds that are farther apart, links one at a time, fewer followers or \
+         lower loss rates there are fewer"
+    )]
+    TooLarge(usize),
+}
 
 /// What flows: the probability of each state by its number.
 struct Mass {
@@ -124,7 +136,7 @@ pub(super) fn flow(
     start: &[(u32, f64)],
     limits: FlowLimits,
     stop: &Stop,
-) -> Result<Flow, Stopped> {
+) -> Result<Flow, FlowCut> {
     let milestones: Vec<Milestone> = space.stage.milestones().collect();
     let mut found = Flow {
         reached: milestones
@@ -172,7 +184,10 @@ pub(super) fn flow(
             break;
         }
         if stop.is_requested() {
-            return Err(Stopped);
+            return Err(FlowCut::Stopped);
+        }
+        if space.states() > STATES_MAX {
+            return Err(FlowCut::TooLarge(STATES_MAX));
         }
         for (state, mass) in going {
             // The request ends with the next tick, before anything arrives in it.

@@ -53,6 +53,6 @@ pub use chain::{Iteration, MarkovChain};
 pub use enclosure::Enclosure;
 pub use export::ChainFormat;
 pub use figures::{LossOdds, MilestoneOdds, Quantile, Reached, StageSize};
-pub use flow::Stopped;
+pub use flow::FlowCut;
 pub use setup::{Coupling, FOLLOWERS_MAX, OddsImpossibility, OddsSetup, TimeGrid};
 pub use stage::{Milestone, Stage};

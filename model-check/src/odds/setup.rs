@@ -9,6 +9,9 @@ pub const FOLLOWERS_MAX: u8 = 3;
 /// How far apart bounds may be by default, by the number of followers.
 pub(super) const WIDTHS: [f64; FOLLOWERS_MAX as usize] = [1e-9, 1e-5, 1e-3];
 
+/// The same where losses come in bursts: the links have states of their own.
+const BURST_WIDTHS: [f64; FOLLOWERS_MAX as usize] = [1e-9, 1e-3, 1e-2];
+
 /// A team and what surrounds it. The loss rate is no part of it: which states there are does not depend on it.
 #[derive(Clone, Debug)]
 pub struct OddsSetup {
@@ -198,7 +201,11 @@ impl OddsSetup {
             grid,
             burst,
             hold,
-            width: WIDTHS[usize::from(followers) - 1],
+            width: if burst.is_none() {
+                WIDTHS[usize::from(followers) - 1]
+            } else {
+                BURST_WIDTHS[usize::from(followers) - 1]
+            },
             coupling: if followers == 1 {
                 Coupling::Joint
             } else {

@@ -1,0 +1,74 @@
+"""Storm judges the Markov chains that `crossguard odds --export` writes.
+
+    odds_judge.py FOLDER
+
+It reads each chain's DRN with Storm, lets Storm work out what `figures.json` says of it, and compares to 1e-6. It
+compares the PRISM files with the DRN through Storm as well: transitions, labels and rewards are read from both.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import stormpy
+
+TOLERANCE = 1e-6
+
+
+def check(model, formula):
+    """What Storm says of the first state."""
+    properties = stormpy.parse_properties(formula)
+    result = stormpy.model_checking(model, properties[0])
+    return result.at(model.initial_states[0])
+
+
+def questions(figures):
+    """Formulas, with the bounds of the answer as `crossguard` has it."""
+    for it in figures["within"]:
+        value = it["probability"]
+        formula = f'P=? [F<={it["steps"]} "{it["label"]}"]'
+        yield formula, value, value
+    for it in figures["ever"]:
+        value = it["probability"]
+        yield f'P=? [F "{it["label"]}"]', value["lower"], value["upper"]
+    if "expected_steps" in figures:
+        value = figures["expected_steps"]
+        yield 'R{"steps"}=? [F "over"]', value["lower"], value["upper"]
+
+
+def judge(folder, figures):
+    """How many answers agree, and the largest difference."""
+    stage = folder / figures["stage"]
+    drn = stormpy.build_model_from_drn(str(stage.with_suffix(".drn")))
+    prism = stormpy.build_model_from_explicit(
+        str(stage.with_suffix(".tra")),
+        str(stage.with_suffix(".lab")),
+        state_rewards=str(stage.with_suffix(".srew")),
+    )
+    for model in (drn, prism):
+        size = (model.nr_states, model.nr_transitions)
+        wanted = (figures["states"], figures["transitions"])
+        assert size == wanted, f"{stage}: {size} and not {wanted}"
+    largest, count = 0.0, 0
+    for formula, lower, upper in questions(figures):
+        models = [drn]
+        if "R{" not in formula:
+            # In PRISM's files the reward structure has no name.
+            models.append(prism)
+        for model in models:
+            value = check(model, formula)
+            difference = max(lower - value, value - upper, 0.0)
+            largest, count = max(largest, difference), count + 1
+            assert difference <= TOLERANCE, f"{stage} {formula}: Storm has {value}, and not {lower} to {upper}"
+    return count, largest
+
+
+def main():
+    folder = Path(sys.argv[1])
+    for figures in json.loads((folder / "figures.json").read_text()):
+        count, largest = judge(folder, figures)
+        print(f'{figures["stage"]}: {figures["states"]} states, {count} answers of Storm agree, '
+              f"the largest difference is {largest:.1e}")
+
+
+main()
