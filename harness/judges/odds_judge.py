@@ -2,12 +2,13 @@
 
     odds_judge.py FOLDER
 
-It reads each chain's DRN with Storm, lets Storm work out what `figures.json` says of it, and compares to 1e-6. It
-compares the PRISM files with the DRN through Storm as well: transitions, labels and rewards are read from both.
+It reads each chain's DRN with Storm, lets Storm work out what `figures.json` says of it, and compares to 1e-6. The
+files for PRISM are put into Storm's own explicit form, which has another head, and judged in the same way.
 """
 
 import json
 import sys
+import tempfile
 from pathlib import Path
 
 import stormpy
@@ -19,7 +20,7 @@ def check(model, formula):
     """What Storm says of the first state."""
     properties = stormpy.parse_properties(formula)
     result = stormpy.model_checking(model, properties[0])
-    return result.at(model.initial_states[0])
+    return result[model.initial_states[0]]
 
 
 def questions(figures):
@@ -36,15 +37,27 @@ def questions(figures):
         yield 'R{"steps"}=? [F "over"]', value["lower"], value["upper"]
 
 
+def of_prism(stage):
+    """The chain in the files for PRISM."""
+    head, *labelled = stage.with_suffix(".lab").read_text().splitlines()
+    names = dict(it.replace('"', "").split("=") for it in head.split())
+    with tempfile.TemporaryDirectory() as folder:
+        tra, lab = Path(folder, "chain.tra"), Path(folder, "chain.lab")
+        transitions = stage.with_suffix(".tra").read_text().split("\n", 1)[1]
+        tra.write_text("dtmc\n" + transitions)
+        lines = ["#DECLARATION", " ".join(names.values()), "#END"]
+        for line in labelled:
+            state, labels = line.split(": ")
+            lines.append(" ".join([state, *(names[label] for label in labels.split())]))
+        lab.write_text("\n".join(lines) + "\n")
+        return stormpy.build_model_from_explicit(str(tra), str(lab))
+
+
 def judge(folder, figures):
     """How many answers agree, and the largest difference."""
     stage = folder / figures["stage"]
     drn = stormpy.build_model_from_drn(str(stage.with_suffix(".drn")))
-    prism = stormpy.build_model_from_explicit(
-        str(stage.with_suffix(".tra")),
-        str(stage.with_suffix(".lab")),
-        state_rewards=str(stage.with_suffix(".srew")),
-    )
+    prism = of_prism(stage)
     for model in (drn, prism):
         size = (model.nr_states, model.nr_transitions)
         wanted = (figures["states"], figures["transitions"])
@@ -53,7 +66,7 @@ def judge(folder, figures):
     for formula, lower, upper in questions(figures):
         models = [drn]
         if "R{" not in formula:
-            # In PRISM's files the reward structure has no name.
+            # Storm's own explicit form has rewards without names.
             models.append(prism)
         for model in models:
             value = check(model, formula)

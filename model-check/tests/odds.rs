@@ -277,7 +277,7 @@ fn the_chain_of_a_stage_says_what_its_flow_says() {
         let label = chain
             .label_names()
             .iter()
-            .position(|name| name == milestone.name())
+            .position(|name| *name == milestone.name().replace('-', "_"))
             .unwrap();
         for ms in [250, 500, 2_000, 8_000] {
             // One step leads into the stage.

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     /// The time that each message takes, in milliseconds.
     #[arg(long, value_name = "MS", default_value_t = 50, value_parser = whole::<u32>(1..=60_000))]
     delay: u32,
-    /// The grid of time, in milliseconds; by default the coarsest on which ram_period and the delay are whole.
+    /// The grid of time, in milliseconds; by default the coarsest on which the RAM period and the delay are whole.
     #[arg(long, value_name = "MS", value_parser = whole::<u32>(1..=60_000))]
     tick: Option<u32>,
     /// How long the maneuver takes while the corridor is open, in milliseconds; by default the paper's 'Move'.
@@ -53,9 +53,7 @@ pub(super) struct Arguments {
     /// A robot's configuration, as for 'crossguard run'; without it, the default settings.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Work it out for each of these values of one setting, like ram_period=50,100,200; it may be ram_period, t_ack,
-    /// n_ack or t_safety. The lease goes with t_safety.
-    #[arg(long, value_name = "SETTING=VALUES", conflicts_with_all = ["target", "export"])]
+    #[arg(long, value_name = "SETTING=VALUES", conflicts_with_all = ["target", "export"], help = VARY)]
     vary: Option<Varied>,
     /// Search settings that reach this at the largest of the loss rates, like 'complete>=0.999 within 2s', and say
     /// what limits it.
@@ -91,6 +89,9 @@ before the maneuver is over. Numbers are solved from the transition function tha
 sampled. Nobody crashes in it, clocks do not drift, and every message takes the same time. \
 Targets: NAME >= P or NAME <= P, with 'within TIME' where time matters; NAME is complete, received, acknowledged, open, \
 interrupted, fell-back or crossing. Exit code 1: no settings reach the target.";
+
+const VARY: &str = "Work it out for each of these values of one setting, like ram_period=50,100,200; it may be \
+    ram_period, t_ack, n_ack or t_safety. The lease goes with t_safety";
 
 /// The longest chain that is written.
 const STATES_MAX: usize = 2_000_000;

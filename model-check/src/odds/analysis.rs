@@ -93,7 +93,7 @@ impl OddsModel {
         let joint = self.setup().coupling() == Coupling::Joint;
         let stages: Vec<Stage> = Stage::up_to(last).collect();
         // One link at a time begins anew, so that its states are its own.
-        let again = if joint || stages.len() == 1 { 0 } else { 1 };
+        let again = usize::from(!joint && stages.len() > 1);
         let mut counted = Counted {
             done: 0,
             of: (stages.len() + again) * losses.len(),
@@ -150,6 +150,9 @@ impl OddsModel {
     ///
     /// # Errors
     /// There is none.
+    ///
+    /// # Panics
+    /// When 2^32 states are exceeded, far beyond what fits in memory.
     pub fn chain(
         &mut self,
         stage: Stage,
@@ -371,7 +374,7 @@ fn chain_of(space: &mut StageSpace<'_>, loss: f64, start: &[(u32, f64)], all: f6
     let milestones: Vec<Milestone> = space.stage.milestones().collect();
     let names = milestones
         .iter()
-        .map(|milestone| milestone.name().to_owned());
+        .map(|milestone| milestone.name().replace('-', "_"));
     let mut chain = MarkovChain::new(names.collect());
     chain.push(
         0,
@@ -385,7 +388,7 @@ fn chain_of(space: &mut StageSpace<'_>, loss: f64, start: &[(u32, f64)], all: f6
             labels |= u8::from(marks.has(*milestone)) << bit;
         }
         let arcs = space.arcs(number).iter();
-        let row = merged(arcs.map(|arc| (arc.to + 1, probability(arc, &products))));
+        let row = merged(arcs.map(|arc| (arc.to + 1, probability(*arc, &products))));
         chain.push(labels, row);
     }
     chain

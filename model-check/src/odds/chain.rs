@@ -36,7 +36,10 @@ impl Default for Iteration {
 }
 
 impl MarkovChain {
-    /// A chain without states, whose states may have these labels, eight at most.
+    /// A chain without states, whose states may have these labels.
+    ///
+    /// # Panics
+    /// When there are more than eight labels.
     #[must_use]
     pub fn new(label_names: Vec<String>) -> Self {
         assert!(label_names.len() <= 8, "at most eight labels");
@@ -49,6 +52,9 @@ impl MarkovChain {
 
     /// Adds a state with one bit for each of its labels, and its transitions: to which state, with which
     /// probability. Those of a state come to 1 together; no transitions at all are one to itself.
+    ///
+    /// # Panics
+    /// When 2^32 states are exceeded, far beyond what fits in memory.
     pub fn push(&mut self, labels: u8, transitions: impl IntoIterator<Item = (u32, f64)>) {
         let from = self.transitions.len();
         self.transitions.extend(transitions);

@@ -194,12 +194,13 @@ pub(super) fn flow(
             if limits.help == Some(tick + 1) && space.model().is_requesting(space.state(state)) {
                 continue;
             }
-            let (_, known) = (space.arcs(state), products.len());
-            if space.products() > known {
+            // Ways that are only now worked out may bring new products.
+            let _ = space.arcs(state);
+            if space.products() > products.len() {
                 products = space.probabilities(loss);
             }
             for arc in space.arcs(state) {
-                here.add(arc.to, mass * probability(arc, &products));
+                here.add(arc.to, mass * probability(*arc, &products));
             }
         }
     }

@@ -139,7 +139,7 @@ impl<'a> StageSpace<'a> {
         let probabilities = self.probabilities(loss);
         let start = arcs
             .iter()
-            .map(|arc| (arc.to, probability(arc, &probabilities)));
+            .map(|arc| (arc.to, probability(*arc, &probabilities)));
         start.collect()
     }
 
@@ -159,7 +159,7 @@ impl<'a> StageSpace<'a> {
 }
 
 /// The probability of a way, where those of the products are these.
-pub(super) fn probability(arc: &Arc, of_products: &[f64]) -> f64 {
+pub(super) fn probability(arc: Arc, of_products: &[f64]) -> f64 {
     f64::from(arc.times) * of_products[usize::from(arc.chances)]
 }
 

@@ -175,7 +175,7 @@ fn gathered(before: Marks, nodes: &[&Node]) -> Marks {
     match phase(nodes[0]) {
         Phase::Requesting(_) => before,
         Phase::Leading(leading) if leading.members.len() == nodes.len() - 1 => {
-            let all_joined = leading.members.iter().all(|member| member.has_joined());
+            let all_joined = leading.members.iter().all(Member::has_joined);
             before.with(Milestone::Team, all_joined)
         }
         _ => before.failed(),
@@ -188,7 +188,7 @@ fn commanded(before: Marks, nodes: &[&Node], fell_back: bool) -> Marks {
     let Phase::Leading(leading) = phase(nodes[0]) else {
         return marks.failed();
     };
-    let runs = |progress: Option<Progress>| progress.is_none_or(|it| it.is_running());
+    let runs = |progress: Option<Progress>| progress.is_none_or(Progress::is_running);
     let goes_on = leading.members.len() == nodes.len() - 1
         && leading
             .members

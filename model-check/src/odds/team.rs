@@ -193,10 +193,10 @@ impl TeamModel {
     }
 
     /// The state in which `stage` begins, for one in which the stage before it has been completed.
-    pub(super) fn enter(&mut self, stage: Stage, state: &TeamState) -> TeamState {
+    pub(super) fn enter(&mut self, stage: Stage, before: &TeamState) -> TeamState {
         let mut draft = Draft::from(TeamState {
             marks: Marks::default(),
-            ..state.clone()
+            ..before.clone()
         });
         if stage == Stage::Commanding {
             for place in 1..self.robots() {
@@ -219,15 +219,15 @@ impl TeamModel {
     }
 
     /// What may follow within a tick, and what happens on the way to it.
-    pub(super) fn ways(&mut self, stage: Stage, state: &TeamState) -> Ways {
-        if state.marks.ends(stage) {
-            return vec![(Chances::default(), state.clone())];
+    pub(super) fn ways(&mut self, stage: Stage, from: &TeamState) -> Ways {
+        if from.marks.ends(stage) {
+            return vec![(Chances::default(), from.clone())];
         }
         let delay = self.delay();
-        let arriving: SmallVec<[Broadcast; 4]> = (state.air.iter().copied())
+        let arriving: SmallVec<[Broadcast; 4]> = (from.air.iter().copied())
             .filter(|broadcast| broadcast.ticks + 1 == delay)
             .collect();
-        let mut drafts = self.links_change(state);
+        let mut drafts = self.links_change(from);
         for draft in &mut drafts {
             for broadcast in &mut draft.state.air {
                 broadcast.ticks += 1;
@@ -312,7 +312,7 @@ impl TeamModel {
         match stage {
             // Helpers are as many as are asked for: once all have offered, no other offer can come.
             Stage::Gathering => {
-                self.take_in(&mut draft, LEADER, TeamCause::Event(Event::AllAnswered))
+                self.take_in(&mut draft, LEADER, TeamCause::Event(Event::AllAnswered));
             }
             Stage::Commanding => {
                 let marks = self.marks(stage, &draft);

@@ -22,10 +22,10 @@ fn chart(report: &OddsReport) -> LineChart {
         None => "independent losses".to_owned(),
     };
     LineChart {
-        title: format!(
-            "A crossing with {} follower(s) under loss",
-            report.followers
-        ),
+        title: match report.followers {
+            1 => "A crossing with one follower under loss".to_owned(),
+            followers => format!("A crossing with {followers} followers under loss"),
+        },
         subtitle: format!(
             "{channel}; each message takes {} ms; the maneuver takes {:.1} s",
             report.delay_ms,
