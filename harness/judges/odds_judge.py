@@ -20,7 +20,7 @@ def check(model, formula):
     """What Storm says of the first state."""
     properties = stormpy.parse_properties(formula)
     result = stormpy.model_checking(model, properties[0])
-    return result[model.initial_states[0]]
+    return float(result[model.initial_states[0]])
 
 
 def questions(figures):
