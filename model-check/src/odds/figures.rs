@@ -53,7 +53,7 @@ pub struct MilestoneOdds {
     pub quantiles: Vec<Quantile>,
     /// The probability that it has been reached, at each point of the grid from the first at which there is one
     /// to the last at which it changes.
-    pub distribution: Vec<Reached>,
+    pub distribution: Vec<ReachedBy>,
 }
 
 /// A time by which a milestone is reached with some probability.
@@ -67,7 +67,7 @@ pub struct Quantile {
 
 /// The probability that a milestone has been reached by some time.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
-pub struct Reached {
+pub struct ReachedBy {
     /// The time, in ms.
     pub ms: u64,
     /// No less than this.
@@ -131,11 +131,11 @@ impl MilestoneOdds {
             }
         };
         let probability = at(curve.len() - 1);
-        let distribution: Vec<Reached> = (0..curve.len())
+        let distribution: Vec<ReachedBy> = (0..curve.len())
             .map(|tick| {
                 let Enclosure { lower, upper } = at(tick);
                 let ms = grid.millis(tick);
-                Reached { ms, lower, upper }
+                ReachedBy { ms, lower, upper }
             })
             .collect();
         let quantile = |probability| Quantile {
@@ -184,7 +184,7 @@ impl MilestoneOdds {
 
 /// Mean and standard deviation, in ms, of when something happens if it does. What was not followed may happen at
 /// once, or at the latest possible time.
-fn moments(distribution: &[Reached], unknown: f64, latest: Millis) -> Option<(Enclosure, f64)> {
+fn moments(distribution: &[ReachedBy], unknown: f64, latest: Millis) -> Option<(Enclosure, f64)> {
     let total = distribution.last().map(|reached| reached.lower);
     let total = total.filter(|total| *total > 0.0)?;
     let (mut first, mut second, mut before) = (0.0, 0.0, 0.0);
@@ -204,12 +204,12 @@ fn moments(distribution: &[Reached], unknown: f64, latest: Millis) -> Option<(En
 }
 
 /// Without the points before the first chance and after the last change.
-fn trimmed(mut distribution: Vec<Reached>) -> Vec<Reached> {
+fn trimmed(mut distribution: Vec<ReachedBy>) -> Vec<ReachedBy> {
     let first = distribution.iter().position(|reached| reached.lower > 0.0);
     let Some(last) = distribution.last().copied() else {
         return distribution;
     };
-    let settled = |reached: &Reached| (reached.lower, reached.upper) == (last.lower, last.upper);
+    let settled = |reached: &ReachedBy| (reached.lower, reached.upper) == (last.lower, last.upper);
     let end = distribution.iter().position(settled).unwrap_or(0);
     distribution.truncate(end + 1);
     distribution.drain(..first.unwrap_or(end).min(end));

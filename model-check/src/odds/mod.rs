@@ -52,7 +52,7 @@ pub use analysis::{ChainError, OddsModel, OddsProgress, TeamOdds};
 pub use chain::{Iteration, MarkovChain};
 pub use enclosure::Enclosure;
 pub use export::ChainFormat;
-pub use figures::{LossOdds, MilestoneOdds, Quantile, Reached, StageSize};
+pub use figures::{LossOdds, MilestoneOdds, Quantile, ReachedBy, StageSize};
 pub use flow::FlowCut;
 pub use setup::{Coupling, FOLLOWERS_MAX, OddsImpossibility, OddsSetup, TimeGrid};
 pub use stage::{Milestone, Stage};

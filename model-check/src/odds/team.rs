@@ -92,7 +92,7 @@ pub(super) struct TeamModel {
 }
 
 /// A state while a tick is worked out.
-struct Draft {
+struct TickDraft {
     chances: Chances,
     state: TeamState,
     falls_back: bool,
@@ -161,7 +161,7 @@ impl TeamModel {
             nodes,
             ..TeamState::over(Marks::default())
         };
-        let mut draft = Draft::from(state);
+        let mut draft = TickDraft::from(state);
         let request = HelpRequest {
             urgency: Urgency::Medium,
             followers: self.setup.followers(),
@@ -194,7 +194,7 @@ impl TeamModel {
 
     /// The state in which `stage` begins, for one in which the stage before it has been completed.
     pub(super) fn enter(&mut self, stage: Stage, before: &TeamState) -> TeamState {
-        let mut draft = Draft::from(TeamState {
+        let mut draft = TickDraft::from(TeamState {
             marks: Marks::default(),
             ..before.clone()
         });
@@ -253,14 +253,14 @@ impl TeamModel {
     }
 
     /// The links at the end of a tick, where losses come in bursts.
-    fn links_change(&self, state: &TeamState) -> Vec<Draft> {
+    fn links_change(&self, state: &TeamState) -> Vec<TickDraft> {
         if self.setup.burst().is_none() {
-            return vec![Draft::from(state.clone())];
+            return vec![TickDraft::from(state.clone())];
         }
         let was_bad = state.bad;
         let was_good = self.links() & !self.lossless & !was_bad;
         let drafts = self.bad_links().map(|bad| {
-            let mut draft = Draft::from(state.clone());
+            let mut draft = TickDraft::from(state.clone());
             draft.state.bad = bad;
             draft.chances = Chances {
                 worsened: count(was_good & bad),
@@ -276,7 +276,7 @@ impl TeamModel {
 
     /// A message arrives at the robot at `to`, or gets lost on the way to it. Where it changes nothing, nobody needs
     /// to ask which.
-    fn arrives(&mut self, drafts: Vec<Draft>, broadcast: Broadcast, to: u8) -> Vec<Draft> {
+    fn arrives(&mut self, drafts: Vec<TickDraft>, broadcast: Broadcast, to: u8) -> Vec<TickDraft> {
         let mut after = Vec::with_capacity(2 * drafts.len());
         for mut lost in drafts {
             let cause = TeamCause::Message(broadcast.message);
@@ -293,7 +293,7 @@ impl TeamModel {
                 after.push(lost);
                 continue;
             }
-            let mut arrived = Draft {
+            let mut arrived = TickDraft {
                 chances: lost.chances,
                 state: lost.state.clone(),
                 falls_back: lost.falls_back,
@@ -308,7 +308,7 @@ impl TeamModel {
     }
 
     /// What the application does at the end of a tick, and what has been reached by then.
-    fn finished(&mut self, stage: Stage, mut draft: Draft) -> (Chances, TeamState) {
+    fn finished(&mut self, stage: Stage, mut draft: TickDraft) -> (Chances, TeamState) {
         match stage {
             // Helpers are as many as are asked for: once all have offered, no other offer can come.
             Stage::Gathering => {
@@ -323,7 +323,7 @@ impl TeamModel {
             Stage::Holding => {}
         }
         let marks = self.marks(stage, &draft);
-        let Draft {
+        let TickDraft {
             chances, mut state, ..
         } = draft;
         state.marks = marks;
@@ -334,21 +334,21 @@ impl TeamModel {
         (chances, state)
     }
 
-    fn marks(&self, stage: Stage, draft: &Draft) -> Marks {
+    fn marks(&self, stage: Stage, draft: &TickDraft) -> Marks {
         let numbers = &draft.state.nodes[..usize::from(self.robots())];
         let nodes: SmallVec<[&Node; ROBOTS_MAX]> =
             numbers.iter().map(|&node| self.nodes.value(node)).collect();
         stage.marked(draft.state.marks, &nodes, draft.falls_back)
     }
 
-    fn changes_anything(&mut self, draft: &Draft, place: u8, cause: TeamCause) -> bool {
+    fn changes_anything(&mut self, draft: &TickDraft, place: u8, cause: TeamCause) -> bool {
         let before = draft.state.nodes[usize::from(place)];
         let step = self.step(before, cause);
         step.after != before || !step.sends.is_empty()
     }
 
     /// A robot takes something in.
-    fn take_in(&mut self, draft: &mut Draft, place: u8, cause: TeamCause) {
+    fn take_in(&mut self, draft: &mut TickDraft, place: u8, cause: TeamCause) {
         let node = &mut draft.state.nodes[usize::from(place)];
         let step = self.step(*node, cause);
         *node = step.after;
@@ -436,7 +436,7 @@ impl TeamModel {
     }
 }
 
-impl From<TeamState> for Draft {
+impl From<TeamState> for TickDraft {
     fn from(state: TeamState) -> Self {
         Self {
             chances: Chances::default(),
