@@ -18,6 +18,7 @@ mod fuzz;
 mod interrupts;
 mod junit;
 mod listening;
+mod odds;
 mod pki;
 mod printable;
 mod ranges;
@@ -74,6 +75,8 @@ enum Command {
     Check(check::Arguments),
     /// Print how long each response takes at most, with a robot's own settings.
     Bounds(bounds::Arguments),
+    /// Work out how likely a crossing goes well when messages get lost, and how long it takes.
+    Odds(Box<odds::Arguments>),
     /// Walk through the states of a scenario in a browser.
     Explore(explore::Arguments),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.
@@ -150,6 +153,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Bounds(arguments) => bounds::run(&arguments),
+        Command::Odds(arguments) => odds::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Conform(arguments) => conform::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),

@@ -303,6 +303,7 @@ fn a_full_standard_output_is_named() {
         &["fuzz", "--seeds", "1", "--robots", "2"],
         &["simulate", "obs", "--pedestrians", "20", "--seeds", "1"],
         &["bounds"],
+        &["odds", "--loss", "0"],
         &["conform", "--list"],
     ] {
         let output = to_a_full_disk(arguments);

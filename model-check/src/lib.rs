@@ -32,6 +32,7 @@
 //! - [`properties`] are the rules, [`check`] and [`report`] say whether they hold, [`fair`] decides
 //!   leads-to, [`timed`] is the view in which time passes in ticks.
 //! - [`road`] is what bodies, signs and a pedestrian do.
+//! - [`odds`] are probabilities and expected times under loss, from the same transition function.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
 //!   states to other tools.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
@@ -54,6 +55,7 @@ pub mod fair;
 mod fairness;
 pub mod fsm;
 mod graph;
+mod held;
 pub mod history;
 mod intern;
 pub mod model;
@@ -61,6 +63,7 @@ pub mod monitor;
 pub mod monotone;
 pub mod network;
 pub mod node;
+pub mod odds;
 pub mod paper;
 pub mod properties;
 pub mod replay;

@@ -20,7 +20,7 @@
 //! [`monotone`](crate::monotone) says why, and what is refused there.
 
 use crossguard_protocol::{
-    Coordination, Decimetres, Farewell, Input, Ram, Renaming, Rmcm, StationId,
+    Coordination, Decimetres, Farewell, Input, Output, Ram, Renaming, Rmcm, Robot, StationId,
 };
 
 use crate::canonical::Renamable;
@@ -48,6 +48,15 @@ pub enum Message {
 }
 
 impl Message {
+    /// What a robot that is in this state after a step sends for an output of the step, if anything.
+    pub(crate) fn sent(after: &Robot, output: &Output) -> Option<Self> {
+        match *output {
+            Output::SendRam => Some(Self::Ram(after.ram())),
+            Output::SendRmcm(rmcm) => Some(Self::Rmcm(rmcm)),
+            _ => None,
+        }
+    }
+
     /// What the receiver's transition function takes in. All robots are equally far apart.
     #[must_use]
     pub fn input(&self) -> Input {

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crossguard_protocol::{Config, Event, Input, Output, Outputs, Timer};
+use crossguard_protocol::{Config, Event, Input, Outputs, Timer};
 use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
@@ -156,11 +156,7 @@ impl Steps {
         };
         outputs
             .iter()
-            .filter_map(|output| match *output {
-                Output::SendRam => Some(Message::Ram(robot.ram())),
-                Output::SendRmcm(rmcm) => Some(Message::Rmcm(rmcm)),
-                _ => None,
-            })
+            .filter_map(|output| Message::sent(robot, output))
             .map(|message| self.message_number(message))
             .collect()
     }

@@ -16,9 +16,7 @@
 
 use std::sync::Arc;
 
-use crossguard_protocol::{
-    Config, Event, Input, Millis, Output, Outputs, Phase, Renaming, Robot, StationId, Timer,
-};
+use crossguard_protocol::{Event, Input, Millis, Outputs, StationId};
 use dashmap::DashMap;
 use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
@@ -34,6 +32,7 @@ use super::teams::MAX_TEAMS;
 use super::told::{Telling, Told};
 use super::watch::StopWatch;
 use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
+use crate::held::Held;
 use crate::intern::Interner;
 use crate::network::Message;
 use crate::node::{Node, Protocol, Rules};
@@ -170,16 +169,16 @@ impl TimedModel {
         }
         let (after, outputs) = self.compute(node, cause)?;
         let robot = after.robot.as_ref()?;
-        let sends = outputs.iter().filter_map(|output| match *output {
-            Output::SendRam => Some(Message::Ram(robot.ram())),
-            Output::SendRmcm(rmcm) => Some(Message::Rmcm(rmcm)),
-            _ => None,
-        });
+        let sends = outputs
+            .iter()
+            .filter_map(|output| Message::sent(robot, output));
         let (input, before) = (self.input(cause), self.nodes.value(node));
         let said = before.robot.as_ref()?.ram();
+        // A run ends before they do.
         let mut held = Held {
             config: &self.scenario.config,
             robot,
+            holds_help: false,
         };
         let step = TimedRobotStep {
             sends: sends.map(|message| self.message_number(message)).collect(),
@@ -244,25 +243,5 @@ impl TimedModel {
             let renamed = self.messages.renamed(message.into(), renaming);
             u16::try_from(renamed).expect("fewer than 65,536 distinct messages")
         });
-    }
-}
-
-/// The two timers that are longer than anything that is measured are held at the time that they are
-/// started with: a run ends before they do.
-struct Held<'a> {
-    config: &'a Config,
-    robot: &'a Robot,
-}
-
-impl Renaming for Held<'_> {
-    fn countdown(&mut self, timer: Timer, left: Millis) -> Millis {
-        match (timer, self.robot.phase()) {
-            (Timer::IdentityLock, _) => self.config.t_lock_session(),
-            (Timer::Execution(station), Phase::Leading(leading)) => {
-                let order = leading.member(station).and_then(|member| member.order);
-                order.map_or(left, |order| self.config.t_exec(order.task))
-            }
-            _ => left,
-        }
     }
 }

@@ -1,0 +1,372 @@
+//! `crossguard odds`.
+
+mod loss;
+mod output;
+mod plot;
+mod settings;
+mod target;
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crossguard_model_check::check::Stop;
+use crossguard_model_check::odds::{
+    ChainError, ChainFormat, Coupling, Enclosure, FOLLOWERS_MAX, FlowCut, Iteration, OddsModel,
+    OddsProgress, OddsSetup, Stage, TeamOdds, TimeGrid,
+};
+use crossguard_protocol::{Config, Millis};
+use crossguard_robot::robot_file::RobotFile;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use self::loss::LossRates;
+use self::settings::{Knob, Varied};
+use self::target::Target;
+use super::interrupts::interrupts_that;
+use super::ranges::{number, whole};
+use super::{Failure, destinations, print, print_json, shows_progress};
+
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct Arguments {
+    /// How many followers the leader asks for: 1 for a pair, 2 for a trio.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u8>(1..=FOLLOWERS_MAX.into()))]
+    followers: u8,
+    /// The shares of messages that get lost: a list like 0,0.1,0.3, or a range like 0..0.6, in steps of 0.1 or as in
+    /// 0..0.6:0.05.
+    #[arg(long, value_name = "RATES", default_value = "0..0.6")]
+    loss: LossRates,
+    /// Losses come in bursts of this mean length, in milliseconds, on the link of each follower; without it, each
+    /// message is lost independently.
+    #[arg(long, value_name = "MEAN_LENGTH", value_parser = whole::<u32>(1..=3_600_000))]
+    burst: Option<u32>,
+    /// The time that each message takes, in milliseconds.
+    #[arg(long, value_name = "MS", default_value_t = 50, value_parser = whole::<u32>(1..=60_000))]
+    delay: u32,
+    /// The grid of time, in milliseconds; by default the coarsest on which the RAM period and the delay are whole.
+    #[arg(long, value_name = "MS", value_parser = whole::<u32>(1..=60_000))]
+    tick: Option<u32>,
+    /// How long the maneuver takes while the corridor is open, in milliseconds; by default the paper's 'Move'.
+    #[arg(long, value_name = "MS", default_value_t = 21_600, value_parser = whole::<u32>(1..=3_600_000))]
+    hold: u32,
+    /// A robot's configuration, as for 'crossguard run'; without it, the default settings.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    #[arg(long, value_name = "SETTING=VALUES", conflicts_with_all = ["target", "export"], help = VARY)]
+    vary: Option<Varied>,
+    /// Search settings that reach this at the largest of the loss rates, like 'complete>=0.999 within 2s', and say
+    /// what limits it.
+    #[arg(long, value_name = "TARGET", conflicts_with_all = ["export", "csv", "plot"])]
+    target: Option<Target>,
+    /// How far apart the bounds of a probability may be; by default 1e-9 for a pair, 1e-5 for a trio, 1e-3 for a
+    /// trio with bursts and for three followers, 1e-2 for these with bursts.
+    #[arg(long, value_name = "W", value_parser = number(1e-14..=0.1))]
+    width: Option<f64>,
+    /// Take the links of several followers together, in one chain, also after the team is gathered. That has very many
+    /// states at high loss rates.
+    #[arg(long)]
+    joint: bool,
+    /// Write the table to this file as comma-separated values.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Draw loss rate against probability and time to this file, as SVG.
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Write the Markov chains of the stages at the one loss rate to this folder: explicit files for PRISM, DRN for
+    /// Storm, and what this program says of them.
+    #[arg(long, value_name = "FOLDER")]
+    export: Option<PathBuf>,
+    /// Print the results as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_HELP: &str = "\
+Prints how likely a crossing goes well when messages get lost, and how long its parts take: the full team, the \
+command at every follower, its acknowledgement, the open corridor; that the corridor closes or a follower falls back \
+before the maneuver is over. Numbers are solved from the transition function that robots run, on a grid of time, not \
+sampled. Nobody crashes in it, clocks do not drift, and every message takes the same time. \
+Targets: NAME >= P or NAME <= P, with 'within TIME' where time matters; NAME is complete, received, acknowledged, open, \
+interrupted, fell-back or crossing. Exit code 1: no settings reach the target.";
+
+const VARY: &str = "Work it out for each of these values of one setting, like ram_period=50,100,200; it may be \
+    ram_period, t_ack, n_ack or t_safety. The lease goes with t_safety";
+
+/// The longest chain that is written.
+const STATES_MAX: usize = 2_000_000;
+
+/// What is worked out, and what came of it.
+#[derive(Serialize)]
+struct OddsReport {
+    followers: u8,
+    delay_ms: u32,
+    burst_ms: Option<u32>,
+    hold_ms: u32,
+    coupling: Coupling,
+    odds: Vec<SettingsOdds>,
+}
+
+/// The figures of one choice of settings.
+#[derive(Serialize)]
+struct SettingsOdds {
+    ram_period_ms: u32,
+    t_ack_ms: u32,
+    n_ack: u8,
+    t_safety_ms: u32,
+    t_lease_ms: u32,
+    tick_ms: u32,
+    #[serde(flatten)]
+    team: TeamOdds,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let config = match &arguments.config {
+        Some(path) => RobotFile::read(path).map_err(Failure::input)?.config,
+        None => Config::default(),
+    };
+    destinations::files([&arguments.csv, &arguments.plot])?;
+    destinations::folders([&arguments.export])?;
+    let configs = match &arguments.vary {
+        Some(varied) => varied.configs(&config).map_err(Failure::input)?,
+        None => vec![config.clone()],
+    };
+    let setups: Result<Vec<_>, _> = configs
+        .iter()
+        .map(|config| arguments.setup(config))
+        .collect();
+    let setups = setups?;
+    let stop = Stop::default();
+    let asked = stop.clone();
+    let _interrupted = interrupts_that(move || asked.request());
+    if let Some(target) = &arguments.target {
+        return target::search(arguments, target, &config, &stop);
+    }
+    if let Some(folder) = &arguments.export {
+        return export(arguments, &setups[0], folder, &stop);
+    }
+    let wanted = setups.len();
+    let mut report = OddsReport {
+        followers: arguments.followers,
+        delay_ms: arguments.delay,
+        burst_ms: arguments.burst,
+        hold_ms: arguments.hold,
+        coupling: setups[0].coupling(),
+        odds: Vec::new(),
+    };
+    for setup in setups {
+        match arguments.solve(setup.clone(), Stage::Holding, &stop) {
+            Ok(team) => report.odds.push(SettingsOdds::new(&setup, team)),
+            Err(ChainError::Cut(FlowCut::Stopped)) => break,
+            Err(error) => return Err(Failure::input(error)),
+        }
+    }
+    output::write_csv(arguments.csv.as_deref(), &report)?;
+    plot::write(arguments.plot.as_deref(), &report)?;
+    if arguments.json {
+        print_json(&report)?;
+    } else {
+        output::print_tables(&report)?;
+    }
+    if report.odds.len() < wanted {
+        if !arguments.json {
+            let done = report.odds.len();
+            print(format_args!(
+                "Stopped before it was done: {done} of {wanted} settings were worked out."
+            ))?;
+        }
+        return Err(Failure::Incomplete);
+    }
+    Ok(())
+}
+
+impl Arguments {
+    /// What is asked about with these settings.
+    fn setup(&self, config: &Config) -> Result<OddsSetup, Failure> {
+        let mut grid = TimeGrid::coarsest(config, Millis(self.delay));
+        if let Some(tick) = self.tick {
+            grid.tick = Millis(tick);
+        }
+        let burst = self.burst.map(Millis);
+        let setup = OddsSetup::new(
+            config.clone(),
+            self.followers,
+            grid,
+            burst,
+            Millis(self.hold),
+        );
+        let mut setup = setup.map_err(Failure::input)?;
+        for &loss in self.loss.rates() {
+            setup.check_loss(loss).map_err(Failure::input)?;
+        }
+        if let Some(width) = self.width {
+            setup = setup.with_width(width);
+        }
+        if self.joint {
+            setup = setup.with_coupling(Coupling::Joint);
+        }
+        Ok(setup)
+    }
+
+    fn solve(&self, setup: OddsSetup, last: Stage, stop: &Stop) -> Result<TeamOdds, ChainError> {
+        let bar = progress(self.json);
+        let mut watch = |it: OddsProgress| {
+            bar.set_length(it.of as u64);
+            bar.set_position(it.done as u64);
+            bar.set_message(format!("{} at a loss of {}", it.stage.name(), it.loss));
+        };
+        let solved = OddsModel::new(setup).odds(self.loss.rates(), last, stop, &mut watch);
+        bar.finish_and_clear();
+        solved
+    }
+}
+
+impl SettingsOdds {
+    fn new(setup: &OddsSetup, team: TeamOdds) -> Self {
+        let settings = setup.config().settings();
+        Self {
+            ram_period_ms: settings.ram_period.0,
+            t_ack_ms: settings.t_ack.0,
+            n_ack: settings.n_ack,
+            t_safety_ms: settings.t_safety.0,
+            t_lease_ms: settings.t_lease.0,
+            tick_ms: setup.grid().tick.0,
+            team,
+        }
+    }
+
+    /// The settings that can be varied, in words.
+    fn settings(&self) -> String {
+        let values = [
+            self.ram_period_ms,
+            self.t_ack_ms,
+            self.n_ack.into(),
+            self.t_safety_ms,
+        ];
+        let words = Knob::ALL.into_iter().zip(values);
+        let words = words.map(|(knob, value)| format!("{}={value}", knob.name()));
+        words.collect::<Vec<_>>().join(" ")
+    }
+}
+
+fn progress(is_json: bool) -> ProgressBar {
+    let bar = if shows_progress(is_json) {
+        ProgressBar::new(1)
+    } else {
+        ProgressBar::hidden()
+    };
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}, {elapsed}");
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// What this program says of a chain that it has written: a judge compares it.
+#[derive(Serialize)]
+struct ChainFigures {
+    stage: Stage,
+    loss: f64,
+    states: usize,
+    transitions: usize,
+    tick_ms: u32,
+    /// The probability that a label is reached within so many steps.
+    within: Vec<WithinSteps>,
+    /// The probability that a label is ever reached.
+    ever: Vec<EverReached>,
+    /// The expected number of steps until the chain stays where it is; only where it was found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    expected_steps: Option<Enclosure>,
+}
+
+#[derive(Serialize)]
+struct WithinSteps {
+    label: String,
+    steps: usize,
+    probability: f64,
+}
+
+#[derive(Serialize)]
+struct EverReached {
+    label: String,
+    probability: Enclosure,
+}
+
+fn export(
+    arguments: &Arguments,
+    setup: &OddsSetup,
+    folder: &Path,
+    stop: &Stop,
+) -> Result<(), Failure> {
+    let &[loss] = arguments.loss.rates() else {
+        return Err(Failure::input(
+            "--export wants one loss rate, like --loss 0.3",
+        ));
+    };
+    let mut model = OddsModel::new(setup.clone());
+    let mut all = Vec::new();
+    for stage in Stage::ALL {
+        let chain = match model.chain(stage, loss, STATES_MAX, stop) {
+            Ok(chain) => chain,
+            Err(ChainError::Cut(FlowCut::Stopped)) => return Err(Failure::Incomplete),
+            Err(error) => return Err(Failure::Input(format!("{}: {error}", stage.name()))),
+        };
+        for format in ChainFormat::ALL {
+            let path = folder.join(format!("{}.{}", stage.name(), format.extension()));
+            written(&path, |to| format.write(&chain, to))?;
+        }
+        let iteration = Iteration::default();
+        let names = chain.label_names().iter().enumerate();
+        let within = names.clone().flat_map(|(label, name)| {
+            let steps = [2, 5, 11, 41, 101, setup.grid().ticks(setup.hold()) + 1];
+            steps.map(|steps| WithinSteps {
+                label: name.clone(),
+                steps,
+                probability: chain.within(label, steps),
+            })
+        });
+        // Over a whole day a follower falls back for certain, and it would take long to find that out.
+        let is_bounded = stage != Stage::Holding;
+        let ever = names
+            .filter(|_| is_bounded)
+            .map(|(label, name)| EverReached {
+                label: name.clone(),
+                probability: chain.ever(label, iteration),
+            });
+        all.push(ChainFigures {
+            stage,
+            loss,
+            states: chain.states(),
+            transitions: chain.transitions(),
+            tick_ms: setup.grid().tick.0,
+            within: within.collect(),
+            ever: ever.collect(),
+            expected_steps: is_bounded
+                .then(|| chain.expected_steps(iteration))
+                .flatten(),
+        });
+    }
+    let path = folder.join("figures.json");
+    written(&path, |to| {
+        serde_json::to_writer_pretty(to, &all).map_err(Into::into)
+    })?;
+    if arguments.json {
+        return print_json(&all);
+    }
+    for it in &all {
+        let (name, states, transitions) = (it.stage.name(), it.states, it.transitions);
+        print(format_args!(
+            "{name}: {states} states, {transitions} transitions"
+        ))?;
+    }
+    print(format_args!("Written to {}.", folder.display()))
+}
+
+fn written(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> Result<(), Failure> {
+    let cannot = |cause| Failure::Input(format!("{}: {cause}", path.display()));
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(cannot)?;
+    }
+    let mut to = BufWriter::new(File::create(path).map_err(cannot)?);
+    write(&mut to).and_then(|()| to.flush()).map_err(cannot)
+}

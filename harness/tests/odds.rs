@@ -1,0 +1,145 @@
+//! `crossguard odds` as its users run it.
+
+use std::fs;
+use std::process::Output;
+
+use crossguard_testkit::command::*;
+use serde_json::Value;
+
+fn odds(arguments: &[&str]) -> Output {
+    let arguments: Vec<_> = [&["odds"], arguments].concat();
+    crossguard(&arguments).output().unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = odds(&[arguments, &["--json"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn json_has_the_bounds_of_each_milestone_at_each_loss_rate() {
+    let report = json(&["--loss", "0,0.3", "--vary", "n_ack=1,3"]);
+    assert_eq!(report["followers"], 1);
+    assert_eq!(report["odds"].as_array().unwrap().len(), 2);
+    for (odds, n_ack) in report["odds"].as_array().unwrap().iter().zip([1_i32, 3]) {
+        assert_eq!(odds["n_ack"], n_ack);
+        assert!(odds["sizes"][0]["states"].as_u64().unwrap() > 100);
+        let losses = odds["losses"].as_array().unwrap();
+        assert_eq!(losses[0]["crossing"]["lower"], 1.0);
+        let milestones = losses[1]["milestones"].as_array().unwrap();
+        let names: Vec<_> = milestones
+            .iter()
+            .map(|it| it["milestone"].as_str().unwrap())
+            .collect();
+        assert_eq!(
+            names,
+            [
+                "team",
+                "received",
+                "acknowledged",
+                "open",
+                "interrupted",
+                "fell-back"
+            ]
+        );
+        let received = &milestones[1]["probability"];
+        let by_hand = 1.0 - 0.3_f64.powi(n_ack + 1);
+        for bound in ["lower", "upper"] {
+            assert!(
+                (received[bound].as_f64().unwrap() - by_hand).abs() < 1e-8,
+                "{received}"
+            );
+        }
+        assert_eq!(milestones[1]["distribution"][0]["ms"], 50);
+        assert!(milestones[0]["mean_ms"]["lower"].as_f64().unwrap() > 300.0);
+    }
+}
+
+#[test]
+fn tables_files_and_plots_say_what_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let [csv, svg] = ["odds.csv", "odds.svg"].map(|name| folder.path().join(name));
+    let files = [
+        "--csv",
+        csv.to_str().unwrap(),
+        "--plot",
+        svg.to_str().unwrap(),
+    ];
+    let output = odds(&[&["--loss", "0..0.2"][..], &files].concat());
+    let said = stdout(&output);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    for words in [
+        "ram_period=100 t_ack=600",
+        "1 - 1.0e-4",
+        "0.998400",
+        "244 ms",
+        "lost independently",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let csv = fs::read_to_string(csv).unwrap();
+    // Three rates with six milestones and the crossing each.
+    assert_eq!(csv.lines().count(), 1 + 3 * 7, "{csv}");
+    let columns = csv.lines().next().unwrap().split(',').count();
+    assert!(csv.lines().all(|line| line.split(',').count() == columns));
+    let svg = fs::read_to_string(svg).unwrap();
+    assert!(
+        svg.contains("paper: 74 ± 15 ms") && svg.contains("crossing goes well"),
+        "{svg}"
+    );
+}
+
+#[test]
+fn a_target_is_reached_by_settings_that_are_named_or_exit_code_1_says_that_it_is_not() {
+    let found = odds(&["--loss", "0.3", "--target", "complete>=0.999 within 2s"]);
+    let said = stdout(&found);
+    assert_eq!(found.status.code(), Some(0), "{}", stderr(&found));
+    assert!(said.contains("is reached with ram_period=200"), "{said}");
+    assert!(
+        said.contains("ram_period=500 'farewell-repeated' refuses it"),
+        "{said}"
+    );
+    assert!(said.contains("ram_period=300 does not reach it"), "{said}");
+    let missed = odds(&[
+        "--loss",
+        "0.6",
+        "--target",
+        "complete>=0.999 within 300ms",
+        "--json",
+    ]);
+    assert_eq!(missed.status.code(), Some(1), "{}", stderr(&missed));
+    let report: Value = serde_json::from_slice(&missed.stdout).unwrap();
+    assert_eq!(report["found"], Value::Null);
+    assert_eq!(report["closest"]["ram_period_ms"], 50);
+}
+
+#[test]
+fn the_chains_are_written_for_other_tools_with_what_is_said_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("chains");
+    let output = odds(&[
+        "--loss",
+        "0.1",
+        "--hold",
+        "1000",
+        "--export",
+        to.to_str().unwrap(),
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let figures: Value =
+        serde_json::from_slice(&fs::read(to.join("figures.json")).unwrap()).unwrap();
+    for (stage, name) in
+        figures
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(["gathering", "commanding", "holding"])
+    {
+        assert_eq!(stage["stage"], name);
+        let tra = fs::read_to_string(to.join(name).with_extension("tra")).unwrap();
+        let size = format!("{} {}", stage["states"], stage["transitions"]);
+        assert_eq!(tra.lines().next(), Some(&*size));
+        assert!(to.join(name).with_extension("drn").exists());
+    }
+}

@@ -1,0 +1,286 @@
+//! What `crossguard odds` says against what happens: real endpoints with real packets in virtual time, and a radio that
+//! loses packets by the throw of a die. Nothing of the Markov model has a part in it.
+
+use crossguard_codec::{Identifiers, RobotState};
+use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{
+    Config, Corridor, Event, HelpRequest, Member, Phase, Place, Robot, StationId, TaskSet,
+    TaskType, Urgency,
+};
+use crossguard_testkit::command::*;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde_json::Value;
+
+const TICK_MS: u64 = 50;
+const LOSS: f64 = 0.4;
+
+/// A packet on its way to one robot.
+struct Flying {
+    at_ms: u64,
+    to: usize,
+    packet: Vec<u8>,
+}
+
+/// A team whose packets get lost.
+struct Street {
+    robots: Vec<Endpoint>,
+    flying: Vec<Flying>,
+    dice: ChaCha8Rng,
+    now_ms: u64,
+    fell_back: bool,
+}
+
+impl Street {
+    fn new(seed: u64, followers: u32) -> Self {
+        let start = |station| {
+            let robot = Robot::new(StationId(station), 1);
+            Endpoint::new(robot, Config::default(), Identifiers::default(), 0)
+        };
+        Self {
+            robots: (1..=followers + 1).map(start).collect(),
+            flying: Vec::new(),
+            dice: ChaCha8Rng::seed_from_u64(seed),
+            now_ms: 0,
+            fell_back: false,
+        }
+    }
+
+    fn handle(&mut self, me: usize, stimulus: Stimulus<'_>) {
+        let moment = Moment {
+            now_ms: self.now_ms,
+            timestamp_its: 694_694_400_000 + self.now_ms,
+        };
+        for effect in self.robots[me].handle(moment, &RobotState::default(), stimulus) {
+            match effect {
+                Effect::Transmit { packet, .. } => {
+                    for to in (0..self.robots.len()).filter(|to| *to != me) {
+                        if !self.dice.random_bool(LOSS) {
+                            let (at_ms, packet) = (self.now_ms + TICK_MS, packet.clone());
+                            self.flying.push(Flying { at_ms, to, packet });
+                        }
+                    }
+                }
+                Effect::Act(Act::FallBack(..)) => self.fell_back = true,
+                _ => {}
+            }
+        }
+    }
+
+    fn tick(&mut self) {
+        self.now_ms += TICK_MS;
+        for me in 0..self.robots.len() {
+            self.handle(me, Stimulus::Time);
+        }
+        let now_ms = self.now_ms;
+        let (due, rest) = std::mem::take(&mut self.flying)
+            .into_iter()
+            .partition(|it: &Flying| it.at_ms <= now_ms);
+        self.flying = rest;
+        for Flying { to, packet, .. } in due {
+            let arrived_ms = self.now_ms;
+            self.handle(
+                to,
+                Stimulus::Datagram {
+                    packet: &packet,
+                    arrived_ms,
+                },
+            );
+        }
+        if self.robots[0].all_have_answered() {
+            self.handle(0, Stimulus::Event(Event::AllAnswered));
+        }
+    }
+
+    fn phase(&self, me: usize) -> &Phase {
+        self.robots[me].robot().phase()
+    }
+
+    fn is_team(&self) -> bool {
+        let followers = self.robots.len() - 1;
+        matches!(self.phase(0), Phase::Leading(it)
+            if it.members.len() == followers && it.members.iter().all(Member::has_joined))
+    }
+
+    fn is_acknowledged(&self) -> bool {
+        matches!(self.phase(0), Phase::Leading(it) if it.members.len() == self.robots.len() - 1
+            && it.members.iter().all(|member| member.outstanding.is_none() && member.order.is_some()))
+    }
+
+    fn has_jobs(&self) -> bool {
+        (1..self.robots.len())
+            .all(|me| matches!(self.phase(me), Phase::Following(it) if it.job.is_some()))
+    }
+
+    fn is_open(&self) -> bool {
+        matches!(self.phase(0), Phase::Leading(it) if it.corridor == Corridor::Open)
+    }
+}
+
+/// When what was reached in a run, in ms from the beginning of its stage.
+#[derive(Default)]
+struct Reached {
+    team: Option<u64>,
+    received: Option<u64>,
+    acknowledged: Option<u64>,
+    open: Option<u64>,
+    interrupted: Option<u64>,
+}
+
+fn run(seed: u64, followers: u32) -> Reached {
+    let mut street = Street::new(seed, followers);
+    let mut reached = Reached::default();
+    // The helpers are there already, and have said so: what they say is not counted here.
+    let request = HelpRequest {
+        urgency: Urgency::Medium,
+        followers: u8::try_from(followers).unwrap(),
+        tasks: TaskSet::of(&[TaskType::MOVE]),
+        place: Place(1),
+    };
+    street.handle(0, Stimulus::Event(Event::PedestrianDetected(request)));
+    while !street.is_team() {
+        street.tick();
+        if matches!(street.phase(0), Phase::Idle) {
+            return reached;
+        }
+    }
+    reached.team = Some(street.now_ms);
+    let began_ms = street.now_ms;
+    for follower in 0..followers {
+        let follower = StationId(follower + 2);
+        let task = TaskType::MOVE;
+        street.handle(
+            0,
+            Stimulus::Event(Event::CommandManeuver { follower, task }),
+        );
+    }
+    let since = |street: &Street| Some(street.now_ms - began_ms);
+    while !street.is_open() {
+        street.tick();
+        if reached.received.is_none() && street.has_jobs() {
+            reached.received = since(&street);
+        }
+        let is_led = matches!(street.phase(0), Phase::Leading(it) if it.members.len() == street.robots.len() - 1);
+        if !is_led || street.fell_back {
+            return reached;
+        }
+        if street.is_acknowledged() {
+            reached.acknowledged = reached.acknowledged.or(since(&street));
+            street.handle(0, Stimulus::Event(Event::OpenCorridor));
+        }
+    }
+    reached.open = since(&street);
+    let opened_ms = street.now_ms;
+    while street.now_ms < opened_ms + HOLD_MS {
+        street.tick();
+        if !street.is_open() {
+            reached.interrupted = Some(street.now_ms - opened_ms);
+            break;
+        }
+    }
+    reached
+}
+
+const HOLD_MS: u64 = 5_000;
+
+/// How many standard deviations a frequency may be off: of 26 frequencies hardly one in a thousand runs is beyond, and
+/// the seeds are always the same.
+const DEVIATIONS: f64 = 4.0;
+
+/// The probability that a milestone has been reached by `ms`, as the command says it.
+fn said(report: &Value, milestone: &str, ms: u64) -> f64 {
+    let milestones = report["odds"][0]["losses"][0]["milestones"]
+        .as_array()
+        .unwrap();
+    let of = milestones
+        .iter()
+        .find(|it| it["milestone"] == milestone)
+        .unwrap();
+    let points = of["distribution"].as_array().unwrap();
+    let before = points
+        .iter()
+        .rev()
+        .find(|point| point["ms"].as_u64().unwrap() <= ms);
+    before.map_or(0.0, |point| point["lower"].as_f64().unwrap())
+}
+
+fn compare(followers: u32, seeds: u64) {
+    let (loss, hold, number) = (LOSS.to_string(), HOLD_MS.to_string(), followers.to_string());
+    let arguments = [
+        "odds",
+        "--loss",
+        &loss,
+        "--hold",
+        &hold,
+        "--followers",
+        &number,
+        "--json",
+    ];
+    let output = crossguard(&arguments).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let runs: Vec<Reached> = (0..seeds).map(|seed| run(seed, followers)).collect();
+    let mut wrong = Vec::new();
+    let mut judge = |milestone: &str,
+                     ms: u64,
+                     began: fn(&Reached) -> bool,
+                     when: fn(&Reached) -> Option<u64>| {
+        let begun: Vec<_> = runs.iter().filter(|run| began(run)).collect();
+        let count = begun
+            .iter()
+            .filter(|run| when(run).is_some_and(|at| at <= ms))
+            .count();
+        #[expect(clippy::cast_precision_loss, reason = "runs are few")]
+        let (count, all) = (count as f64, begun.len() as f64);
+        let (frequency, probability) = (count / all, said(&report, milestone, ms));
+        let deviation = (probability * (1.0 - probability) / all).sqrt();
+        let line = format!(
+            "{milestone} within {ms} ms: {frequency:.5} of {all} runs, said {probability:.5}, {:.2} deviations off",
+            (frequency - probability) / deviation.max(1e-12)
+        );
+        println!("{line}");
+        // A run more or less does not matter where hardly any is expected.
+        if (frequency - probability).abs() > DEVIATIONS * deviation + 1.0 / all {
+            wrong.push(line);
+        }
+    };
+    for ms in [200, 300, 400, 500, 700, 1_000, 2_000] {
+        judge("team", ms, |_| true, |run| run.team);
+    }
+    for ms in [50, 650, 1_250, 1_850] {
+        judge("received", ms, |run| run.team.is_some(), |run| run.received);
+    }
+    for ms in [100, 150, 250, 700, 1_300, 3_000] {
+        judge(
+            "acknowledged",
+            ms,
+            |run| run.team.is_some(),
+            |run| run.acknowledged,
+        );
+        judge("open", ms, |run| run.team.is_some(), |run| run.open);
+    }
+    for ms in [2_000, 3_500, HOLD_MS] {
+        judge(
+            "interrupted",
+            ms,
+            |run| run.open.is_some(),
+            |run| run.interrupted,
+        );
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+fn seeds() -> u64 {
+    let seeds = std::env::var("CROSSGUARD_SEEDS").ok();
+    seeds.map_or(400, |seeds| seeds.parse().expect("a number of seeds"))
+}
+
+#[test]
+fn endpoints_of_a_pair_do_as_often_as_the_odds_say() {
+    compare(1, seeds());
+}
+
+#[test]
+fn endpoints_of_a_trio_do_as_often_as_the_odds_say() {
+    compare(2, seeds());
+}

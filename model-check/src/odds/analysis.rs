@@ -1,0 +1,409 @@
+//! The stages of a crossing one after the other, at all loss rates.
+
+use crossguard_protocol::Millis;
+use serde::Serialize;
+
+use super::chain::MarkovChain;
+use super::enclosure::Enclosure;
+use super::figures::{Beginning, Frame, LossOdds, MilestoneOdds, StageSize};
+use super::flow::{Flow, FlowCut, FlowLimits, flow};
+use super::setup::{Coupling, OddsImpossibility, OddsSetup};
+use super::space::{StageSpace, probability};
+use super::stage::{Milestone, Stage};
+use super::team::{TeamModel, TeamState};
+use crate::exploration::Stop;
+use crate::node::{Protocol, Rules};
+
+/// A team whose chances are worked out.
+pub struct OddsModel(TeamModel);
+
+/// What is known of a team.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct TeamOdds {
+    /// The stages that were looked at.
+    pub sizes: Vec<StageSize>,
+    /// For each loss rate, in the order in which they were asked for.
+    pub losses: Vec<LossOdds>,
+}
+
+/// How far an analysis is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct OddsProgress {
+    /// The stage that is worked on.
+    pub stage: Stage,
+    /// The loss rate.
+    pub loss: f64,
+    /// How many of all stages at all rates are done.
+    pub done: usize,
+    /// How many there are.
+    pub of: usize,
+}
+
+/// Why there is no chain of a stage.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+pub enum ChainError {
+    /// There is no such channel.
+    #[error(transparent)]
+    Impossible(#[from] OddsImpossibility),
+    /// It was given up.
+    #[error(transparent)]
+    Cut(#[from] FlowCut),
+    /// The stage does not begin with any probability that is worth following.
+    #[error("the stage never begins at this loss rate")]
+    NeverBegins,
+}
+
+/// What is known at one loss rate between two stages.
+struct Interim {
+    loss: f64,
+    /// The states in which the stage before was completed.
+    completed: Vec<(TeamState, f64)>,
+    unknown: f64,
+    milestones: Vec<MilestoneOdds>,
+    crossing: Enclosure,
+}
+
+impl OddsModel {
+    /// The model of a team with the transition function of the kit.
+    #[must_use]
+    pub fn new(setup: OddsSetup) -> Self {
+        Self::with_rules(setup, Protocol)
+    }
+
+    /// The model with another transition function in place of the kit's.
+    #[must_use]
+    pub fn with_rules(setup: OddsSetup, rules: impl Rules + 'static) -> Self {
+        Self(TeamModel::new(setup, Box::new(rules)))
+    }
+
+    /// What is known of the team at these loss rates, up to the end of stage `last`. `watch` receives the progress.
+    ///
+    /// # Errors
+    /// There is no such channel, or it was given up.
+    pub fn odds(
+        &mut self,
+        losses: &[f64],
+        last: Stage,
+        stop: &Stop,
+        watch: &mut dyn FnMut(OddsProgress),
+    ) -> Result<TeamOdds, ChainError> {
+        for &loss in losses {
+            self.0.setup().check_loss(loss)?;
+        }
+        let joint = self.setup().coupling() == Coupling::Joint;
+        let stages: Vec<Stage> = Stage::up_to(last).collect();
+        // One link at a time begins anew, so that its states are its own.
+        let again = usize::from(!joint && stages.len() > 1);
+        let mut counted = Counted {
+            done: 0,
+            of: (stages.len() + again) * losses.len(),
+            watch,
+        };
+        let of_all = if joint { &stages[..] } else { &stages[..1] };
+        let mut odds = self.go_through(losses, of_all, 1, stop, &mut counted)?;
+        if again > 0 {
+            let links = self.setup().followers();
+            self.0.look_at_one_link(true);
+            let one = self.go_through(losses, &stages, links, stop, &mut counted);
+            self.0.look_at_one_link(false);
+            odds.add_link_by_link(one?, last);
+        }
+        Ok(odds)
+    }
+
+    /// The figures of these stages; of `links` independent links one is looked at.
+    fn go_through(
+        &mut self,
+        losses: &[f64],
+        stages: &[Stage],
+        links: u8,
+        stop: &Stop,
+        counted: &mut Counted<'_>,
+    ) -> Result<TeamOdds, FlowCut> {
+        let mut interim: Vec<Interim> = losses.iter().map(|&loss| Interim::at(loss)).collect();
+        let mut sizes = Vec::new();
+        for &stage in stages {
+            let limits = self.limits(stage);
+            let frame = Frame {
+                grid: self.setup().grid(),
+                latest: self.latest(),
+                links,
+            };
+            let mut space = StageSpace::new(&mut self.0, stage);
+            for interim in &mut interim {
+                counted.tell(stage, interim.loss);
+                interim.go_through(&mut space, limits, frame, stop)?;
+            }
+            sizes.push(StageSize {
+                stage,
+                states: space.states(),
+                transitions: space.transitions(),
+            });
+        }
+        let losses = interim.into_iter().map(LossOdds::from).collect();
+        Ok(TeamOdds { sizes, losses })
+    }
+
+    /// The whole chain of a stage at a loss rate, with at most so many states. Its first state stands for the moment
+    /// before the stage: the first step leads to the states in which it begins, in no time. In `gathering` the
+    /// request stands for ever.
+    ///
+    /// # Errors
+    /// There is none.
+    ///
+    /// # Panics
+    /// When 2^32 states are exceeded, far beyond what fits in memory.
+    pub fn chain(
+        &mut self,
+        stage: Stage,
+        loss: f64,
+        states_max: usize,
+        stop: &Stop,
+    ) -> Result<MarkovChain, ChainError> {
+        self.0.setup().check_loss(loss)?;
+        let mut interim = Interim::at(loss);
+        for before in Stage::ALL.into_iter().take_while(|it| *it != stage) {
+            let limits = self.limits(before);
+            let frame = Frame {
+                grid: self.setup().grid(),
+                latest: self.latest(),
+                links: 1,
+            };
+            let mut space = StageSpace::new(&mut self.0, before);
+            interim.go_through(&mut space, limits, frame, stop)?;
+        }
+        let mut space = StageSpace::new(&mut self.0, stage);
+        let start = interim.start(&mut space);
+        let all: f64 = start.iter().map(|(_, mass)| mass).sum();
+        if all <= 0.0 {
+            return Err(ChainError::NeverBegins);
+        }
+        let mut number = 0;
+        while number < space.states() {
+            if space.states() > states_max {
+                return Err(FlowCut::TooLarge(states_max).into());
+            }
+            if stop.is_requested() {
+                return Err(FlowCut::Stopped.into());
+            }
+            let _ = space.arcs(u32::try_from(number).expect("fewer than 2^32 states"));
+            number += 1;
+        }
+        Ok(chain_of(&mut space, loss, &start, all))
+    }
+
+    /// The team and its surroundings.
+    #[must_use]
+    pub const fn setup(&self) -> &OddsSetup {
+        self.0.setup()
+    }
+
+    fn limits(&self, stage: Stage) -> FlowLimits {
+        let (setup, settings) = (self.setup(), self.setup().config().settings());
+        let ticks = |time| Some(setup.grid().ticks(time));
+        FlowLimits {
+            horizon: (stage == Stage::Holding)
+                .then(|| ticks(setup.hold()))
+                .flatten(),
+            width: self.0.width() / 3.0,
+            help: (stage == Stage::Gathering)
+                .then(|| ticks(settings.t_help))
+                .flatten(),
+        }
+    }
+
+    /// A time after which neither of the first two stages goes on: a request, a member that does not join, the
+    /// repetitions of a command, a lease and a follower without one all come to an end.
+    fn latest(&self) -> Millis {
+        let (setup, settings) = (self.setup(), self.setup().config().settings());
+        let repeated = settings
+            .t_ack
+            .0
+            .saturating_mul(u32::from(settings.n_ack) + 1);
+        let times = [
+            settings.t_help,
+            setup.config().t_lost(),
+            Millis(repeated),
+            settings.t_lease,
+            // Each of them up to a tick late, and messages on their way.
+            Millis(setup.grid().tick.0.saturating_mul(20)),
+            Millis(setup.grid().delay.0.saturating_mul(4)),
+        ];
+        times.into_iter().fold(Millis::ZERO, Millis::saturating_add)
+    }
+}
+
+impl Interim {
+    const fn at(loss: f64) -> Self {
+        Self {
+            loss,
+            completed: Vec::new(),
+            unknown: 0.0,
+            milestones: Vec::new(),
+            crossing: Enclosure {
+                lower: 0.0,
+                upper: 1.0,
+            },
+        }
+    }
+
+    fn start(&self, space: &mut StageSpace<'_>) -> Vec<(u32, f64)> {
+        if space.stage == Stage::Gathering {
+            space.start(self.loss)
+        } else {
+            space.enter(&self.completed)
+        }
+    }
+
+    fn go_through(
+        &mut self,
+        space: &mut StageSpace<'_>,
+        limits: FlowLimits,
+        frame: Frame,
+        stop: &Stop,
+    ) -> Result<(), FlowCut> {
+        let start = self.start(space);
+        let beginning = Beginning {
+            mass: start.iter().map(|(_, mass)| mass).sum(),
+            unknown: self.unknown,
+        };
+        let flow = flow(space, self.loss, &start, limits, stop)?;
+        let unknown = flow.unknown.last().copied().unwrap_or(0.0);
+        if beginning.mass > 0.0 {
+            for (milestone, curve) in &flow.reached {
+                let odds = MilestoneOdds::of(*milestone, curve, &flow, beginning, frame);
+                self.milestones.push(odds);
+            }
+        }
+        if space.stage == Stage::Holding {
+            self.crossing = uninterrupted(&flow, beginning, unknown);
+        }
+        self.completed = flow.completed;
+        self.unknown += unknown;
+        Ok(())
+    }
+}
+
+/// The probability that the last stage begins and nothing interrupts it.
+fn uninterrupted(flow: &Flow, beginning: Beginning, unknown: f64) -> Enclosure {
+    let interrupted = flow
+        .reached
+        .iter()
+        .find(|(milestone, _)| *milestone == Milestone::Interrupted)
+        .and_then(|(_, curve)| curve.last().copied())
+        .unwrap_or(0.0);
+    let goes_on = beginning.mass - interrupted;
+    Enclosure::probability(goes_on - unknown, goes_on + beginning.unknown)
+}
+
+impl From<Interim> for LossOdds {
+    fn from(interim: Interim) -> Self {
+        Self {
+            loss: interim.loss,
+            crossing: interim.crossing,
+            milestones: interim.milestones,
+            not_followed: interim.unknown,
+        }
+    }
+}
+
+impl TeamOdds {
+    /// Takes over what is known of the stages after the first one from an analysis link by link.
+    fn add_link_by_link(&mut self, one: Self, last: Stage) {
+        let is_later = |stage: Stage| stage != Stage::Gathering;
+        self.sizes
+            .extend(one.sizes.into_iter().filter(|size| is_later(size.stage)));
+        for (all, one) in self.losses.iter_mut().zip(one.losses) {
+            let later = one.milestones.into_iter().filter(|it| is_later(it.stage));
+            all.milestones.extend(later);
+            all.not_followed += one.not_followed;
+            if last == Stage::Holding {
+                all.crossing = all.product();
+            }
+        }
+    }
+}
+
+impl LossOdds {
+    /// What is known of a milestone.
+    #[must_use]
+    pub fn milestone(&self, milestone: Milestone) -> Option<&MilestoneOdds> {
+        self.milestones.iter().find(|it| it.milestone == milestone)
+    }
+
+    /// The probability that one stage after the other goes well.
+    fn product(&self) -> Enclosure {
+        let of = |milestone| self.milestone(milestone).map(|it| it.probability);
+        let uninterrupted = of(Milestone::Interrupted).map(Enclosure::complement);
+        let factors = [of(Milestone::Team), of(Milestone::Open), uninterrupted];
+        let mut product = Enclosure::probability(1.0, 1.0);
+        for factor in factors {
+            // A stage that never begins never ends well.
+            let factor = factor.unwrap_or(Enclosure::probability(0.0, self.not_followed));
+            product.lower *= factor.lower;
+            product.upper *= factor.upper;
+        }
+        product
+    }
+}
+
+/// How much is done, and who is told.
+struct Counted<'a> {
+    done: usize,
+    of: usize,
+    watch: &'a mut dyn FnMut(OddsProgress),
+}
+
+impl Counted<'_> {
+    /// The next part begins.
+    fn tell(&mut self, stage: Stage, loss: f64) {
+        let (done, of) = (self.done, self.of);
+        (self.watch)(OddsProgress {
+            stage,
+            loss,
+            done,
+            of,
+        });
+        self.done += 1;
+    }
+}
+
+/// The chain of states that are all worked out.
+fn chain_of(space: &mut StageSpace<'_>, loss: f64, start: &[(u32, f64)], all: f64) -> MarkovChain {
+    let products = space.probabilities(loss);
+    let milestones: Vec<Milestone> = space.stage.milestones().collect();
+    let names = milestones
+        .iter()
+        .map(|milestone| milestone.name().replace('-', "_"));
+    let mut chain = MarkovChain::new(names.collect());
+    chain.push(
+        0,
+        merged(start.iter().map(|(to, mass)| (to + 1, mass / all))),
+    );
+    for number in 0..space.states() {
+        let number = u32::try_from(number).expect("fewer than 2^32 states");
+        let marks = space.marks(number);
+        let mut labels = 0;
+        for (bit, milestone) in milestones.iter().enumerate() {
+            labels |= u8::from(marks.has(*milestone)) << bit;
+        }
+        let arcs = space.arcs(number).iter();
+        let row = merged(arcs.map(|arc| (arc.to + 1, probability(*arc, &products))));
+        chain.push(labels, row);
+    }
+    chain
+}
+
+/// One transition to each state, of those that have a chance.
+fn merged(row: impl Iterator<Item = (u32, f64)>) -> Vec<(u32, f64)> {
+    let mut merged: Vec<(u32, f64)> = row.filter(|(_, probability)| *probability > 0.0).collect();
+    merged.sort_by_key(|(to, _)| *to);
+    merged.dedup_by(|(to, probability), (kept, sum)| {
+        let is_same = to == kept;
+        if is_same {
+            *sum += *probability;
+        }
+        is_same
+    });
+    merged
+}

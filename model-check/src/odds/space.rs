@@ -1,0 +1,168 @@
+//! The states of one stage, numbered in the order in which they are found, with the ways between them.
+
+use std::hash::{BuildHasher, BuildHasherDefault};
+
+use hashbrown::HashTable;
+use rustc_hash::FxHasher;
+
+use super::stage::{Marks, Stage};
+use super::team::{TeamModel, TeamState, Ways};
+use super::weight::ChanceTable;
+
+/// A way from one state to another: so many different ones have the same chances.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Arc {
+    pub(super) to: u32,
+    pub(super) chances: u16,
+    pub(super) times: u16,
+}
+
+/// The states of a stage. Those are worked out that are asked for.
+pub(super) struct StageSpace<'a> {
+    pub(super) stage: Stage,
+    model: &'a mut TeamModel,
+    states: Vec<TeamState>,
+    numbers: HashTable<u32>,
+    /// Where the ways from each state are in `arcs`, once they are worked out.
+    rows: Vec<Option<(u32, u32)>>,
+    arcs: Vec<Arc>,
+    chances: ChanceTable,
+}
+
+impl<'a> StageSpace<'a> {
+    pub(super) fn new(model: &'a mut TeamModel, stage: Stage) -> Self {
+        Self {
+            stage,
+            model,
+            states: Vec::new(),
+            numbers: HashTable::new(),
+            rows: Vec::new(),
+            arcs: Vec::new(),
+            chances: ChanceTable::default(),
+        }
+    }
+
+    pub(super) const fn model(&self) -> &TeamModel {
+        self.model
+    }
+
+    /// How many states have been found.
+    pub(super) const fn states(&self) -> usize {
+        self.states.len()
+    }
+
+    /// How many different ways have been found.
+    pub(super) const fn transitions(&self) -> usize {
+        self.arcs.len()
+    }
+
+    /// How many products of chances have been found.
+    pub(super) fn products(&self) -> usize {
+        self.chances.len()
+    }
+
+    pub(super) fn state(&self, number: u32) -> &TeamState {
+        &self.states[number as usize]
+    }
+
+    pub(super) fn marks(&self, number: u32) -> Marks {
+        self.states[number as usize].marks
+    }
+
+    /// Whether the stage is over there.
+    pub(super) fn ends(&self, number: u32) -> bool {
+        self.marks(number).ends(self.stage)
+    }
+
+    /// The number of a state, a new one if it was not seen before.
+    ///
+    /// # Panics
+    /// When 2^32 states are exceeded, far beyond what fits in memory.
+    pub(super) fn number(&mut self, state: TeamState) -> u32 {
+        let hash = hash(&state);
+        let is_it = |&number: &u32| self.states[number as usize] == state;
+        if let Some(&known) = self.numbers.find(hash, is_it) {
+            return known;
+        }
+        let number = u32::try_from(self.states.len()).expect("fewer than 2^32 states");
+        self.states.push(state);
+        self.rows.push(None);
+        let states = &self.states;
+        let rehash = |&number: &u32| self::hash(&states[number as usize]);
+        self.numbers.insert_unique(hash, number, rehash);
+        number
+    }
+
+    /// The ways from a state.
+    pub(super) fn arcs(&mut self, number: u32) -> &[Arc] {
+        let (start, end) = match self.rows[number as usize] {
+            Some(row) => row,
+            None => self.work_out(number),
+        };
+        &self.arcs[start as usize..end as usize]
+    }
+
+    fn work_out(&mut self, number: u32) -> (u32, u32) {
+        let state = self.states[number as usize].clone();
+        let ways = self.model.ways(self.stage, &state);
+        let mut row = self.arcs_of(ways);
+        let start = u32::try_from(self.arcs.len()).expect("fewer than 2^32 transitions");
+        self.arcs.append(&mut row);
+        let end = u32::try_from(self.arcs.len()).expect("fewer than 2^32 transitions");
+        self.rows[number as usize] = Some((start, end));
+        (start, end)
+    }
+
+    fn arcs_of(&mut self, ways: Ways) -> Vec<Arc> {
+        let mut row: Vec<Arc> = Vec::with_capacity(ways.len());
+        for (chances, state) in ways {
+            let (to, chances) = (self.number(state), self.chances.number(chances));
+            let same = row
+                .iter_mut()
+                .find(|arc| (arc.to, arc.chances) == (to, chances));
+            match same {
+                Some(arc) => arc.times += 1,
+                None => row.push(Arc {
+                    to,
+                    chances,
+                    times: 1,
+                }),
+            }
+        }
+        row
+    }
+
+    /// The states in which all runs begin, with their probabilities at a loss rate.
+    pub(super) fn start(&mut self, loss: f64) -> Vec<(u32, f64)> {
+        let ways = self.model.start();
+        let arcs = self.arcs_of(ways);
+        let probabilities = self.probabilities(loss);
+        let start = arcs
+            .iter()
+            .map(|arc| (arc.to, probability(*arc, &probabilities)));
+        start.collect()
+    }
+
+    /// The states in which this stage begins after those in which the one before it was completed.
+    pub(super) fn enter(&mut self, before: &[(TeamState, f64)]) -> Vec<(u32, f64)> {
+        let entered = before.iter().map(|(state, mass)| {
+            let entered = self.model.enter(self.stage, state);
+            (self.number(entered), *mass)
+        });
+        entered.collect()
+    }
+
+    /// The probability of each product of chances at a loss rate. States that are found later may bring new ones.
+    pub(super) fn probabilities(&self, loss: f64) -> Vec<f64> {
+        self.chances.at(self.model.setup(), loss)
+    }
+}
+
+/// The probability of a way, where those of the products are these.
+pub(super) fn probability(arc: Arc, of_products: &[f64]) -> f64 {
+    f64::from(arc.times) * of_products[usize::from(arc.chances)]
+}
+
+fn hash(state: &TeamState) -> u64 {
+    BuildHasherDefault::<FxHasher>::default().hash_one(state)
+}

@@ -1,0 +1,428 @@
+//! Probabilities and times under loss, against what can be worked out by hand; and the files for other tools, read
+//! back.
+
+use std::collections::BTreeMap;
+
+use crossguard_model_check::check::Stop;
+use crossguard_model_check::node::Rules;
+use crossguard_model_check::odds::{
+    ChainFormat, Coupling, Enclosure, Iteration, LossOdds, MarkovChain, Milestone, MilestoneOdds,
+    OddsModel, OddsSetup, Stage, TimeGrid,
+};
+use crossguard_protocol::{Config, Input, Millis, Output, Outputs, Rmcm, Robot, Settings};
+
+const DELAY: Millis = Millis(50);
+const HOLD: Millis = Millis(21_600);
+
+fn setup(config: Config, followers: u8) -> OddsSetup {
+    let grid = TimeGrid::coarsest(&config, DELAY);
+    OddsSetup::new(config, followers, grid, None, HOLD).unwrap()
+}
+
+fn odds_of(mut model: OddsModel, losses: &[f64]) -> Vec<LossOdds> {
+    let odds = model.odds(losses, Stage::Holding, &Stop::default(), &mut |_| ());
+    odds.unwrap().losses
+}
+
+fn pair(losses: &[f64]) -> Vec<LossOdds> {
+    odds_of(OddsModel::new(setup(Config::default(), 1)), losses)
+}
+
+fn of(odds: &LossOdds, milestone: Milestone) -> &MilestoneOdds {
+    odds.milestone(milestone).unwrap()
+}
+
+fn encloses(enclosure: Enclosure, value: f64, tolerance: f64) -> bool {
+    enclosure.lower - tolerance <= value && value <= enclosure.upper + tolerance
+}
+
+#[test]
+fn without_loss_everything_happens_for_certain_and_at_once() {
+    for followers in [1, 2, 3] {
+        let model = OddsModel::new(setup(Config::default(), followers));
+        let [odds] = &odds_of(model, &[0.0])[..] else {
+            panic!("one loss rate");
+        };
+        assert_eq!(
+            odds.crossing,
+            Enclosure {
+                lower: 1.0,
+                upper: 1.0
+            }
+        );
+        // Request, offer, list of followers, echo; command and acknowledgement: a delay each.
+        let times = [
+            (Milestone::Team, 4 * 50),
+            (Milestone::Received, 50),
+            (Milestone::Acknowledged, 2 * 50),
+            (Milestone::Open, 2 * 50),
+        ];
+        for (milestone, ms) in times {
+            let odds = of(odds, milestone);
+            assert!(
+                encloses(odds.probability, 1.0, 0.0),
+                "{milestone:?}: {}",
+                odds.probability
+            );
+            assert!(
+                odds.quantiles
+                    .iter()
+                    .all(|quantile| quantile.ms == Some(ms)),
+                "{odds:?}"
+            );
+        }
+        for milestone in [Milestone::Interrupted, Milestone::FellBack] {
+            assert!(
+                of(odds, milestone).probability.upper <= 0.0,
+                "{milestone:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_command_arrives_as_often_as_the_geometric_series_of_its_repetitions_says() {
+    for n_ack in [1, 3, 5] {
+        let settings = Settings {
+            n_ack,
+            ..Settings::default()
+        };
+        let model = OddsModel::new(setup(Config::new(settings).unwrap(), 1));
+        let losses = [0.1, 0.3, 0.6];
+        for (odds, loss) in odds_of(model, &losses).iter().zip(losses) {
+            let received = of(odds, Milestone::Received);
+            // The first try takes the delay, each other one comes t_ack later.
+            for repeats in 0..=i32::from(n_ack) {
+                let by_hand = 1.0 - loss.powi(repeats + 1);
+                let ms = 50 + 600 * u64::try_from(repeats).unwrap();
+                let within = received.within(ms);
+                assert!(
+                    encloses(within, by_hand, 1e-8),
+                    "{n_ack} {loss} {ms}: {within}, not {by_hand}"
+                );
+                // And no sooner than that.
+                let just_before = received.within(ms - 1);
+                assert!(
+                    encloses(just_before, 1.0 - loss.powi(repeats), 1e-8),
+                    "{just_before}"
+                );
+            }
+            assert!(received.probability.width() < 1e-8);
+        }
+    }
+}
+
+#[test]
+fn a_pair_is_gathered_in_four_messages_of_which_each_is_repeated_until_it_arrives() {
+    let losses = [0.1, 0.3, 0.5];
+    for (odds, loss) in pair(&losses).iter().zip(losses) {
+        // Four geometric numbers of periods of 100 ms, and four delays.
+        let by_hand = 4.0 * 50.0 + 4.0 * 100.0 * loss / (1.0 - loss);
+        let mean = of(odds, Milestone::Team).mean_ms.unwrap();
+        // By t_help of 10 s the request may have ended, and an offer by 3 s, which happens hardly ever.
+        assert!(
+            encloses(mean, by_hand, 0.01),
+            "{loss}: {mean}, not {by_hand}"
+        );
+        let deviation = of(odds, Milestone::Team).deviation_ms.unwrap();
+        let by_hand = 100.0 * (4.0 * loss).sqrt() / (1.0 - loss);
+        assert!(
+            (deviation - by_hand).abs() < 0.1,
+            "{loss}: {deviation}, not {by_hand}"
+        );
+    }
+}
+
+#[test]
+fn more_loss_makes_everything_less_likely_and_slower() {
+    let losses = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8];
+    let odds = pair(&losses);
+    for two in odds.windows(2) {
+        let [less, more] = two else { continue };
+        assert!(
+            less.crossing.lower > more.crossing.upper,
+            "{} and {}",
+            less.loss,
+            more.loss
+        );
+        for milestone in Milestone::ALL {
+            let [less, more] = [less, more].map(|odds| of(odds, milestone));
+            let (a, b) = (less.probability, more.probability);
+            let is_monotone = match milestone.stage() {
+                Stage::Holding => a.lower <= b.upper,
+                Stage::Gathering | Stage::Commanding => a.upper >= b.lower,
+            };
+            assert!(is_monotone, "{milestone:?}: {a} and {b}");
+        }
+        let mean = |odds| of(odds, Milestone::Team).mean_ms.unwrap().middle();
+        assert!(mean(less) < mean(more));
+    }
+    // A fallback comes after the corridor has closed (I10).
+    for odds in &odds {
+        let [closed, fell] =
+            [Milestone::Interrupted, Milestone::FellBack].map(|it| of(odds, it).probability);
+        assert!(fell.lower <= closed.upper);
+    }
+    let worst = odds.last().unwrap();
+    assert!(
+        of(worst, Milestone::FellBack).probability.lower > 0.1,
+        "{worst:?}"
+    );
+}
+
+/// A leader that never repeats a command.
+struct Unrepeating;
+
+impl Rules for Unrepeating {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        let is_repetition = |output: &&Output| {
+            matches!(input, Input::Elapsed(_))
+                && matches!(output, Output::SendRmcm(Rmcm::Command(_)))
+        };
+        let kept = outputs.iter().filter(|output| !is_repetition(output));
+        kept.copied().collect()
+    }
+}
+
+#[test]
+fn a_leader_that_does_not_repeat_its_command_is_told_by_the_numbers() {
+    let weak = OddsModel::with_rules(setup(Config::default(), 1), Unrepeating);
+    let weak = odds_of(weak, &[0.3]);
+    let received = of(&weak[0], Milestone::Received).probability;
+    assert!(encloses(received, 0.7, 1e-8), "{received}");
+    let sound = pair(&[0.3]);
+    let sound = of(&sound[0], Milestone::Received).probability;
+    assert!(encloses(sound, 1.0 - 0.3_f64.powi(4), 1e-8), "{sound}");
+}
+
+#[test]
+fn bursts_interrupt_where_as_many_single_losses_do_not() {
+    let config = Config::default();
+    let grid = TimeGrid::coarsest(&config, DELAY);
+    let bursty = OddsSetup::new(config, 1, grid, Some(Millis(500)), HOLD).unwrap();
+    let bursty = odds_of(OddsModel::new(bursty), &[0.1]);
+    let single = pair(&[0.1]);
+    let interrupted = |odds: &[LossOdds]| of(&odds[0], Milestone::Interrupted).probability;
+    assert!(
+        interrupted(&bursty).lower > 0.05,
+        "{}",
+        interrupted(&bursty)
+    );
+    assert!(
+        interrupted(&single).upper < 1e-6,
+        "{}",
+        interrupted(&single)
+    );
+}
+
+#[test]
+fn links_one_at_a_time_come_to_what_all_together_come_to() {
+    // Few repetitions and a short lease keep the states of two followers few.
+    let settings = Settings {
+        n_ack: 1,
+        t_ack: Millis(200),
+        t_lease: Millis(500),
+        t_safety: Millis(600),
+        t_leave: Millis(500),
+        ..Settings::default()
+    };
+    let config = Config::new(settings).unwrap();
+    let trio = |coupling| {
+        let setup = setup(config.clone(), 2)
+            .with_coupling(coupling)
+            .with_width(1e-5);
+        odds_of(OddsModel::new(setup), &[0.3])
+    };
+    let (joint, link_by_link) = (trio(Coupling::Joint), trio(Coupling::LinkByLink));
+    for milestone in Milestone::ALL {
+        let [joint, one] = [&joint, &link_by_link].map(|odds| of(&odds[0], milestone).probability);
+        let difference = (joint.middle() - one.middle()).abs();
+        assert!(difference < 2e-3, "{milestone:?}: {joint} and {one}");
+    }
+    let received = of(&joint[0], Milestone::Received).probability;
+    let by_hand = (1.0 - 0.3_f64.powi(2)).powi(2);
+    assert!(
+        encloses(received, by_hand, 1e-4),
+        "{received}, not {by_hand}"
+    );
+}
+
+fn chain(stage: Stage) -> (MarkovChain, LossOdds) {
+    let settings = Settings {
+        t_offer: Millis(500),
+        t_lease: Millis(500),
+        t_safety: Millis(600),
+        t_leave: Millis(300),
+        ..Settings::default()
+    };
+    let setup = setup(Config::new(settings).unwrap(), 1);
+    let mut model = OddsModel::new(setup.clone());
+    let chain = model
+        .chain(stage, 0.4, 1_000_000, &Stop::default())
+        .unwrap();
+    let [odds] = odds_of(OddsModel::new(setup), &[0.4]).try_into().unwrap();
+    (chain, odds)
+}
+
+#[test]
+fn the_chain_of_a_stage_says_what_its_flow_says() {
+    for milestone in [
+        Milestone::Team,
+        Milestone::Received,
+        Milestone::Interrupted,
+        Milestone::FellBack,
+    ] {
+        let (chain, odds) = chain(milestone.stage());
+        let label = chain
+            .label_names()
+            .iter()
+            .position(|name| *name == milestone.name().replace('-', "_"))
+            .unwrap();
+        for ms in [250, 500, 2_000, 8_000] {
+            // One step leads into the stage.
+            let steps = usize::try_from(ms / 50).unwrap() + 1;
+            let by_chain = chain.within(label, steps);
+            let by_flow = of(&odds, milestone).within(ms);
+            assert!(
+                encloses(by_flow, by_chain, 1e-8),
+                "{milestone:?} {ms}: {by_flow}, not {by_chain}"
+            );
+        }
+    }
+    let (chain, odds) = chain(Stage::Commanding);
+    let open = chain
+        .label_names()
+        .iter()
+        .position(|name| name == "open")
+        .unwrap();
+    let ever = chain.ever(open, Iteration::default());
+    let by_flow = of(&odds, Milestone::Open).probability;
+    assert!(
+        ever.width() < 1e-8 && encloses(by_flow, ever.middle(), 1e-8),
+        "{ever} and {by_flow}"
+    );
+    let steps = chain.expected_steps(Iteration::default()).unwrap();
+    assert!(steps.width() < 1e-6 && steps.lower > 3.0, "{steps}");
+}
+
+fn written(chain: &MarkovChain, format: ChainFormat) -> String {
+    let mut text = Vec::new();
+    format.write(chain, &mut text).unwrap();
+    String::from_utf8(text).unwrap()
+}
+
+/// Transitions by where they come from and lead to, and labels by state.
+type Parsed = (BTreeMap<(usize, usize), f64>, BTreeMap<usize, Vec<String>>);
+
+fn wanted(chain: &MarkovChain) -> Parsed {
+    let (mut transitions, mut labels) = (BTreeMap::new(), BTreeMap::new());
+    for state in 0..chain.states() {
+        for &(to, probability) in chain.row(state) {
+            assert_eq!(transitions.insert((state, to as usize), probability), None);
+        }
+        let rest = [("init", state == 0), ("over", chain.is_absorbing(state))];
+        let rest = rest
+            .into_iter()
+            .filter(|(_, has)| *has)
+            .map(|(name, _)| name.to_owned());
+        let own = chain.label_names().iter().enumerate();
+        let own = own
+            .filter(|(label, _)| chain.has(state, *label))
+            .map(|(_, name)| name.clone());
+        let all: Vec<_> = rest.chain(own).collect();
+        if !all.is_empty() {
+            labels.insert(state, all);
+        }
+    }
+    (transitions, labels)
+}
+
+fn prism(chain: &MarkovChain) -> Parsed {
+    let number = |word: &str| word.parse::<usize>().unwrap();
+    let tra = written(chain, ChainFormat::Tra);
+    let mut lines = tra.lines();
+    assert_eq!(
+        lines.next(),
+        Some(&*format!("{} {}", chain.states(), chain.transitions()))
+    );
+    let transitions = lines.map(|line| {
+        let words: Vec<_> = line.split(' ').collect();
+        (
+            (number(words[0]), number(words[1])),
+            words[2].parse().unwrap(),
+        )
+    });
+    let lab = written(chain, ChainFormat::Lab);
+    let mut lines = lab.lines();
+    let names: BTreeMap<&str, &str> = lines
+        .next()
+        .unwrap()
+        .split(' ')
+        .map(|it| it.split_once('=').unwrap())
+        .collect();
+    let labels = lines.map(|line| {
+        let (state, labels) = line.split_once(": ").unwrap();
+        let labels = labels
+            .split(' ')
+            .map(|label| names[label].trim_matches('"').to_owned());
+        (number(state), labels.collect())
+    });
+    let states = written(chain, ChainFormat::Sta).lines().count();
+    assert_eq!(states, chain.states() + 1);
+    let costs = written(chain, ChainFormat::Srew).lines().count() - 1;
+    let open = (0..chain.states())
+        .filter(|&state| !chain.is_absorbing(state))
+        .count();
+    assert_eq!(costs, open);
+    (transitions.collect(), labels.collect())
+}
+
+fn drn(chain: &MarkovChain) -> Parsed {
+    let drn = written(chain, ChainFormat::Drn);
+    let (head, model) = drn.split_once("@model\n").unwrap();
+    assert!(
+        head.contains(&format!("@nr_states\n{}\n", chain.states())),
+        "{head}"
+    );
+    let (mut transitions, mut labels, mut state) = (BTreeMap::new(), BTreeMap::new(), 0);
+    for line in model.lines() {
+        let words: Vec<_> = line.split_whitespace().collect();
+        match words[..] {
+            ["state", number, _, ref rest @ ..] => {
+                state = number.parse().unwrap();
+                let rest: Vec<_> = rest.iter().map(|&label| label.to_owned()).collect();
+                if !rest.is_empty() {
+                    labels.insert(state, rest);
+                }
+            }
+            ["action", ..] => {}
+            [to, ":", probability] => {
+                transitions.insert((state, to.parse().unwrap()), probability.parse().unwrap());
+            }
+            _ => panic!("{line}"),
+        }
+    }
+    (transitions, labels)
+}
+
+#[test]
+fn what_is_written_for_prism_and_storm_is_the_chain() {
+    let (chain, _) = chain(Stage::Commanding);
+    let wanted = wanted(&chain);
+    assert!(
+        wanted.0.len() > 1_000 && wanted.1.len() > 10,
+        "{} states",
+        chain.states()
+    );
+    for state in 0..chain.states() {
+        let sum: f64 = chain
+            .row(state)
+            .iter()
+            .map(|(_, probability)| probability)
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-9, "{state}: {sum}");
+    }
+    assert_eq!(prism(&chain), wanted);
+    assert_eq!(drn(&chain), wanted);
+}
