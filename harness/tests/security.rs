@@ -393,7 +393,7 @@ fn a_pki_is_made_shown_and_used_with_private_keys() {
         ["root", "authority", "ticket", "ticket", "ticket", "ticket"]
     );
     // Tickets are valid for a day, and begin at moments that do not tell which robot they are of.
-    let begins: Vec<_> = issued.as_array().unwrap()[2..].iter().map(|ticket| {
+    let begins = issued.as_array().unwrap()[2..].iter().map(|ticket| {
         let [from, until] = ["valid_from", "valid_until"].map(|key| ticket[key].as_str().unwrap());
         let (day, time) = from.split_once('T').unwrap();
         let (next_day, same_time) = until.split_once('T').unwrap();
