@@ -135,13 +135,13 @@ fn planned(arguments: &Arguments) -> Result<Option<Planned>, Failure> {
     let Some(path) = &arguments.plan else {
         return Ok(None);
     };
-    let mut said = format!("--plan '{}'", path.display());
-    let site = match &arguments.site {
+    let plan = format!("--plan '{}'", path.display());
+    let (site, said) = match &arguments.site {
         Some(path) => {
-            said.push_str(&format!(" --site '{}'", path.display()));
-            SiteFile::read(path).map_err(Failure::input)?
+            let site = SiteFile::read(path).map_err(Failure::input)?;
+            (site, format!("{plan} --site '{}'", path.display()))
         }
-        None => SiteFile::street(),
+        None => (SiteFile::street(), plan),
     };
     let file = PlanFile::open(path, site).map_err(Failure::input)?;
     if file.followers >= arguments.robots {
