@@ -250,7 +250,7 @@ mod tests {
         assert_eq!(of(0.25, 0.25), "0.250000");
         assert_eq!(of(0.25, 0.2505), "0.250");
         assert_eq!(of(0.0, 2e-9), "< 2e-9");
-        assert_eq!(of(1.25e-5, 1.25e-5), "1.2e-5");
+        assert_eq!(of(1.234e-5, 1.234e-5), "1.2e-5");
         assert_eq!(of(1.0 - 1e-4, 1.0 - 1e-4), "1 - 1.0e-4");
         assert_eq!(of(1.0 - 3e-9, 1.0), "1 - <3e-9");
     }
