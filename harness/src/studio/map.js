@@ -55,6 +55,8 @@ export class StreetMap {
     const y = (metres) => HEIGHT / 2 - (metres - (south + north) / 2) * scale;
     const view = { width, scale, at: ([e, n]) => [x(e), y(n)] };
     const labels = [];
+    // Labels stay clear of all bodies.
+    view.bodies = moment.robots.flatMap((robot) => robot.body ? [view.at(robot.body.place)] : []);
     this.picture.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
     this.picture.setAttribute("aria-label", this.words(moment));
     this.picture.replaceChildren(
@@ -140,7 +142,7 @@ export class StreetMap {
         svg("circle", { cx: x, cy: y, r, class: "lease", "stroke-dasharray": `${part * 2 * Math.PI * r} 999`, transform: `rotate(-90 ${x} ${y})` }));
     }
     const state = robot.isRunning ? (robot.executes || (robot.role === "none" ? "" : robot.role)) : "not running";
-    place(labels, view, { x: x + 14, y: y - 10, text: this.robots[lane].name + (state ? ` · ${state}` : "") + (robot.sign ? ` · go ${ms(robot.sign[0])}` : ""), kind: "label name" });
+    place(labels, view, { x: x + (robot.sign ? 22 : 14), y: y - 10, text: this.robots[lane].name + (state ? ` · ${state}` : "") + (robot.sign ? ` · go ${ms(robot.sign[0])}` : ""), kind: "label name" });
     return shapes;
   }
 
@@ -173,7 +175,8 @@ function place(labels, view, label) {
   if (label.anchor === "end" && label.x - width < 4) { label.x = 4; label.anchor = "start"; }
   const left = (it) => it.anchor === "end" ? it.x - it.text.length * 6.6 : it.x;
   const meets = (it) => Math.abs(it.y - label.y) < 15 && left(it) < left(label) + width && left(label) < left(it) + it.text.length * 6.6;
+  const covers = ([x, y]) => Math.abs(y + 4 - label.y) < 18 && left(label) < x + 12 && x - 12 < left(label) + width;
   label.y = Math.max(label.y, 14);
-  for (let tries = 0; tries < 40 && labels.some(meets); tries += 1) label.y = label.y + 15 > HEIGHT - 8 ? 14 : label.y + 15;
+  for (let tries = 0; tries < 40 && (labels.some(meets) || view.bodies.some(covers)); tries += 1) label.y = label.y + 15 > HEIGHT - 8 ? 14 : label.y + 15;
   labels.push(label);
 }

@@ -26,7 +26,7 @@ export class Messages {
     const last = shownFrom + rows.length;
     this.summary.textContent = count ? `${past} of ${count} so far; ${shownFrom + 1} to ${last} are listed.` : "Nothing was said in this stretch of time.";
     const current = this.list.children[Math.max(now - 1, 0)];
-    if (current) this.list.scrollTop = current.offsetTop - this.list.offsetTop - this.list.clientHeight * 0.6;
+    if (current) this.list.scrollTop = current.offsetTop - this.list.clientHeight * 0.6;
   }
 
   row(row, isPast, isCurrent) {
@@ -44,7 +44,7 @@ export class Messages {
       this.drawing(row),
       html("span", { class: "said" },
         html("b", {}, from), row.kind ? html("span", { class: "reach" }, ` ${reach} `) : " ",
-        row.kind ? html("span", { class: "kind" }, row.kind) : "", " ", row.text));
+        " ", row.text));
     item.addEventListener("click", () => this.seek(row.at));
     return item;
   }

@@ -156,6 +156,11 @@ fn a_team_with_thirty_people_is_shown_at_every_width_and_nothing_is_loaded_from_
     assert_eq!(browser.evaluate(&count("#robots article")), json!(4));
     assert_eq!(browser.evaluate(&count("#map .body")), json!(4));
     assert!(browser.evaluate(&count("#messages .row")).as_u64().unwrap() > 10);
+    let odd = "[...document.querySelectorAll('.timers .n')].map((it) => it.textContent).filter((it) => !/^[0-9.]+ m?s$/.test(it))";
+    assert_eq!(browser.evaluate(odd), json!([]), "timers");
+    let shown = "(() => { const list = document.querySelector('.rows').getBoundingClientRect(), row = document.querySelector('.row.current').getBoundingClientRect(); \
+        return list.top <= row.top && row.bottom <= list.bottom; })()";
+    browser.wait_for(shown);
     assert!(
         browser
             .evaluate(&count("#timeline rect.exec, #timeline rect.role"))
