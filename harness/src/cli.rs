@@ -29,6 +29,7 @@ mod security;
 mod simulate;
 mod site;
 mod sniff;
+mod studio;
 mod timing;
 mod validate;
 mod watch;
@@ -87,6 +88,8 @@ enum Command {
     Validate(validate::Arguments),
     /// Write a page about a run: states, map, times, verdicts, sequence chart.
     Report(report::Arguments),
+    /// Look at logs in a browser: the street, the messages, states and timers at any time of the run.
+    Studio(studio::Arguments),
     /// Take the paper's times from logs: negotiation, execution, and both together.
     Timing(timing::Arguments),
     /// Convert logs to what other tools open: MCAP, sequence charts.
@@ -158,6 +161,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Conform(arguments) => conform::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Studio(arguments) => studio::run(&arguments),
         Command::Timing(arguments) => timing::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Fuzz(arguments) => fuzz::run(&arguments),

@@ -2,10 +2,9 @@
 //! machine reaches unless another one is given.
 
 use std::fmt::{Display, Write as _};
-use std::io::{ErrorKind, Read, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_codec::its::Kind;
 use crossguard_endpoint::counters::CauseName;
@@ -14,14 +13,7 @@ use crossguard_protocol::{Role, State};
 use crossguard_robot::channel::ChannelState;
 use crossguard_robot::tally::Tally;
 
-/// How long a client may take to ask, and to take the answer.
-const PATIENCE: Duration = Duration::from_secs(2);
-
-/// The longest request that is read, in octets.
-const REQUEST_MAX: usize = 8_192;
-
-/// How many clients are served at once; the next one is turned away.
-const CLIENTS_MAX: usize = 32;
+use crate::http::{self, Answer};
 
 /// The type of the text: the Prometheus exposition format.
 const CONTENT_TYPE: &str = "text/plain; version=0.0.4; charset=utf-8";
@@ -37,83 +29,25 @@ impl Shared {
     }
 }
 
-/// Serves `tally` at `address` until the process ends, each client by a thread of its own, so that one that asks
-/// nothing delays no other. The address that it is served at, where the port that was given is 0.
+/// Serves `tally` at `address` until the process ends. The address that it is served at, where the port that was given
+/// is 0.
 ///
 /// # Errors
 /// When nothing can be served there.
 pub fn serve(address: SocketAddr, tally: Shared) -> std::io::Result<SocketAddr> {
-    let listener = TcpListener::bind(address)?;
-    let address = listener.local_addr()?;
-    std::thread::Builder::new()
-        .name("metrics".to_owned())
-        .spawn(move || {
-            // Each client that is served holds a clone.
-            let clients = Arc::new(());
-            for client in listener.incoming() {
-                let served = client.and_then(|client| attend(client, &tally, &clients));
-                if let Err(error) = served {
-                    tracing::debug!(%error, "a client of the metrics is not served");
-                }
-            }
-        })?;
-    Ok(address)
-}
-
-/// Serves a client in a thread, unless there are too many of them.
-fn attend(client: TcpStream, tally: &Shared, clients: &Arc<()>) -> std::io::Result<()> {
-    if Arc::strong_count(clients) > CLIENTS_MAX {
-        return Err(std::io::Error::other("too many clients at once"));
-    }
-    let (tally, slot) = (tally.clone(), Arc::clone(clients));
-    let serve = move || {
-        if let Err(error) = answer(&client, &tally) {
-            tracing::debug!(%error, "a client of the metrics went away");
+    http::serve(address, "metrics", move |request| {
+        // A query says nothing that matters.
+        let (status, body) = match request.path {
+            "/metrics" | "/" => ("200 OK", tally.with(|tally| text(tally))),
+            _ => ("404 Not Found", "there is /metrics\n".to_owned()),
+        };
+        Answer {
+            status,
+            content_type: CONTENT_TYPE,
+            headers: "",
+            body: body.into(),
         }
-        drop(slot);
-    };
-    let thread = std::thread::Builder::new().name("metrics client".to_owned());
-    thread.spawn(serve).map(|_| ())
-}
-
-fn answer(mut client: &TcpStream, tally: &Shared) -> std::io::Result<()> {
-    client.set_write_timeout(Some(PATIENCE))?;
-    let request = request(client)?;
-    let mut words = request.split_whitespace();
-    let method = words.next();
-    // A query says nothing that matters.
-    let path = words.next().and_then(|target| target.split('?').next());
-    let (status, body) = match (method, path) {
-        (Some("GET"), Some("/metrics" | "/")) => ("200 OK", tally.with(|tally| text(tally))),
-        (Some("GET"), _) => ("404 Not Found", "there is /metrics\n".to_owned()),
-        _ => ("405 Method Not Allowed", "GET is possible\n".to_owned()),
-    };
-    let length = body.len();
-    write!(
-        client,
-        "HTTP/1.1 {status}\r\nContent-Type: {CONTENT_TYPE}\r\nContent-Length: {length}\r\n\
-         Connection: close\r\n\r\n{body}"
-    )
-}
-
-/// A request up to the empty line that ends it, all of which is read so that the client gets the answer. A client
-/// has [`PATIENCE`] for all of it.
-fn request(mut client: &TcpStream) -> std::io::Result<String> {
-    let until = Instant::now() + PATIENCE;
-    let mut request = Vec::new();
-    let mut part = [0; 1_024];
-    while !request.windows(4).any(|octets| octets == b"\r\n\r\n") && request.len() < REQUEST_MAX {
-        let left = until.saturating_duration_since(Instant::now());
-        if left.is_zero() {
-            return Err(ErrorKind::TimedOut.into());
-        }
-        client.set_read_timeout(Some(left))?;
-        match client.read(&mut part)? {
-            0 => break,
-            length => request.extend_from_slice(&part[..length]),
-        }
-    }
-    Ok(String::from_utf8_lossy(&request).into_owned())
+    })
 }
 
 /// A tally in the exposition format.
@@ -337,10 +271,15 @@ fn escaped(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::io::{Read, Write};
+    use std::net::TcpStream;
+    use std::time::Instant;
+
     use crossguard_endpoint::cause::Cause;
     use crossguard_protocol::Ignored;
 
     use super::*;
+    use crate::http::{CLIENTS_MAX, PATIENCE};
 
     fn ask(address: SocketAddr, request: &str) -> String {
         let mut client = TcpStream::connect(address).unwrap();

@@ -14,7 +14,7 @@ mod timeline;
 
 use crossguard_robot::trace::{LogError, Merged};
 
-use crate::validate::{Fault, Invalid, Validated};
+use crate::validate::{Invalid, Validated};
 
 /// What a page is made of besides the logs.
 #[derive(Debug)]
@@ -50,17 +50,6 @@ impl Report<'_> {
             Ok(validated) if validated.missing > 0 => Validity::Incomplete,
             Ok(_) => Validity::Valid,
             Err(_) => Validity::Invalid,
-        }
-    }
-
-    /// The property that a step broke.
-    fn broken(&self) -> Option<String> {
-        match self.verdict {
-            Err(Invalid { fault, .. }) => match &**fault {
-                Fault::Broken(broken) => Some(broken.name().to_owned()),
-                _ => None,
-            },
-            Ok(_) => None,
         }
     }
 }

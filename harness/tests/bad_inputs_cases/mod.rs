@@ -481,6 +481,18 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
         ],
     ),
     (
+        "studio",
+        &[
+            ("studio", 2),
+            ("studio nosuch.jsonl", 2),
+            ("studio folder", 2),
+            ("studio text.jsonl", 2),
+            ("studio other.jsonl --site nosuch.toml", 2),
+            ("studio other.jsonl --port 65536", 2),
+            ("studio other.jsonl --address nosuch", 2),
+        ],
+    ),
+    (
         "sniff",
         &[
             ("sniff", 2),

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::time::{Duration, UNIX_EPOCH};
 
-use crossguard_model_check::properties::PropertyId;
 use crossguard_robot::around::Nearest;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::collect::Run;
 use super::{Report, Validity, people, street, timeline};
 use crate::timing::{Statistic, Summary, offsets_in_words};
+use crate::verdict;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -53,7 +53,7 @@ pub(super) fn page(report: &Report, run: &Run) -> Markup {
                 header {
                     h1 { (report.title) }
                     p.faint { (when(run)) }
-                    (verdict(report))
+                    (outcome(report))
                     nav aria-label="Contents" { ul {
                         @for (id, name, _) in &sections { li { a href=(format!("#{id}")) { (name) } } }
                     } }
@@ -89,7 +89,7 @@ fn when(run: &Run) -> String {
     )
 }
 
-fn verdict(report: &Report) -> Markup {
+fn outcome(report: &Report) -> Markup {
     let (class, word) = match report.outcome() {
         Validity::Valid => ("valid", "✓ Valid"),
         Validity::Incomplete => ("incomplete", "! Valid, and not all of it is there"),
@@ -102,16 +102,7 @@ fn verdict(report: &Report) -> Markup {
             @if let Some(finding) = report.finding { p { (finding) } }
             @match report.verdict {
                 Ok(valid) => {
-                    (valid.steps) " steps, each one of the transition function; " (valid.sent) " messages sent; "
-                    (valid.heard) " receptions, each with its transmission; " (valid.properties.len())
-                    " properties put to the test and kept."
-                    @if valid.from_strangers > 0 { " " (valid.from_strangers) " messages came from stations whose logs are not here." }
-                    @if valid.beyond_logs > 0 { " " (valid.beyond_logs) " messages came from robots after the end of their logs." }
-                    @if valid.of_unknown_age > 0 { " " (valid.of_unknown_age) " messages were taken in of which the logs do not say how long they had waited." }
-                    @if valid.late.steps > 0 { " " (valid.late.steps) " steps came later than they may, the latest by " (valid.late.longest_ms) " ms." }
-                    @for what in &valid.not_judged { " Not judged: " (what) "." }
-                    @if valid.missing > 0 { " " (valid.missing) " records are missing by the robots' own account." }
-                    @for robot in &valid.cut_off { " The log of " (robot) " ends in the middle of a run." }
+                    (verdict::sentences(valid).join(" "))
                 }
                 Err(invalid) => { (invalid) "." }
             }
@@ -241,29 +232,21 @@ fn counters(run: &Run) -> Markup {
 
 /// What became of each property; nothing where the logs could not be judged by them.
 fn properties(report: &Report) -> Option<Markup> {
-    let broken = report.broken();
-    let kept: &[String] = report.verdict.map_or(&[], |valid| &valid.properties);
-    if kept.is_empty() && broken.is_none() {
+    let properties = verdict::properties(report.verdict);
+    if properties.is_empty() {
         return None;
     }
-    let rows = PropertyId::ALL.into_iter().filter_map(|id| {
-        let name = id.to_string();
-        let verdict = if broken.as_deref() == Some(&name) {
-            "✗ broken"
-        } else if kept.contains(&name) {
-            "✓ kept"
-        } else {
-            return None;
-        };
-        Some((name, verdict, id.statement()))
-    });
     Some(html! {
         div.scroll tabindex="0" role="group" aria-label="Properties" {
             table {
                 thead { tr { th scope="col" { "property" } th scope="col" { "verdict" } th scope="col" { "what it says" } } }
                 tbody {
-                    @for (name, verdict, statement) in rows {
-                        tr { th scope="row" { (name) } td { (verdict) } td { (statement) } }
+                    @for property in properties {
+                        tr {
+                            th scope="row" { (property.id) }
+                            td { @if property.is_broken { "✗ broken" } @else { "✓ kept" } }
+                            td { (property.statement) }
+                        }
                     }
                 }
             }

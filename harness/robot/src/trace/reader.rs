@@ -154,6 +154,8 @@ pub struct Merged<'a> {
     held: BTreeMap<(u64, u64), (usize, Record)>,
     read: u64,
     newest_us: u64,
+    /// Why a log cannot be read on, until that is told: the record before comes first.
+    failed: Option<LogError>,
 }
 
 /// A record of one of several logs.
@@ -206,10 +208,12 @@ impl<'a> Merged<'a> {
             held: BTreeMap::new(),
             read: 0,
             newest_us: 0,
+            failed: None,
         })
     }
 
-    /// Takes the next record; `None` at the end of all.
+    /// Takes the next record; `None` at the end of all. After an error, it goes on with what was read before it and
+    /// with the other logs.
     ///
     /// # Errors
     /// Which log cannot be read on, in which line, and why.
@@ -233,6 +237,9 @@ impl<'a> Merged<'a> {
 
     /// Reads the next record of the log whose next is the earliest.
     fn read(&mut self) -> Result<Option<Timed>, LogError> {
+        if let Some(error) = self.failed.take() {
+            return Err(error);
+        }
         let heads = self.sources.iter_mut().enumerate();
         let with_head = heads.filter(|(_, source)| source.head.is_some());
         let earliest =
@@ -241,7 +248,7 @@ impl<'a> Merged<'a> {
             return Ok(None);
         };
         let taken = source.head.take();
-        source.advance()?;
+        self.failed = source.advance().err();
         Ok(taken.map(|(at_us, record)| Timed { log, at_us, record }))
     }
 }
@@ -353,8 +360,11 @@ mod tests {
         let mut cut_off = text("{\"atUs\":5,\"rob");
         assert!(cut_off.take().unwrap().is_some());
         assert!(cut_off.take().unwrap().is_none());
-        let error = text("nonsense\n").take().unwrap_err().to_string();
+        let mut broken = text("nonsense\n");
+        let error = broken.take().unwrap_err().to_string();
         assert!(error.starts_with("a, line 2: is not a record"), "{error}");
+        assert_eq!(broken.take().unwrap().unwrap().record.robot, "ARI");
+        assert!(broken.take().unwrap().is_none());
         let empty = Merged::new(vec![log(&[])]).err().unwrap().to_string();
         assert_eq!(empty, "some.jsonl, line 1: there is nothing in this log");
     }

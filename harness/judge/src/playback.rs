@@ -1,0 +1,228 @@
+//! A run that can be looked at as it was at any time, as data for a page.
+//!
+//! ```text
+//!   logs ──► Playback ──┬──► Overview: robots, states over time, trials, times, extent of the street
+//!                       └──► Moment: bodies, people, timers, leases, drops, and the messages around a time
+//! ```
+//!
+//! Both are small however long the logs are: the overview has no more spans of states than a screen has
+//! columns, and a moment has the messages next to it. Times are microseconds since the first record, places
+//! are metres to the east and north of the site.
+
+mod messages;
+mod moment;
+mod overview;
+mod tracks;
+
+pub use messages::{MessageRow, Rows};
+pub use moment::{Moment, RobotMoment, Span};
+pub use overview::{Overview, StateSpan, Trial};
+
+use std::collections::HashMap;
+
+use crossguard_protocol::{Output, StationId};
+use crossguard_robot::site::Site;
+use crossguard_robot::site_file::SiteFile;
+use crossguard_robot::trace::{Entry, Log, Merged, Record, Records, Timed};
+
+use crate::facts::{Fact, Observer};
+use crate::timing::Timing;
+use messages::Messages;
+use tracks::Track;
+
+/// How many records and robots are kept. What is left out is counted.
+const RECORDS_MAX: u64 = 3_000_000;
+const ROBOTS_MAX: usize = 32;
+
+/// A run.
+pub struct Playback {
+    /// The first and the last record, in µs since 1970.
+    from_us: u64,
+    to_us: u64,
+    site: Site,
+    street: Option<SiteFile>,
+    robots: Vec<Track>,
+    messages: Messages,
+    timing: Timing,
+    /// Why logs could not be read to their ends.
+    troubles: Vec<String>,
+    records: u64,
+    left_out: u64,
+}
+
+/// Where something is, in metres to the east and to the north of the site, to the centimetre.
+pub type Metres = [f64; 2];
+
+impl Playback {
+    /// What `logs` tell. A log that cannot be read to its end is taken as far as it goes, and
+    /// [`Overview::troubles`] says why it ends there.
+    #[must_use]
+    pub fn of(mut logs: Merged, street: Option<SiteFile>) -> Self {
+        let mut reading = Reading::default();
+        loop {
+            match logs.take() {
+                Ok(Some(timed)) => reading.take(&timed),
+                Ok(None) => break,
+                Err(error) => reading.run.troubles.push(error.to_string()),
+            }
+        }
+        reading.finish(street)
+    }
+
+    /// A time since the first record, from one since 1970.
+    const fn since(&self, at_us: u64) -> u64 {
+        at_us.saturating_sub(self.from_us)
+    }
+
+    /// From degrees to metres.
+    fn metres(&self, (latitude, longitude): (f64, f64)) -> Metres {
+        let place = self.site.place(latitude, longitude);
+        [place.east, place.north].map(|metres| (metres * 100.0).round() / 100.0)
+    }
+}
+
+impl Default for Playback {
+    fn default() -> Self {
+        Self {
+            from_us: u64::MAX,
+            to_us: 0,
+            site: Site::default(),
+            street: None,
+            robots: Vec::new(),
+            messages: Messages::default(),
+            timing: Timing::default(),
+            troubles: Vec::new(),
+            records: 0,
+            left_out: 0,
+        }
+    }
+}
+
+/// When a line of a log was written, in µs since 1970; where it is no record, when the record before it was. `None`
+/// where there is none before it.
+#[must_use]
+pub fn written_us(log: Log<'_>, line: usize) -> Option<u64> {
+    let mut records = Records::new(log);
+    let mut at_us = None;
+    while records.line() < line {
+        match records.take() {
+            Ok(Some(record)) => at_us = Some(records.unix_us(&record)),
+            Ok(None) | Err(_) => break,
+        }
+    }
+    at_us
+}
+
+/// A run while its logs are read.
+#[derive(Default)]
+struct Reading {
+    run: Playback,
+    observer: Observer,
+    places: HashMap<String, u16>,
+}
+
+impl Reading {
+    fn take(&mut self, timed: &Timed) {
+        let Timed { log, at_us, record } = timed;
+        let Some(robot) = self.robot(&record.robot) else {
+            self.run.left_out += 1;
+            return;
+        };
+        if self.run.records >= RECORDS_MAX {
+            self.run.left_out += 1;
+            return;
+        }
+        self.run.records += 1;
+        self.run.from_us = self.run.from_us.min(*at_us);
+        self.run.to_us = self.run.to_us.max(*at_us);
+        self.run.timing.record(*log, *at_us, record);
+        self.step(robot, *at_us, record);
+        for fact in self.observer.take(record) {
+            self.fact(robot, *at_us, record.at_us, fact);
+        }
+    }
+
+    fn robot(&mut self, name: &str) -> Option<u16> {
+        if let Some(place) = self.places.get(name) {
+            return Some(*place);
+        }
+        if self.run.robots.len() >= ROBOTS_MAX {
+            return None;
+        }
+        let place = u16::try_from(self.run.robots.len()).ok()?;
+        self.run.robots.push(Track::new(name));
+        self.places.insert(name.to_owned(), place);
+        Some(place)
+    }
+
+    /// What no fact tells: timers, and until when the sign shows go.
+    fn step(&mut self, robot: u16, at_us: u64, record: &Record) {
+        let Entry::Step { outputs, state, .. } = &record.entry else {
+            return;
+        };
+        let track = &mut self.run.robots[usize::from(robot)];
+        let timers = state.timers();
+        let timers = timers.iter().map(|(timer, left)| (*timer, left.0));
+        track.timers.push(at_us, timers.collect());
+        for output in outputs.iter() {
+            match output {
+                Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+                    track.sign.push(at_us, Some(time.0));
+                }
+                Output::CorridorClosed(_) => track.sign.push(at_us, None),
+                _ => {}
+            }
+        }
+    }
+
+    fn fact(&mut self, robot: u16, at_us: u64, log_us: u64, fact: Fact) {
+        match fact {
+            Fact::Message(message) => self.run.messages.message(robot, at_us, message),
+            Fact::Note { is_warning, text } => {
+                self.run.messages.note(robot, at_us, is_warning, &text);
+            }
+            Fact::Corridor {
+                is_open,
+                since_us,
+                why,
+            } => {
+                let since_us = at_us.saturating_sub(log_us.saturating_sub(since_us));
+                let track = &mut self.run.robots[usize::from(robot)];
+                track.corridor(since_us, is_open, why);
+            }
+            fact => self.run.robots[usize::from(robot)].take(at_us, fact),
+        }
+    }
+
+    fn finish(mut self, street: Option<SiteFile>) -> Playback {
+        let run = &mut self.run;
+        run.from_us = run.from_us.min(run.to_us);
+        let mut robots: HashMap<StationId, u16> = HashMap::new();
+        for (place, track) in (0..).zip(&run.robots) {
+            robots.extend(track.stations.iter().map(|station| (*station, place)));
+        }
+        run.messages.finish(&robots, run.robots.len());
+        run.site = match &street {
+            Some(street) => street.site.clone(),
+            None => run.origin(),
+        };
+        run.street = street;
+        self.run
+    }
+}
+
+impl Playback {
+    /// A site at the first place that anything has.
+    fn origin(&self) -> Site {
+        let first = |track: &Track| {
+            let place = track.places.first().map(|body| body.place);
+            place.or_else(|| Some(*track.zone.first()?.waiting.first()?))
+        };
+        let (latitude, longitude) = self.robots.iter().find_map(first).unwrap_or_default();
+        Site {
+            latitude,
+            longitude,
+            ..Site::default()
+        }
+    }
+}

@@ -1,0 +1,88 @@
+// The page: it takes the run as a whole once, and then the moment that is looked at.
+
+import { html, id, seconds } from "./dom.js";
+import { StreetMap } from "./map.js";
+import { Messages } from "./messages.js";
+import * as panels from "./panels.js";
+import { Player } from "./player.js";
+import { Timeline } from "./timeline.js";
+
+const VERDICTS = { valid: "✓ Valid", incomplete: "! Valid, and not all of it is there", invalid: "✗ Not valid" };
+
+async function load(path) {
+  const answer = await fetch(path);
+  if (!answer.ok) throw new Error(await answer.text());
+  return answer.json();
+}
+
+function trouble(...texts) {
+  id("troubles").replaceChildren(...texts.map((text) => html("p", { class: "trouble" }, text)));
+}
+
+// The newest time that was asked for is shown; those in between are left out when the server is slower.
+function shower(draw) {
+  let busy = false, next = null;
+  return async function show(query) {
+    if (busy) { next = query; return null; }
+    busy = true;
+    try {
+      let moment;
+      do {
+        next = null;
+        moment = await load(`/api/moment?${query}`);
+        draw(moment);
+        query = next;
+      } while (query);
+      return moment;
+    } catch (error) {
+      trouble(`The server does not answer (${error.message}). Was it ended? Start crossguard studio again, and load this page anew.`);
+      return null;
+    } finally {
+      busy = false;
+    }
+  };
+}
+
+function head(opening) {
+  const { overview, verdict, logs } = opening;
+  const began = new Date(overview.beganMs);
+  const when = Number.isNaN(began.getTime()) ? "" : `${began.toISOString().slice(0, 19).replace("T", " ")} UTC · `;
+  id("what").textContent = `${logs.join(", ")} · ${when}${seconds(overview.lasted, 1)} s · ${overview.records.toLocaleString("en")} records · ${overview.robots.map((it) => it.name).join(", ")}`;
+  id("chip").textContent = VERDICTS[verdict.kind];
+  id("chip").classList.add(verdict.kind);
+  const left = overview.leftOut ? [`${overview.leftOut.toLocaleString("en")} records are left out: the page has no room for more.`] : [];
+  trouble(...overview.troubles.map((text) => `${text}. What came before is shown.`), ...left);
+  const trials = overview.trials.map((it, place) => html("option", { value: place }, `${place + 1}: ${it.leader || it.session}, ${seconds(it.from, 1)} s`));
+  id("trial").append(html("option", { value: -1 }, trials.length ? `all ${trials.length}` : "none"), ...trials);
+}
+
+async function start() {
+  const opening = await load("/api/opening");
+  head(opening);
+  const seek = (at) => player.seek(at);
+  const map = new StreetMap(opening);
+  const messages = new Messages(opening, (at) => { player.pause(); seek(at); });
+  const show = shower((moment) => {
+    map.draw(moment);
+    messages.draw(moment);
+    id("robots").replaceChildren(...panels.robots(opening, moment));
+    id("drops").replaceChildren(panels.drops(opening, moment));
+  });
+  let span = null;
+  const player = new Player(opening, (at) => {
+    const [from, to] = player.span;
+    if (span !== player.span) { span = player.span; timeline.redraw(); }
+    timeline.draw();
+    return show(`at=${at}&from=${from}&to=${to}&repeats=${id("repeats").checked ? 1 : 0}`);
+  });
+  const timeline = new Timeline(opening, player);
+  id("times").append(...panels.times(opening.overview));
+  id("trials").append(panels.trials(opening.overview, (trial) => { player.choose(trial); id("play").focus(); scrollTo(0, 0); }));
+  id("verdict").append(...panels.verdict(opening.verdict, (at) => player.choose(-1).then(() => seek(at)).then(() => scrollTo(0, 0))));
+  // A link may name the moment: #at=MICROSECONDS.
+  const named = /^#at=(\d+)$/.exec(location.hash);
+  await seek(named ? Number(named[1]) : opening.verdict.at ?? 0);
+  document.documentElement.dataset.ready = "true";
+}
+
+start().catch((error) => trouble(`The page could not be filled: ${error.message}`));
