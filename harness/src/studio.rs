@@ -8,7 +8,7 @@
 use std::borrow::Cow;
 use std::net::SocketAddr;
 
-use crossguard_judge::playback::{Overview, Playback, Span};
+use crossguard_judge::playback::{Overview, Playback, Stretch};
 use crossguard_judge::validate::{Invalid, Validated};
 use crossguard_judge::verdict::{self, PropertyVerdict};
 use serde::Serialize;
@@ -175,7 +175,7 @@ fn moment(query: &str, playback: &Playback) -> Option<String> {
     };
     let number = |name: &str| value(name).map(str::parse::<u64>).transpose().ok();
     let (from, to) = (number("from")?, number("to")?);
-    let span = from.zip(to).map(|(from, to)| Span { from, to });
+    let span = from.zip(to).map(|(from, to)| Stretch { from, to });
     let moment = playback.moment(number("at")??, span, value("repeats") == Some("1"));
     serde_json::to_string(&moment).ok()
 }

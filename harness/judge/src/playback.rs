@@ -15,7 +15,7 @@ mod overview;
 mod tracks;
 
 pub use messages::{MessageRow, Rows};
-pub use moment::{Moment, RobotMoment, Span};
+pub use moment::{Moment, RobotMoment, Stretch};
 pub use overview::{Overview, StateSpan, Trial};
 
 use std::collections::HashMap;
@@ -177,7 +177,7 @@ impl Reading {
 
     fn fact(&mut self, robot: u16, at_us: u64, log_us: u64, fact: Fact) {
         match fact {
-            Fact::Message(message) => self.run.messages.message(robot, at_us, message),
+            Fact::Message(message) => self.run.messages.message(robot, at_us, &message),
             Fact::Note { is_warning, text } => {
                 self.run.messages.note(robot, at_us, is_warning, &text);
             }
@@ -203,7 +203,7 @@ impl Reading {
         }
         run.messages.finish(&robots, run.robots.len());
         run.site = match &street {
-            Some(street) => street.site.clone(),
+            Some(street) => street.site,
             None => run.origin(),
         };
         run.street = street;

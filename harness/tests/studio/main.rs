@@ -320,7 +320,8 @@ fn a_hostile_log_runs_no_script_and_shows_where_it_is_cut() {
     for number in 0..40_000_u64 {
         let dropped = json!({"atUs": last + number * 100, "robot": hostile, "entry": "dropped", "layer": "codec",
             "cause": "malformed", "detail": detail, "octets": ""});
-        log.push_str(&format!("{dropped}\n"));
+        log.push_str(&dropped.to_string());
+        log.push('\n');
     }
     log.push_str("{\"atUs\": 1, \"robot\": \"cut\n{}\n");
     std::fs::write(&path, log).unwrap();

@@ -80,7 +80,7 @@ impl Messages {
         });
     }
 
-    pub(super) fn message(&mut self, robot: u16, at_us: u64, message: Message) {
+    pub(super) fn message(&mut self, robot: u16, at_us: u64, message: &Message) {
         let mut hasher = DefaultHasher::new();
         message.octets.hash(&mut hasher);
         let hash = hasher.finish();
@@ -91,29 +91,28 @@ impl Messages {
             Direction::Lost => (true, false),
         };
         let known = self.by_octets.get(&hash).copied();
-        let row = match known.filter(|_| !is_sent) {
-            Some(row) => row,
-            None => {
-                let why = if is_sent { message.why.as_str() } else { "" };
-                let row = Row {
-                    at_us,
-                    from: if is_sent {
-                        From::Robot(robot)
-                    } else {
-                        From::Station(message.from)
-                    },
-                    kind: Some(message.kind),
-                    text: Arc::clone(&text),
-                    why: self.text(why),
-                    receptions: Vec::new(),
-                    is_news: message.kind == "RMCM",
-                    is_warning: false,
-                    hash,
-                };
-                self.rows.push(row);
-                self.by_octets.insert(hash, self.rows.len() - 1);
-                self.rows.len() - 1
-            }
+        let row = if let Some(row) = known.filter(|_| !is_sent) {
+            row
+        } else {
+            let why = if is_sent { message.why.as_str() } else { "" };
+            let row = Row {
+                at_us,
+                from: if is_sent {
+                    From::Robot(robot)
+                } else {
+                    From::Station(message.from)
+                },
+                kind: Some(message.kind),
+                text: Arc::clone(&text),
+                why: self.text(why),
+                receptions: Vec::new(),
+                is_news: message.kind == "RMCM",
+                is_warning: false,
+                hash,
+            };
+            self.rows.push(row);
+            self.by_octets.insert(hash, self.rows.len() - 1);
+            self.rows.len() - 1
         };
         let is_ram = message.kind == "RAM";
         if is_sent {
@@ -348,14 +347,14 @@ mod tests {
     fn a_broadcast_is_one_row_and_repeats_are_folded() {
         let mut messages = Messages::default();
         let ram = |direction, text, octet| message(direction, "RAM", text, &[octet]);
-        messages.message(0, 10, ram(Direction::Sent, "leader", 1));
-        messages.message(1, 11, ram(Direction::Heard, "leader", 1));
-        messages.message(2, 12, ram(Direction::Lost, "leader", 1));
+        messages.message(0, 10, &ram(Direction::Sent, "leader", 1));
+        messages.message(1, 11, &ram(Direction::Heard, "leader", 1));
+        messages.message(2, 12, &ram(Direction::Lost, "leader", 1));
         // Repeats, of which the first is news to the one that lost the one before.
-        messages.message(0, 20, ram(Direction::Sent, "leader", 2));
-        messages.message(2, 21, ram(Direction::Heard, "leader", 2));
-        messages.message(0, 30, ram(Direction::Sent, "leader", 3));
-        messages.message(1, 31, ram(Direction::Heard, "leader", 3));
+        messages.message(0, 20, &ram(Direction::Sent, "leader", 2));
+        messages.message(2, 21, &ram(Direction::Heard, "leader", 2));
+        messages.message(0, 30, &ram(Direction::Sent, "leader", 3));
+        messages.message(1, 31, &ram(Direction::Heard, "leader", 3));
         messages.finish(&HashMap::from([(StationId(1), 0)]), 3);
         let all = messages.around(30, 10, (10, 40), [9, 9], true);
         assert_eq!(
@@ -375,13 +374,13 @@ mod tests {
     #[test]
     fn a_reception_before_its_transmission_joins_it_and_a_stranger_gets_a_column() {
         let mut messages = Messages::default();
-        messages.message(1, 5, message(Direction::Heard, "RMCM", "command", &[7]));
-        messages.message(0, 9, message(Direction::Sent, "RMCM", "command", &[7]));
+        messages.message(1, 5, &message(Direction::Heard, "RMCM", "command", &[7]));
+        messages.message(0, 9, &message(Direction::Sent, "RMCM", "command", &[7]));
         let stranger = Message {
             from: StationId(99),
             ..message(Direction::Heard, "RMCM", "command", &[8])
         };
-        messages.message(1, 12, stranger);
+        messages.message(1, 12, &stranger);
         messages.finish(&HashMap::from([(StationId(1), 0)]), 2);
         let rows = messages.around(12, 0, (0, 20), [9, 9], false).rows;
         let shown: Vec<_> = rows

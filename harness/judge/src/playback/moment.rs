@@ -21,7 +21,7 @@ const ROWS: [usize; 2] = [80, 40];
 
 /// A stretch of a run, in µs since its first record.
 #[derive(Clone, Copy, Debug)]
-pub struct Span {
+pub struct Stretch {
     /// Its first moment.
     pub from: u64,
     /// Its last moment.
@@ -147,7 +147,7 @@ pub struct AreaMoment {
 impl Playback {
     /// The run at a time, with the messages of a stretch of it; RAM that repeat what is known only if they are wanted.
     #[must_use]
-    pub fn moment(&self, at: u64, span: Option<Span>, with_repeats: bool) -> Moment {
+    pub fn moment(&self, at: u64, span: Option<Stretch>, with_repeats: bool) -> Moment {
         let absolute = |since: u64| self.from_us.saturating_add(since);
         let at_us = absolute(at).min(self.to_us);
         let span = span.map_or((self.from_us, self.to_us), |span| {
