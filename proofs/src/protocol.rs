@@ -6,6 +6,7 @@
 //! of some kinds case by case, in one stage.
 
 pub mod boot;
+pub mod exchange;
 pub mod following;
 pub mod idle;
 pub mod leading;

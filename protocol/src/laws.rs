@@ -16,6 +16,7 @@ pub mod arbitrary;
 pub mod causes;
 pub mod commands;
 pub mod contact;
+pub mod exchange;
 pub mod farewells;
 pub mod lease;
 pub mod liars;

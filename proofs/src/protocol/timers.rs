@@ -24,6 +24,6 @@ const fn peers(stage: Stage) -> (usize, usize) {
 }
 
 /// A state that can occur within a step.
-fn any_within_a_step(config: &Config, stage: Stage) -> Robot {
+pub(super) fn any_within_a_step(config: &Config, stage: Stage) -> Robot {
     arbitrary::robot(&mut Symbolic, config, stage, peers(stage))
 }

@@ -3,6 +3,7 @@
 //! Nothing here makes a value valid; [`Robot::is_valid`](crate::Robot::is_valid) and [`config`]'s premise do that. Hints let
 //! a random source build values that go together: the robot is station [`ME`], in its first boot.
 
+mod exchange;
 mod input;
 mod message;
 mod state;
@@ -19,6 +20,7 @@ use crate::task::{
 };
 use crate::time::Millis;
 
+pub use exchange::{Part, exchange, history};
 pub use input::{Happening, Kind, TimerKind, event, input, timer};
 pub use message::{answer, command, ram};
 pub use state::{Peers, Stage, robot, valid_robot};

@@ -1,0 +1,153 @@
+//! Arbitrary exchanges and histories: every history whose facts are consistent.
+
+use super::{ME, PEER, Source, likely, offer_number, request_id, session, station, task_like};
+use crate::config::Config;
+use crate::id::{RequestId, SessionId, SessionNumber, UniqueNumber};
+use crate::laws::exchange::{Exchange, History};
+use crate::state::{Following, Leading, Member, Phase, Robot};
+
+/// The part that a robot has in an exchange.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Part {
+    /// Its station is the leader.
+    Leader,
+    /// Its station is the follower.
+    Follower,
+    /// Neither.
+    Bystander,
+}
+
+impl Part {
+    /// Whether it is the part of `robot`.
+    #[must_use]
+    pub fn is_of(self, exchange: &Exchange, robot: &Robot) -> bool {
+        match self {
+            Self::Leader => exchange.session.leader == robot.station,
+            Self::Follower => exchange.follower == robot.station,
+            Self::Bystander => {
+                exchange.session.leader != robot.station && exchange.follower != robot.station
+            }
+        }
+    }
+}
+
+/// Any exchange in which the station of the robot has this part. Hints let it be about the robot's session.
+pub fn exchange(source: &mut impl Source, part: Part, robot: &Robot, config: &Config) -> Exchange {
+    let session = session_like(source, robot);
+    let (session, follower) = match part {
+        Part::Leader => {
+            let leader = robot.station;
+            (SessionId { leader, ..session }, station(source, PEER))
+        }
+        Part::Follower => (session, robot.station),
+        Part::Bystander => (session, station(source, ME + 2)),
+    };
+    Exchange {
+        session,
+        follower,
+        offer: offer_number(source),
+        request: request_id(source),
+        first: config.settings().first_request,
+    }
+}
+
+/// Any session; hints let it be that of the robot.
+fn session_like(source: &mut impl Source, robot: &Robot) -> SessionId {
+    let Some(likely) = robot.session() else {
+        return session(source, PEER);
+    };
+    let number = UniqueNumber {
+        boot: source.u16(likely.number.0.boot),
+        count: source.u16(likely.number.0.count),
+    };
+    SessionId {
+        leader: station(source, likely.leader.0),
+        number: SessionNumber(number),
+    }
+}
+
+/// What a state makes likely.
+#[derive(Default)]
+struct Hints<'a> {
+    is_open: bool,
+    member: Option<&'a Member>,
+    following: Option<&'a Following>,
+}
+
+impl<'a> Hints<'a> {
+    fn of(exchange: &Exchange, robot: &'a Robot) -> Self {
+        let find = |leading: &'a Leading| {
+            let mut members = leading.members.iter();
+            members.find(|member| member.station == exchange.follower)
+        };
+        match &robot.phase {
+            Phase::Requesting(_) => Self {
+                is_open: true,
+                ..Self::default()
+            },
+            Phase::Leading(leading) => Self {
+                is_open: true,
+                member: find(leading),
+                following: None,
+            },
+            Phase::Following(following) => Self {
+                is_open: true,
+                member: None,
+                following: Some(following),
+            },
+            Phase::Idle | Phase::Offering(_) => Self::default(),
+        }
+    }
+
+    fn newest(&self) -> Option<RequestId> {
+        let order = self.member.and_then(|member| member.order);
+        let job = self.following.and_then(|following| following.job);
+        order.map(|it| it.request).or(job.map(|it| it.request))
+    }
+}
+
+/// Any history whose facts are consistent; hints let it agree with the state of the robot.
+pub fn history(source: &mut impl Source, exchange: &Exchange, robot: &Robot) -> History {
+    let hints = Hints::of(exchange, robot);
+    let (member, following) = (hints.member, hints.following);
+    let is_peer = hints.is_open && (member.is_some() || following.is_some());
+    let requested = source.likely(None) || hints.is_open && source.likely(Some(true));
+    let ended = requested && source.likely(Some(!hints.is_open));
+    let is_listed = is_peer.then_some(true);
+    let listed = (requested && source.likely(is_listed)).then(|| offer_number(source));
+    let is_known = listed.is_some();
+    let joined = is_known && source.likely(is_listed);
+    let task = hints
+        .member
+        .and_then(|member| member.outstanding.map(|it| it.task))
+        .or(member.and_then(|member| member.order.map(|it| it.task)))
+        .or(following.and_then(|following| following.job.map(|it| it.task)));
+    let commanded = likely(source, task.map(|_| true), |s| {
+        task_like(s, task.map_or(u32::MAX, |task| u32::from(task.value())))
+    })
+    .filter(|_| is_known);
+    let can_answer = joined && commanded.is_some();
+    let accepted = can_answer && source.likely(Some(hints.newest().is_some()));
+    let is_running = following
+        .and_then(|following| following.job)
+        .is_some_and(|job| job.progress.is_running());
+    let over = accepted && source.likely(Some(!is_running));
+    History {
+        requested,
+        ended,
+        listed,
+        dropped: requested && source.likely(Some(false)),
+        commanded,
+        offered: source.likely(Some(true)) || listed == Some(exchange.offer),
+        joined,
+        left: joined && source.likely(Some(!is_peer)),
+        accepted,
+        refused: can_answer && !accepted && source.flag(),
+        started: accepted,
+        newer_started: joined && source.likely(Some(false)),
+        in_position: source.flag(),
+        completed: source.likely(Some(true)),
+        fell_back: over && source.flag(),
+        over,
+    }
+}

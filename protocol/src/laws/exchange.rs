@@ -1,0 +1,117 @@
+//! The theorem: safety of any number of robots, sessions and messages, by induction over the steps of a run.
+//!
+//! One [`Exchange`] is watched: any leader, any of its sessions, any follower, any offer of it, any request. Its
+//! [`History`] holds facts about the past, each of which becomes known once and stays known. What is proved for one exchange
+//! is proved for all, because all parts of it are arbitrary.
+//!
+//! ```text
+//!  messages::ram_is_true, rmcm_is_true    what a message implies of the history, whenever it arrives
+//!  robots::agrees                         what the state of a robot and the history imply of each other
+//!  steps::keeps                           one step keeps both, and breaks no property
+//! ```
+//!
+//! Nothing here calls a predicate of the protocol: numbers are compared by their positions from the first one, and
+//! states are read field by field.
+
+use crate::id::{ManeuverId, OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
+use crate::task::TaskType;
+
+pub mod alone;
+pub mod facts;
+pub mod messages;
+pub mod observer;
+pub mod robots;
+pub mod steps;
+
+/// The exchange that is watched.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Exchange {
+    /// A session of some leader.
+    pub session: SessionId,
+    /// A robot that may follow in it; not the leader.
+    pub follower: StationId,
+    /// One number that this robot may give an offer.
+    pub offer: OfferNumber,
+    /// One request number.
+    pub request: RequestId,
+    /// The number of the leader's first command of a session.
+    pub first: RequestId,
+}
+
+impl Exchange {
+    /// What the leader's command is about.
+    #[must_use]
+    pub const fn maneuver(&self) -> ManeuverId {
+        ManeuverId {
+            session: self.session,
+            request: self.request,
+        }
+    }
+
+    /// Whether this is the leader.
+    #[must_use]
+    pub fn is_led_by(&self, station: StationId) -> bool {
+        self.session.leader == station
+    }
+
+    /// How many numbers a request is behind the first one of a session.
+    pub(super) const fn position(&self, request: RequestId) -> u8 {
+        request.0.wrapping_sub(self.first.0)
+    }
+
+    /// The position of the watched request.
+    pub(super) const fn place(&self) -> u8 {
+        self.position(self.request)
+    }
+}
+
+/// What has happened in an exchange. A fact that is known stays known.
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub struct History {
+    /// The leader has opened the session.
+    pub requested: bool,
+    /// The leader has ended the session, or lost power in it.
+    pub ended: bool,
+    /// The leader has listed the follower, with this offer.
+    pub listed: Option<OfferNumber>,
+    /// The leader has dropped the follower.
+    pub dropped: bool,
+    /// The leader has commanded this as the watched request.
+    pub commanded: Option<TaskType>,
+    /// The follower has made the watched offer to the session.
+    pub offered: bool,
+    /// The follower has entered the session.
+    pub joined: bool,
+    /// The follower has no part in the session any more.
+    pub left: bool,
+    /// The follower has accepted the watched request.
+    pub accepted: bool,
+    /// The follower has refused it.
+    pub refused: bool,
+    /// The follower has started it.
+    pub started: bool,
+    /// The follower has started a newer one of the session.
+    pub newer_started: bool,
+    /// The follower's body has said that it holds its place.
+    pub in_position: bool,
+    /// The follower's body has said that it has completed it.
+    pub completed: bool,
+    /// The follower has fallen back from it.
+    pub fell_back: bool,
+    /// The follower has started it and does not execute it any more.
+    pub over: bool,
+}
+
+impl History {
+    /// Whether the body of the follower executes the watched request.
+    #[must_use]
+    pub const fn runs(&self) -> bool {
+        self.started && !self.over
+    }
+}
+
+/// Whether a station that gives out `next` next has given out `number`.
+pub(super) const fn is_given_out(number: UniqueNumber, next: UniqueNumber) -> bool {
+    number.to_u32() < next.to_u32()
+}

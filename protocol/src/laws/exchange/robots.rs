@@ -1,0 +1,153 @@
+//! What the state of a robot and the history imply of each other.
+//!
+//! Each fact that is *not* known is used only where its owner is the robot itself, so that no step of another robot makes
+//! this untrue: [`steps::others_leave_it_so`](super::steps::others_leave_it_so).
+
+use super::messages::progress_is_true;
+use super::observer::leads;
+use super::{Exchange, History, is_given_out};
+use crate::id::{RequestId, UniqueNumber};
+use crate::message::Progress;
+use crate::state::{Following, Identity, Job, Leading, Member, Phase, Requesting, Robot};
+
+/// Whether robot and history agree. A robot that is neither leader nor follower knows nothing of the exchange.
+#[must_use]
+pub fn agrees(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
+    (!exchange.is_led_by(robot.station) || leader_agrees(exchange, history, robot))
+        && (robot.station != exchange.follower || follower_agrees(exchange, history, robot))
+}
+
+const fn next_of(robot: &Robot) -> UniqueNumber {
+    UniqueNumber {
+        boot: robot.boot,
+        count: robot.next_count,
+    }
+}
+
+fn leader_agrees(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
+    let leads = leads(exchange, robot);
+    // I15: a number is given out once, and a session that has ended never is again.
+    (!history.requested || is_used_up(robot, exchange.session.number.0))
+        && leads == (history.requested && !history.ended)
+        // I18.
+        && !(leads && matches!(robot.identity, Identity::Unlocked))
+        && match &robot.phase {
+            Phase::Requesting(requesting) if leads => requester_agrees(exchange, history, requesting),
+            Phase::Leading(leading) if leads => leading_agrees(exchange, history, leading),
+            Phase::Idle
+            | Phase::Requesting(_)
+            | Phase::Offering(_)
+            | Phase::Leading(_)
+            | Phase::Following(_) => true,
+        }
+}
+
+fn requester_agrees(exchange: &Exchange, history: &History, requesting: &Requesting) -> bool {
+    let is_watched = (exchange.follower, exchange.offer);
+    history.listed.is_none()
+        && !history.dropped
+        && (history.offered
+            || requesting
+                .offers
+                .iter()
+                .all(|offer| (offer.station, offer.number) != is_watched))
+}
+
+/// I17: the record of the follower is there until it is dropped itself.
+fn leading_agrees(exchange: &Exchange, history: &History, leading: &Leading) -> bool {
+    let mut members = leading.members.iter();
+    match members.find(|member| member.station == exchange.follower) {
+        None => history.listed.is_none() || history.dropped,
+        Some(member) => {
+            history.listed == Some(member.offer)
+                && !history.dropped
+                && member_agrees(exchange, history, member)
+        }
+    }
+}
+
+fn member_agrees(exchange: &Exchange, history: &History, member: &Member) -> bool {
+    (member.echoed.is_none() || history.joined)
+        && (history.commanded.is_none()
+            || exchange.place() < exchange.position(member.next_request))
+        && member.outstanding.is_none_or(|outstanding| {
+            outstanding.request != exchange.request || history.commanded == Some(outstanding.task)
+        })
+        // I6, I8: what the leader counts as accepted or reached.
+        && member.order.is_none_or(|order| {
+            order.request != exchange.request
+                || (history.commanded == Some(order.task)
+                    && history.accepted
+                    && order.progress.is_none_or(|progress| match progress {
+                        // The leader's own execution limit is a failure too.
+                        Progress::Failed(_) => true,
+                        Progress::Executing
+                        | Progress::InPosition
+                        | Progress::Completed
+                        | Progress::SafeIdle => progress_is_true(history, progress),
+                    }))
+        })
+}
+
+fn follower_agrees(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
+    let following = match &robot.phase {
+        Phase::Following(following) if following.session == exchange.session => Some(following),
+        Phase::Idle
+        | Phase::Requesting(_)
+        | Phase::Offering(_)
+        | Phase::Leading(_)
+        | Phase::Following(_) => None,
+    };
+    // I15: who has left never enters the session again, because the offer is never made again.
+    following.is_some() == (history.joined && !history.left)
+        && (!history.joined
+            || history
+                .listed
+                .is_some_and(|offer| is_used_up(robot, offer.0)))
+        && match following {
+            // I14.
+            None => !history.runs(),
+            Some(following) => {
+                // I1, I2, I18.
+                !exchange.is_led_by(robot.station)
+                    && history.listed == Some(following.offer)
+                    && !matches!(robot.identity, Identity::Unlocked)
+                    && following_agrees(exchange, history, following)
+            }
+        }
+}
+
+/// Whether the robot never gives out this number again: sessions and offers have theirs from one counter, and only the
+/// number of an offer that stands is taken back.
+fn is_used_up(robot: &Robot, number: UniqueNumber) -> bool {
+    let stands = matches!(&robot.phase, Phase::Offering(offering) if offering.number.0 == number);
+    is_given_out(number, next_of(robot)) && !stands
+}
+
+fn following_agrees(exchange: &Exchange, history: &History, following: &Following) -> bool {
+    let is_of_session = |request| exchange.position(request) < RequestId::MAX_PER_SESSION;
+    let job = following.job;
+    let accepted = job.map(|job| exchange.position(job.request));
+    let refused = following.refused.map(|it| exchange.position(it.request));
+    let is_behind = |newest: Option<u8>| newest.is_some_and(|it| exchange.place() <= it);
+    job.is_none_or(|job| is_of_session(job.request))
+        && following.refused.is_none_or(|it| is_of_session(it.request))
+        // I4, I5: what was answered is not answered anew.
+        && (!history.accepted || is_behind(accepted))
+        && (!history.refused || is_behind(refused) || is_behind(accepted))
+        && (!history.newer_started || accepted.is_some_and(|it| exchange.place() < it))
+        && (refused != Some(exchange.place()) || history.refused)
+        && match job.filter(|job| job.request == exchange.request) {
+            None => !history.runs(),
+            Some(job) => job_agrees(history, job),
+        }
+}
+
+/// I9, I14: the body executes exactly what the state says.
+fn job_agrees(history: &History, job: Job) -> bool {
+    let runs = matches!(job.progress, Progress::Executing | Progress::InPosition);
+    history.accepted
+        && history.commanded == Some(job.task)
+        && progress_is_true(history, job.progress)
+        && history.runs() == runs
+}

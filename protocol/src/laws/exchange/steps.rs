@@ -1,0 +1,193 @@
+//! The steps of the induction.
+
+use super::observer::{Observer, lose_power};
+use super::{Exchange, History, facts, is_given_out, messages, robots};
+use crate::config::Config;
+use crate::id::{StationId, UniqueNumber};
+use crate::input::{Event, Input, Timer};
+use crate::message::{Ram, Rmcm};
+use crate::output::Output;
+use crate::robot::Step;
+use crate::state::Robot;
+use crate::time::Millis;
+
+/// What holds between any two steps, of each robot.
+#[must_use]
+pub fn holds(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
+    facts::are_consistent(exchange, history) && robots::agrees(exchange, history, robot)
+}
+
+/// Whether this can be the next input of `robot`: what a message says is so, and a new station id is that of nobody else,
+/// with numbers that it has not given out.
+#[must_use]
+pub fn can_be_next(exchange: &Exchange, history: &History, robot: &Robot, input: &Input) -> bool {
+    match input {
+        Input::Ram { ram, .. } => messages::ram_is_true(exchange, history, ram),
+        Input::Rmcm(rmcm) => messages::rmcm_is_true(exchange, history, *rmcm),
+        Input::Local(Event::IdentityChanged(station, next)) => {
+            let next = next.unwrap_or(UniqueNumber {
+                boot: robot.boot,
+                count: robot.next_count,
+            });
+            *station == robot.station || can_be_taken(exchange, history, *station, next)
+        }
+        Input::Elapsed(_) | Input::Expired(_) | Input::Local(_) => true,
+    }
+}
+
+/// Whether a robot can start to be `station` and give out `next` next.
+#[must_use]
+pub fn can_be_taken(
+    exchange: &Exchange,
+    history: &History,
+    station: StationId,
+    next: UniqueNumber,
+) -> bool {
+    let is_free = !history.requested || history.ended;
+    let has_left = !history.joined || (history.left && !history.runs());
+    let is_new = |number| is_given_out(number, next);
+    (!exchange.is_led_by(station)
+        || (is_free && (!history.requested || is_new(exchange.session.number.0))))
+        && (station != exchange.follower
+            || (has_left
+                && (!history.joined || history.listed.is_some_and(|offer| is_new(offer.0)))))
+}
+
+/// One step of a robot keeps what holds, and breaks no property of the exchange.
+///
+/// # Panics
+/// When it does not.
+#[must_use]
+pub fn keeps(
+    config: &Config,
+    exchange: &Exchange,
+    history: &History,
+    before: &Robot,
+    input: Input,
+) -> (History, Robot) {
+    let mut after = before.clone();
+    let mut observer = Observer::new(exchange, history, before, &input);
+    after.step_into(config, input, &mut observer);
+    (judged(exchange, history, observer, before, &after), after)
+}
+
+/// A due timer fires, with which all that elapsed time does is made: countdowns are read by nothing here.
+///
+/// # Panics
+/// When that does not keep what holds.
+#[must_use]
+pub fn keeps_when_fired(
+    config: &Config,
+    exchange: &Exchange,
+    history: &History,
+    before: &Robot,
+    (timer, late): (Timer, Millis),
+) -> (History, Robot) {
+    let mut after = before.clone();
+    let mut observer = Observer::new(exchange, history, before, &Input::Expired(timer));
+    let step = &mut Step {
+        config,
+        out: &mut observer,
+        renewed: false,
+    };
+    after.fire(step, timer, late);
+    (judged(exchange, history, observer, before, &after), after)
+}
+
+/// [`keeps`] of a step that somebody else has taken.
+///
+/// # Panics
+/// When it does not.
+pub fn keeps_as_seen<'a>(
+    exchange: &Exchange,
+    history: &History,
+    (before, input): (&Robot, &Input),
+    outputs: impl IntoIterator<Item = &'a Output>,
+    after: &Robot,
+) -> History {
+    let mut observer = Observer::new(exchange, history, before, input);
+    for output in outputs {
+        observer.see(output);
+    }
+    judged(exchange, history, observer, before, after)
+}
+
+fn judged(
+    exchange: &Exchange,
+    history: &History,
+    observer: Observer,
+    before: &Robot,
+    after: &Robot,
+) -> History {
+    let now = observer.end(after);
+    judge(exchange, (history, before), (&now, after));
+    now
+}
+
+/// What a step may do.
+///
+/// # Panics
+/// When it did something else.
+pub fn judge(
+    exchange: &Exchange,
+    (history, before): (&History, &Robot),
+    (now, after): (&History, &Robot),
+) {
+    assert!(facts::only_grow(history, now), "a fact is forgotten");
+    assert!(
+        facts::are_only_of(exchange, before.station, history, now),
+        "a fact of another robot"
+    );
+    assert!(
+        facts::are_consistent(exchange, now),
+        "I2, I3, I6: facts disagree"
+    );
+    assert!(
+        robots::agrees(exchange, now, after),
+        "state and facts disagree"
+    );
+}
+
+/// A robot that starts anew keeps what holds, with a boot counter that is larger than all before.
+///
+/// # Panics
+/// When it does not.
+pub fn keeps_over_a_reboot(exchange: &Exchange, history: &History, before: &Robot, boot: u16) {
+    let now = lose_power(exchange, history, before);
+    let after = Robot::new(before.station, boot);
+    judge(exchange, (history, before), (&now, &after));
+}
+
+/// What other robots do leaves this one as it is: of their facts more become known, and what holds still does.
+///
+/// # Panics
+/// When it does not.
+pub fn others_leave_it_so(exchange: &Exchange, history: &History, robot: &Robot, later: &History) {
+    let now = facts::with_others(exchange, robot.station, history, later);
+    if facts::only_grow(history, &now) {
+        assert!(robots::agrees(exchange, &now, robot));
+    }
+}
+
+/// What a message implies is still so when it arrives.
+///
+/// # Panics
+/// When it is not.
+pub fn messages_stay_true(
+    exchange: &Exchange,
+    (before, after): (&History, &History),
+    ram: &Ram,
+    rmcm: Rmcm,
+) {
+    if !facts::only_grow(before, after) {
+        return;
+    }
+    assert!(
+        !messages::ram_is_true(exchange, before, ram)
+            || messages::ram_is_true(exchange, after, ram)
+    );
+    assert!(
+        !messages::rmcm_is_true(exchange, before, rmcm)
+            || messages::rmcm_is_true(exchange, after, rmcm)
+    );
+}
