@@ -1,4 +1,4 @@
-//! A small HTTP server for what a process tells of itself: it answers GET, and reads no more than a head.
+//! A small HTTP server for what a process tells of itself: it answers GET, and POST where it is served so.
 //!
 //! Each client is served by a thread of its own, so that one that asks nothing delays no other. There is a limit to
 //! how many are served at once, to how much is read of each, and to how long one may take.
@@ -18,7 +18,7 @@ const REQUEST_MAX: usize = 8_192;
 /// How many clients are served at once; the next one is turned away.
 pub(crate) const CLIENTS_MAX: usize = 32;
 
-/// What a client asks for with GET.
+/// What a client asks for.
 pub(crate) struct Request<'a> {
     /// The path, as it was sent.
     pub(crate) path: &'a str,
@@ -26,6 +26,8 @@ pub(crate) struct Request<'a> {
     pub(crate) query: &'a str,
     /// The host that the client takes this server for, if it says one.
     pub(crate) host: Option<&'a str>,
+    /// What is sent along with POST; nothing with GET.
+    pub(crate) body: &'a str,
 }
 
 /// What it gets.
@@ -34,17 +36,19 @@ pub(crate) struct Answer {
     pub(crate) status: &'static str,
     pub(crate) content_type: &'static str,
     /// More lines of the head, each with its end.
-    pub(crate) headers: &'static str,
+    pub(crate) headers: Cow<'static, str>,
     pub(crate) body: Cow<'static, str>,
 }
 
 /// Serves at `address` until the process ends. The address that is served, where the port that was given is 0.
+/// Up to `body_max` octets are read of the body of a POST; where it is 0, POST is refused.
 ///
 /// # Errors
 /// When nothing can be served there.
 pub(crate) fn serve(
     address: SocketAddr,
     name: &'static str,
+    body_max: usize,
     answer: impl Fn(&Request) -> Answer + Send + Sync + 'static,
 ) -> std::io::Result<SocketAddr> {
     let listener = TcpListener::bind(address)?;
@@ -56,7 +60,8 @@ pub(crate) fn serve(
             // Each client that is served holds a clone.
             let clients = Arc::new(());
             for client in listener.incoming() {
-                let served = client.and_then(|client| attend(client, name, &answer, &clients));
+                let served =
+                    client.and_then(|client| attend(client, name, body_max, &answer, &clients));
                 if let Err(error) = served {
                     tracing::debug!(%error, "a client of the {name} is not served");
                 }
@@ -69,6 +74,7 @@ pub(crate) fn serve(
 fn attend<F>(
     client: TcpStream,
     name: &'static str,
+    body_max: usize,
     answer: &Arc<F>,
     clients: &Arc<()>,
 ) -> std::io::Result<()>
@@ -80,7 +86,7 @@ where
     }
     let (answer, slot) = (Arc::clone(answer), Arc::clone(clients));
     let serve = move || {
-        if let Err(error) = converse(&client, &*answer) {
+        if let Err(error) = converse(&client, body_max, &*answer) {
             tracing::debug!(%error, "a client of the {name} went away");
         }
         drop(slot);
@@ -89,31 +95,63 @@ where
     thread.spawn(serve).map(|_| ())
 }
 
-fn converse(mut client: &TcpStream, answer: impl Fn(&Request) -> Answer) -> std::io::Result<()> {
+fn converse(
+    mut client: &TcpStream,
+    body_max: usize,
+    answer: impl Fn(&Request) -> Answer,
+) -> std::io::Result<()> {
     client.set_write_timeout(Some(PATIENCE))?;
-    let head = head(client)?;
+    let until = Instant::now() + PATIENCE;
+    let (head, begun) = head(client, until)?;
     let mut lines = head.split("\r\n");
     let mut words = lines.next().unwrap_or_default().split_whitespace();
     let method = words.next();
     let target = words.next().unwrap_or_default();
     let (path, query) = target.split_once('?').unwrap_or((target, ""));
-    let host = lines.find_map(|line| {
-        let (name, value) = line.split_once(':')?;
-        name.eq_ignore_ascii_case("host").then_some(value.trim())
-    });
+    let field = |wanted: &str| {
+        lines.clone().find_map(|line| {
+            let (name, value) = line.split_once(':')?;
+            name.eq_ignore_ascii_case(wanted).then_some(value.trim())
+        })
+    };
+    let host = field("host");
+    let length = field("content-length").map_or(Some(0), |length| length.parse().ok());
     let Answer {
         status,
         content_type,
         headers,
         body,
-    } = match method {
-        Some("GET") => answer(&Request { path, query, host }),
-        _ => Answer {
-            status: "405 Method Not Allowed",
-            content_type: "text/plain; charset=utf-8",
-            headers: "Allow: GET\r\n",
-            body: "GET is possible\n".into(),
-        },
+    } = match (method, length) {
+        (Some("GET"), _) => {
+            let body = "";
+            answer(&Request {
+                path,
+                query,
+                host,
+                body,
+            })
+        }
+        (Some("POST"), Some(length)) if body_max > 0 && length <= body_max => {
+            let body = body(client, begun, length, until)?;
+            let body = &String::from_utf8_lossy(&body);
+            answer(&Request {
+                path,
+                query,
+                host,
+                body,
+            })
+        }
+        (Some("POST"), _) if body_max > 0 => refusal(
+            "413 Content Too Large",
+            "",
+            format!("{body_max} octets are possible\n"),
+        ),
+        _ if body_max > 0 => refusal(
+            NOT_ALLOWED,
+            "Allow: GET, POST\r\n",
+            "GET and POST are possible\n",
+        ),
+        _ => refusal(NOT_ALLOWED, "Allow: GET\r\n", "GET is possible\n"),
     };
     let length = body.len();
     write!(
@@ -123,22 +161,68 @@ fn converse(mut client: &TcpStream, answer: impl Fn(&Request) -> Answer) -> std:
     )
 }
 
-/// A request up to the empty line that ends it, all of which is read so that the client gets the answer. A client
-/// has [`PATIENCE`] for all of it.
-fn head(mut client: &TcpStream) -> std::io::Result<String> {
-    let until = Instant::now() + PATIENCE;
+const NOT_ALLOWED: &str = "405 Method Not Allowed";
+
+fn refusal(
+    status: &'static str,
+    headers: &'static str,
+    body: impl Into<Cow<'static, str>>,
+) -> Answer {
+    Answer {
+        status,
+        content_type: "text/plain; charset=utf-8",
+        headers: headers.into(),
+        body: body.into(),
+    }
+}
+
+/// A request up to the empty line that ends its head, all of which is read so that the client gets the answer, and
+/// what was read behind it. A client has until `until` for all of it.
+fn head(client: &TcpStream, until: Instant) -> std::io::Result<(String, Vec<u8>)> {
+    const END: &[u8] = b"\r\n\r\n";
     let mut request = Vec::new();
-    let mut part = [0; 1_024];
-    while !request.windows(4).any(|octets| octets == b"\r\n\r\n") && request.len() < REQUEST_MAX {
-        let left = until.saturating_duration_since(Instant::now());
-        if left.is_zero() {
-            return Err(ErrorKind::TimedOut.into());
+    loop {
+        let end = request.windows(END.len()).position(|octets| octets == END);
+        if let Some(end) = end {
+            let begun = request.split_off(end + END.len());
+            return Ok((String::from_utf8_lossy(&request).into_owned(), begun));
         }
-        client.set_read_timeout(Some(left))?;
-        match client.read(&mut part)? {
-            0 => break,
-            length => request.extend_from_slice(&part[..length]),
+        if request.len() >= REQUEST_MAX || !read_more(client, &mut request, until)? {
+            return Ok((String::from_utf8_lossy(&request).into_owned(), Vec::new()));
         }
     }
-    Ok(String::from_utf8_lossy(&request).into_owned())
+}
+
+/// The body of a request, of which `begun` was read with its head.
+fn body(
+    client: &TcpStream,
+    begun: Vec<u8>,
+    length: usize,
+    until: Instant,
+) -> std::io::Result<Vec<u8>> {
+    let mut body = begun;
+    while body.len() < length {
+        if !read_more(client, &mut body, until)? {
+            return Err(ErrorKind::UnexpectedEof.into());
+        }
+    }
+    body.truncate(length);
+    Ok(body)
+}
+
+/// Whether there was more to read.
+fn read_more(
+    mut client: &TcpStream,
+    octets: &mut Vec<u8>,
+    until: Instant,
+) -> std::io::Result<bool> {
+    let mut part = [0; 1_024];
+    let left = until.saturating_duration_since(Instant::now());
+    if left.is_zero() {
+        return Err(ErrorKind::TimedOut.into());
+    }
+    client.set_read_timeout(Some(left))?;
+    let length = client.read(&mut part)?;
+    octets.extend_from_slice(&part[..length]);
+    Ok(length > 0)
 }

@@ -35,7 +35,7 @@ impl Shared {
 /// # Errors
 /// When nothing can be served there.
 pub fn serve(address: SocketAddr, tally: Shared) -> std::io::Result<SocketAddr> {
-    http::serve(address, "metrics", move |request| {
+    http::serve(address, "metrics", 0, move |request| {
         // A query says nothing that matters.
         let (status, body) = match request.path {
             "/metrics" | "/" => ("200 OK", tally.with(|tally| text(tally))),
@@ -44,7 +44,7 @@ pub fn serve(address: SocketAddr, tally: Shared) -> std::io::Result<SocketAddr> 
         Answer {
             status,
             content_type: CONTENT_TYPE,
-            headers: "",
+            headers: "".into(),
             body: body.into(),
         }
     })

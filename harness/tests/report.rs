@@ -71,6 +71,28 @@ fn the_page_tells_of_every_robot_and_loads_nothing() {
 }
 
 #[test]
+fn a_broadcast_is_one_row_with_all_who_heard_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let seed = (1..200)
+        .find(|seed| Swarm::draw(*seed, 5, None).robots.len() > 3)
+        .unwrap();
+    let (log, page) = (log_of(seed, folder.path()), folder.path().join("page.html"));
+    assert!(report(&[&log], &page).status.success());
+    let page = std::fs::read_to_string(page).unwrap();
+    let rows: Vec<_> = page.split("<li><span class=\"at\">").skip(1).collect();
+    let said: Vec<_> = rows
+        .iter()
+        .filter(|row| row.contains("class=\"reach\""))
+        .map(|row| row.split("</li>").next().unwrap())
+        .collect();
+    assert!(said.len() > 5, "{}", said.len());
+    let heard_by_several = |row: &&&str| row.split("fill=").count() > 3;
+    assert!(said.iter().filter(heard_by_several).count() > 2);
+    let distinct: BTreeSet<_> = said.iter().collect();
+    assert_eq!(distinct.len(), said.len());
+}
+
+#[test]
 fn a_page_is_written_of_a_log_that_is_not_valid_and_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let (log, page) = (log_of(3, folder.path()), folder.path().join("page.html"));

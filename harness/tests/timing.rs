@@ -60,8 +60,8 @@ fn the_logs_of_two_processes_give_the_papers_times_and_the_offset_of_their_clock
     assert_eq!(clocks[0]["follower"], go2.as_str());
     let us = |name: &str| clocks[0][name].as_i64().unwrap();
     assert!(
-        (us("offset_us") - 2_500_000).abs() <= us("bound_us") + 1_000,
-        "the two began to write with clocks read to a millisecond: {result}"
+        (us("offset_us") - 2_500_000).abs() <= us("bound_us") + 20_000,
+        "a busy machine may put a pause between the two clocks that a log begins with: {result}"
     );
     for (maneuver, task) in result["maneuvers"]
         .as_array()

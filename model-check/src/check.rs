@@ -1,9 +1,8 @@
 //! Runs the checks of one scenario and reports the results.
 //!
-//! Two explorations run over the same model, one after the other, so that the memory of the first is free
-//! for the second. stateright's looks for states that break a property. The kit's own builds the whole
-//! graph, for what is a fact about all runs, and counts the states a second time. Only when both have
-//! visited everything and agree is a check exhaustive.
+//! The kit's own exploration builds the whole graph. It judges states and steps on the way, and what is a fact
+//! about all runs afterwards. As a second opinion stateright explores the same model before that, so that its
+//! memory is free again. A check with both is exhaustive only when both have visited everything and agree.
 
 use std::time::Duration;
 
@@ -14,16 +13,24 @@ use crate::cost::Meter;
 use crate::exploration::ExplorationLimits;
 pub use crate::exploration::{CheckProgress, Options, Stop};
 use crate::fair::{LeadsTo, leads_to};
-use crate::fairness::Runs;
-use crate::graph::Graph;
+use crate::fairness::Classifier;
+use crate::graph::{Graph, Keep};
 use crate::model::{Action, Delivery, Model, ModelState};
 use crate::network::Transmission;
+use crate::parallel::map_chunks;
 use crate::properties::{
     Claim, LivenessRule, LivenessSubject, PropertyId, Rule, View, for_each_property,
 };
-use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
+use crate::report::{CutOff, PropertyReport, ScenarioReport};
+use crate::runs::Runs;
 use crate::scenario::{RobotSetup, Scenario, Size};
 use crate::sequence::{ChartPlace, ChartStep, Fate};
+
+/// The kit's own exploration, in a report.
+pub(crate) const KIT: &str = "crossguard";
+
+/// The engine of the second opinion, in a report.
+pub(crate) const STATERIGHT: &str = "stateright";
 
 /// Checks the model of a scenario. `watch` receives the progress now and then.
 #[must_use]
@@ -38,34 +45,45 @@ pub fn check(
         expected: scenario.expected.map(|size| size.unique_states),
         ..CheckProgress::default()
     };
-    let checked = Checked::of(model, options, &limits, &mut |checked| {
-        watch(CheckProgress {
-            checked,
-            ..progress
-        });
+    let second = options.second_opinion.then(|| {
+        SecondOpinion::of(model, options, &limits, &mut |checked| {
+            watch(CheckProgress {
+                checked,
+                ..progress
+            });
+        })
     });
-    let graph = Graph::build(model, &limits, &mut |reached| {
-        watch(CheckProgress {
-            checked: checked.unique_states,
-            explored: reached.states,
-            frontier: reached.frontier,
-            depth: reached.depth,
-            ..progress
-        });
-        // What the graph alone can tell is not asked for.
-        !options.until_broken.is_empty()
-    });
+    let graph = Graph::build(
+        model,
+        keep(scenario, options),
+        options,
+        &limits,
+        &mut |reached| {
+            watch(CheckProgress {
+                checked: second
+                    .as_ref()
+                    .map_or(reached.states, |second| second.unique_states),
+                explored: reached.states,
+                frontier: reached.frontier,
+                depth: reached.depth,
+                ..progress
+            });
+        },
+    );
     let size = Size {
         unique_states: graph.states(),
         depth: graph.depth(),
     };
-    let differ = (checked.unique_states != size.unique_states).then_some(CutOff::CountsDiffer);
-    let cut_off = checked.cut_off.or(graph.cut_off()).or(differ);
+    let differ = second.as_ref().and_then(|s| s.difference(model, &graph));
+    let cut_off = differ
+        .or(graph.cut_off())
+        .or(second.as_ref().and_then(|second| second.cut_off));
     let findings = Findings {
         model,
-        checked: &checked,
+        second: second.as_ref(),
         graph: &graph,
         cut_off,
+        options,
     };
     ScenarioReport {
         name: scenario.name.clone(),
@@ -74,19 +92,24 @@ pub fn check(
         unique_states: size.unique_states,
         transitions: graph.transitions(),
         depth: size.depth,
+        engines: match second {
+            Some(_) => vec![KIT, STATERIGHT],
+            None => vec![KIT],
+        },
         exhaustive: cut_off.is_none(),
         cut_off,
-        size_as_expected: scenario
-            .expected
-            .filter(|_| cut_off.is_none())
-            .map(|expected| expected == size),
+        size_as_expected: scenario.is_expected(size).filter(|_| cut_off.is_none()),
         properties: findings.all(),
         figures: Vec::new(),
-        assumptions: assumptions(scenario, size.unique_states),
+        assumptions: assumed(scenario, options, size.unique_states),
         transitions_taken: model.transitions_taken(),
         seconds: limits.elapsed().as_secs_f64(),
         // One of the two may have been cut off before it began.
-        cost: meter.read(size.unique_states.max(checked.unique_states)),
+        cost: meter.read(
+            second
+                .map_or(0, |s| s.unique_states)
+                .max(size.unique_states),
+        ),
     }
 }
 
@@ -105,15 +128,27 @@ fn configure(model: &Model, options: &Options, drain: &Stop) -> stateright::Chec
     builder
 }
 
+/// What the properties of a scenario are read off.
+fn keep(scenario: &Scenario, options: &Options) -> Keep {
+    let claims = scenario.properties.iter().filter_map(|id| id.untimed());
+    let keep = claims.map(|claim| match claim.rule {
+        Rule::Live(_) => Keep::Classes,
+        Rule::Reset => Keep::Transitions,
+        _ => Keep::States,
+    });
+    let wanted = keep.filter(|_| !options.safety_only).max();
+    wanted.unwrap_or(Keep::States)
+}
+
 /// What stateright's exploration found.
-struct Checked {
+struct SecondOpinion {
     unique_states: usize,
     cut_off: Option<CutOff>,
     /// In the order of the scenario's properties.
     counterexamples: Vec<Option<Vec<ChartStep>>>,
 }
 
-impl Checked {
+impl SecondOpinion {
     /// Explores the model with stateright. `watch` receives the number of states found now and then.
     fn of(
         model: &Model,
@@ -163,23 +198,54 @@ impl Checked {
             counterexamples,
         }
     }
+
+    /// Where the kit's own exploration found something else. What one of the two has not found counts only
+    /// where that one has visited everything.
+    ///
+    /// Premises are not compared: what a liar can say to a robot is worked out once for both explorations, and that
+    /// a premise is met is noted then.
+    fn difference(&self, model: &Model, graph: &Graph) -> Option<CutOff> {
+        let (self_is_whole, graph_is_whole) = (self.cut_off.is_none(), graph.cut_off().is_none());
+        let properties = model.scenario().properties.iter();
+        for (&id, counterexample) in properties.zip(&self.counterexamples) {
+            match (counterexample.is_some(), graph.broken(id).is_some()) {
+                (true, false) if graph_is_whole => return Some(CutOff::VerdictsDiffer),
+                (false, true) if self_is_whole => return Some(CutOff::VerdictsDiffer),
+                _ => {}
+            }
+        }
+        if !self_is_whole || !graph_is_whole {
+            return None;
+        }
+        (self.unique_states != graph.states()).then_some(CutOff::CountsDiffer)
+    }
 }
 
 struct Findings<'a> {
     model: &'a Model,
-    checked: &'a Checked,
+    second: Option<&'a SecondOpinion>,
     graph: &'a Graph,
     cut_off: Option<CutOff>,
+    options: &'a Options,
 }
 
 impl Findings<'_> {
     fn all(&self) -> Vec<PropertyReport> {
+        let safety_only = self.options.safety_only;
         let properties = self.model.scenario().properties.iter().enumerate();
+        let properties = properties.filter(|(_, id)| !safety_only || id.is_of_states_or_steps());
         let claimed = properties.filter_map(|(i, &id)| Some((i, id, id.untimed()?)));
-        claimed
-            .flat_map(|(i, id, claim)| [Some(self.rule(i, id, claim)), self.premise(id, claim)])
-            .flatten()
-            .collect()
+        let claimed: Vec<_> = claimed.collect();
+        let found = map_chunks(self.options.threads, &claimed, 1, |claimed| {
+            let judge = |&(i, id, claim): &(usize, PropertyId, &Claim)| {
+                let rule = self.rule(i, id, claim);
+                let is_met = self.model.premise_met(id);
+                let premise = PropertyReport::of_premise(id, claim, is_met, self.cut_off);
+                [Some(rule), premise]
+            };
+            claimed.iter().flat_map(judge).flatten().collect::<Vec<_>>()
+        });
+        found.into_iter().flatten().collect()
     }
 
     fn rule(&self, i: usize, id: PropertyId, claim: &Claim) -> PropertyReport {
@@ -189,24 +255,25 @@ impl Findings<'_> {
                 Some((chart, repeats_after)) => (Some(chart), Some(repeats_after)),
                 None => (None, None),
             },
-            _ => (self.checked.counterexamples[i].clone(), None),
+            _ => (self.broken(i, id), None),
         };
-        PropertyReport {
-            id: id.to_string(),
-            kind: claim.kind.name().to_owned(),
-            verdict: CheckVerdict::of_property(counterexample.is_some(), self.cut_off),
-            statement: claim.statement.to_owned(),
-            authentication: Some(id.authentication().to_string()),
-            counterexample: counterexample.unwrap_or_default(),
-            repeats_after,
-        }
+        PropertyReport::of_rule(id, claim, counterexample, repeats_after, self.cut_off)
+    }
+
+    /// A shortest run that breaks a property of states or steps; stateright's where it alone found one.
+    fn broken(&self, i: usize, id: PropertyId) -> Option<Vec<ChartStep>> {
+        let Some(broken) = self.graph.broken(id) else {
+            return self.second?.counterexamples[i].clone();
+        };
+        let run = self.runs().stem(&self.graph.run_to(self.model, broken));
+        Some(chart(self.model, self.model.real_run(run)))
     }
 
     /// A run into a state from which the robots cannot all get idle any more.
     fn stuck(&self) -> Option<Vec<ChartStep>> {
         let runs = self.runs();
-        let stem = self.graph.run_to(self.graph.stuck()?);
-        let run = self.model.real_run(runs.along(&stem, &[]));
+        let stem = self.graph.run_to(self.model, self.graph.stuck()?);
+        let run = self.model.real_run(runs.stem(&stem));
         Some(chart(self.model, run))
     }
 
@@ -217,20 +284,21 @@ impl Findings<'_> {
             return None;
         }
         let runs = self.runs();
+        let fairness = Classifier(self.model).fairness();
         let look = |state, rule: fn(&View, LivenessSubject) -> bool, subject| {
             let look = |view: &View| rule(view, subject);
-            self.model.look(self.graph.state(state), look)
+            self.model.look(&self.graph.state(state), look)
         };
         for subject in rule.subjects.among(self.model.scenario().robots.len()) {
             let from = |state| look(state, rule.from, subject);
             // What comes after a broken step property was not explored.
             let to = |state| look(state, rule.to, subject) || self.graph.state(state).is_broken();
-            match leads_to(&runs, runs.fairness(), from, to) {
+            match leads_to(&runs, fairness, from, to) {
                 LeadsTo::Vacuous => {}
                 LeadsTo::Holds => self.model.note_premise(id),
                 LeadsTo::Broken(lasso) => {
                     self.model.note_premise(id);
-                    let run = runs.along(&lasso.stem, &lasso.cycle);
+                    let run = runs.lasso(&lasso);
                     return Some((chart(self.model, run), lasso.stem.len() - 1));
                 }
             }
@@ -243,19 +311,6 @@ impl Findings<'_> {
             model: self.model,
             graph: self.graph,
         }
-    }
-
-    /// The premise of a property; `None` where the property speaks about every state.
-    fn premise(&self, id: PropertyId, claim: &Claim) -> Option<PropertyReport> {
-        claim.premise.map(|premise| PropertyReport {
-            id: format!("{id}-premise"),
-            kind: "premise".to_owned(),
-            verdict: CheckVerdict::of_premise(self.model.premise_met(id), self.cut_off),
-            statement: premise.to_owned(),
-            authentication: None,
-            counterexample: Vec::new(),
-            repeats_after: None,
-        })
     }
 }
 
@@ -329,15 +384,40 @@ pub fn names(scenario: &Scenario) -> Vec<String> {
     scenario.robots.iter().map(name).collect()
 }
 
-/// The probability that any two of this number of states share a 64-bit fingerprint, where fingerprints are as
-/// good as random; an upper bound (the union bound over all pairs).
+/// The probability that any two of this number of states share a fingerprint of so many bits, where fingerprints are
+/// as good as random; an upper bound (the union bound over all pairs).
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
-fn collision_probability(states: usize) -> f64 {
+#[must_use]
+pub fn collision_probability(states: u64, bits: u32) -> f64 {
     let states = states as f64;
-    (states * (states - 1.0) / 2.0) / 2_f64.powi(64)
+    (states * (states - 1.0).max(0.0) / 2.0) / f64::from(bits).exp2()
 }
 
-fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
+/// How the explorations that were asked for compare this number of states.
+fn compared(options: &Options, states: usize) -> String {
+    if options.second_opinion {
+        format!(
+            "two explorations that agree: the kit's own, which compares whole states, and stateright's, which compares \
+             64-bit fingerprints of states: any two of these states share one with a probability of {:.0e}",
+            collision_probability(states as u64, u64::BITS)
+        )
+    } else {
+        "one exploration, by the kit itself, which compares whole states".to_owned()
+    }
+}
+
+/// What the verdicts of a check assume.
+fn assumed(scenario: &Scenario, options: &Options, states: usize) -> Vec<String> {
+    let mut assumed = assumptions(scenario, compared(options, states));
+    if options.safety_only && keep(scenario, &Options::default()) != Keep::States {
+        assumed.push("runs were not judged: only states and steps were asked for".to_owned());
+    }
+    assumed
+}
+
+/// What the verdicts on a scenario assume; `compared` tells how states are compared.
+#[must_use]
+pub fn assumptions(scenario: &Scenario, compared: String) -> Vec<String> {
     let channel = scenario.channel;
     let mut assumptions = vec![
         "untimed: any armed timer may expire at any moment, so verdicts hold for all timer settings, but \
@@ -365,11 +445,7 @@ fn assumptions(scenario: &Scenario, states: usize) -> Vec<String> {
             .to_owned(),
         "states that differ in the names of heartbeats, sessions and offers alone count as one"
             .to_owned(),
-        format!(
-            "stateright compares 64-bit fingerprints of states: any two of these states share one with \
-             a probability of {:.0e}; the kit's own exploration compares whole states",
-            collision_probability(states)
-        ),
+        compared,
     ];
     if scenario.bounds.hangs > 0 {
         assumptions.push(

@@ -11,7 +11,7 @@ use crate::report::CutOff;
 /// How far and with what a check may go.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Threads that stateright explores with.
+    /// Threads that explore. No count, verdict or length of a run depends on them.
     pub threads: NonZeroUsize,
     /// Give up after this many states.
     pub states_max: Option<usize>,
@@ -21,7 +21,18 @@ pub struct Options {
     pub until_broken: Vec<PropertyId>,
     /// Give up when an observer asks for it.
     pub stop: Stop,
+    /// Let stateright explore the model too, and compare what both find. Timed models have none.
+    pub second_opinion: bool,
+    /// Judge states and steps alone, and keep no transitions: runs are left out of the report. Timed models judge
+    /// nothing else.
+    pub safety_only: bool,
 }
+
+/// How many states are expanded before what they lead to is numbered.
+pub(crate) const BATCH: usize = 16_384;
+
+/// How many of them a thread takes at a time.
+pub(crate) const CHUNK: usize = 256;
 
 /// A request to give up, which an observer of a check may make. Clones are the same request.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +44,9 @@ impl Stop {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    pub(crate) fn is_requested(&self) -> bool {
+    /// Whether it was asked.
+    #[must_use]
+    pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
@@ -47,6 +60,8 @@ impl Default for Options {
             time_max: None,
             until_broken: Vec::new(),
             stop: Stop::default(),
+            second_opinion: false,
+            safety_only: false,
         }
     }
 }
@@ -94,7 +109,8 @@ impl ExplorationLimits {
 /// How far a check is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CheckProgress {
-    /// Distinct states that stateright has found.
+    /// Distinct states that stateright has found; where its opinion is not asked for, as many as
+    /// `explored`.
     pub checked: usize,
     /// Distinct states that the kit's own exploration has found.
     pub explored: usize,

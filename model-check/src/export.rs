@@ -4,10 +4,10 @@ use std::io::{self, Seek, SeekFrom, Write};
 
 use crate::check::label;
 use crate::exploration::Options;
-use crate::fairness::Runs;
-use crate::graph::Graph;
+use crate::graph::{Graph, Keep};
 use crate::model::Model;
 use crate::report::CutOff;
+use crate::runs::Runs;
 
 /// The form of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -33,7 +33,13 @@ pub fn export(
     format: GraphFormat,
     to: &mut (impl Write + Seek),
 ) -> io::Result<Option<CutOff>> {
-    let graph = Graph::build(model, &options.limits(), &mut |_| false);
+    let graph = Graph::build(
+        model,
+        Keep::Transitions,
+        options,
+        &options.limits(),
+        &mut |_| (),
+    );
     if graph.cut_off().is_some() {
         return Ok(graph.cut_off());
     }

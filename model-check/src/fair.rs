@@ -103,14 +103,22 @@ pub struct Edge {
 
 /// A transition system. States have numbers from 0, and all can be reached from state 0.
 pub trait System {
-    /// How many states there are.
+    /// How many states there are, fewer than 2^32 - 1.
     fn states(&self) -> u32;
 
-    /// The transitions out of a state, and the classes that are enabled in it.
-    fn expand(&self, state: u32, edges: &mut Vec<Edge>) -> Classes;
+    /// The transition with this place, from 0, among those out of a state.
+    fn edge(&self, state: u32, place: usize) -> Option<Edge>;
+
+    /// The classes that are enabled in a state.
+    fn enabled(&self, state: u32) -> Classes;
 
     /// A shortest run from state 0 to `state`, both included.
     fn run_to(&self, state: u32) -> Vec<u32>;
+
+    /// The transitions out of a state.
+    fn edges(&self, state: u32) -> impl Iterator<Item = Edge> {
+        (0..).map_while(move |place| self.edge(state, place))
+    }
 }
 
 /// A run that ends in a cycle.
@@ -144,117 +152,80 @@ pub fn leads_to(
     if premises.is_empty() {
         return LeadsTo::Vacuous;
     }
-    let region = Region::reached(system, premises, to);
-    let all = (0..region.len()).collect();
-    match region.fair_component(fairness, all) {
+    let mut region = Region::reached(system, &premises, to);
+    match region.fair_component(fairness) {
         None => LeadsTo::Holds,
-        Some(component) => LeadsTo::Broken(region.lasso(system, fairness, &component)),
+        Some(component) => LeadsTo::Broken(region.lasso(fairness, &premises, &component)),
     }
 }
 
-/// The part of a system that can be reached from a premise without visiting the goal, with numbers of
-/// its own.
-struct Region {
-    /// The state of the system that each state of the region is.
+/// The part of a system that can be reached from a premise without visiting the goal.
+struct Region<'a, S> {
+    system: &'a S,
+    /// In the order in which they were reached.
     states: Vec<u32>,
-    /// By which state each was reached; a state that meets the premise names itself.
-    parents: Vec<u32>,
-    /// The numbers of the sets of classes that are enabled in each state.
-    enabled: Vec<u32>,
-    /// The transitions within the region, state after state.
-    edges: Vec<Numbered>,
-    /// Where those of each state begin, and after the last where they end.
-    starts: Vec<usize>,
-    /// Few sets of classes occur; each is stored once.
-    sets: Vec<Classes>,
+    /// For each state of the system which candidate for a fair component it belongs to, by number.
+    belongs: Vec<u32>,
 }
 
-/// A transition, with the number of its set of classes.
-#[derive(Clone, Copy)]
-struct Numbered {
-    to: u32,
-    taken: u32,
-}
+/// Not reached, or left out.
+const NOWHERE: u32 = 0;
+/// In the region, and in no candidate yet.
+const REGION: u32 = 1;
+/// Meets the goal.
+const GOAL: u32 = u32::MAX;
 
-impl Region {
-    fn reached(system: &impl System, premises: Vec<u32>, to: impl Fn(u32) -> bool) -> Self {
-        let states: Vec<u32> = premises.into_iter().filter(|&state| !to(state)).collect();
-        let mut numbers: HashMap<u32, u32, FxBuildHasher> =
-            states.iter().copied().zip(0..).collect();
+impl<'a, S: System> Region<'a, S> {
+    fn reached(system: &'a S, premises: &[u32], to: impl Fn(u32) -> bool) -> Self {
         let mut region = Self {
-            parents: (0..number(states.len())).collect(),
-            states,
-            enabled: Vec::new(),
-            edges: Vec::new(),
-            starts: vec![0],
-            sets: Vec::new(),
+            system,
+            states: Vec::new(),
+            belongs: vec![NOWHERE; system.states() as usize],
         };
-        let mut sets: HashMap<Classes, u32, FxBuildHasher> = HashMap::default();
-        let mut set = |all: &mut Vec<Classes>, classes| {
-            *sets.entry(classes).or_insert_with(|| {
-                all.push(classes);
-                number(all.len() - 1)
-            })
-        };
-        let mut edges = Vec::new();
+        for &premise in premises {
+            region.reach(premise, &to);
+        }
         let mut at = 0;
         while at < region.states.len() {
-            edges.clear();
-            let enabled = system.expand(region.states[at], &mut edges);
-            region.enabled.push(set(&mut region.sets, enabled));
-            for edge in edges.iter().filter(|edge| !to(edge.to)) {
-                let to = *numbers.entry(edge.to).or_insert_with(|| {
-                    region.states.push(edge.to);
-                    region.parents.push(number(at));
-                    number(region.states.len() - 1)
-                });
-                let taken = set(&mut region.sets, edge.taken);
-                region.edges.push(Numbered { to, taken });
+            for edge in system.edges(region.states[at]) {
+                region.reach(edge.to, &to);
             }
-            region.starts.push(region.edges.len());
             at += 1;
         }
         region
     }
 
-    fn len(&self) -> u32 {
-        number(self.states.len())
-    }
-
-    fn numbered(&self, state: u32) -> &[Numbered] {
-        let state = state as usize;
-        &self.edges[self.starts[state]..self.starts[state + 1]]
-    }
-
-    fn edges(&self, state: u32) -> impl Iterator<Item = Edge> {
-        self.numbered(state).iter().map(|edge| Edge {
-            to: edge.to,
-            taken: self.sets[edge.taken as usize],
-        })
-    }
-
-    fn enabled(&self, state: u32) -> Classes {
-        self.sets[self.enabled[state as usize] as usize]
+    fn reach(&mut self, state: u32, to: impl Fn(u32) -> bool) {
+        let belongs = &mut self.belongs[state as usize];
+        if *belongs != NOWHERE {
+            return;
+        }
+        if to(state) {
+            *belongs = GOAL;
+        } else {
+            *belongs = REGION;
+            self.states.push(state);
+        }
     }
 
     /// A set of states that a fair run can stay in for ever, visiting all of them again and again.
-    fn fair_component(&self, fairness: Fairness, all: Vec<u32>) -> Option<Vec<u32>> {
-        let mut todo = vec![all];
-        // Which candidate each state belongs to; a state that was left out belongs to none.
-        let mut belongs = vec![0_u32; self.states.len()];
-        let mut order = vec![Visit::NOT_YET; self.states.len()];
-        let mut candidates = 0;
+    fn fair_component(&mut self, fairness: Fairness) -> Option<Vec<u32>> {
+        let mut todo = vec![std::mem::take(&mut self.states)];
+        let mut order = vec![Visit::NOT_YET; self.belongs.len()];
+        let mut candidates = REGION;
         while let Some(candidate) = todo.pop() {
             candidates += 1;
             for &state in &candidate {
-                belongs[state as usize] = candidates;
+                self.belongs[state as usize] = candidates;
+                order[state as usize] = Visit::NOT_YET;
             }
-            for component in self.components(&candidate, &belongs, &mut order).each() {
+            let components = self.components(candidate, &mut order);
+            for component in components.each() {
                 candidates += 1;
                 for &state in component {
-                    belongs[state as usize] = candidates;
+                    self.belongs[state as usize] = candidates;
                 }
-                let inside = Inside::of(self, component, &belongs);
+                let inside = Inside::of(self, component);
                 if !(fairness.weak & inside.always_enabled & !inside.taken).is_empty() {
                     continue;
                 }
@@ -263,7 +234,7 @@ impl Region {
                     return Some(component.to_vec());
                 }
                 let rest = component.iter().copied();
-                let rest = rest.filter(|&state| (self.enabled(state) & unfair).is_empty());
+                let rest = rest.filter(|&state| (self.system.enabled(state) & unfair).is_empty());
                 let rest: Vec<u32> = rest.collect();
                 if !rest.is_empty() {
                     todo.push(rest);
@@ -275,19 +246,15 @@ impl Region {
 
     /// The strongly connected components of the subgraph that `candidate` spans (Tarjan's algorithm,
     /// with a stack of its own).
-    fn components(&self, candidate: &[u32], belongs: &[u32], order: &mut [Visit]) -> Components {
-        for &state in candidate {
-            order[state as usize] = Visit::NOT_YET;
-        }
+    fn components(&self, candidate: Vec<u32>, order: &mut [Visit]) -> Components {
         let mut search = Tarjan {
             region: self,
-            belongs,
             order,
             visited: 0,
             open: Vec::new(),
             found: Components::default(),
         };
-        for &state in candidate {
+        for state in candidate {
             if search.order[state as usize] == Visit::NOT_YET {
                 search.visit(state);
             }
@@ -296,44 +263,59 @@ impl Region {
     }
 
     /// A run through `component` that is fair when repeated for ever, with the way there.
-    fn lasso(&self, system: &impl System, fairness: Fairness, component: &[u32]) -> Lasso {
+    fn lasso(&self, fairness: Fairness, premises: &[u32], component: &[u32]) -> Lasso {
         let entry = component[0];
-        let mut way = vec![entry];
-        while self.parents[way[way.len() - 1] as usize] != way[way.len() - 1] {
-            way.push(self.parents[way[way.len() - 1] as usize]);
-        }
-        let premise = way.pop().expect("the way holds its end");
-        let mut stem = system.run_to(self.states[premise as usize]);
-        stem.extend(way.iter().rev().map(|&state| self.states[state as usize]));
+        let way = self.way(premises, entry);
+        let mut stem = self.system.run_to(way[0]);
+        stem.extend(&way[1..]);
 
-        let mut members = vec![0; self.states.len()];
-        for &state in component {
-            members[state as usize] = 1;
-        }
-        let inside = Inside::of(self, component, &members);
+        let inside = Inside::of(self, component);
         let mut cycle = Cycle {
             region: self,
-            members: &members,
             edges: Vec::new(),
             at: entry,
         };
         // Every class that is enabled somewhere is taken, or is weak and seen disabled.
         for class in ((fairness.weak | fairness.strong) & inside.enabled).each() {
             if (inside.taken & class).is_empty() {
-                cycle.visit(|region, state| (region.enabled(state) & class).is_empty());
+                cycle.visit(|system, state| (system.enabled(state) & class).is_empty());
             } else {
                 cycle.take(class);
             }
         }
         cycle.visit(|_, state| state == entry);
-        let cycle = cycle.edges.into_iter().map(|edge| Edge {
-            to: self.states[edge.to as usize],
-            ..edge
-        });
         Lasso {
             stem,
-            cycle: cycle.collect(),
+            cycle: cycle.edges,
         }
+    }
+
+    /// A shortest way through the region from a premise, both ends included.
+    fn way(&self, premises: &[u32], end: u32) -> Vec<u32> {
+        let is_inside = |state: u32| !matches!(self.belongs[state as usize], NOWHERE | GOAL);
+        let starts = premises.iter().copied().filter(|&start| is_inside(start));
+        let mut todo: VecDeque<u32> = starts.collect();
+        let mut came_from: HashMap<u32, u32, FxBuildHasher> =
+            todo.iter().map(|&start| (start, start)).collect();
+        while let Some(state) = todo.pop_front() {
+            if state == end {
+                break;
+            }
+            for edge in self.system.edges(state).filter(|edge| is_inside(edge.to)) {
+                came_from.entry(edge.to).or_insert_with(|| {
+                    todo.push_back(edge.to);
+                    state
+                });
+            }
+        }
+        let mut way = vec![end];
+        let mut at = end;
+        while came_from[&at] != at {
+            at = came_from[&at];
+            way.push(at);
+        }
+        way.reverse();
+        way
     }
 }
 
@@ -346,18 +328,19 @@ struct Inside {
 }
 
 impl Inside {
-    fn of(region: &Region, component: &[u32], belongs: &[u32]) -> Self {
+    fn of(region: &Region<'_, impl System>, component: &[u32]) -> Self {
         let mut inside = Self {
             taken: Classes::NONE,
             enabled: Classes::NONE,
             always_enabled: !Classes::NONE,
         };
-        let mark = belongs[component[0] as usize];
+        let mark = region.belongs[component[0] as usize];
         for &state in component {
-            inside.enabled |= region.enabled(state);
-            inside.always_enabled = inside.always_enabled & region.enabled(state);
-            for edge in region.edges(state) {
-                if belongs[edge.to as usize] == mark {
+            let enabled = region.system.enabled(state);
+            inside.enabled |= enabled;
+            inside.always_enabled = inside.always_enabled & enabled;
+            for edge in region.system.edges(state) {
+                if region.belongs[edge.to as usize] == mark {
                     inside.taken |= edge.taken;
                 }
             }
@@ -366,19 +349,17 @@ impl Inside {
     }
 }
 
-/// A walk within a component.
-struct Cycle<'a> {
-    region: &'a Region,
-    /// Not 0 for the states of the component.
-    members: &'a [u32],
+/// A walk within the component that the state of its beginning belongs to.
+struct Cycle<'a, S> {
+    region: &'a Region<'a, S>,
     edges: Vec<Edge>,
     at: u32,
 }
 
-impl Cycle<'_> {
+impl<S: System> Cycle<'_, S> {
     /// Goes to the nearest state that meets `goal`.
-    fn visit(&mut self, goal: impl Fn(&Region, u32) -> bool) {
-        self.walk(|region, state, _| goal(region, state));
+    fn visit(&mut self, goal: impl Fn(&S, u32) -> bool) {
+        self.walk(|system, state, _| goal(system, state));
     }
 
     /// Takes a transition of this class, unless the walk has done so.
@@ -390,18 +371,21 @@ impl Cycle<'_> {
     }
 
     /// Takes a shortest way to where `goal` holds of a state and the transition into it.
-    fn walk(&mut self, goal: impl Fn(&Region, u32, Option<&Edge>) -> bool) {
-        if goal(self.region, self.at, None) {
+    fn walk(&mut self, goal: impl Fn(&S, u32, Option<&Edge>) -> bool) {
+        let Region {
+            system, belongs, ..
+        } = self.region;
+        if goal(system, self.at, None) {
             return;
         }
         let mut came_by: HashMap<u32, (u32, Edge), FxBuildHasher> = HashMap::default();
         let mut todo = VecDeque::from([self.at]);
         while let Some(state) = todo.pop_front() {
-            for edge in self.region.edges(state) {
-                if self.members[edge.to as usize] == 0 {
+            for edge in system.edges(state) {
+                if belongs[edge.to as usize] != belongs[self.at as usize] {
                     continue;
                 }
-                if goal(self.region, edge.to, Some(&edge)) {
+                if goal(system, edge.to, Some(&edge)) {
                     let mut way = vec![edge];
                     let mut back = state;
                     while back != self.at {
@@ -459,24 +443,26 @@ impl Visit {
     }
 }
 
-struct Tarjan<'a> {
-    region: &'a Region,
-    belongs: &'a [u32],
-    /// For each state of the region; only those of the candidate count.
+struct Tarjan<'a, S> {
+    region: &'a Region<'a, S>,
+    /// For each state; only those of the candidate count.
     order: &'a mut [Visit],
     visited: u32,
     open: Vec<u32>,
     found: Components,
 }
 
-impl Tarjan<'_> {
+impl<S: System> Tarjan<'_, S> {
     fn visit(&mut self, root: u32) {
-        let mark = self.belongs[root as usize];
+        let Region {
+            system, belongs, ..
+        } = self.region;
+        let mark = belongs[root as usize];
         let mut calls = vec![(root, 0)];
         self.open(root);
         while let Some((state, next)) = calls.last_mut() {
             let state = *state;
-            let Some(edge) = self.region.numbered(state).get(*next) else {
+            let Some(edge) = system.edge(state, *next) else {
                 calls.pop();
                 let low = self.order[state as usize].low;
                 if !self.close(state)
@@ -487,7 +473,7 @@ impl Tarjan<'_> {
                 continue;
             };
             *next += 1;
-            if self.belongs[edge.to as usize] != mark {
+            if belongs[edge.to as usize] != mark {
                 continue;
             }
             let visit = self.order[edge.to as usize];
@@ -528,8 +514,4 @@ impl Tarjan<'_> {
         self.found.ends.push(self.found.states.len());
         true
     }
-}
-
-fn number(index: usize) -> u32 {
-    u32::try_from(index).expect("fewer than 2^32 states")
 }

@@ -12,9 +12,8 @@
 
 use crossguard_protocol::{Coordination, Event, StationId, Timer};
 
-use crate::fair::{Classes, Edge, Fairness, System};
-use crate::graph::Graph;
-use crate::model::{Action, Delivery, Model, ModelState};
+use crate::fair::{Classes, Fairness};
+use crate::model::{Action, Delivery, Model, ModelState, RobotStep};
 use crate::network::{Message, Transmission};
 use crate::scenario::Scenario;
 
@@ -138,24 +137,22 @@ impl Numbers<'_> {
     }
 }
 
-/// The graph of a model, with its classes.
-pub(crate) struct Runs<'a> {
-    pub(crate) model: &'a Model,
-    pub(crate) graph: &'a Graph,
-}
+/// Which transitions of a model belong to which class.
+#[derive(Clone, Copy)]
+pub(crate) struct Classifier<'a>(pub(crate) &'a Model);
 
-impl Runs<'_> {
+impl Classifier<'_> {
     fn numbers(&self) -> Numbers<'_> {
         Numbers {
-            scenario: self.model.scenario(),
+            scenario: self.0.scenario(),
         }
     }
 
     /// What the scenario assumes.
-    pub(crate) fn fairness(&self) -> Fairness {
+    pub(crate) fn fairness(self) -> Fairness {
         let numbers = self.numbers();
         let own = numbers.all_timers() | Classes::one(numbers.on_air()) | numbers.all_resumes();
-        if self.model.scenario().cooperative {
+        if self.0.scenario().cooperative {
             Fairness {
                 weak: own | numbers.all_events(),
                 strong: numbers.all_deliveries(),
@@ -169,16 +166,16 @@ impl Runs<'_> {
     }
 
     /// The classes that an action is enabled in where it is possible.
-    fn classes(&self, action: Action) -> Classes {
+    pub(crate) fn enabled_by(self, action: Action) -> Classes {
         let numbers = self.numbers();
-        let cooperative = self.model.scenario().cooperative;
+        let cooperative = self.0.scenario().cooperative;
         let on_air = Classes::one(numbers.on_air());
         match action {
             Action::Deliver {
                 transmission,
                 how: Delivery::AtOnce,
             } if cooperative => {
-                let message = self.model.message(transmission.message);
+                let message = self.0.message(transmission.message);
                 on_air | numbers.delivery(transmission, message).unwrap_or_default()
             }
             Action::Deliver {
@@ -208,90 +205,29 @@ impl Runs<'_> {
 
     /// What is enabled in a state but for messages on air, whose fate is decided first. A timer goes on
     /// running while they are on their way.
-    fn enabled_off_air(&self, state: &ModelState) -> Classes {
+    pub(crate) fn enabled_off_air(self, state: &ModelState) -> Classes {
         let mut actions = Vec::new();
-        self.model.actions_off_air(state, &mut actions);
+        self.0.actions_off_air(state, &mut actions);
         let is_possible = |action: &Action| match action {
-            Action::Local(..) => self.model.successor(state, *action).is_some(),
+            Action::Local(..) => self.0.successor(state, *action).is_some(),
             _ => true,
         };
         actions
             .into_iter()
-            .map(|action| (action, self.classes(action)))
+            .map(|action| (action, self.enabled_by(action)))
             .filter(|(action, classes)| !classes.is_empty() && is_possible(action))
             .fold(Classes::NONE, |all, (_, classes)| all | classes)
     }
 
-    /// Every action that is possible in a state, with the transition that it makes.
-    pub(crate) fn transitions(&self, state: u32) -> Vec<(Action, Edge)> {
-        let from = self.graph.state(state);
-        let mut actions = Vec::new();
-        self.model.actions_in(from, &mut actions);
-        actions
-            .into_iter()
-            .filter_map(|action| {
-                let (next, step) = self.model.successor_up_to_symmetry(from, action)?;
-                let restarted = step.map_or(Classes::NONE, |step| {
-                    let robot = u32::try_from(step.robot).expect("at most MAX_ROBOTS");
-                    step.restarted().fold(Classes::NONE, |all, timer| {
-                        all | self.numbers().timer(robot, timer)
-                    })
-                });
-                let edge = Edge {
-                    to: self.graph.successor_number(state, &next),
-                    taken: self.classes(action) | restarted,
-                };
-                Some((action, edge))
+    /// The classes that a transition belongs to: those of its action, and of the timers that its step restarts.
+    pub(crate) fn taken(self, action: Action, step: Option<RobotStep<'_>>) -> Classes {
+        let restarted = step.map_or(Classes::NONE, |step| {
+            let robot = u32::try_from(step.robot).expect("at most MAX_ROBOTS");
+            let timers = step.restarted();
+            timers.fold(Classes::NONE, |all, timer| {
+                all | self.numbers().timer(robot, timer)
             })
-            .collect()
-    }
-
-    /// A run along these states, with the action that leads to the next one.
-    pub(crate) fn along(&self, stem: &[u32], cycle: &[Edge]) -> Vec<(ModelState, Option<Action>)> {
-        let leads_to = |from: u32, to: u32, taken: Option<Classes>| {
-            self.transitions(from)
-                .into_iter()
-                .find(|(_, edge)| edge.to == to && taken.is_none_or(|taken| edge.taken == taken))
-                .map(|(action, _)| action)
-        };
-        let mut run: Vec<(ModelState, Option<Action>)> = stem
-            .windows(2)
-            .map(|pair| {
-                let action = leads_to(pair[0], pair[1], None);
-                (self.graph.state(pair[0]).clone(), action)
-            })
-            .collect();
-        let mut at = stem[stem.len() - 1];
-        for edge in cycle {
-            let action = leads_to(at, edge.to, Some(edge.taken));
-            run.push((self.graph.state(at).clone(), action));
-            at = edge.to;
-        }
-        run.push((self.graph.state(at).clone(), None));
-        run
-    }
-}
-
-impl System for Runs<'_> {
-    fn states(&self) -> u32 {
-        u32::try_from(self.graph.states()).expect("fewer than 2^32 states")
-    }
-
-    fn expand(&self, state: u32, edges: &mut Vec<Edge>) -> Classes {
-        let from = self.graph.state(state);
-        let mut enabled = if self.model.is_on_air(from) {
-            self.enabled_off_air(from)
-        } else {
-            Classes::NONE
-        };
-        for (action, edge) in self.transitions(state) {
-            enabled |= self.classes(action);
-            edges.push(edge);
-        }
-        enabled
-    }
-
-    fn run_to(&self, state: u32) -> Vec<u32> {
-        self.graph.run_to(state)
+        });
+        self.enabled_by(action) | restarted
     }
 }

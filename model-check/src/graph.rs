@@ -1,14 +1,15 @@
-//! The whole state graph, for facts about runs that stateright's exploration does not establish.
+//! The states of a model, judged while they are found, and facts about all runs that are read off their transitions.
 
-use std::hash::BuildHasher;
+mod build;
+mod edges;
 
-use hashbrown::HashTable;
-use rustc_hash::FxBuildHasher;
-
-use crate::exploration::ExplorationLimits;
-use crate::model::{Action, Delivery, Model, ModelState};
+use self::edges::Edges;
+use crate::fair::{Classes, Edge};
+use crate::model::{Model, ModelState};
 use crate::node::Node;
+use crate::properties::PropertyId;
 use crate::report::CutOff;
+use crate::store::States;
 
 /// How far an exploration is.
 #[derive(Clone, Copy, Debug)]
@@ -19,176 +20,55 @@ pub(crate) struct Reached {
     pub(crate) depth: usize,
 }
 
-/// Every reachable state and every transition between them.
+/// What is kept of an exploration.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Keep {
+    /// States alone, which is enough to judge states and steps.
+    States,
+    /// The transitions between them too, which say what can be reached.
+    Transitions,
+    /// And the classes of the transitions, which say what fair runs do.
+    Classes,
+}
+
+/// Every reachable state, and every transition between them where those are kept.
 pub(crate) struct Graph {
-    states: Vec<ModelState>,
-    /// For each state the first one through which it was reached; the initial state names itself.
-    parents: Vec<u32>,
-    /// Successors of all states, one after the other.
-    targets: Vec<u32>,
-    /// Whether each of these is reached by nothing but arrivals on a monotone channel, which may never
-    /// happen.
-    by_chance: Vec<bool>,
-    /// Where the successors of each state begin, and after the last where they end.
-    starts: Vec<u32>,
+    states: States,
+    edges: Option<Edges>,
+    transitions: usize,
+    /// The number of the first state of each level, breadth first.
+    levels: Vec<u32>,
     /// Whether each state can reach one in which all robots are idle.
     resettable: Vec<bool>,
-    depth: usize,
+    /// For each property of states or steps, in the order of [`PropertyId::ALL`], the first state that
+    /// breaks it.
+    broken: [Option<u32>; PropertyId::ALL.len()],
     cut_off: Option<CutOff>,
 }
 
-/// A graph that is being built.
-struct Building {
-    graph: Graph,
-    /// Numbers of states, by what the states are; each state is stored once.
-    numbers: HashTable<u32>,
-}
-
-impl Building {
-    /// That of the initial state.
-    fn of(model: &Model) -> Self {
-        let mut building = Self {
-            graph: Graph {
-                states: Vec::new(),
-                parents: Vec::new(),
-                targets: Vec::new(),
-                by_chance: Vec::new(),
-                starts: vec![0],
-                resettable: Vec::new(),
-                depth: 0,
-                cut_off: None,
-            },
-            numbers: HashTable::new(),
-        };
-        building.add(model.initial(), 0);
-        building
-    }
-
-    /// Adds the transitions out of a state, and the states that they lead to; says why not all of them
-    /// are added, where they are not.
-    fn expand(
-        &mut self,
-        model: &Model,
-        limits: &ExplorationLimits,
-        at: usize,
-        actions: &mut Vec<Action>,
-    ) -> Option<CutOff> {
-        let state = self.graph.states[at].clone();
-        actions.clear();
-        model.actions_in(&state, actions);
-        let from = self.graph.targets.len();
-        for &action in &*actions {
-            let Some((next, _)) = model.successor_up_to_symmetry(&state, action) else {
-                continue;
-            };
-            let number = match self.known(&next) {
-                Some(number) => number,
-                None if limits.states_reached(self.graph.states.len()) => {
-                    return Some(CutOff::StateLimit);
-                }
-                None => self.add(next, short(at)),
-            };
-            let by_chance = matches!(
-                action,
-                Action::Deliver {
-                    how: Delivery::AnyTime,
-                    ..
-                }
-            );
-            let known = self.graph.targets[from..].iter().position(|&t| t == number);
-            if let Some(known) = known {
-                self.graph.by_chance[from + known] &= by_chance;
-            } else {
-                self.graph.targets.push(number);
-                self.graph.by_chance.push(by_chance);
-            }
-        }
-        self.graph.starts.push(short(self.graph.targets.len()));
-        None
-    }
-
-    /// The graph, without room for more.
-    fn finished(self) -> Graph {
-        let mut graph = self.graph;
-        graph.states.shrink_to_fit();
-        graph.parents.shrink_to_fit();
-        graph.targets.shrink_to_fit();
-        graph.by_chance.shrink_to_fit();
-        graph.starts.shrink_to_fit();
-        graph
-    }
-
-    fn known(&self, state: &ModelState) -> Option<u32> {
-        let is_it = |number: &u32| self.graph.states[*number as usize] == *state;
-        self.numbers.find(hash(state), is_it).copied()
-    }
-
-    fn add(&mut self, state: ModelState, parent: u32) -> u32 {
-        let states = &mut self.graph.states;
-        let fresh = short(states.len());
-        let hashed = hash(&state);
-        states.push(state);
-        let rehash = |&number: &u32| hash(&states[number as usize]);
-        self.numbers.insert_unique(hashed, fresh, rehash);
-        self.graph.parents.push(parent);
-        fresh
-    }
-}
-
-fn hash(state: &ModelState) -> u64 {
-    FxBuildHasher.hash_one(state)
-}
-
-/// A number of a state or transition.
-///
-/// # Panics
-/// When there are 2^32 or more, far beyond what fits in memory.
-fn short(number: usize) -> u32 {
-    u32::try_from(number).expect("fewer than 2^32 states and transitions")
-}
-
 impl Graph {
-    /// Explores `model` from its initial state, breadth first. `watch` receives the progress, and says
-    /// whether to stop.
-    pub(crate) fn build(
-        model: &Model,
-        limits: &ExplorationLimits,
-        watch: &mut dyn FnMut(Reached) -> bool,
-    ) -> Self {
-        let mut building = Building::of(model);
-        let mut level_ends = 1;
-        let mut actions = Vec::new();
-        let mut at = 0;
-        while at < building.graph.states.len() {
-            let graph = &mut building.graph;
-            if at == level_ends {
-                (graph.depth, level_ends) = (graph.depth + 1, graph.states.len());
-            }
-            let mut cut_off = None;
-            if at % 16_384 == 0 {
-                let has_to_stop = watch(graph.reached(at)).then_some(CutOff::FoundBroken);
-                cut_off = has_to_stop.or(limits.time_reached());
-            }
-            cut_off = cut_off.or_else(|| building.expand(model, limits, at, &mut actions));
-            if cut_off.is_some() {
-                building.graph.cut_off = cut_off;
-                return building.graph;
-            }
-            at += 1;
+    /// Notes what the state of this number breaks, one bit per property. States come in their order.
+    fn note_broken(&mut self, number: u32, broken: u32) {
+        if broken == 0 {
+            return;
         }
-        let mut graph = building.finished();
-        // What comes after a broken step property was not explored.
-        let is_reset =
-            |state: &ModelState| model.nodes(state).all(Node::is_idle) || state.is_broken();
-        graph.resettable = graph.can_reach(is_reset);
-        graph
+        for property in PropertyId::ALL {
+            if broken & property.bit() != 0 {
+                self.broken[property as usize].get_or_insert(number);
+            }
+        }
+    }
+
+    /// The first state that breaks a property of states or steps: no other is nearer.
+    pub(crate) const fn broken(&self, property: PropertyId) -> Option<u32> {
+        self.broken[property as usize]
     }
 
     fn reached(&self, expanded: usize) -> Reached {
         Reached {
-            states: self.states.len(),
-            frontier: self.states.len() - expanded,
-            depth: self.depth,
+            states: self.states(),
+            frontier: self.states() - expanded,
+            depth: self.depth(),
         }
     }
 
@@ -198,89 +78,100 @@ impl Graph {
 
     /// Steps from the initial state to the farthest state.
     pub(crate) const fn depth(&self) -> usize {
-        self.depth
+        self.levels.len() - 1
     }
 
-    pub(crate) fn transitions(&self) -> usize {
-        self.targets.len()
+    pub(crate) const fn transitions(&self) -> usize {
+        self.transitions
     }
 
     pub(crate) const fn cut_off(&self) -> Option<CutOff> {
         self.cut_off
     }
 
-    pub(crate) fn state(&self, number: u32) -> &ModelState {
-        &self.states[number as usize]
+    pub(crate) fn state(&self, number: u32) -> ModelState {
+        self.states.get(number)
     }
 
-    /// The successors of a state.
-    fn targets(&self, state: usize) -> &[u32] {
-        let (start, end) = (self.starts[state], self.starts[state + 1]);
-        &self.targets[start as usize..end as usize]
+    /// The number of `next`, which is a successor of state `number`; none where transitions are not kept.
+    pub(crate) fn successor_number(&self, number: u32, next: &ModelState) -> Option<u32> {
+        let targets = self.edges.as_ref()?.targets(number as usize);
+        let mut targets = targets.iter().copied();
+        targets.find(|&target| self.state(target) == *next)
     }
 
-    /// The number of `next`, which is a successor of state `number`.
-    pub(crate) fn successor_number(&self, number: u32, next: &ModelState) -> u32 {
-        let mut targets = self.targets(number as usize).iter();
-        *targets
-            .find(|&&target| self.state(target) == next)
-            .expect("it is a successor")
+    /// The transition with this place among those out of a state, with its classes where those are kept.
+    pub(crate) fn edge(&self, state: u32, place: usize) -> Option<Edge> {
+        self.edges.as_ref()?.edge(state, place)
     }
 
-    /// A shortest run from the initial state, both ends included.
-    pub(crate) fn run_to(&self, number: u32) -> Vec<u32> {
+    /// The classes that are enabled in a state, where they are kept.
+    pub(crate) fn enabled(&self, state: u32) -> Classes {
+        let edges = self.edges.as_ref();
+        edges.map_or(Classes::NONE, |edges| edges.enabled(state))
+    }
+
+    /// A shortest run of `model` from the initial state, both ends included.
+    pub(crate) fn run_to(&self, model: &Model, number: u32) -> Vec<u32> {
         let mut run = vec![number];
-        while run[run.len() - 1] != 0 {
-            run.push(self.parents[run[run.len() - 1] as usize]);
+        while let Some(before) = self.first_source(model, run[run.len() - 1]) {
+            run.push(before);
         }
         run.reverse();
         run
     }
 
-    /// For each state, whether it can reach one that satisfies `goal`, on a monotone channel without the
-    /// help of any message.
-    fn can_reach(&self, goal: impl Fn(&ModelState) -> bool) -> Vec<bool> {
-        let states = self.states.len();
-        // The predecessors of each state, one after the other. Each place is filled from its end, which
-        // leaves its beginning in `starts`.
-        let mut starts = vec![0_u32; states + 1];
-        let relied_on = |&(_, by_chance): &(&u32, &bool)| !by_chance;
-        let transitions = self.targets.iter().zip(&self.by_chance);
-        for (&target, _) in transitions.filter(relied_on) {
-            starts[target as usize] += 1;
+    /// The state from which a state was found; the initial one was found from none. Where transitions are not kept, the
+    /// level before is expanded anew.
+    fn first_source(&self, model: &Model, number: u32) -> Option<u32> {
+        if number == 0 {
+            return None;
         }
-        let mut end = 0;
-        for start in &mut starts {
-            end += *start;
-            *start = end;
+        if let Some(edges) = &self.edges {
+            return edges.first_source(number);
         }
-        let mut sources = vec![0_u32; self.targets.len()];
-        for from in 0..states {
-            let (first, end) = (self.starts[from] as usize, self.starts[from + 1] as usize);
-            let transitions = self.targets[first..end].iter();
-            let transitions = transitions.zip(&self.by_chance[first..end]);
-            for (&target, _) in transitions.filter(relied_on) {
-                let start = &mut starts[target as usize];
-                *start -= 1;
-                sources[*start as usize] = short(from);
-            }
-        }
-        let mut reached: Vec<bool> = self.states.iter().map(&goal).collect();
-        let mut todo: Vec<usize> = (0..states).filter(|&i| reached[i]).collect();
-        while let Some(state) = todo.pop() {
-            for &source in &sources[starts[state] as usize..starts[state + 1] as usize] {
-                if !reached[source as usize] {
-                    reached[source as usize] = true;
-                    todo.push(source as usize);
+        let level = self.levels.partition_point(|&first| first <= number) - 1;
+        let state = self.state(number);
+        let mut actions = Vec::new();
+        let leads_there = |&source: &u32| {
+            let source = self.state(source);
+            actions.clear();
+            model.actions_in(&source, &mut actions);
+            actions.iter().any(|&action| {
+                let next = model.successor_up_to_symmetry(&source, action);
+                next.is_some_and(|(next, _)| next == state)
+            })
+        };
+        (self.levels[level - 1]..self.levels[level]).find(leads_there)
+    }
+
+    /// For each state, whether it can reach one in which all robots are idle, on a monotone channel without the help of
+    /// any message. What comes after a broken step property was not explored, so that counts as well.
+    fn can_be_reset(&self, model: &Model) -> Vec<bool> {
+        let Some(edges) = &self.edges else {
+            return Vec::new();
+        };
+        let is_reset = |number| {
+            let state = self.states.get(number);
+            model.nodes(&state).all(Node::is_idle) || state.is_broken()
+        };
+        let mut can: Vec<bool> = (0..).take(self.states()).map(is_reset).collect();
+        // Most transitions lead to a state that was found later: few rounds are enough, and need no memory.
+        let mut has_changed = true;
+        while std::mem::take(&mut has_changed) {
+            for state in (0..can.len()).rev() {
+                if !can[state] && edges.sure_targets(state).any(|target| can[target as usize]) {
+                    can[state] = true;
+                    has_changed = true;
                 }
             }
         }
-        reached
+        can
     }
 
     /// A state from which the robots cannot all get idle any more, as near as possible.
     pub(crate) fn stuck(&self) -> Option<u32> {
         let stuck = self.resettable.iter().position(|&resettable| !resettable)?;
-        Some(short(stuck))
+        u32::try_from(stuck).ok()
     }
 }

@@ -6,12 +6,14 @@ use crossguard_protocol::{
     TaskType, Verdict,
 };
 
+use serde::{Deserialize, Serialize};
+
 use crate::canonical::Renamable;
 use crate::road::Pedestrian;
 use crate::serial::request_is_newer;
 
 /// The history of a run. Sorted, so that the order of unrelated events does not tell states apart.
-#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub struct History {
     commands: Vec<CommandRecord>,
     confirmed: Vec<(SessionId, Confirmation)>,
@@ -22,7 +24,7 @@ pub struct History {
 
 /// What became of one command.
 #[expect(clippy::struct_excessive_bools, reason = "each is an independent fact")]
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub struct CommandRecord {
     /// The follower that it was sent to.
     pub to: StationId,

@@ -4,9 +4,9 @@
 //!   scenarios/*.toml ──► scenario ──► model ◄── crossguard_protocol::Robot::step
 //!                                       │
 //!                        ┌──────────────┴──────────────┐
-//!                    stateright                      graph ──► fair
-//!               properties of states           facts about all runs: reset is
-//!                and of single steps           reachable, leads-to under fairness
+//!                      graph ──► fair             stateright
+//!              properties of states, steps      second opinion on states
+//!              and, under fairness, of runs        and single steps
 //!                        └──────────────┬──────────────┘
 //!                                     check ──► report
 //! ```
@@ -35,6 +35,7 @@
 //! - [`odds`] are probabilities and expected times under loss, from the same transition function.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
 //!   states to other tools.
+//! - [`model::portable`] takes states from one process to another, for `crossguard-workers`.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
 //!   robot against everything, and the diagram of that.
 //! - [`paper`] is the paper's text as it stands, which fails.
@@ -65,14 +66,17 @@ pub mod network;
 pub mod node;
 pub mod odds;
 pub mod paper;
+mod parallel;
 pub mod properties;
 pub mod replay;
 pub mod report;
 pub mod road;
+mod runs;
 pub mod scenario;
 pub mod sequence;
 mod serial;
 mod steps;
+mod store;
 pub mod subject;
 pub mod symmetry;
 pub mod timed;
@@ -80,13 +84,24 @@ pub mod transitions;
 mod transmission;
 pub mod universe;
 pub mod utterances;
+pub mod walk;
 
 /// How many distinct states a scenario has, by the kit's own exploration alone. It says nothing about
 /// what must hold of them; [`check::check`] does.
 #[must_use]
 pub fn count_states(model: &model::Model) -> usize {
-    let limits = exploration::Options::default().limits();
-    graph::Graph::build(model, &limits, &mut |_| false).states()
+    let options = exploration::Options {
+        threads: std::num::NonZeroUsize::MIN,
+        ..exploration::Options::default()
+    };
+    graph::Graph::build(
+        model,
+        graph::Keep::States,
+        &options,
+        &options.limits(),
+        &mut |_| (),
+    )
+    .states()
 }
 
 /// The Rust in the README compiles.

@@ -75,6 +75,13 @@ impl Sets {
         slots.filter_map(|slot| slot.transmission())
     }
 
+    /// The number of the set of these messages.
+    pub(crate) fn of(&self, sent: &[Transmission], names: &impl MessageNames) -> u32 {
+        let mut slots: Vec<_> = sent.iter().copied().map(PackedTransmission::of).collect();
+        slots.sort_unstable();
+        self.number(slots.into(), names)
+    }
+
     /// The names that occur in a set.
     pub(crate) fn names(&self, set: u32) -> u32 {
         self.known.names(set)

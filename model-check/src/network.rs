@@ -23,6 +23,8 @@ use crossguard_protocol::{
     Coordination, Decimetres, Farewell, Input, Output, Ram, Renaming, Rmcm, Robot, StationId,
 };
 
+use serde::{Deserialize, Serialize};
+
 use crate::canonical::Renamable;
 use crate::monotone::Sets;
 use crate::transmission::PackedTransmission;
@@ -35,7 +37,7 @@ pub const MAX_DELAYED: usize = 4;
 const MAX_ON_AIR: usize = 30;
 
 /// A message.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[allow(
     clippy::large_enum_variant,
     reason = "each is interned once, and is copied as it is"
@@ -163,6 +165,11 @@ impl Network {
             }
         }
         self.sort();
+    }
+
+    /// The messages on air, in the order of sending.
+    pub(crate) fn on_air(&self) -> impl Iterator<Item = Transmission> {
+        self.on_air.iter().map_while(|slot| slot.transmission())
     }
 
     /// The delayed messages.

@@ -7,6 +7,7 @@ use crossguard_protocol::{
     StationId, Timer,
 };
 
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::canonical::Renamable;
@@ -36,7 +37,7 @@ impl Rules for Protocol {
 }
 
 /// A robot in the model.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub struct Node {
     /// The protocol state; `None` while the robot is down.
     pub robot: Option<Robot>,
@@ -48,7 +49,7 @@ pub struct Node {
 
 /// What survives a crash: the boot counter by the protocol's own rule, the station id because the
 /// model's robots keep theirs.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub struct Persisted {
     /// The station id.
     pub station: StationId,
@@ -57,7 +58,7 @@ pub struct Persisted {
 }
 
 /// What the body and the application of a robot do and know by its outputs alone. The properties compare it with the protocol state.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub struct Actuation {
     /// The maneuver that runs.
     pub running: Option<ManeuverId>,

@@ -6,6 +6,7 @@ use crate::check::{chart, placed};
 use crate::model::{Action, Model, ModelState};
 use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
+use crate::scenario::{Scenario, ScenarioError};
 use crate::sequence::ChartStep;
 
 /// A run through a scenario.
@@ -14,7 +15,10 @@ use crate::sequence::ChartStep;
 pub struct Replay {
     /// The scenario's name.
     pub scenario: String,
-    /// The property that it broke.
+    /// The scenario's file, where it is none that comes with the kit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub text: Option<String>,
+    /// The property that it broke; empty where it breaks none in particular.
     pub property: String,
     /// What happens, in order.
     pub steps: Vec<ChartStep>,
@@ -48,6 +52,7 @@ impl Replay {
         }
         Self {
             scenario: model.scenario().name.clone(),
+            text: None,
             property: String::new(),
             steps: chart(model, run),
             repeats_after: None,
@@ -65,10 +70,22 @@ impl Replay {
         let is_run = is_run && report.figures.is_empty();
         is_run.then(|| Self {
             scenario: report.name.clone(),
+            text: None,
             property: property.id.clone(),
             steps: property.counterexample.clone(),
             repeats_after: property.repeats_after,
         })
+    }
+
+    /// The scenario that it goes through.
+    ///
+    /// # Errors
+    /// Every way in which there is no usable scenario of its name, or in its text.
+    pub fn load_scenario(&self) -> Result<Scenario, ScenarioError> {
+        match &self.text {
+            Some(text) => Scenario::parse(&self.scenario, text),
+            None => Scenario::load(&self.scenario),
+        }
     }
 
     /// Whether the run still breaks its property. A liveness property is taken to be broken if the run
@@ -113,14 +130,17 @@ impl Replay {
 }
 
 /// The effect of a step, with its outputs; `None` where it is not possible.
-fn take(
+pub(crate) fn take(
     model: &Model,
     state: &ModelState,
     step: &ChartStep,
 ) -> Option<(Action, ModelState, Vec<String>)> {
     let mut actions = Vec::new();
     model.actions_in(state, &mut actions);
-    let is_meant = |action: &Action| placed(model, *action) == (step.place, step.action.clone());
+    let is_meant = |action: &Action| {
+        let (place, what) = placed(model, *action);
+        place == step.place && what == step.action
+    };
     let action = actions.into_iter().find(is_meant)?;
     let (next, taken) = model.successor(state, action)?;
     let outputs = taken.map_or_else(Vec::new, |taken| {

@@ -1,8 +1,9 @@
 //! What a check found, for people and for machines.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::cost::Cost;
+use crate::properties::{Claim, PropertyId};
 use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
 use crate::transitions::Transitions;
@@ -27,8 +28,11 @@ pub struct ScenarioReport {
     /// What it cost.
     #[serde(flatten)]
     pub cost: Cost,
-    /// Whether every reachable state was visited, by stateright and by the kit's own exploration,
-    /// and both found the same number. A timed scenario is explored by the latter alone.
+    /// Which engines explored the scenario and judged it: `crossguard`, the kit's own exploration, `stateright`, or
+    /// `crossguard-workers`.
+    pub engines: Vec<&'static str>,
+    /// Whether every reachable state was visited by each of the engines, and they agree on the number of
+    /// states and on what is broken.
     pub exhaustive: bool,
     /// Why it was not, where it was not.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -49,7 +53,7 @@ pub struct ScenarioReport {
 }
 
 /// What cut an exploration off.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CutOff {
     /// The limit on states.
@@ -62,6 +66,8 @@ pub enum CutOff {
     FoundBroken,
     /// stateright and the kit's own exploration found different numbers of states.
     CountsDiffer,
+    /// stateright and the kit's own exploration disagree on what is broken.
+    VerdictsDiffer,
 }
 
 /// What was found about one property, or about its premise.
@@ -85,6 +91,48 @@ pub struct PropertyReport {
     /// for ever. With none left to repeat, nothing happens any more.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repeats_after: Option<usize>,
+}
+
+impl PropertyReport {
+    /// What was found about a property: a run that breaks it, if it is broken, and how many of its steps come before
+    /// its cycle, if it has one.
+    #[must_use]
+    pub fn of_rule(
+        id: PropertyId,
+        claim: &Claim,
+        counterexample: Option<Vec<ChartStep>>,
+        repeats_after: Option<usize>,
+        cut_off: Option<CutOff>,
+    ) -> Self {
+        Self {
+            id: id.to_string(),
+            kind: claim.kind.name().to_owned(),
+            verdict: CheckVerdict::of_property(counterexample.is_some(), cut_off),
+            statement: claim.statement.to_owned(),
+            authentication: Some(id.authentication().to_string()),
+            counterexample: counterexample.unwrap_or_default(),
+            repeats_after,
+        }
+    }
+
+    /// What was found about the premise of a property; `None` where the property speaks about every state.
+    #[must_use]
+    pub fn of_premise(
+        id: PropertyId,
+        claim: &Claim,
+        is_met: bool,
+        cut_off: Option<CutOff>,
+    ) -> Option<Self> {
+        claim.premise.map(|premise| Self {
+            id: format!("{id}-premise"),
+            kind: "premise".to_owned(),
+            verdict: CheckVerdict::of_premise(is_met, cut_off),
+            statement: premise.to_owned(),
+            authentication: None,
+            counterexample: Vec::new(),
+            repeats_after: None,
+        })
+    }
 }
 
 /// What was found.

@@ -17,10 +17,12 @@ use crossguard_protocol::{
     Place, Ram, Renaming, SessionId, Settings, StopReason,
 };
 
+use serde::{Deserialize, Serialize};
+
 use crate::serial::beat_is_newer;
 
 /// What a robot's body does.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub enum Body {
     /// Nothing.
     #[default]
@@ -36,7 +38,7 @@ pub enum Body {
 }
 
 /// How a body has come to do nothing, without having been stopped.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub enum End {
     /// It has finished.
     Done,
@@ -159,7 +161,7 @@ impl fmt::Display for Body {
 }
 
 /// What a leader has received of a leader that goes before it at its place, in this session.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub enum Heard {
     /// Nothing.
     #[default]
@@ -257,7 +259,9 @@ impl LeaderClaim {
 }
 
 /// The pedestrian at the place that the scenario is about.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[derive(
+    Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize,
+)]
 pub enum Pedestrian {
     /// Waits for a sign that shows go.
     #[default]

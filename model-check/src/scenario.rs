@@ -184,6 +184,12 @@ macro_rules! shipped {
 include!("../scenarios/list.rs");
 
 impl Scenario {
+    /// Whether its state space is expected to be of this size; `None` where nothing is expected.
+    #[must_use]
+    pub fn is_expected(&self, size: Size) -> Option<bool> {
+        self.expected.map(|expected| expected == size)
+    }
+
     /// The names of the shipped scenarios that take seconds.
     pub fn quick() -> impl Iterator<Item = &'static str> {
         let quick = SHIPPED.iter().filter(|shipped| shipped.is_quick);
@@ -193,6 +199,11 @@ impl Scenario {
     /// The names of the shipped scenarios.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
         SHIPPED.iter().map(|shipped| shipped.name)
+    }
+
+    /// The names of the shipped scenarios, each with its file.
+    pub fn shipped_texts() -> impl Iterator<Item = (&'static str, &'static str)> {
+        SHIPPED.iter().map(|shipped| (shipped.name, shipped.text))
     }
 
     /// The shipped scenario of this name, or the scenario in the file of this name.

@@ -16,7 +16,7 @@ pub struct ChartStep {
 }
 
 /// Where in a chart something stands. Robots are named by their places in the scenario, from 0.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum ChartPlace {
     /// At one robot.
@@ -29,6 +29,13 @@ pub enum ChartPlace {
         to: usize,
         /// What becomes of the message.
         fate: Fate,
+    },
+    /// On the way from one robot to several at once.
+    Among {
+        /// The sender.
+        from: usize,
+        /// The receivers, and what becomes of the message on the way to each.
+        to: Vec<(usize, Fate)>,
     },
 }
 
@@ -59,6 +66,15 @@ impl Fate {
         }
     }
 
+    /// Its arrow in Mermaid.
+    const fn mermaid(self) -> &'static str {
+        match self {
+            Self::Lost => "-x",
+            Self::Delayed => "--)",
+            _ => "->>",
+        }
+    }
+
     /// Whether the message reaches its receiver in this step.
     const fn arrives(self) -> bool {
         !matches!(self, Self::Lost | Self::Delayed)
@@ -82,20 +98,29 @@ impl ChartStep {
     /// What happened, in one line.
     #[must_use]
     pub fn line(&self, robots: &[String]) -> String {
-        match self.place {
-            ChartPlace::At(robot) => format!("{}: {}", robots[robot], self.action),
+        match &self.place {
+            ChartPlace::At(robot) => format!("{}: {}", robots[*robot], self.action),
             ChartPlace::Between { from, to, fate } => {
                 let arrow = if fate.arrives() { "->" } else { "-x" };
-                let (from, to) = (&robots[from], &robots[to]);
+                let (from, to) = (&robots[*from], &robots[*to]);
                 format!("{from} {arrow} {to}: {}{}", self.action, fate.remark())
+            }
+            ChartPlace::Among { from, to } => {
+                let heads = to.iter().map(|(to, fate)| {
+                    let arrow = if fate.arrives() { "->" } else { "-x" };
+                    format!("{arrow} {}{}", robots[*to], fate.remark())
+                });
+                let heads = heads.collect::<Vec<_>>().join(" ");
+                format!("{} {heads}: {}", robots[*from], self.action)
             }
         }
     }
 
-    /// The robot that the step is one of: the receiver of a message.
-    const fn robot(&self) -> usize {
-        match self.place {
-            ChartPlace::At(robot) | ChartPlace::Between { to: robot, .. } => robot,
+    /// The robot that the step is one of: the receiver of a message, of several the first.
+    fn robot(&self) -> usize {
+        match &self.place {
+            ChartPlace::At(robot) | ChartPlace::Between { to: robot, .. } => *robot,
+            ChartPlace::Among { from, to } => to.first().map_or(*from, |(to, _)| *to),
         }
     }
 }
@@ -145,16 +170,13 @@ impl Chart<'_> {
                 let _ = writeln!(chart, "    Note over {everywhere}: {turn}");
             }
             let what = escaped(&step.action);
-            let _ = match step.place {
+            let _ = match &step.place {
                 ChartPlace::At(robot) => writeln!(chart, "    Note over r{robot}: {what}"),
                 ChartPlace::Between { from, to, fate } => {
-                    let arrow = match fate {
-                        Fate::Lost => "-x",
-                        Fate::Delayed => "--)",
-                        _ => "->>",
-                    };
-                    writeln!(chart, "    r{from}{arrow}r{to}: {what}{}", fate.remark())
+                    let (arrow, remark) = (fate.mermaid(), fate.remark());
+                    writeln!(chart, "    r{from}{arrow}r{to}: {what}{remark}")
                 }
+                ChartPlace::Among { from, to } => self.mermaid_among(&mut chart, *from, to, &what),
             };
             if !step.outputs.is_empty() {
                 let outputs: Vec<_> = step.outputs.iter().map(|output| escaped(output)).collect();
@@ -169,6 +191,33 @@ impl Chart<'_> {
         let last = self.turn(self.steps.len()).unwrap_or(self.title);
         let _ = writeln!(chart, "    Note over {everywhere}: {}", escaped(last));
         chart
+    }
+
+    /// Mermaid knows no arrow with several heads: the one to the farthest receiver names the others.
+    fn mermaid_among(
+        &self,
+        chart: &mut String,
+        from: usize,
+        to: &[(usize, Fate)],
+        what: &str,
+    ) -> std::fmt::Result {
+        let farthest = to
+            .iter()
+            .max_by_key(|(to, fate)| (fate.arrives(), to.abs_diff(from)));
+        let Some((farthest, fate)) = farthest else {
+            return Ok(());
+        };
+        let (arrow, remark) = (fate.mermaid(), fate.remark());
+        let others = to.iter().filter(|(to, _)| to != farthest);
+        let others = others.map(|(to, fate)| {
+            let name = escaped(&self.robots[*to]);
+            format!("{name}{}", fate.remark())
+        });
+        let others = others.collect::<Vec<_>>().join(", ");
+        writeln!(
+            chart,
+            "    r{from}{arrow}r{farthest}: {what}{remark}<br>also to {others}"
+        )
     }
 
     /// A picture.
@@ -225,7 +274,7 @@ impl Drawing {
         stroke-width:4px}.sequence .name{font-weight:bold}\
         .sequence .number{fill:var(--faint);font-size:11px}.sequence .output{fill:var(--output)}\
         .sequence .turn{fill:var(--lost);font-weight:bold}.sequence line{stroke:var(--lane)}\
-        .sequence .message{stroke:var(--ink);stroke-width:1.3}\
+        .sequence .sender{fill:var(--ink)}.sequence .message{stroke:var(--ink);stroke-width:1.3}\
         .sequence .lost{stroke:var(--lost);stroke-dasharray:5 3}\
         .sequence .delayed{stroke:var(--delayed)}.sequence .late{stroke:var(--late)}\
         .sequence path{fill:none;stroke-dasharray:none!important}";
@@ -241,26 +290,45 @@ impl Drawing {
             self.rows,
             "<text class='number' x='8' y='{y}'>{number}</text>"
         );
-        match step.place {
-            ChartPlace::At(robot) => self.note("", robot, &step.action),
+        match &step.place {
+            ChartPlace::At(robot) => self.note("", *robot, &step.action),
             ChartPlace::Between { from, to, fate } => {
                 let text = format!("{}{}", step.action, fate.remark());
-                let middle = usize::midpoint(Self::x(from), Self::x(to));
-                let _ = write!(
-                    self.rows,
-                    "<text x='{middle}' y='{y}' text-anchor='middle'>{}</text>",
-                    markup(&text)
-                );
-                self.y += 7;
-                self.arrow(from, to, fate);
-                self.y += 4;
+                self.message(*from, &[(*to, *fate)], &text);
             }
+            ChartPlace::Among { from, to } => self.message(*from, to, &step.action),
         }
         for output in &step.outputs {
             self.y += Self::LINE;
             self.note("output", step.robot(), output);
         }
         self.rows.push('\n');
+    }
+
+    /// One row, with an arrow to each receiver; the text stands between the sender and the nearest of them.
+    fn message(&mut self, from: usize, to: &[(usize, Fate)], text: &str) {
+        let nearest = to.iter().min_by_key(|(to, _)| to.abs_diff(from));
+        let nearest = nearest.map_or(from, |(to, _)| *to);
+        let (middle, y) = (usize::midpoint(Self::x(from), Self::x(nearest)), self.y);
+        let _ = write!(
+            self.rows,
+            "<text x='{middle}' y='{y}' text-anchor='middle'>{}</text>",
+            markup(text)
+        );
+        self.y += 7;
+        if to.len() > 1 {
+            let (x, y) = (Self::x(from), self.y);
+            let _ = write!(
+                self.rows,
+                "<circle class='sender' cx='{x}' cy='{y}' r='4'/>"
+            );
+        }
+        // What is lost is drawn over the line that goes on to others.
+        let (arrives, lost): (Vec<_>, Vec<_>) = to.iter().partition(|(_, fate)| fate.arrives());
+        for (to, fate) in arrives.into_iter().chain(lost) {
+            self.arrow(from, to, fate);
+        }
+        self.y += 4;
     }
 
     fn note(&mut self, class: &str, robot: usize, text: &str) {
@@ -379,6 +447,34 @@ mod tests {
         assert_eq!(text, expected);
         let text = with_chart(Some(3), |chart| chart.text());
         assert!(text.ends_with("and then nothing happens any more.\n"));
+    }
+
+    #[test]
+    fn a_broadcast_is_one_row_with_an_arrow_to_each_receiver() {
+        let robots = ["ARI", "Go2", "Spot", "Tug"].map(str::to_owned);
+        let step = ChartStep {
+            place: ChartPlace::Among {
+                from: 1,
+                to: vec![(0, Fate::Arrives), (3, Fate::Arrives), (2, Fate::Lost)],
+            },
+            action: "RAM leader".to_owned(),
+            outputs: Vec::new(),
+        };
+        let chart = Chart {
+            title: "",
+            robots: &robots,
+            steps: &[step],
+            repeats_after: None,
+        };
+        let text = chart.text();
+        assert_eq!(text, "   1. Go2 -> ARI -> Tug -x Spot (lost): RAM leader\n");
+        let mermaid = chart.mermaid();
+        assert!(mermaid.contains("r1->>r3: RAM leader<br>also to ARI, Spot (lost)\n"));
+        assert_eq!(mermaid.matches("RAM leader").count(), 1);
+        let svg = chart.svg();
+        assert_eq!(svg.matches("RAM leader").count(), 1);
+        let heads = ["<path class='message'", "<path class='message lost'"];
+        assert_eq!(heads.map(|head| svg.matches(head).count()), [2, 1]);
     }
 
     #[test]

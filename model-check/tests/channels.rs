@@ -20,6 +20,7 @@ fn violated(
     let model = Model::with_rules(scenario, rules);
     let options = Options {
         until_broken: until_broken.to_vec(),
+        second_opinion: true,
         ..Options::default()
     };
     let report = check(&model, &options, &mut |_| ());

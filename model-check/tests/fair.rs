@@ -28,14 +28,15 @@ impl System for Small {
         self.states
     }
 
-    fn expand(&self, state: u32, edges: &mut Vec<Edge>) -> Classes {
+    fn edge(&self, state: u32, place: usize) -> Option<Edge> {
+        let mut out = self.transitions.iter().filter(|(from, ..)| *from == state);
+        let &(_, to, taken) = out.nth(place)?;
+        Some(Edge { to, taken })
+    }
+
+    fn enabled(&self, state: u32) -> Classes {
         let out = self.transitions.iter().filter(|(from, ..)| *from == state);
-        let mut enabled = NONE;
-        for &(_, to, taken) in out {
-            edges.push(Edge { to, taken });
-            enabled |= taken;
-        }
-        enabled
+        out.fold(NONE, |all, &(_, _, taken)| all | taken)
     }
 
     fn run_to(&self, state: u32) -> Vec<u32> {
@@ -116,7 +117,7 @@ fn assert_is_fair_run(system: &Small, fairness: Fairness, goal: u32, lasso: &Las
     }
     assert_eq!(at, entry, "the cycle comes back: {lasso:?}");
     assert!(lasso.stem.iter().chain(&seen).all(|&state| state != goal));
-    let enabled = |state: u32| system.expand(state, &mut Vec::new());
+    let enabled = |state: u32| system.enabled(state);
     for class in [A, B] {
         let is_taken = taken & class != NONE;
         let always = seen.iter().all(|&state| enabled(state) & class != NONE);
@@ -240,7 +241,7 @@ fn breaks_by_brute_force(system: &Small, fairness: Fairness, goal: u32) -> bool 
             seen & set == set
         });
         let taken = within.iter().fold(NONE, |all, t| all | t.2);
-        let enabled = |s: u32| system.expand(s, &mut Vec::new());
+        let enabled = |s: u32| system.enabled(s);
         let always = members.iter().fold(!NONE, |all, &s| all & enabled(s));
         let sometimes = members.iter().fold(NONE, |all, &s| all | enabled(s));
         connected

@@ -1,5 +1,5 @@
 //! The shipped scenarios: every property holds, every premise is reachable, nothing was cut off, and
-//! the state spaces have the sizes that their files name.
+//! the state spaces have the sizes that their files name, by two explorations that agree.
 
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::export::{GraphFormat, export};
@@ -8,9 +8,17 @@ use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CheckVerdict, CutOff};
 use crossguard_model_check::scenario::Scenario;
 
+fn with_second_opinion() -> Options {
+    Options {
+        second_opinion: true,
+        ..Options::default()
+    }
+}
+
 fn assert_verified(name: &str) {
     let model = Model::new(Scenario::load(name).unwrap());
-    let report = check(&model, &Options::default(), &mut |_| ());
+    let report = check(&model, &with_second_opinion(), &mut |_| ());
+    assert_eq!(report.engines, ["crossguard", "stateright"]);
     assert!(report.exhaustive, "{name}: {:?}", report.cut_off);
     for property in &report.properties {
         let fine = matches!(

@@ -20,6 +20,7 @@ fn assert_breaks_in(scenario: Scenario, rules: impl Rules + 'static, properties:
     let model = Model::with_rules(scenario, rules);
     let options = Options {
         until_broken: properties.to_vec(),
+        second_opinion: true,
         ..Options::default()
     };
     let report = check(&model, &options, &mut |_| ());

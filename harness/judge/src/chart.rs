@@ -1,23 +1,32 @@
 //! A sequence chart, line by line as things happen.
 //!
-//! Each robot has a column. Messages are drawn when they arrive at their receiver; of the RAM that
+//! Each robot has a column. Messages are drawn when they arrive, in one line for all who hear them; of the RAM that
 //! repeat what is known only the first is drawn.
+
+mod gather;
+mod lines;
+mod words;
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
-use crossguard_codec::{Heard, Identifiers, PublicSignal, Service, SignalsShown};
+use crossguard_codec::{Heard, Identifiers, Service, SignalsShown};
 use crossguard_endpoint::cause::Layer;
 use crossguard_protocol::{
-    Coordination, Event, Farewell, Heartbeat, Input, Notice, Output, Outputs, Ram, Rmcm, State,
-    StationId,
+    Coordination, Event, Heartbeat, Input, Output, Outputs, Ram, Rmcm, State, StationId,
 };
 
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_robot::trace::{Entry, Record};
 
-/// Where the first column begins, and how far apart columns are, of two robots and of more.
-const LEFT: usize = 10;
+use gather::Gathering;
+pub(crate) use gather::{Arrow, ArrowHead, Mark};
+use lines::LEFT;
+pub use words::text_of;
+use words::{note_of_input, note_of_output, shown, shows_something};
+
+/// How far apart columns are, of two robots and of more.
 const SPACING: usize = 50;
 const SPACING_OF_MANY: usize = 45;
 
@@ -36,29 +45,7 @@ pub struct Chart {
     grows: bool,
     /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
     drawn: HashMap<(usize, usize), (Ram, Option<SignalsShown>)>,
-}
-
-/// Something to be drawn. Robots are named by their columns.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum Mark {
-    /// Something at one robot.
-    Note {
-        /// Where.
-        lane: usize,
-        /// What.
-        text: String,
-    },
-    /// A message.
-    Arrow {
-        /// Its sender.
-        from: usize,
-        /// Its receiver.
-        to: usize,
-        /// What it says.
-        text: String,
-        /// Whether it was lost.
-        is_lost: bool,
-    },
+    gathering: Gathering,
 }
 
 #[derive(Debug)]
@@ -137,39 +124,64 @@ impl Chart {
     pub fn header(&self) -> String {
         let mut line = format!("{:>8}", "t/s");
         for (i, lane) in self.lanes.iter().enumerate() {
-            pad(&mut line, LEFT + i * self.spacing);
+            lines::pad(&mut line, LEFT + i * self.spacing);
             let _ = write!(line, "{} (station {})", lane.name, lane.station);
         }
         self.fit(line)
     }
 
-    /// The lines that a record adds.
+    /// The lines that are complete when a record comes: those of up to then, but for the last moments.
     pub fn lines(&mut self, record: &Record) -> Vec<String> {
-        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-        let time = record.at_us as f64 / 1e6;
-        let (marks, spacing) = (self.marks(record).into_iter(), self.spacing);
-        let line = |mark| match mark {
-            Mark::Note { lane, text } => note_at(time, LEFT + lane * spacing, &text),
-            Mark::Arrow {
-                from,
-                to,
-                text,
-                is_lost,
-            } => arrow(time, [from, to], spacing, &text, is_lost),
+        let marks = self.gathered(record);
+        self.drawn(marks)
+    }
+
+    /// The lines that have not been complete so far.
+    pub fn rest(&mut self) -> Vec<String> {
+        let marks = self.gathering.rest();
+        self.drawn(marks)
+    }
+
+    /// Adds something that happens to a robot and that it does not record itself.
+    pub fn note(&mut self, at_us: u64, robot: &str, text: &str) -> Vec<String> {
+        if let Some(lane) = self.lanes.iter().position(|lane| lane.name == robot) {
+            let text = text.to_owned();
+            self.gathering.add(at_us, Mark::Note { lane, text });
+        }
+        let marks = self.gathering.due(at_us);
+        self.drawn(marks)
+    }
+
+    fn drawn(&self, marks: Vec<(u64, Mark)>) -> Vec<String> {
+        let line = |(at_us, mark)| {
+            #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+            let seconds = at_us as f64 / 1e6;
+            self.fit(match mark {
+                Mark::Note { lane, text } => {
+                    lines::note(seconds, LEFT + lane * self.spacing, &text)
+                }
+                Mark::Arrow(Arrow { from, to, text, .. }) => {
+                    lines::arrow(seconds, from, &to, self.spacing, &text)
+                }
+            })
         };
-        marks.map(line).map(|line| self.fit(line)).collect()
+        marks.into_iter().map(line).collect()
     }
 
-    /// The line of something that happens to a robot and that it does not record itself.
-    #[must_use]
-    pub fn note(&self, at_us: u64, robot: &str, text: &str) -> Option<String> {
-        let lane = self.lanes.iter().position(|lane| lane.name == robot)?;
-        #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-        let time = at_us as f64 / 1e6;
-        Some(self.fit(note_at(time, LEFT + lane * self.spacing, text)))
+    /// What is complete when a record comes, each with its time in microseconds.
+    pub(crate) fn gathered(&mut self, record: &Record) -> Vec<(u64, Mark)> {
+        for mark in self.marks(record) {
+            self.gathering.add(record.at_us, mark);
+        }
+        self.gathering.due(record.at_us)
     }
 
-    /// What a record adds.
+    /// What has not been complete so far.
+    pub(crate) fn rest_gathered(&mut self) -> Vec<(u64, Mark)> {
+        self.gathering.rest()
+    }
+
+    /// What a record adds, by itself.
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
         let mut marks = self.signs_that_ended(record);
         marks.extend(self.marks_of(record));
@@ -348,12 +360,16 @@ impl Chart {
         if heard.service == Service::Ram && !self.is_news(from, to, heard, is_lost) {
             return None;
         }
-        Some(Mark::Arrow {
+        let text = text_of(heard);
+        // What is lost is recorded as a packet, and what is heard without its headers.
+        let mut packet = DefaultHasher::new();
+        (heard.from, heard.generation_delta_time, &text).hash(&mut packet);
+        Some(Mark::Arrow(Arrow {
+            packet: packet.finish(),
             from,
-            to,
-            text: text_of(heard),
-            is_lost,
-        })
+            to: vec![ArrowHead { lane: to, is_lost }],
+            text,
+        }))
     }
 
     /// Whether a RAM says something that was not drawn before.
@@ -402,198 +418,23 @@ const fn addressee(input: &Input) -> Option<StationId> {
     }
 }
 
-/// A message in a few words: what it says to the protocol, where its commands take place, and what its sender
-/// shows to people.
-pub fn text_of(heard: &Heard) -> String {
-    let inputs: Vec<_> = heard.inputs.iter().map(text_of_input).collect();
-    let place = heard.map_place.map(|place| format!(" at {place}"));
-    let shown = shown(heard).filter(|shown| shows_something(*shown));
-    let shown = shown.map(|shown| format!(", shows {shown}"));
-    [Some(inputs.join("; ")), place, shown]
-        .into_iter()
-        .flatten()
-        .collect()
-}
-
-/// What the sender of a RAM shows to people, if it says so.
-fn shown(heard: &Heard) -> Option<SignalsShown> {
-    heard.state.as_ref()?.slow.as_ref()?.signals
-}
-
-const fn shows_something(shown: SignalsShown) -> bool {
-    !matches!(
-        (shown.to_vehicles, shown.to_pedestrians),
-        (PublicSignal::None, PublicSignal::None)
-    )
-}
-
-fn text_of_input(input: &Input) -> String {
-    match input {
-        Input::Ram { ram, .. } => ram_text(ram),
-        other => other.to_string(),
-    }
-}
-
-fn ram_text(ram: &Ram) -> String {
-    let station = ram.station;
-    let part = match ram.coordination {
-        Coordination::None => "none".to_owned(),
-        Coordination::NeedHelp { number, .. } => format!("needHelp {station}#{}", number.0),
-        Coordination::OfferHelp { session, .. } => format!("offerHelp {session}"),
-        Coordination::Leader {
-            number,
-            followers,
-            yields,
-            ..
-        } => {
-            let followers: Vec<_> = followers.iter().map(|f| f.station.to_string()).collect();
-            let yields = if yields { ", yields" } else { "" };
-            format!(
-                "leader {station}#{} of {}{yields}",
-                number.0,
-                followers.join(", ")
-            )
-        }
-        Coordination::Follower {
-            session,
-            last: None,
-            ..
-        } => format!("follower {session}"),
-        Coordination::Follower {
-            session,
-            last: Some(last),
-            ..
-        } => {
-            format!("follower {session}: {} {}", last.request, last.progress)
-        }
-    };
-    let farewell = match ram.farewell {
-        None => String::new(),
-        Some(Farewell::Ended(number, ending)) => {
-            format!(", ended {station}#{}, {ending}", number.0)
-        }
-        Some(Farewell::Left(session, _)) => format!(", left {session}"),
-    };
-    let duty = if ram.on_duty { ", on duty" } else { "" };
-    format!("RAM {part}{farewell}{duty}")
-}
-
-fn note_of_input(input: &Input) -> Option<String> {
-    match input {
-        Input::Local(Event::OpenCorridor | Event::CommandManeuver { .. } | Event::AllAnswered) => {
-            None
-        }
-        Input::Local(event) => Some(format!("* {event}")),
-        _ => None,
-    }
-}
-
-fn note_of_output(output: &Output) -> Option<String> {
-    Some(match output {
-        Output::StartManeuver(_)
-        | Output::StopManeuver(..)
-        | Output::FallBack(..)
-        | Output::CorridorOpened(_)
-        | Output::CorridorClosed(_)
-        | Output::RenewEpoch => format!("> {output}"),
-        Output::Notify(
-            notice @ (Notice::FollowerGone(..)
-            | Notice::LeaseExpired(_)
-            | Notice::CommandRejected(..)
-            | Notice::ManeuverInPosition(..)
-            | Notice::OfferLapsed(_)
-            | Notice::Yielded(_)
-            | Notice::ManeuverFailed(..)
-            | Notice::ManeuverCompleted(..)
-            | Notice::FollowerSafeIdle(..)
-            | Notice::SessionEnded(..)
-            | Notice::Released(..)
-            | Notice::ContactLost(_)
-            | Notice::ContactRegained(_)),
-        ) => format!("- {notice}"),
-        _ => return None,
-    })
-}
-
-fn pad(line: &mut String, column: usize) {
-    let width = line.chars().count();
-    line.extend(std::iter::repeat_n(' ', column.saturating_sub(width)));
-}
-
-fn note_at(seconds: f64, column: usize, text: &str) -> String {
-    let mut line = format!("{seconds:>8.3}");
-    pad(&mut line, column);
-    line.push_str(text);
-    line
-}
-
-/// An arrow between two columns, with its text in the middle.
-fn arrow(time: f64, [from, to]: [usize; 2], spacing: usize, text: &str, is_lost: bool) -> String {
-    let (left, right) = (from.min(to), from.max(to));
-    let width = (right - left) * spacing - 3;
-    let room = width.saturating_sub(6);
-    let text: String = if text.chars().count() > room {
-        text.chars()
-            .take(room.saturating_sub(1))
-            .chain(['…'])
-            .collect()
-    } else {
-        text.to_owned()
-    };
-    let dashes = width.saturating_sub(text.chars().count() + 3);
-    let (before, after) = (dashes / 2, dashes - dashes / 2);
-    let body = format!("{} {text} {}", "─".repeat(before), "─".repeat(after));
-    let end = if is_lost {
-        "x"
-    } else if from < to {
-        "►"
-    } else {
-        "◄"
-    };
-    let drawn = if from < to {
-        format!("{body}{end}")
-    } else {
-        format!("{end}{body}")
-    };
-    note_at(time, LEFT + left * spacing + 1, &drawn)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn an_arrow_spans_from_column_to_column() {
-        let there = arrow(1.5, [0, 1], SPACING, "RMCM ack", false);
-        assert!(
-            there.starts_with("   1.500   ─") && there.ends_with("─►"),
-            "{there}"
-        );
-        assert_eq!(there.chars().count(), LEFT + SPACING - 2);
-        let back = arrow(1.5, [1, 0], SPACING, "RMCM ack", false);
-        assert!(back.contains("◄─") && back.ends_with('─'), "{back}");
-        assert!(arrow(0.0, [0, 1], SPACING, "RAM", true).ends_with("─x"));
-    }
-
-    #[test]
     fn a_chart_fits_a_terminal_or_there_is_none() {
         let robots = [("ARI", StationId(1)), ("Go2", StationId(2))];
         let chart = || Chart::new(&robots, Identifiers::default());
-        let narrow = chart().within(80).unwrap();
-        let long = "long ".repeat(40);
-        for line in [narrow.header(), narrow.note(0, "Go2", &long).unwrap()] {
+        let mut narrow = chart().within(80).unwrap();
+        assert_eq!(narrow.note(0, "Go2", &"long ".repeat(40)), [""; 0]);
+        let notes = narrow.rest();
+        for line in notes.iter().chain([&narrow.header()]) {
             assert!(line.chars().count() <= 80, "{line}");
         }
-        assert!(narrow.note(0, "Go2", &long).unwrap().ends_with('…'));
+        assert!(notes[0].ends_with('…'));
         let wide = chart().within(usize::MAX).unwrap();
         assert_eq!(wide.header(), chart().header());
         assert!(chart().within(50).is_none());
-    }
-
-    #[test]
-    fn a_long_text_is_cut_to_fit() {
-        let line = arrow(0.0, [0, 1], SPACING, &"long ".repeat(40), false);
-        assert_eq!(line.chars().count(), LEFT + SPACING - 2);
-        assert!(line.contains('…'));
     }
 }

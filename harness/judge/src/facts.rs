@@ -457,7 +457,7 @@ impl Observer {
                 is_warning: is_drop,
                 text,
             }),
-            Mark::Arrow { .. } => None,
+            Mark::Arrow(_) => None,
         };
         notes.filter_map(note).collect()
     }

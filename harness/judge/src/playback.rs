@@ -12,11 +12,13 @@
 mod messages;
 mod moment;
 mod overview;
+mod recent;
 mod tracks;
 
 pub use messages::{MessageRow, Rows};
 pub use moment::{Moment, RobotMoment, Stretch};
 pub use overview::{Overview, StateSpan, Trial};
+pub use recent::Recent;
 
 use std::collections::HashMap;
 
@@ -58,10 +60,10 @@ impl Playback {
     /// [`Overview::troubles`] says why it ends there.
     #[must_use]
     pub fn of(mut logs: Merged, street: Option<SiteFile>) -> Self {
-        let mut reading = Reading::default();
+        let (mut reading, mut observer) = (Reading::default(), Observer::default());
         loop {
             match logs.take() {
-                Ok(Some(timed)) => reading.take(&timed),
+                Ok(Some(timed)) => reading.take(&timed, observer.take(&timed.record)),
                 Ok(None) => break,
                 Err(error) => reading.run.troubles.push(error.to_string()),
             }
@@ -115,14 +117,14 @@ pub fn written_us(log: Log<'_>, line: usize) -> Option<u64> {
 
 /// A run while its logs are read.
 #[derive(Default)]
-struct Reading {
+pub(crate) struct Reading {
     run: Playback,
-    observer: Observer,
     places: HashMap<String, u16>,
 }
 
 impl Reading {
-    fn take(&mut self, timed: &Timed) {
+    /// Takes the next record, with the facts that it adds.
+    pub(crate) fn take(&mut self, timed: &Timed, facts: Vec<Fact>) {
         let Timed { log, at_us, record } = timed;
         let Some(robot) = self.robot(&record.robot) else {
             self.run.left_out += 1;
@@ -137,7 +139,7 @@ impl Reading {
         self.run.to_us = self.run.to_us.max(*at_us);
         self.run.timing.record(*log, *at_us, record);
         self.step(robot, *at_us, record);
-        for fact in self.observer.take(record) {
+        for fact in facts {
             self.fact(robot, *at_us, record.at_us, fact);
         }
     }
@@ -194,7 +196,8 @@ impl Reading {
         }
     }
 
-    fn finish(mut self, street: Option<SiteFile>) -> Playback {
+    /// The run, after its last record.
+    pub(crate) fn finish(mut self, street: Option<SiteFile>) -> Playback {
         let run = &mut self.run;
         run.from_us = run.from_us.min(run.to_us);
         let mut robots: HashMap<StationId, u16> = HashMap::new();
@@ -204,7 +207,11 @@ impl Reading {
         run.messages.finish(&robots, run.robots.len());
         run.site = match &street {
             Some(street) => street.site,
-            None => run.origin(),
+            None => run.origin().unwrap_or(Site {
+                latitude: 0.0,
+                longitude: 0.0,
+                ..Site::default()
+            }),
         };
         run.street = street;
         self.run
@@ -212,17 +219,17 @@ impl Reading {
 }
 
 impl Playback {
-    /// A site at the first place that anything has.
-    fn origin(&self) -> Site {
+    /// A site at the first place that anything has, if anything has one.
+    fn origin(&self) -> Option<Site> {
         let first = |track: &Track| {
             let place = track.places.first().map(|body| body.place);
             place.or_else(|| Some(*track.zone.first()?.waiting.first()?))
         };
-        let (latitude, longitude) = self.robots.iter().find_map(first).unwrap_or_default();
-        Site {
+        let (latitude, longitude) = self.robots.iter().find_map(first)?;
+        Some(Site {
             latitude,
             longitude,
             ..Site::default()
-        }
+        })
     }
 }

@@ -7,6 +7,7 @@ mod around;
 mod charts;
 mod collect;
 mod crowd;
+mod messages;
 mod page;
 mod people;
 mod street;

@@ -8,16 +8,16 @@ use crossguard_model_check::sequence::{Chart as Drawing, ChartPlace, ChartStep, 
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{Entry, Record};
 
-use crate::chart::{Chart, Mark};
+use crate::chart::{Arrow, ArrowHead, Chart, Mark};
 
 /// Makes chart steps of records, as they come.
 #[derive(Debug)]
 pub struct Sequence {
     chart: Chart,
-    /// How many steps there have been.
-    steps: usize,
-    /// Of each robot that runs: when its newest record was made, in µs, and how many steps there were by then.
-    running: BTreeMap<String, (u64, usize)>,
+    /// When the steps were that there have been, in µs.
+    times: Vec<u64>,
+    /// Of each robot that runs: when its newest record was made, in µs.
+    running: BTreeMap<String, u64>,
 }
 
 impl Sequence {
@@ -36,36 +36,44 @@ impl Sequence {
     const fn with(chart: Chart) -> Self {
         Self {
             chart,
-            steps: 0,
+            times: Vec::new(),
             running: BTreeMap::new(),
         }
     }
 
-    /// The steps that a record adds.
+    /// The steps that a record adds by itself.
     pub fn steps(&mut self, record: &Record) -> Vec<ChartStep> {
-        let step = |mark| {
-            let (place, text) = match mark {
-                Mark::Note { lane, text } => (ChartPlace::At(lane), text),
-                Mark::Arrow {
-                    from,
-                    to,
-                    text,
-                    is_lost,
-                } => {
-                    let fate = if is_lost { Fate::Lost } else { Fate::Arrives };
-                    (ChartPlace::Between { from, to, fate }, text)
-                }
-            };
-            self::step(record.at_us, place, &text)
-        };
-        let steps: Vec<_> = self.chart.marks(record).into_iter().map(step).collect();
-        self.steps += steps.len();
-        let newest = (record.at_us, self.steps);
-        self.running.insert(record.robot.clone(), newest);
+        let marks = self.chart.marks(record);
+        self.made_of(marks.into_iter().map(|mark| (record.at_us, mark)))
+    }
+
+    /// The steps that are complete when a record comes: a message to several is one of them.
+    pub fn gathered(&mut self, record: &Record) -> Vec<ChartStep> {
+        self.running.insert(record.robot.clone(), record.at_us);
         if matches!(record.entry, Entry::Stopped { .. }) {
             self.running.remove(&record.robot);
         }
-        steps
+        let marks = self.chart.gathered(record);
+        self.made_of(marks.into_iter())
+    }
+
+    /// The steps that have not been complete so far.
+    pub fn rest(&mut self) -> Vec<ChartStep> {
+        let marks = self.chart.rest_gathered();
+        self.made_of(marks.into_iter())
+    }
+
+    fn made_of(&mut self, marks: impl Iterator<Item = (u64, Mark)>) -> Vec<ChartStep> {
+        let times = &mut self.times;
+        let made = marks.map(|(at_us, mark)| {
+            times.push(at_us);
+            let (place, text) = match mark {
+                Mark::Note { lane, text } => (ChartPlace::At(lane), text),
+                Mark::Arrow(Arrow { from, to, text, .. }) => (among(from, &to), text),
+            };
+            step(at_us, place, &text)
+        });
+        made.collect()
     }
 
     /// Puts into all the steps where robots ended without having stopped in order.
@@ -73,11 +81,13 @@ impl Sequence {
         let mut ends: Vec<_> = self.running.iter().collect();
         // From behind, so that places before stay what they are.
         ends.sort_by_key(|(_, newest)| std::cmp::Reverse(**newest));
-        for (robot, (at_us, place)) in ends {
+        for (robot, &at_us) in ends {
             let lane = self.chart.names().position(|name| name == robot);
+            let before = self.times.iter().rposition(|&time| time <= at_us);
+            let place = before.map_or(0, |before| before + 1);
             let text = "! its records end here, and it did not stop in order";
             if let Some(lane) = lane {
-                steps.insert(*place, step(*at_us, ChartPlace::At(lane), text));
+                steps.insert(place, step(at_us, ChartPlace::At(lane), text));
             }
         }
     }
@@ -91,6 +101,24 @@ impl Sequence {
             steps,
             repeats_after: None,
         })
+    }
+}
+
+/// The place of a message.
+fn among(from: usize, to: &[ArrowHead]) -> ChartPlace {
+    let fate = |is_lost: bool| if is_lost { Fate::Lost } else { Fate::Arrives };
+    if let [ArrowHead { lane, is_lost }] = *to {
+        let fate = fate(is_lost);
+        return ChartPlace::Between {
+            from,
+            to: lane,
+            fate,
+        };
+    }
+    let to = to.iter().map(|it| (it.lane, fate(it.is_lost)));
+    ChartPlace::Among {
+        from,
+        to: to.collect(),
     }
 }
 

@@ -33,7 +33,7 @@ use crate::zone::{Watched, Zone};
 use self::body::BodyTable;
 pub use self::body::NoBody;
 use self::traits::{BatteryTable, JobName};
-pub use self::traits::{NoTraits, job_named};
+pub use self::traits::{NoTraits, job_named, job_names};
 pub use self::zone::NoZone;
 use self::zone::ZoneTable;
 

@@ -42,7 +42,7 @@ use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
 
 pub use self::clock::Clock;
-use self::clock::{moment_at, unix_ms};
+use self::clock::{moment_at, unix_us};
 use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
 pub use self::running::{Panicked, Running};
@@ -257,7 +257,8 @@ impl Loop {
 
     fn run(&mut self, inbox: &Inbox<Delivery>) {
         let _span = tracing::info_span!("robot", name = self.name).entered();
-        let since_ms = self.clock.now_us().saturating_sub(self.began_us) / 1_000;
+        let since_us = self.clock.now_us().saturating_sub(self.began_us);
+        let began_unix_us = unix_us().saturating_sub(since_us);
         let started = self.record_at(
             self.began_us,
             Entry::Started {
@@ -267,7 +268,7 @@ impl Loop {
                     .filter(|epoch| *epoch != self.boot),
                 settings: Box::new(self.machine.endpoint().config().settings().clone()),
                 identifiers: *self.machine.endpoint().identifiers(),
-                unix_ms: unix_ms().saturating_sub(since_ms),
+                unix_ms: began_unix_us / 1_000,
                 speed: Some(self.machine.application().time_scale()),
             },
         );

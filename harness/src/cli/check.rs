@@ -2,6 +2,7 @@
 
 mod confinement;
 mod replay;
+mod workers;
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -25,6 +26,8 @@ use crossguard_model_check::transitions::Transitions;
 use crossguard_model_check::{export, universe};
 use indicatif::{HumanCount, HumanFloatCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
+
+pub(super) use replay::read as read_replay;
 
 use super::interrupts::interrupts_that;
 use super::junit::{self, JunitArguments};
@@ -60,6 +63,14 @@ pub(super) struct Arguments {
     /// Give up a scenario after this many seconds; its verdict is then 'incomplete'.
     #[arg(long, value_name = "SECONDS", value_parser = whole::<u32>(0..=u32::MAX.into()))]
     timeout: Option<u32>,
+    /// Let stateright explore each scenario too, as a second opinion: where it differs in states or verdicts,
+    /// the verdict is 'incomplete'. Takes about twice the time. Timed scenarios have none.
+    #[arg(long)]
+    second_opinion: bool,
+    /// Judge states and steps alone: a state takes a third of the memory, and nothing is said of runs (reset,
+    /// what leads to what).
+    #[arg(long)]
+    safety: bool,
     /// Write each counterexample to this folder: as a chart in text, Mermaid and SVG, and as JSON for
     /// --replay.
     #[arg(long, value_name = "FOLDER")]
@@ -77,6 +88,8 @@ pub(super) struct Arguments {
     /// The file that the state graph is written to.
     #[arg(long, value_name = "FILE", requires = "export")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    workers: workers::WorkersArguments,
     #[command(flatten)]
     junit: JunitArguments,
     /// Print the results as JSON, and nothing else.
@@ -116,6 +129,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if let Some(file) = &arguments.replay {
         return replay::run(&arguments.scenarios, file, arguments.endpoints);
+    }
+    if arguments.workers.are_given() {
+        return workers::run(arguments);
     }
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()
@@ -177,9 +193,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         ))?;
     }
     written?;
-    if report.scenarios.iter().any(Subject::is_wrong) {
+    outcome(report.scenarios.iter())?;
+    if is_all {
+        Ok(())
+    } else {
+        Err(Failure::Incomplete)
+    }
+}
+
+/// Whether all of these hold, and were exhausted.
+fn outcome<'a>(
+    mut reports: impl Iterator<Item = &'a ScenarioReport> + Clone,
+) -> Result<(), Failure> {
+    if reports.clone().any(Subject::is_wrong) {
         Err(Failure::Wrong)
-    } else if !is_all || report.scenarios.iter().any(|scenario| !scenario.exhaustive) {
+    } else if reports.any(|report| !report.exhaustive) {
         Err(Failure::Incomplete)
     } else {
         Ok(())
@@ -203,6 +231,8 @@ fn options(arguments: &Arguments, stop: &Stop) -> Options {
             .timeout
             .map(|seconds| Duration::from_secs(seconds.into())),
         stop: stop.clone(),
+        second_opinion: arguments.second_opinion,
+        safety_only: arguments.safety,
         ..defaults
     }
 }
@@ -316,7 +346,7 @@ fn show(bar: &ProgressBar, progress: CheckProgress) {
     if let Some(expected) = progress.expected {
         bar.set_length(expected as u64);
     }
-    // Each of the two explorations is half of the check.
+    // With a second opinion, each of the two explorations is half of the check.
     bar.set_position(progress.checked.midpoint(progress.explored) as u64);
     bar.set_prefix(format!(
         "frontier {}, depth {}",
@@ -338,6 +368,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
             Some(why) => format!("NOT exhaustive: {}", words(&format!("{why:?}"))),
         }
     ))?;
+    print(format_args!("  judged by {}", report.engines.join(" and ")))?;
     print_cost(&report.cost)?;
     if report.size_as_expected == Some(false) {
         print("  The scenario's file expects a state space of another size.")?;

@@ -140,16 +140,14 @@ fn followers(arguments: &Arguments, scenario: &Scenario) -> Result<u8, Failure> 
 fn lines(chart: &mut Chart, first: &str, seen: Seen<'_>) -> Vec<String> {
     match seen {
         Seen::Record(record) => chart.lines(record),
-        Seen::PowerLoss { at_us, robot } => {
-            Vec::from_iter(chart.note(at_us, robot, "! loses power"))
-        }
+        Seen::PowerLoss { at_us, robot } => chart.note(at_us, robot, "! loses power"),
         Seen::Pedestrian { at_us, is_on_road } => {
             let text = if is_on_road {
                 "~ the pedestrian sees go and steps on the road"
             } else {
                 "~ the pedestrian is across"
             };
-            Vec::from_iter(chart.note(at_us, first, text))
+            chart.note(at_us, first, text)
         }
     }
 }
@@ -219,6 +217,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     })
     .map_err(Failure::input)?;
+    if shows_chart && reads {
+        // Where nobody reads any more, the log is complete.
+        let _ = chart.rest().iter().try_for_each(print);
+    }
     // Where one of these cannot be written, the others are.
     let told = if arguments.json {
         print_json(&outcome)

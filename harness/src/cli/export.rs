@@ -48,8 +48,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut steps = Vec::new();
     let mut logs = merged(&arguments.logs)?;
     while let Some(Timed { record, .. }) = logs.take().map_err(Failure::input)? {
-        steps.extend(sequence.steps(&record));
+        steps.extend(sequence.gathered(&record));
     }
+    steps.extend(sequence.rest());
     sequence.end(&mut steps);
     sequence.draw("Crossguard", &steps, |chart| {
         let pictures = [

@@ -11,20 +11,21 @@
 //! The console never waits for anybody but the robot, so that it hears a signal at any time.
 
 mod output;
+mod typist;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::IsTerminal;
 use std::net::SocketAddrV4;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use crossguard_codec::{MapPlace, Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::listen::overhear;
-use crossguard_harness::operator::{self, HELP, Line};
+use crossguard_harness::operator::{self, Line, help};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::attachment::Sends;
 use crossguard_robot::boot;
@@ -34,6 +35,7 @@ use crossguard_robot::runtime::{Order, Running};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use output::{Lines, Outputs};
+use typist::Typist;
 
 use super::interrupts::interrupts;
 use super::ranges::{any, group, number};
@@ -139,21 +141,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         ));
     }
     let link = configured_link(arguments, &file);
-    let signs_by_unit = matches!(
-        link,
-        Link::Unit {
-            sends: Sends::Btp,
-            ..
-        }
-    );
-    if !signs_by_unit {
-        arguments.security.warn_if_unsigned(&link);
-    } else if arguments.security.signs() {
-        return Err(Failure::Input(
-            "[link] sends = \"btp\": a unit signs what it sends itself; leave --security off"
-                .to_owned(),
-        ));
-    }
+    one_signs(arguments, &link)?;
     let (mut link, address) = open_link(arguments, link)?;
     let capture = arguments.pcap.as_deref().map(super::create_capture);
     let capture = capture.transpose()?;
@@ -163,7 +151,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let watch = arguments
         .watch
         .begin(address.clone(), arguments.security.mode().name())?;
-    let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.bar())?;
+    let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.screen())?;
     let revoked = file.revoked.as_deref();
     let security = arguments.security.of_robot(&file.name, revoked)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
@@ -211,12 +199,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(address) = console.watch.metrics {
         console.say(&format!("Metrics are at http://{address}/metrics."));
     }
-    let outcome = console.attend(&running, &outputs.records, &lines_typed());
+    // Before the terminal is changed, so that no signal leaves it so.
+    let interrupted = interrupts();
+    let (screen, heard) = (console.watch.screen(), console.watch.tally());
+    let (typist, typed) = Typist::start(&screen, !arguments.json, heard);
+    let outcome = console.attend(&running, &outputs.records, &typed, &interrupted);
     running.order(Order::Stop);
     let ended = running.wait();
     let missing = console.missing;
     drop(console);
     let written = outputs.writings.finish(missing);
+    drop(typist);
     super::finish_capture(capture)?;
     outcome?;
     if let Err(panicked) = ended {
@@ -224,6 +217,26 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Wrong);
     }
     written
+}
+
+/// Refuses what would sign twice, and warns where nobody signs.
+fn one_signs(arguments: &Arguments, link: &Link) -> Result<(), Failure> {
+    let is_signed_by_unit = matches!(
+        link,
+        Link::Unit {
+            sends: Sends::Btp,
+            ..
+        }
+    );
+    if !is_signed_by_unit {
+        arguments.security.warn_if_unsigned(link);
+    } else if arguments.security.signs() {
+        return Err(Failure::Input(
+            "[link] sends = \"btp\": a unit signs what it sends itself; leave --security off"
+                .to_owned(),
+        ));
+    }
+    Ok(())
 }
 
 /// The link of the command line, or else that of the file.
@@ -254,20 +267,6 @@ fn open_link(arguments: &Arguments, link: Link) -> Result<(Halves, String), Fail
     let address = link.to_string();
     let link = WithFaults::new(Reopening(link), faults, arguments.seed).open();
     Ok((link.map_err(Failure::input)?, address))
-}
-
-/// What is typed, line by line, from a thread that ends with the input.
-fn lines_typed() -> Receiver<String> {
-    let (send, lines) = sync_channel(TYPED);
-    std::thread::spawn(move || {
-        for line in crossguard_robot::lines::lines(std::io::stdin().lock()).map_while(Result::ok) {
-            let line = String::from_utf8_lossy(&line).into_owned();
-            if send.send(line).is_err() {
-                return;
-            }
-        }
-    });
-    lines
 }
 
 /// The person at the robot: what was typed, and what is printed.
@@ -303,8 +302,8 @@ impl Console<'_> {
         running: &Running,
         records: &Receiver<Arc<Record>>,
         lines: &Receiver<String>,
+        interrupted: &AtomicBool,
     ) -> Result<(), Failure> {
-        let interrupted = interrupts();
         let mut quits = false;
         loop {
             match records.recv_timeout(TICK) {
@@ -477,7 +476,7 @@ impl Console<'_> {
                 self.say(&self.watch.surroundings());
                 self.say(&self.watch.equipment());
             }
-            Some(Line::Help) => self.say(HELP),
+            Some(Line::Help(command)) => self.say(&help(command)),
             Some(Line::Quit) => return Ok(true),
             Some(Line::Blank) | None => {}
         }

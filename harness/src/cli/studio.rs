@@ -1,11 +1,12 @@
 //! `crossguard studio`.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use crossguard_harness::studio::{self, Studied};
+use crossguard_harness::studio::{self, Followed, GivenRun, Numbered, Studied, Studio};
 use crossguard_judge::playback::{Playback, written_us};
 use crossguard_judge::validate::{self, Invalid, Validated};
+use crossguard_model_check::scenario::Scenario;
 use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::trace::Merged;
 
@@ -15,12 +16,21 @@ use super::{Failure, complain, open_logs, print};
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct Arguments {
-    /// The logs: of one robot or of several, from one machine or from several.
-    #[arg(required = true, value_name = "LOG")]
+    /// The logs of a run that is looked at: of one robot or of several, from one machine or from several.
+    #[arg(value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// The site, for kerbs and lanes on the map: a file, or `street` for the street of the demonstrations.
-    #[arg(long, value_name = "FILE|street")]
+    #[arg(long, value_name = "FILE|street", requires = "logs")]
     site: Option<PathBuf>,
+    /// Follow the logs while robots write them, on the page Live; a log may come later.
+    #[arg(long, requires = "logs")]
+    follow: bool,
+    /// A run through a scenario, as `check --charts` and pages of the studio write it, for the page Explore.
+    #[arg(long, value_name = "FILE")]
+    replay: Vec<PathBuf>,
+    /// Results for the page Numbers: what `odds --json`, `simulate obs --json` or `simulate cbr --json` printed.
+    #[arg(long, value_name = "FILE")]
+    numbers: Vec<PathBuf>,
     /// The port of the page; 0 for any that is free.
     #[arg(long, value_name = "N", default_value_t = 3100)]
     port: u16,
@@ -36,6 +46,11 @@ const AFTER_HELP: &str = "\
 Examples:
   crossguard demo --log crossing.jsonl && crossguard studio crossing.jsonl --site street
   crossguard studio ari.jsonl go2.jsonl --no-browser --port 0
+  crossguard studio --follow crossing.jsonl --site street    while `crossguard demo --log crossing.jsonl` runs
+  crossguard check my.toml --charts found; crossguard studio --replay found/my-I2.json
+  crossguard odds --json > odds.json && crossguard studio --numbers odds.json
+
+Without files, the pages Play and Explore are there: the protocol to play with, and scenarios step by step.
 
 The page needs no network. It is served until Ctrl-C ends it. Logs that are not valid are shown, too: the verdict stands \
 at its place in time. A log that cannot be read to its end is shown as far as it goes.
@@ -47,20 +62,41 @@ fn address(text: &str) -> Result<IpAddr, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let run = study(arguments)?;
+    let has_logs = !arguments.logs.is_empty();
+    let is_run = has_logs && !arguments.follow;
+    let run = is_run.then(|| study(arguments)).transpose()?;
+    let live = arguments.follow.then(|| followed(arguments)).transpose()?;
     let wanted = SocketAddr::new(arguments.address, arguments.port);
-    let served = studio::serve(wanted, run).map_err(|error| {
+    let given = arguments.replay.iter().map(|path| given(path));
+    let given = given.collect::<Result<_, _>>()?;
+    let numbers = arguments.numbers.iter().map(|path| numbered(path));
+    let numbers = numbers.collect::<Result<_, _>>()?;
+    let shown = Studio {
+        run,
+        live,
+        given,
+        numbers,
+    };
+    let served = studio::serve(wanted, shown).map_err(|error| {
         Failure::Input(format!(
             "{wanted}: {error}; --port N takes another port, --port 0 any that is free"
         ))
     })?;
+    // The page of what was given first in this list is opened.
+    let given_to = [
+        (arguments.follow, "live/"),
+        (is_run, "after/"),
+        (!arguments.replay.is_empty(), "explore/"),
+        (!arguments.numbers.is_empty(), "numbers/"),
+    ];
+    let first = given_to.into_iter().find(|(is_given, _)| *is_given);
+    let first = first.map_or("", |(_, page)| page);
+    let page = format!("http://{served}/{first}");
     // Nothing is lost with it.
     let _ = interrupts_that(|| std::process::exit(0));
-    print(format_args!(
-        "Open http://{served}/ in a browser; Ctrl-C ends it."
-    ))?;
+    print(format_args!("Open {page} in a browser; Ctrl-C ends it."))?;
     if !arguments.no_browser
-        && let Err(error) = open::that_detached(format!("http://{served}/"))
+        && let Err(error) = open::that_detached(page)
     {
         complain(format_args!("no browser was opened: {error}"));
     }
@@ -69,13 +105,54 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Reads the logs and judges them, both at once.
-fn study(arguments: &Arguments) -> Result<Studied, Failure> {
-    let street = match &arguments.site {
+/// Reads results.
+fn numbered(path: &Path) -> Result<Numbered, Failure> {
+    let cannot =
+        |cause: &dyn std::fmt::Display| Failure::input(format!("{}: {cause}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|cause| cannot(&cause))?;
+    Numbered::of(&path.display().to_string(), &text).map_err(|cause| cannot(&cause))
+}
+
+/// Reads a run, with the text of its scenario: pages read no files.
+fn given(path: &Path) -> Result<GivenRun, Failure> {
+    let mut run = super::check::read_replay(path)?;
+    if run.text.is_none() && !Scenario::shipped().any(|name| name == run.scenario) {
+        let cannot = |cause| Failure::input(format!("{}: its scenario: {cause}", path.display()));
+        let text = std::fs::read_to_string(&run.scenario);
+        run.text = Some(text.map_err(|cause| cannot(format!("{}: {cause}", run.scenario)))?);
+    }
+    let file = path.display().to_string();
+    Ok(GivenRun { file, run })
+}
+
+/// The logs that are followed. They need not be there yet; their folders do.
+fn followed(arguments: &Arguments) -> Result<Followed, Failure> {
+    for path in &arguments.logs {
+        let folder = path.parent().filter(|folder| *folder != Path::new(""));
+        if folder.is_some_and(|folder| !folder.is_dir()) {
+            return Err(Failure::input(format!(
+                "{}: there is no such folder",
+                path.display()
+            )));
+        }
+    }
+    Ok(Followed {
+        logs: arguments.logs.clone(),
+        street: street(arguments)?,
+    })
+}
+
+fn street(arguments: &Arguments) -> Result<Option<SiteFile>, Failure> {
+    Ok(match &arguments.site {
         None => None,
         Some(path) if path.as_os_str() == "street" => Some(SiteFile::street()),
         Some(path) => Some(SiteFile::read(path).map_err(Failure::input)?),
-    };
+    })
+}
+
+/// Reads the logs and judges them, both at once.
+fn study(arguments: &Arguments) -> Result<Studied, Failure> {
+    let street = street(arguments)?;
     let logs = Merged::new(open_logs(&arguments.logs)?).map_err(Failure::input)?;
     let judge = || open_logs(&arguments.logs).map(validate::all);
     let (playback, validated) = std::thread::scope(|scope| {

@@ -2,7 +2,6 @@
 
 use std::io::{IsTerminal, Write};
 use std::net::{Ipv4Addr, SocketAddr};
-use std::sync::mpsc::sync_channel;
 use std::time::Duration;
 
 use clap::ValueEnum;
@@ -10,9 +9,9 @@ use crossguard_endpoint::cause::Cause;
 use crossguard_harness::metrics::{self, Shared};
 use crossguard_robot::runtime::Running;
 use crossguard_robot::trace::Record;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Failure;
+use super::screen::Screen;
 
 /// How often the status line is drawn, on a terminal and where lines stay.
 const REDRAW: Duration = Duration::from_millis(200);
@@ -48,8 +47,7 @@ fn address(text: &str) -> Result<SocketAddr, String> {
 /// What is shown of a running robot.
 pub(super) struct Watch {
     tally: Shared,
-    /// Hidden where there is no live line.
-    bar: ProgressBar,
+    screen: Screen,
     /// Where metrics are served.
     pub(super) metrics: Option<SocketAddr>,
 }
@@ -76,43 +74,33 @@ impl WatchArguments {
             When::Always => true,
             When::Never => false,
         };
-        let bar = if is_shown && is_terminal {
-            live_line()
-        } else {
-            ProgressBar::hidden()
-        };
+        let screen = Screen::new(is_shown && is_terminal);
         if is_shown {
-            let (tally, bar) = (tally.clone(), bar.clone());
+            let (tally, screen) = (tally.clone(), screen.clone());
             // A thread of its own: who holds standard error up holds up nothing else.
-            std::thread::spawn(move || draw(&tally, &bar));
+            std::thread::spawn(move || draw(&tally, &screen));
         }
         Ok(Watch {
             tally,
-            bar,
+            screen,
             metrics,
         })
     }
 }
 
-fn live_line() -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{wide_msg}");
-    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
 /// Draws the status line until the robot has stopped.
-fn draw(tally: &Shared, bar: &ProgressBar) {
+fn draw(tally: &Shared, screen: &Screen) {
     loop {
-        std::thread::sleep(if bar.is_hidden() { REPEAT } else { REDRAW });
+        std::thread::sleep(if screen.is_live() { REDRAW } else { REPEAT });
         let (text, has_stopped) = tally.with(|tally| (tally.line(), tally.has_stopped));
         if has_stopped {
-            return bar.finish_and_clear();
+            return screen.clear();
         }
-        if bar.is_hidden() {
+        if screen.is_live() {
+            screen.show(&text);
+        } else {
             // Standard error may be gone; the robot goes on.
             let _ = writeln!(std::io::stderr(), "{text}");
-        } else {
-            bar.set_message(text);
         }
     }
 }
@@ -143,9 +131,14 @@ impl Watch {
         }
     }
 
-    /// The status line, above which other lines stand.
-    pub(super) fn bar(&self) -> ProgressBar {
-        self.bar.clone()
+    /// Where it is shown.
+    pub(super) fn screen(&self) -> Screen {
+        self.screen.clone()
+    }
+
+    /// What is counted, while it changes.
+    pub(super) fn tally(&self) -> Shared {
+        self.tally.clone()
     }
 }
 
@@ -153,13 +146,6 @@ impl Drop for Watch {
     /// Takes the status line away, but does not wait for a reader that holds standard output or error up: a
     /// line above the status line may be on its way to one who does not read.
     fn drop(&mut self) {
-        let (tell, is_done) = sync_channel(1);
-        let bar = self.bar.clone();
-        std::thread::spawn(move || {
-            bar.finish_and_clear();
-            // Nobody may wait any more.
-            let _ = tell.send(());
-        });
-        let _ = is_done.recv_timeout(REDRAW);
+        self.screen.within(REDRAW, Screen::clear);
     }
 }

@@ -1,5 +1,9 @@
 use crossguard_codec::MapPlace;
 
+use crossguard_codec::{PublicSignal, SignalMeans};
+use crossguard_protocol::{Event, TaskNames, TaskSet, TaskType, Urgency};
+use crossguard_robot::site::Place;
+
 use super::*;
 
 fn parsed(text: &str) -> Result<Line, String> {
@@ -216,6 +220,102 @@ fn everything_that_the_help_names_is_understood() {
         "quit",
     ] {
         assert!(parsed(text).is_ok(), "{text}");
-        assert!(HELP.contains(text.split(' ').next().unwrap()), "{text}");
     }
+}
+
+#[test]
+fn the_help_has_every_command_in_80_columns() {
+    let all = help(None);
+    for command in COMMANDS {
+        let beginning = format!("{} {}", command.name, command.usage);
+        let lines = || {
+            all.lines()
+                .filter(|line| line.starts_with(beginning.trim_end()))
+        };
+        assert!(lines().count() > 0, "{}", command.name);
+        let Ok(Line::Help(Some(name))) = parsed(&format!("help {}", command.name)) else {
+            panic!("no help for {}", command.name)
+        };
+        assert!(all.contains(&help(Some(name))) && !help(Some(name)).is_empty());
+    }
+    assert!(all.lines().all(|line| line.len() <= WIDTH), "{all}");
+    assert_eq!(
+        parsed("help fly"),
+        Err("no command 'fly'; type 'help'".into())
+    );
+}
+
+/// What the last word of this text can become.
+fn completed(text: &str) -> String {
+    complete(text, &[StationId(2), StationId(31)]).1.join(" ")
+}
+
+#[test]
+fn words_are_completed_by_what_can_stand_there() {
+    for (text, words) in [
+        ("o", "order open"),
+        ("  det", "detect"),
+        ("order ", "2 31"),
+        ("order 2 b", "block"),
+        ("order 2 block i", "intersection"),
+        ("order 2 block 1 8 0.4 s", "segment"),
+        ("detect 2 h", "high"),
+        ("detect high in", "initialPos"),
+        ("show stop g", "gesture"),
+        ("show g", "go"),
+        ("show stop none s", "speech"),
+        ("unavailable l", "low-battery local-fault"),
+        ("until r", "role-established"),
+        ("job t", "traffic-guard"),
+        ("battery 60 ", "charging"),
+        ("serve n", "none"),
+        ("help unt", "until"),
+        ("open ", ""),
+        ("job escort ", ""),
+        ("fly h", ""),
+        ("# o", ""),
+        ("{\"id", ""),
+    ] {
+        assert_eq!(completed(text), words, "{text}");
+    }
+    assert_eq!(complete("order 2 b", &[]).0, 8, "where the word begins");
+    assert_eq!(
+        complete("ä\u{3000}o", &[]).0,
+        5,
+        "also between characters of several bytes"
+    );
+}
+
+/// A name that completion offers and the parser does not know would be in two lists.
+#[test]
+fn whatever_completion_offers_is_understood() {
+    let mut offers = 0;
+    for command in COMMANDS {
+        let mut lines = vec![command.name.to_owned()];
+        for _ in 0..3 {
+            lines = lines
+                .iter()
+                .flat_map(|line| {
+                    let (_, words) = complete(&format!("{line} "), &[StationId(2)]);
+                    words.into_iter().map(move |word| format!("{line} {word}"))
+                })
+                .take(500)
+                .collect();
+            for line in &lines {
+                offers += 1;
+                let last = line.rsplit(' ').next().unwrap();
+                let is_refused = match parse(line, &Site::default()) {
+                    Err(Misunderstood::Word { word, .. } | Misunderstood::Surplus(word)) => {
+                        word == last
+                    }
+                    Err(Misunderstood::Command(_)) => true,
+                    _ => false,
+                };
+                // It begins what needs a number after it.
+                let begins = [words::SEGMENT, words::INTERSECTION].contains(&last);
+                assert!(!is_refused || begins, "{line}");
+            }
+        }
+    }
+    assert!(offers > 500);
 }

@@ -168,6 +168,16 @@ pub fn wait_for(child: &mut Child, patience: Duration) -> std::process::ExitStat
     }
 }
 
+/// A process that does not outlive its test.
+pub struct Killed(pub Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
 /// Sends a signal to a process.
 pub fn signal(child: &Child, signal: &str) {
     let status = Command::new("kill")

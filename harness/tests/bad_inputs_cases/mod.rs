@@ -483,13 +483,19 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
     (
         "studio",
         &[
-            ("studio", 2),
+            ("studio --site street", 2),
             ("studio nosuch.jsonl", 2),
             ("studio folder", 2),
             ("studio text.jsonl", 2),
             ("studio other.jsonl --site nosuch.toml", 2),
             ("studio other.jsonl --port 65536", 2),
             ("studio other.jsonl --address nosuch", 2),
+            ("studio --follow", 2),
+            ("studio --follow nosuch/log.jsonl", 2),
+            ("studio --replay nosuch.json", 2),
+            ("studio --replay text.json", 2),
+            ("studio --numbers nosuch.json", 2),
+            ("studio --numbers text.json", 2),
         ],
     ),
     (

@@ -87,7 +87,7 @@ impl Model {
             .unwrap_or(draft)
     }
 
-    fn node_images(&self, state: &ModelState) -> [Images; MAX_ROBOTS] {
+    pub(super) fn node_images(&self, state: &ModelState) -> [Images; MAX_ROBOTS] {
         let Shared {
             scenario,
             steps,
@@ -107,7 +107,7 @@ impl Model {
     }
 
     /// What an exchange makes of a state that has these nodes after it.
-    fn image(&self, draft: &Draft, nodes: [u32; MAX_ROBOTS], exchange: usize) -> Draft {
+    pub(super) fn image(&self, draft: &Draft, nodes: [u32; MAX_ROBOTS], exchange: usize) -> Draft {
         let Shared {
             steps,
             histories,
@@ -175,7 +175,7 @@ impl Model {
 }
 
 /// The nodes after the exchange of this number.
-fn exchanged(
+pub(super) fn exchanged(
     nodes: &[u32; MAX_ROBOTS],
     images: &[Images; MAX_ROBOTS],
     number: usize,

@@ -7,6 +7,8 @@
 mod actions;
 mod canonical;
 mod lies;
+mod parts;
+pub mod portable;
 mod successor;
 mod world;
 
@@ -15,6 +17,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use crossguard_protocol::{Event, Input, Outputs, Timer};
 
+pub(crate) use self::parts::Backdrop;
 use crate::canonical::{Ranks, Renamings};
 use crate::exploration::Stop;
 use crate::history::History;
@@ -268,6 +271,24 @@ impl Model {
         })
     }
 
+    /// What a state breaks, as a bit for each property of states or steps. Notes the premises that it meets.
+    pub(crate) fn broken_in(&self, state: &ModelState) -> u32 {
+        let rules = self.scenario().properties.iter();
+        let rules = rules.filter_map(|&id| Some((id, id.state_rule()?)));
+        self.look(state, |view| {
+            let mut broken = state.broken;
+            for (property, rule) in rules {
+                if !self.premise_met(property) && (rule.premise)(view) {
+                    self.note_premises(property.bit());
+                }
+                if !(rule.holds)(view) {
+                    broken |= property.bit();
+                }
+            }
+            broken
+        })
+    }
+
     /// Whether some message or timer changes the state, without any application's help and leaving aside
     /// the timer of periodic RAM. A robot that hangs goes on at some time, so its timers count; that a
     /// message of a monotone channel arrives at all is not sure, so it does not.
@@ -322,6 +343,22 @@ impl Model {
     /// Notes that the premise of a property has been met.
     pub(crate) fn note_premise(&self, property: PropertyId) {
         self.note_premises(property.bit());
+    }
+
+    /// The properties whose premises have been met since this was asked last.
+    pub(crate) fn newly_met(&self) -> Vec<PropertyId> {
+        let met = self.0.premises_met.swap(0, Ordering::Relaxed);
+        let properties = self.0.scenario.properties.iter().copied();
+        properties.filter(|id| met & id.bit() != 0).collect()
+    }
+
+    /// The messages on air, and the ones that are delayed.
+    pub(crate) fn on_their_way(
+        &self,
+        state: &ModelState,
+    ) -> (Vec<Transmission>, Vec<Transmission>) {
+        let network = self.network(state);
+        (network.on_air().collect(), network.delayed().collect())
     }
 
     fn note_premises(&self, met: u32) {

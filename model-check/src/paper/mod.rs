@@ -42,6 +42,7 @@ mod page;
 mod readings;
 mod road;
 mod robot;
+mod shown;
 mod story;
 mod texts;
 mod world;
@@ -53,6 +54,7 @@ use stateright::{Checker, Model as _};
 pub use hazards::{Hazard, HazardKind, Passage};
 pub use page::page;
 pub use readings::{OtherReading, Reading};
+pub use shown::{PaperRobotFrame, PaperRun, runs};
 pub use story::{Happening, Link, Party, Story, StoryMessage, StoryStep, stories};
 pub use texts::{Text, on_the_road};
 
@@ -190,6 +192,7 @@ pub fn check() -> ScenarioReport {
         depth: explored.iter().map(|e| e.depth).max().unwrap_or(0),
         seconds: start.elapsed().as_secs_f64(),
         cost: meter.read(sum(|e| e.unique_states)),
+        engines: vec![crate::check::STATERIGHT],
         exhaustive: !is_p0_broken && !is_wait_endless,
         // stateright stops when it has found all there is to be found.
         cut_off: (is_p0_broken || is_wait_endless).then_some(CutOff::FoundBroken),

@@ -228,8 +228,9 @@ impl PropertyId {
         }
     }
 
-    /// Whether stateright's exploration can judge the property: by states and steps.
-    pub(crate) fn is_of_states_or_steps(self) -> bool {
+    /// Whether an exploration can judge the property by states and steps alone, without a graph of them.
+    #[must_use]
+    pub fn is_of_states_or_steps(self) -> bool {
         let claim = self.untimed();
         claim.is_some_and(|claim| !matches!(claim.rule, Rule::Live(_) | Rule::Reset))
     }

@@ -9,18 +9,18 @@ use super::measure::Longest;
 use super::model::TimedModel;
 use super::section::{Looks, Rates};
 use super::state::{TimedAction, TimedCause, TimedState};
-use crate::check::names;
+use crate::check::{KIT, names};
 use crate::cost::Meter;
 use crate::exploration::{CheckProgress, Options};
 use crate::network::Transmission;
 use crate::properties::{Claim, PropertyId};
-use crate::report::{CheckVerdict, PropertyReport, ScenarioReport};
+use crate::report::{PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep, Fate};
 use crate::transitions::Transitions;
 
 /// Checks a timed model. `watch` receives the progress now and then. Of the options, the limits on
-/// states and time count; one thread explores.
+/// states and time and the number of threads count; there is no second opinion.
 #[must_use]
 pub fn check(
     model: &TimedModel,
@@ -29,7 +29,7 @@ pub fn check(
 ) -> ScenarioReport {
     let (start, meter) = (Instant::now(), Meter::start());
     let (scenario, timed) = (model.scenario(), model.timed());
-    let explored = Explored::of(model, &options.limits(), watch);
+    let explored = Explored::of(model, options.threads, &options.limits(), watch);
     let size = Size {
         unique_states: explored.states(),
         depth: explored.depth,
@@ -43,20 +43,13 @@ pub fn check(
         unique_states: size.unique_states,
         transitions: explored.transitions,
         depth: size.depth,
+        engines: vec![KIT],
         exhaustive,
         cut_off: explored.cut_off,
-        size_as_expected: scenario
-            .expected
-            .filter(|_| exhaustive)
-            .map(|expected| expected == size),
+        size_as_expected: scenario.is_expected(size).filter(|_| exhaustive),
         properties: properties
             .filter_map(|&id| Some((id, id.timed()?)))
-            .flat_map(|(id, claim)| {
-                [
-                    Some(rule(model, &explored, id, claim)),
-                    premise(&explored, id, claim),
-                ]
-            })
+            .flat_map(|(id, claim)| judged(model, &explored, id, claim))
             .flatten()
             .collect(),
         figures: explored.longest.figures(timed, model.limits()),
@@ -67,29 +60,20 @@ pub fn check(
     }
 }
 
-fn rule(model: &TimedModel, explored: &Explored, id: PropertyId, claim: &Claim) -> PropertyReport {
+/// What was found about a property, and about its premise where it has one.
+fn judged(
+    model: &TimedModel,
+    explored: &Explored,
+    id: PropertyId,
+    claim: &Claim,
+) -> [Option<PropertyReport>; 2] {
+    let (met, cut_off) = (explored.premises.met(id), explored.cut_off);
     let path = explored.path_to_broken(id);
-    PropertyReport {
-        id: id.name().to_owned(),
-        kind: claim.kind.name().to_owned(),
-        verdict: CheckVerdict::of_property(path.is_some(), explored.cut_off),
-        statement: claim.statement.to_owned(),
-        authentication: Some(id.authentication().to_string()),
-        counterexample: path.map_or_else(Vec::new, |path| chart(model, &path)),
-        repeats_after: None,
-    }
-}
-
-fn premise(explored: &Explored, id: PropertyId, claim: &Claim) -> Option<PropertyReport> {
-    claim.premise.map(|premise| PropertyReport {
-        id: format!("{id}-premise"),
-        kind: "premise".to_owned(),
-        verdict: CheckVerdict::of_premise(explored.premises.met(id), explored.cut_off),
-        statement: premise.to_owned(),
-        authentication: None,
-        counterexample: Vec::new(),
-        repeats_after: None,
-    })
+    let run = path.map(|path| chart(model, &path));
+    [
+        Some(PropertyReport::of_rule(id, claim, run, None, cut_off)),
+        PropertyReport::of_premise(id, claim, met, cut_off),
+    ]
 }
 
 /// A run as a chart: what happened at which time, and what the robots put out.

@@ -1,6 +1,8 @@
-//! The exploration of the timed model: every reachable state, breadth first.
+//! The exploration of the timed model: every reachable state, breadth first. Threads expand states, a batch at a
+//! time; then one numbers what is new, in the order of a single thread.
 
 use std::collections::{HashMap, VecDeque};
+use std::num::NonZeroUsize;
 
 use rustc_hash::FxBuildHasher;
 
@@ -9,7 +11,8 @@ use super::model::TimedModel;
 use super::premises::Premises;
 use super::state::{TimedAction, TimedState};
 
-use crate::exploration::{CheckProgress, ExplorationLimits};
+use crate::exploration::{BATCH, CHUNK, CheckProgress, ExplorationLimits};
+use crate::parallel::map_chunks;
 use crate::properties::PropertyId;
 use crate::properties::timed_view::{RobotSteps, TimedStepView};
 use crate::report::CutOff;
@@ -29,62 +32,183 @@ pub(super) struct Explored {
     instant: Vec<(u32, u32)>,
 }
 
+/// Numbers of states, by what the states are.
+type StateNumbers = HashMap<TimedState, u32, FxBuildHasher>;
+
+/// Where the transitions of some states lead, and what they show.
+struct TimedExpansion {
+    longest: Longest,
+    premises: Premises,
+    /// For each state, how many transitions it has, and whether nothing that is about to happen can.
+    states: Vec<(usize, bool)>,
+    /// Of all these states, one after the other.
+    transitions: Vec<TimedTransition>,
+}
+
+struct TimedTransition {
+    /// The place of its action among those of its state.
+    action: u16,
+    /// Whether no time passes.
+    is_instant: bool,
+    next: TimedNext,
+}
+
+#[expect(
+    clippy::large_enum_variant,
+    reason = "it lives as long as a batch, and a box for each would cost more"
+)]
+enum TimedNext {
+    /// A state that had a number before the batch was expanded.
+    Known(u32),
+    /// A state that had none. An earlier one of the batch may be the same.
+    Fresh(TimedState),
+}
+
+impl TimedExpansion {
+    fn of(
+        model: &TimedModel,
+        states: &[TimedState],
+        numbers: &StateNumbers,
+        met: &Premises,
+    ) -> Self {
+        let mut found = Self {
+            longest: Longest::default(),
+            premises: met.clone(),
+            states: Vec::with_capacity(states.len()),
+            transitions: Vec::new(),
+        };
+        let mut actions = Vec::new();
+        for state in states {
+            actions.clear();
+            model.actions_in(state, &mut actions);
+            let before = found.transitions.len();
+            for (i, &action) in (0..).zip(&actions) {
+                let Some(next) = model.successor(state, action, &mut found.longest) else {
+                    continue;
+                };
+                if !found.premises.are_met() {
+                    let note = |step: &TimedStepView<'_>| found.premises.note_step(step);
+                    model.look_at_step(state, &next, RobotSteps::NONE, note);
+                }
+                found.transitions.push(TimedTransition {
+                    action: i,
+                    is_instant: !matches!(action, TimedAction::Tick(_)),
+                    next: match numbers.get(&next) {
+                        Some(&known) => TimedNext::Known(known),
+                        None => TimedNext::Fresh(next),
+                    },
+                });
+            }
+            let transitions = found.transitions.len() - before;
+            let stuck = !actions.is_empty() && transitions == 0;
+            found.states.push((transitions, stuck));
+        }
+        found
+    }
+}
+
+/// An exploration under way.
+struct Exploring<'a> {
+    model: &'a TimedModel,
+    limits: &'a ExplorationLimits,
+    explored: Explored,
+    numbers: StateNumbers,
+    /// States that are still to be expanded.
+    waiting: VecDeque<TimedState>,
+    /// The number of the next state to be expanded.
+    at: usize,
+    /// The first number behind the level that is being expanded.
+    level_ends: usize,
+}
+
+impl Exploring<'_> {
+    /// Expands the next states.
+    fn expand_batch(&mut self, threads: NonZeroUsize) -> Vec<TimedExpansion> {
+        let batch = self.waiting.len().min(BATCH);
+        let batch: Vec<_> = self.waiting.drain(..batch).collect();
+        map_chunks(threads, &batch, CHUNK, |states| {
+            TimedExpansion::of(self.model, states, &self.numbers, &self.explored.premises)
+        })
+    }
+
+    /// Adds what an expansion found; says why not all of it is added, where it is not.
+    fn add_all(&mut self, expansion: TimedExpansion) -> Option<CutOff> {
+        self.explored.longest.add(expansion.longest);
+        self.explored.premises.add(&expansion.premises);
+        let mut transitions = expansion.transitions.into_iter();
+        for (count, stuck) in expansion.states {
+            if self.at == self.level_ends {
+                self.explored.depth += 1;
+                self.level_ends = self.numbers.len();
+            }
+            let from = number(self.at);
+            for transition in transitions.by_ref().take(count) {
+                let to = match transition.next {
+                    TimedNext::Known(known) => known,
+                    TimedNext::Fresh(next) => match self.numbers.get(&next) {
+                        Some(&known) => known,
+                        None if self.limits.states_reached(self.numbers.len()) => {
+                            return Some(CutOff::StateLimit);
+                        }
+                        None => self.add(next, (from, transition.action)),
+                    },
+                };
+                self.explored.transitions += 1;
+                if transition.is_instant {
+                    self.explored.instant.push((from, to));
+                }
+            }
+            if stuck {
+                self.explored.broken[PropertyId::I12 as usize].get_or_insert(from);
+            }
+            self.at += 1;
+        }
+        None
+    }
+
+    fn add(&mut self, state: TimedState, parent: (u32, u16)) -> u32 {
+        let fresh = number(self.numbers.len());
+        self.explored.note(self.model, &state, parent, fresh);
+        self.waiting.push_back(state.clone());
+        self.numbers.insert(state, fresh);
+        fresh
+    }
+}
+
 impl Explored {
     /// Explores `model`. `watch` receives the progress now and then.
     pub(super) fn of(
         model: &TimedModel,
+        threads: NonZeroUsize,
         limits: &ExplorationLimits,
         watch: &mut dyn FnMut(CheckProgress),
     ) -> Self {
-        let mut explored = Self::new(Premises::of(&model.timed().properties));
-        let mut numbers: HashMap<TimedState, u32, FxBuildHasher> = HashMap::default();
-        let mut waiting = VecDeque::new();
-        explored.add(model, model.initial(), (0, 0), &mut numbers, &mut waiting);
-        let (mut at, mut level_ends) = (0, 1);
-        let mut actions = Vec::new();
-        while let Some(state) = waiting.pop_front() {
-            if at == level_ends {
-                (explored.depth, level_ends) = (explored.depth + 1, numbers.len());
+        let mut exploring = Exploring {
+            model,
+            limits,
+            explored: Self::new(Premises::of(&model.timed().properties)),
+            numbers: StateNumbers::default(),
+            waiting: VecDeque::new(),
+            at: 0,
+            level_ends: 1,
+        };
+        exploring.add(model.initial(), (0, 0));
+        while !exploring.waiting.is_empty() {
+            let frontier = exploring.waiting.len();
+            exploring.explored.tell(model, frontier, watch);
+            let cut_off = limits.time_reached().or_else(|| {
+                let expansions = exploring.expand_batch(threads);
+                expansions
+                    .into_iter()
+                    .find_map(|expansion| exploring.add_all(expansion))
+            });
+            if cut_off.is_some() {
+                exploring.explored.cut_off = cut_off;
+                return exploring.explored;
             }
-            if at % 16_384 == 0 {
-                explored.tell(model, waiting.len(), watch);
-                explored.cut_off = limits.time_reached();
-                if explored.cut_off.is_some() {
-                    return explored;
-                }
-            }
-            let from = number(at);
-            actions.clear();
-            model.actions_in(&state, &mut actions);
-            let mut stuck = !actions.is_empty();
-            for (i, &action) in (0..).zip(&actions) {
-                let Some(next) = model.successor(&state, action, &mut explored.longest) else {
-                    continue;
-                };
-                if !explored.premises.are_met() {
-                    let note = |step: &TimedStepView<'_>| explored.premises.note_step(step);
-                    model.look_at_step(&state, &next, RobotSteps::NONE, note);
-                }
-                let to = match numbers.get(&next) {
-                    Some(&known) => known,
-                    None if limits.states_reached(numbers.len()) => {
-                        explored.cut_off = Some(CutOff::StateLimit);
-                        return explored;
-                    }
-                    None => explored.add(model, next, (from, i), &mut numbers, &mut waiting),
-                };
-                stuck = false;
-                explored.transitions += 1;
-                if !matches!(action, TimedAction::Tick(_)) {
-                    explored.instant.push((from, to));
-                }
-            }
-            if stuck {
-                explored.broken[PropertyId::I12 as usize].get_or_insert(from);
-            }
-            at += 1;
         }
-        drop(numbers);
+        let mut explored = exploring.explored;
+        drop(exploring.numbers);
         explored.note_time_standing_still();
         explored
     }
@@ -102,27 +226,17 @@ impl Explored {
         }
     }
 
-    fn add(
-        &mut self,
-        model: &TimedModel,
-        state: TimedState,
-        parent: (u32, u16),
-        numbers: &mut HashMap<TimedState, u32, FxBuildHasher>,
-        waiting: &mut VecDeque<TimedState>,
-    ) -> u32 {
-        let fresh = number(numbers.len());
+    /// Notes what a new state is, and how it was reached.
+    fn note(&mut self, model: &TimedModel, state: &TimedState, parent: (u32, u16), fresh: u32) {
         self.parents.push(parent);
         if !self.premises.are_met() {
-            model.look(&state, |state| self.premises.note(state));
+            model.look(state, |state| self.premises.note(state));
         }
         for property in PropertyId::ALL {
             if state.broken.has(property) {
                 self.broken[property as usize].get_or_insert(fresh);
             }
         }
-        waiting.push_back(state.clone());
-        numbers.insert(state, fresh);
-        fresh
     }
 
     fn tell(&self, model: &TimedModel, frontier: usize, watch: &mut dyn FnMut(CheckProgress)) {

@@ -114,6 +114,13 @@ impl Longest {
         *longest = Some(longest.map_or(ticks, |known| known.max(ticks)));
     }
 
+    /// Adds the longest times that another part of the exploration found.
+    pub(super) fn add(&mut self, other: Self) {
+        for (longest, other) in self.0.iter_mut().zip(other.0) {
+            *longest = (*longest).max(other);
+        }
+    }
+
     /// The figures in milliseconds, with their bounds: those of the first property that each is about.
     pub(super) fn figures(self, timed: &Timed, limits: &Limits) -> Vec<Figure> {
         let figure = |measure: Measure| Figure {

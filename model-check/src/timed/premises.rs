@@ -4,9 +4,11 @@ use crate::properties::timed_view::{TimedStepView, TimedView};
 use crate::properties::{PropertyId, TimedPremise};
 
 /// The premises of the properties of a scenario, part by part.
-pub(super) struct Premises(Vec<Part>);
+#[derive(Clone)]
+pub(super) struct Premises(Vec<PremisePart>);
 
-struct Part {
+#[derive(Clone)]
+struct PremisePart {
     property: PropertyId,
     premise: TimedPremise,
     is_met: bool,
@@ -17,7 +19,7 @@ impl Premises {
     pub(super) fn of(properties: &[PropertyId]) -> Self {
         let parts = properties.iter().flat_map(|&property| {
             let premise = property.timed_rule().map_or(&[][..], |rule| rule.premise);
-            premise.iter().map(move |&premise| Part {
+            premise.iter().map(move |&premise| PremisePart {
                 property,
                 premise,
                 is_met: false,
@@ -26,7 +28,7 @@ impl Premises {
         Self(parts.collect())
     }
 
-    fn open(&mut self) -> impl Iterator<Item = &mut Part> {
+    fn open(&mut self) -> impl Iterator<Item = &mut PremisePart> {
         self.0.iter_mut().filter(|part| !part.is_met)
     }
 
@@ -50,6 +52,13 @@ impl Premises {
             if let TimedPremise::Step(is_met) = part.premise {
                 part.is_met = is_met(step);
             }
+        }
+    }
+
+    /// Adds what others, of the same properties, have met.
+    pub(super) fn add(&mut self, others: &Self) {
+        for (part, other) in self.0.iter_mut().zip(&others.0) {
+            part.is_met |= other.is_met;
         }
     }
 

@@ -5,7 +5,7 @@ use crossguard_protocol::{State, StationId, TaskType, Timer};
 use crossguard_robot::zone::Conduct;
 use serde::Serialize;
 
-use super::messages::Rows;
+use super::messages::{MessageRow, Rows};
 use super::tracks::Track;
 use super::{Metres, Playback};
 
@@ -163,6 +163,18 @@ impl Playback {
             robots: robots.map(|it| self.robot_at(it, at_us, &causes)).collect(),
             messages,
         }
+    }
+
+    /// The messages and notes of a stretch; RAM that repeat what is known are left out.
+    #[must_use]
+    pub fn rows(&self, span: Stretch) -> Vec<MessageRow> {
+        let absolute = |since: u64| self.from_us.saturating_add(since);
+        let (from_us, to_us) = (absolute(span.from), absolute(span.to));
+        let all = [usize::MAX, 0];
+        let rows = self
+            .messages
+            .around(to_us, self.from_us, (from_us, to_us), all, false);
+        rows.rows
     }
 
     fn robot_at(&self, track: &Track, at_us: u64, causes: &[&CauseName]) -> RobotMoment {

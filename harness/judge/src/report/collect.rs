@@ -1,23 +1,20 @@
 //! What the page shows of a run, gathered record by record. All of it is bounded.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 use crossguard_endpoint::counters::CauseName;
-use crossguard_model_check::sequence::{ChartPlace, ChartStep};
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{LogError, Merged, Record, Timed};
 
 use super::around::AroundRun;
 use super::crowd::{PeopleRun, Span};
 use crate::facts::{Area, Direction, Fact, Observer, Placed, View};
-use crate::sequence::Sequence;
+use crate::playback::{Playback, Reading};
 use crate::timing::Timing;
 
-/// How many states of a robot are kept, how many points of its way, and how many steps of the sequence
-/// chart at its beginning and at its end.
+/// How many states of a robot are kept, and how many points of its way.
 const STATES: usize = 1_000;
 const POINTS: usize = 2_000;
-const STEPS: usize = 250;
 
 /// A run.
 pub(super) struct Run {
@@ -26,8 +23,8 @@ pub(super) struct Run {
     pub(super) from_us: u64,
     pub(super) to_us: u64,
     pub(super) timing: Timing,
-    pub(super) sequence: Sequence,
-    pub(super) steps: Vec<ChartStep>,
+    /// The same run, for its messages and trials.
+    pub(super) playback: Playback,
     /// Where followers were commanded to, all in all.
     pub(super) areas: Vec<Area>,
 }
@@ -73,42 +70,24 @@ impl Run {
             from_us: u64::MAX,
             to_us: 0,
             timing: Timing::default(),
-            sequence: Sequence::growing(),
-            steps: Vec::new(),
+            playback: Playback::default(),
             areas: Vec::new(),
         };
-        let mut observer = Observer::default();
-        let mut tail = VecDeque::new();
-        let mut left_out = 0_u64;
-        while let Some(Timed { log, at_us, record }) = logs.take()? {
+        let (mut reading, mut observer) = (Reading::default(), Observer::default());
+        while let Some(timed) = logs.take()? {
+            let facts = observer.take(&timed.record);
+            reading.take(&timed, facts.clone());
+            let Timed { log, at_us, record } = timed;
             run.from_us = run.from_us.min(at_us);
             run.to_us = run.to_us.max(at_us);
             run.timing.record(log, at_us, &record);
             run.robot(&record).records += 1;
-            for fact in observer.take(&record) {
+            for fact in facts {
                 run.take((at_us, record.at_us), &record.robot, fact);
             }
             run.robot(&record).last_us = at_us;
-            for step in run.sequence.steps(&record) {
-                if run.steps.len() < STEPS {
-                    run.steps.push(step);
-                } else {
-                    tail.push_back(step);
-                }
-            }
-            while tail.len() > STEPS {
-                tail.pop_front();
-                left_out += 1;
-            }
         }
-        if left_out > 0 {
-            run.steps.push(ChartStep {
-                place: ChartPlace::At(0),
-                action: format!("… {left_out} steps are left out here …"),
-                outputs: Vec::new(),
-            });
-        }
-        run.steps.extend(tail);
+        run.playback = reading.finish(None);
         for robot in &mut run.robots {
             robot.end();
         }

@@ -7,7 +7,7 @@ use crossguard_robot::around::Nearest;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::collect::Run;
-use super::{Report, Validity, people, street, timeline};
+use super::{Report, Validity, messages, people, street, timeline};
 use crate::timing::{Statistic, Summary, offsets_in_words};
 use crate::verdict;
 
@@ -32,7 +32,11 @@ pub(super) fn page(report: &Report, run: &Run) -> Markup {
         ("nothing", "Dropped or ignored", Some(counters(run))),
         ("properties", "Properties", properties(report)),
         ("robots", "Robots", Some(robots(run))),
-        ("sequence", "Sequence of messages", Some(sequence(run))),
+        (
+            "sequence",
+            "Sequence of messages",
+            Some(messages::messages(&run.playback)),
+        ),
     ];
     let sections: Vec<_> = sections
         .into_iter()
@@ -292,19 +296,4 @@ fn list(items: &[impl ToString]) -> String {
         .map(ToString::to_string)
         .collect::<Vec<_>>()
         .join(", ")
-}
-
-fn sequence(run: &Run) -> Markup {
-    run.sequence.draw("Sequence of messages", &run.steps, |chart| {
-        html! {
-            p { "Of the RAM that repeat what is known, only the first is drawn. Times are those of the robots' logs." }
-            div.scroll tabindex="0" role="group" aria-label="Sequence chart; the same is in the text below" {
-                (PreEscaped(chart.svg()))
-            }
-            details {
-                summary { "As text" }
-                pre tabindex="0" { (chart.text()) }
-            }
-        }
-    })
 }

@@ -116,6 +116,7 @@ impl Recorder {
         self.written?;
         self.log.flush()?;
         self.pcap.finish().map_err(std::io::Error::other)?;
+        self.steps.extend(self.sequence.rest());
         let steps: Vec<_> = self.steps.into();
         self.sequence.draw(title, &steps, |chart| {
             let text = format!("{title}\n{again}\n\n{}", chart.text());
@@ -130,7 +131,7 @@ impl Watch for Recorder {
         if self.written.is_ok() {
             self.written = trace::write(&mut self.log, &record);
         }
-        self.steps.extend(self.sequence.steps(&record));
+        self.steps.extend(self.sequence.gathered(&record));
         let surplus = self.steps.len().saturating_sub(CHART_STEPS);
         self.steps.drain(..surplus);
     }

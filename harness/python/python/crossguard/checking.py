@@ -46,7 +46,7 @@ class Progress:
     """How far a check is."""
 
     checked: int
-    """Distinct states that stateright has found."""
+    """Distinct states that have been judged."""
     explored: int
     """Distinct states that the kit's own exploration has found, after that."""
     expected: int | None

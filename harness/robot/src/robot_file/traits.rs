@@ -12,9 +12,9 @@
 //! ```
 
 use crossguard_codec::{Battery, Dimensions, JobRole};
-use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error as Unknown, StrDeserializer};
+use serde::{Deserialize, Serialize};
 
 use crate::application::Traits;
 
@@ -22,7 +22,7 @@ use crate::application::Traits;
 const METRES_MAX: f64 = 102.2;
 
 /// A job as files name it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum JobName {
     None,
@@ -53,6 +53,23 @@ impl From<JobName> for JobRole {
 pub fn job_named(name: &str) -> Option<JobRole> {
     let name: StrDeserializer<'_, Unknown> = name.into_deserializer();
     JobName::deserialize(name).ok().map(JobRole::from)
+}
+
+/// What files and operators call the jobs.
+#[must_use]
+pub fn job_names() -> Vec<String> {
+    use JobName::{Delivery, Escort, Maintenance, None, Other, Patrol, TrafficGuard};
+    let all = [
+        None,
+        TrafficGuard,
+        Escort,
+        Patrol,
+        Delivery,
+        Maintenance,
+        Other,
+    ];
+    let name = |job| serde_json::to_value(job).ok()?.as_str().map(str::to_owned);
+    all.into_iter().filter_map(name).collect()
 }
 
 #[derive(Default, Deserialize)]

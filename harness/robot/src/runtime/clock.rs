@@ -35,16 +35,16 @@ impl Clock {
 
 /// This moment, which the clock shows as `now_us`.
 pub(super) fn moment_at(now_us: u64) -> Moment {
-    let unix_ms = i64::try_from(unix_ms()).unwrap_or(i64::MAX);
+    let unix_ms = i64::try_from(unix_us() / 1_000).unwrap_or(i64::MAX);
     Moment {
         now_ms: now_us / 1_000,
         timestamp_its: timestamp_its(unix_ms),
     }
 }
 
-pub(super) fn unix_ms() -> u64 {
+pub(super) fn unix_us() -> u64 {
     let now = SystemTime::now()
         .duration_since(UNIX_EPOCH)
         .unwrap_or_default();
-    u64::try_from(now.as_millis()).unwrap_or(u64::MAX)
+    u64::try_from(now.as_micros()).unwrap_or(u64::MAX)
 }

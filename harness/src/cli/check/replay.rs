@@ -11,18 +11,23 @@ use crossguard_model_check::scenario::Scenario;
 use super::super::{Failure, print};
 use super::untimed;
 
-/// Follows the run in `file`; through real endpoints too, where they are asked for.
-pub(super) fn run(scenarios: &[String], file: &Path, endpoints: bool) -> Result<(), Failure> {
+/// The run in `file`.
+pub(in crate::cli) fn read(file: &Path) -> Result<Replay, Failure> {
     let cannot =
         |cause: &dyn std::fmt::Display| Failure::input(format!("{}: {cause}", file.display()));
     let text = std::fs::read_to_string(file).map_err(|cause| cannot(&cause))?;
-    let replay: Replay = serde_json::from_str(&text).map_err(|cause| cannot(&cause))?;
-    let name = match scenarios {
-        [] => &replay.scenario,
-        [name] => name,
+    serde_json::from_str(&text).map_err(|cause| cannot(&cause))
+}
+
+/// Follows the run in `file`; through real endpoints too, where they are asked for.
+pub(super) fn run(scenarios: &[String], file: &Path, endpoints: bool) -> Result<(), Failure> {
+    let replay = read(file)?;
+    let (name, scenario) = match scenarios {
+        [] => (&replay.scenario, replay.load_scenario()),
+        [name] => (name, Scenario::load(name)),
         _ => return Err(Failure::input("--replay wants one scenario")),
     };
-    let scenario = Scenario::load(name).map_err(Failure::input)?;
+    let scenario = scenario.map_err(Failure::input)?;
     let model = Model::new(untimed(scenario)?);
     if endpoints {
         through_endpoints(&model, &replay)?;
@@ -32,6 +37,9 @@ pub(super) fn run(scenarios: &[String], file: &Path, endpoints: bool) -> Result<
 
 /// Whether the run still exists, and still breaks its property.
 fn tell(model: &Model, name: &str, replay: &Replay) -> Result<(), Failure> {
+    if replay.property.is_empty() {
+        return tell_of_walk(model, name, replay);
+    }
     match replay.follow(model) {
         Followed::StoppedAt(step) => print(format_args!(
             "The run of {} in {name} does not exist any more: this cannot happen now:\n  {}",
@@ -55,6 +63,40 @@ fn tell(model: &Model, name: &str, replay: &Replay) -> Result<(), Failure> {
             "The run of {} in {name} exists, and does not break it any more.",
             replay.property
         )),
+    }
+}
+
+/// The same for a run that was to break nothing in particular.
+fn tell_of_walk(model: &Model, name: &str, replay: &Replay) -> Result<(), Failure> {
+    match replay.follow(model) {
+        Followed::StoppedAt(step) => {
+            print(format_args!(
+                "The run does not exist in {name}: this cannot happen:\n  {}",
+                line(model, replay, step)
+            ))?;
+            Err(Failure::Wrong)
+        }
+        Followed::OtherwiseAt(step, outputs) => {
+            print(format_args!(
+                "The run does not exist in {name}: after\n  {}\nthe robot puts out: {}",
+                line(model, replay, step),
+                outputs.join(", ")
+            ))?;
+            Err(Failure::Wrong)
+        }
+        Followed::ToTheEnd(broken) if broken.is_empty() => print(format_args!(
+            "The run exists in {name}, all {} steps of it; its end breaks nothing.",
+            replay.steps.len()
+        )),
+        Followed::ToTheEnd(broken) => {
+            let broken: Vec<_> = broken.iter().map(ToString::to_string).collect();
+            print(format_args!(
+                "The run exists in {name}, all {} steps of it; its end breaks {}.",
+                replay.steps.len(),
+                broken.join(", ")
+            ))?;
+            Err(Failure::Wrong)
+        }
     }
 }
 

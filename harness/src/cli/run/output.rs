@@ -10,9 +10,8 @@ use std::time::Duration;
 use crossguard_endpoint::cause::Cause;
 use crossguard_robot::journal::{self, Journal, RECORDS, WhenFull};
 use crossguard_robot::trace::{self, LogFile, LogLimits, Record};
-use indicatif::ProgressBar;
 
-use super::super::printable::Printable;
+use super::super::screen::Screen;
 use super::super::{Failure, complain};
 
 /// How many lines for people wait for their reader.
@@ -33,12 +32,8 @@ pub(super) struct Outputs {
 
 impl Outputs {
     /// Opens a log file, if there is to be one, and standard output; what people read there stands above
-    /// the status line `bar`.
-    pub(super) fn open(
-        log: Option<&Path>,
-        is_json: bool,
-        bar: ProgressBar,
-    ) -> Result<Self, Failure> {
+    /// the status line of `screen`.
+    pub(super) fn open(log: Option<&Path>, is_json: bool, screen: Screen) -> Result<Self, Failure> {
         let mut journal = Journal::new();
         let records = journal.reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
         let mut of_log = || journal.reader(RECORDS, WhenFull::End, Cause::LogFull);
@@ -50,7 +45,7 @@ impl Outputs {
         if is_json {
             writings.push(Writing::to_stdout(of_log()));
         } else {
-            let (for_people, writing) = Lines::start(bar);
+            let (for_people, writing) = Lines::start(screen);
             lines = Some(for_people);
             writings.push(writing);
         }
@@ -156,12 +151,10 @@ pub(super) struct Lines {
 
 impl Lines {
     /// The lines, and the thread that writes them, which ends after this has been dropped.
-    fn start(bar: ProgressBar) -> (Self, Writing) {
+    fn start(screen: Screen) -> (Self, Writing) {
         let (queue, lines) = sync_channel(LINES);
         let name = "standard output".to_owned();
-        let write = move |to: &mut Stdout, line: &String| {
-            bar.suspend(|| writeln!(to, "{}", Printable(line)))
-        };
+        let write = move |_: &mut Stdout, line: &String| screen.say(line);
         let writing = Writing::start(name, lines, std::io::stdout(), write, Stdout::flush);
         let lines = Self { queue, left_out: 0 };
         (lines, writing)

@@ -1,9 +1,9 @@
 // The page: it takes the run as a whole once, and then the moment that is looked at.
 
-import { html, id, seconds } from "./dom.js";
-import { StreetMap } from "./map.js";
-import { Messages } from "./messages.js";
-import * as panels from "./panels.js";
+import { html, id, seconds } from "/shell/dom.js";
+import { StreetMap } from "/shell/map.js";
+import { Messages } from "/shell/messages.js";
+import * as panels from "/shell/panels.js";
 import { Player } from "./player.js";
 import { Timeline } from "./timeline.js";
 
@@ -29,7 +29,7 @@ function shower(draw) {
       let moment;
       do {
         next = null;
-        moment = await load(`/api/moment?${query}`);
+        moment = await load(`api/moment?${query}`);
         draw(moment);
         query = next;
       } while (query);
@@ -57,7 +57,7 @@ function head(opening) {
 }
 
 async function start() {
-  const opening = await load("/api/opening");
+  const opening = await load("api/opening");
   head(opening);
   const seek = (at) => player.seek(at);
   const map = new StreetMap(opening);

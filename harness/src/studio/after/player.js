@@ -1,6 +1,6 @@
 // The time that is shown: slider, buttons, keys, playing.
 
-import { id, seconds } from "./dom.js";
+import { id, seconds } from "/shell/dom.js";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -15,6 +15,7 @@ export class Player {
     this.invalidAt = opening.verdict.at;
     this.at = 0;
     this.moment = null;
+    this.pending = null;
     this.timer = null;
     this.slider = id("slider");
     this.slider.addEventListener("input", () => { this.pause(); this.seek(Number(this.slider.value)); });
@@ -53,11 +54,15 @@ export class Player {
     const told = `${seconds(this.at)} s of ${seconds(this.span[1])} s`;
     this.slider.setAttribute("aria-valuetext", told);
     id("time").textContent = told;
-    this.moment = await this.show(this.at) ?? this.moment;
+    const shown = this.show(this.at).then((moment) => { this.moment = moment ?? this.moment; });
+    this.pending = Promise.all([this.pending, shown]);
+    return shown;
   }
 
-  step(name) {
+  // The neighbours are those of the time that was asked for last, however fast keys are pressed.
+  async step(name) {
     this.pause();
+    await this.pending;
     const at = this.moment?.messages[name];
     if (at !== null && at !== undefined) return this.seek(at);
   }

@@ -1,0 +1,117 @@
+//! What happens, in a few words.
+
+use crossguard_codec::{Heard, PublicSignal, SignalsShown};
+use crossguard_protocol::{Coordination, Event, Farewell, Input, Notice, Output, Ram};
+
+/// A message in a few words: what it says to the protocol, where its commands take place, and what its sender
+/// shows to people.
+pub fn text_of(heard: &Heard) -> String {
+    let inputs: Vec<_> = heard.inputs.iter().map(text_of_input).collect();
+    let place = heard.map_place.map(|place| format!(" at {place}"));
+    let shown = shown(heard).filter(|shown| shows_something(*shown));
+    let shown = shown.map(|shown| format!(", shows {shown}"));
+    [Some(inputs.join("; ")), place, shown]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// What the sender of a RAM shows to people, if it says so.
+pub(super) fn shown(heard: &Heard) -> Option<SignalsShown> {
+    heard.state.as_ref()?.slow.as_ref()?.signals
+}
+
+pub(super) const fn shows_something(shown: SignalsShown) -> bool {
+    !matches!(
+        (shown.to_vehicles, shown.to_pedestrians),
+        (PublicSignal::None, PublicSignal::None)
+    )
+}
+
+fn text_of_input(input: &Input) -> String {
+    match input {
+        Input::Ram { ram, .. } => ram_text(ram),
+        other => other.to_string(),
+    }
+}
+
+fn ram_text(ram: &Ram) -> String {
+    let station = ram.station;
+    let part = match ram.coordination {
+        Coordination::None => "none".to_owned(),
+        Coordination::NeedHelp { number, .. } => format!("needHelp {station}#{}", number.0),
+        Coordination::OfferHelp { session, .. } => format!("offerHelp {session}"),
+        Coordination::Leader {
+            number,
+            followers,
+            yields,
+            ..
+        } => {
+            let followers: Vec<_> = followers.iter().map(|f| f.station.to_string()).collect();
+            let yields = if yields { ", yields" } else { "" };
+            format!(
+                "leader {station}#{} of {}{yields}",
+                number.0,
+                followers.join(", ")
+            )
+        }
+        Coordination::Follower {
+            session,
+            last: None,
+            ..
+        } => format!("follower {session}"),
+        Coordination::Follower {
+            session,
+            last: Some(last),
+            ..
+        } => {
+            format!("follower {session}: {} {}", last.request, last.progress)
+        }
+    };
+    let farewell = match ram.farewell {
+        None => String::new(),
+        Some(Farewell::Ended(number, ending)) => {
+            format!(", ended {station}#{}, {ending}", number.0)
+        }
+        Some(Farewell::Left(session, _)) => format!(", left {session}"),
+    };
+    let duty = if ram.on_duty { ", on duty" } else { "" };
+    format!("RAM {part}{farewell}{duty}")
+}
+
+pub(super) fn note_of_input(input: &Input) -> Option<String> {
+    match input {
+        Input::Local(Event::OpenCorridor | Event::CommandManeuver { .. } | Event::AllAnswered) => {
+            None
+        }
+        Input::Local(event) => Some(format!("* {event}")),
+        _ => None,
+    }
+}
+
+pub(super) fn note_of_output(output: &Output) -> Option<String> {
+    Some(match output {
+        Output::StartManeuver(_)
+        | Output::StopManeuver(..)
+        | Output::FallBack(..)
+        | Output::CorridorOpened(_)
+        | Output::CorridorClosed(_)
+        | Output::RenewEpoch => format!("> {output}"),
+        Output::Notify(
+            notice @ (Notice::FollowerGone(..)
+            | Notice::LeaseExpired(_)
+            | Notice::CommandRejected(..)
+            | Notice::ManeuverInPosition(..)
+            | Notice::OfferLapsed(_)
+            | Notice::Yielded(_)
+            | Notice::ManeuverFailed(..)
+            | Notice::ManeuverCompleted(..)
+            | Notice::FollowerSafeIdle(..)
+            | Notice::SessionEnded(..)
+            | Notice::Released(..)
+            | Notice::ContactLost(_)
+            | Notice::ContactRegained(_)),
+        ) => format!("- {notice}"),
+        _ => return None,
+    })
+}

@@ -1,0 +1,171 @@
+//! `crossguard check --workers` and `--hosts`.
+
+use std::io::{Write, stderr};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use crossguard_model_check::check::Stop;
+use crossguard_model_check::model::Model;
+use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::subject::Subject;
+use crossguard_workers::{Cluster, Hosts, Options, Progress, WorkersError, WorkersReport, check};
+use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
+use serde::Serialize;
+
+use super::super::interrupts::interrupts_that;
+use super::super::ranges::threads;
+use super::super::{Failure, complain, destinations, print, print_json};
+use super::Arguments;
+
+#[derive(clap::Args)]
+pub(super) struct WorkersArguments {
+    /// Explore with this number of workers, each with the states of its share of fingerprints: 16 bytes per state, and
+    /// no graph of them. Properties that need the graph (L) are not judged, and named.
+    #[arg(long, value_name = "N", value_parser = threads,
+        conflicts_with_all = ["all", "threads", "replay", "export", "junit"])]
+    workers: Option<NonZeroUsize>,
+    /// The addresses of all processes of the check, one HOST:PORT a line, where it has several. Each runs the same
+    /// command with another --process.
+    #[arg(long, value_name = "FILE", requires = "process",
+        conflicts_with_all = ["all", "threads", "replay", "export", "junit"])]
+    hosts: Option<PathBuf>,
+    /// The number of this process among --hosts, from 0.
+    #[arg(long, value_name = "K", requires = "hosts")]
+    process: Option<usize>,
+    /// Seconds to wait for the other processes at the beginning.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "hosts")]
+    patience: u32,
+}
+
+#[derive(Serialize)]
+struct WorkersTold {
+    scenarios: Vec<WorkersReport>,
+}
+
+impl WorkersArguments {
+    /// Whether workers are asked for.
+    pub(super) const fn are_given(&self) -> bool {
+        self.workers.is_some() || self.hosts.is_some()
+    }
+
+    fn cluster(&self) -> Result<Option<Cluster>, Failure> {
+        let (Some(hosts), Some(process)) = (&self.hosts, self.process) else {
+            return Ok(None);
+        };
+        let cluster = Hosts::read(hosts).and_then(|hosts| hosts.process(process));
+        cluster.map(Some).map_err(Failure::input)
+    }
+}
+
+/// Checks each scenario with workers.
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.scenarios.is_empty() {
+        return Err(Failure::input("--workers and --hosts want a scenario"));
+    }
+    let cluster = arguments.workers.cluster()?;
+    if cluster.is_some() && arguments.scenarios.len() > 1 {
+        return Err(Failure::input("--hosts wants one scenario"));
+    }
+    let scenarios = arguments.scenarios.iter().map(|name| scenario(name));
+    let scenarios = scenarios.collect::<Result<Vec<_>, _>>()?;
+    destinations::folders([&arguments.charts])?;
+    let stop = Stop::default();
+    let asked = stop.clone();
+    let _interrupted = interrupts_that(move || asked.request());
+    let limits = super::options(arguments, &stop);
+    let options = Options {
+        workers: arguments.workers.workers.unwrap_or(NonZeroUsize::MIN),
+        cluster,
+        patience: Duration::from_secs(arguments.workers.patience.into()),
+        states_max: limits.states_max,
+        time_max: limits.time_max,
+        stop,
+    };
+    let mut told = WorkersTold {
+        scenarios: Vec::new(),
+    };
+    let mut written = Ok(());
+    for scenario in scenarios {
+        let name = scenario.name.clone();
+        let model = Model::new(scenario);
+        let report = check(&model, &options, &mut show_progress(&name)).map_err(refused)?;
+        if let Some(folder) = &arguments.charts {
+            written = written.and(super::write_charts(&report.scenario, folder));
+        }
+        if !arguments.json {
+            print_report(&report)?;
+        }
+        told.scenarios.push(report);
+    }
+    if arguments.json {
+        print_json(&told)?;
+    }
+    written?;
+    super::outcome(told.scenarios.iter().map(|report| &report.scenario))
+}
+
+fn scenario(name: &str) -> Result<Scenario, Failure> {
+    match Subject::load(name).map_err(Failure::input)? {
+        Subject::Scenario(scenario) => Ok(*scenario),
+        Subject::PaperLiteral => Err(Failure::input(format!(
+            "'{name}' is no scenario, and small: leave --workers and --hosts out"
+        ))),
+    }
+}
+
+/// What was lost is told as such; the rest is bad input.
+fn refused(error: WorkersError) -> Failure {
+    if error.is_incomplete() {
+        complain(error);
+        Failure::Incomplete
+    } else {
+        Failure::input(error)
+    }
+}
+
+/// Tells on standard error how far this process is: each new level, and every ten seconds.
+fn show_progress(name: &str) -> impl FnMut(Progress) {
+    let (mut level, mut seconds) = (None, 0);
+    move |progress: Progress| {
+        let now = progress.elapsed.as_secs();
+        if level == Some(progress.level) && now < seconds + 10 {
+            return;
+        }
+        (level, seconds) = (Some(progress.level), now);
+        #[expect(clippy::cast_precision_loss, reason = "a figure for people")]
+        let rate = progress.states as f64 / progress.elapsed.as_secs_f64().max(0.001);
+        // Standard error may be gone; the check goes on.
+        let _ = writeln!(
+            stderr(),
+            "{name}: {now} s, level {}, {} states in this process, {} per second, tables of {}",
+            progress.level,
+            HumanCount(progress.states),
+            HumanFloatCount(rate.round()),
+            HumanBytes(progress.table_bytes)
+        );
+    }
+}
+
+fn print_report(report: &WorkersReport) -> Result<(), Failure> {
+    super::print_report(&report.scenario)?;
+    if !report.not_judged.is_empty() {
+        print(format_args!(
+            "  not judged with workers: {}; 'crossguard check {}' judges them",
+            report.not_judged.join(", "),
+            report.scenario.name
+        ))?;
+    }
+    let how = if report.scenario.exhaustive {
+        "exhaustive, up to a collision of fingerprints"
+    } else {
+        "NOT exhaustive, and collisions of fingerprints"
+    };
+    print(format_args!(
+        "  {} workers in {} processes, tables of {}: {how} with a probability of at most {:.0e}",
+        report.workers * report.processes,
+        report.processes,
+        HumanBytes(report.table_bytes),
+        report.omission_probability
+    ))
+}

@@ -1,0 +1,403 @@
+//! The commands that can be typed.
+
+use std::time::Duration;
+
+use crossguard_codec::{Battery, PublicSignal, SignalMeans, SignalsShown, TaskParameters};
+use crossguard_protocol::{
+    Availability, Event, HelpRequest, MAX_FOLLOWERS, StationId, TaskSet, TaskType, Urgency,
+};
+use crossguard_robot::application::Wish;
+use crossguard_robot::site::{Place, Site};
+use crossguard_robot::wall_clock::{ClockQuality, ERROR_MAX_MS};
+
+use super::words::{
+    CHARGING, INTERSECTION, Kind, LOST, MAP_PLACE, NONE, SEGMENT, job, map_place, means, nothing,
+    number, only, seconds, signal, state, surplus, task, unavailability, urgency, wrong,
+};
+use super::{Line, Misunderstood, Tell};
+
+/// What the words of a line are about.
+pub(super) struct Scope<'a> {
+    pub(super) site: &'a Site,
+    /// What `detect` alone asks for.
+    pub(super) planned: Option<HelpRequest>,
+}
+
+/// A command.
+pub(super) struct Command {
+    pub(super) name: &'static str,
+    /// What follows its name, for people.
+    pub(super) usage: &'static str,
+    /// What it does, for people.
+    pub(super) meaning: &'static str,
+    /// What its first words can be, one after the other.
+    words: &'static [&'static [Kind]],
+    /// What every further word can be.
+    further: &'static [Kind],
+    pub(super) parse: fn(&[&str], &Scope<'_>) -> Result<Line, Misunderstood>,
+}
+
+impl Command {
+    pub(super) fn named(name: &str) -> Option<&'static Self> {
+        COMMANDS.iter().find(|it| it.name == name)
+    }
+
+    /// What the word after this many others can be.
+    pub(super) fn kinds_at(&self, others: usize) -> &'static [Kind] {
+        self.words.get(others).copied().unwrap_or(self.further)
+    }
+
+    const fn new(
+        name: &'static str,
+        meaning: &'static str,
+        parse: fn(&[&str], &Scope<'_>) -> Result<Line, Misunderstood>,
+    ) -> Self {
+        Self {
+            name,
+            usage: "",
+            meaning,
+            words: &[],
+            further: &[],
+            parse,
+        }
+    }
+
+    const fn taking(self, usage: &'static str, words: &'static [&'static [Kind]]) -> Self {
+        Self {
+            usage,
+            words,
+            ..self
+        }
+    }
+
+    const fn and_further(self, further: &'static [Kind]) -> Self {
+        Self { further, ..self }
+    }
+}
+
+const ON_MAP: &[Kind] = &[Kind::Word(SEGMENT), Kind::Word(INTERSECTION)];
+
+pub(super) const COMMANDS: &[Command] = &[
+    Command::new(
+        "detect",
+        "a pedestrian needs help; what the plan asks for by default, or else 1 follower for initialPos and move",
+        detect,
+    )
+    .taking("[FOLLOWERS] [low|medium|high|emergency] [TASK ...]", &[])
+    .and_further(&[Kind::Urgency, Kind::Task]),
+    Command::new(
+        "order",
+        "have a follower do a maneuver, in metres and m/s, at this road segment or intersection of the map; \
+         map_place or crossing of the configuration by default",
+        order,
+    )
+    .taking(
+        "STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]",
+        &[&[Kind::Station], &[Kind::Task], ON_MAP, &[], ON_MAP, ON_MAP],
+    ),
+    Command::new(
+        "show",
+        "the signals to vehicles and to pedestrians that its RAM tells of: none, stop, go, caution; only an open corridor \
+         shows go to pedestrians; the means are those of the configuration by default",
+        show,
+    )
+    .taking(
+        "VEHICLES [PEDESTRIANS] [gesture] [display] [lights] [speech]",
+        &[&[Kind::Signal], &[Kind::SignalToPedestrians, Kind::Means]],
+    )
+    .and_further(&[Kind::Means]),
+    Command::new(
+        "in-position",
+        "the body is at the place from which it guards",
+        |words, _| nothing(words).map(|()| Line::Order(Tell::InPosition)),
+    ),
+    Command::new(
+        "done",
+        "the maneuver that runs is finished, or the fallback that runs",
+        |words, _| nothing(words).map(|()| Line::Order(Tell::Finish(true))),
+    ),
+    Command::new("fail", "the maneuver that runs cannot be finished", |words, _| {
+        nothing(words).map(|()| Line::Order(Tell::Finish(false)))
+    }),
+    Command::new("open", "open the corridor", |words, _| {
+        event(words, Event::OpenCorridor)
+    }),
+    Command::new("close", "close the corridor", |words, _| {
+        event(words, Event::CloseCorridor)
+    }),
+    Command::new(
+        "task-completed",
+        "the pedestrian has crossed, and nobody is on the road",
+        |words, _| event(words, Event::TaskCompleted),
+    ),
+    Command::new(
+        "clear",
+        "nobody is on the road any more: ends the duty of a robot that fell back or gave up, once its body has \
+         finished its fallback",
+        |words, _| nothing(words).map(|()| Line::Order(Tell::Clear)),
+    ),
+    Command::new("leave", "leave the session", |words, _| {
+        event(words, Event::LeaveRequested)
+    }),
+    Command::new(
+        "unavailable",
+        "low-battery, teleoperated, emergency-stop, local-fault, not-safe",
+        |words, _| {
+            let reason = unavailability(only(words, "unavailable", "a reason")?)?;
+            let availability = Availability::Unavailable(reason);
+            Ok(tell(Event::AvailabilityChanged(availability)))
+        },
+    )
+    .taking("REASON", &[&[Kind::Reason]]),
+    Command::new("available", "take part again", |words, _| {
+        event(words, Event::AvailabilityChanged(Availability::Available))
+    }),
+    Command::new(
+        "battery",
+        "how full the battery is; below the limit of its robot file a robot is unavailable",
+        battery,
+    )
+    .taking("PERCENT [charging]", &[&[], &[Kind::Word(CHARGING)]]),
+    Command::new(
+        "job",
+        "the job that its RAM says it is there for: none, traffic-guard, escort, patrol, delivery, maintenance, other",
+        |words, _| Ok(Line::Order(Tell::Job(job(only(words, "job", "a job")?)?))),
+    )
+    .taking("ROLE", &[&[Kind::Job]]),
+    Command::new(
+        "serve",
+        "the road segment or intersection that its RAM says it serves, and that the commands of its plan name",
+        serve,
+    )
+    .taking(
+        "segment|intersection [REGION:]NUMBER | none",
+        &[&[Kind::Word(SEGMENT), Kind::Word(INTERSECTION), Kind::Word(NONE)]],
+    ),
+    Command::new(
+        "clock",
+        "how wrong the wall clock may be, as its receiver or NTP says; it holds for five minutes. While it is known, \
+         packets older than their lifetime are dropped",
+        clock,
+    )
+    .taking("MILLISECONDS | lost", &[&[Kind::Word(LOST)]]),
+    Command::new(
+        "status",
+        "what the robot is doing, what it heard, who is around, and how link, security and clock are",
+        |words, _| nothing(words).map(|()| Line::Status),
+    ),
+    Command::new("wait", "before the next line", |words, _| {
+        Ok(Line::Wait(seconds(only(words, "wait", "seconds")?)?))
+    })
+    .taking("SECONDS", &[]),
+    Command::new(
+        "until",
+        "wait for idle, help-requested, role-established or maneuver-executing",
+        until,
+    )
+    .taking("STATE [SECONDS]", &[&[Kind::State]]),
+    Command::new("help", "this, or what a command is for", help)
+        .taking("[COMMAND]", &[&[Kind::Command]]),
+    Command::new("quit", "leave the session and stop", |words, _| {
+        nothing(words).map(|()| Line::Quit)
+    }),
+];
+
+/// The application tells its robot so.
+fn tell(event: Event) -> Line {
+    Line::Order(Tell::Wish(Wish::Tell(event)))
+}
+
+/// The same, by a command without words.
+fn event(words: &[&str], event: Event) -> Result<Line, Misunderstood> {
+    nothing(words)?;
+    Ok(tell(event))
+}
+
+fn detect(words: &[&str], scope: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let planned = scope.planned.filter(|_| words.is_empty());
+    let request = planned.map_or_else(|| request(words, scope.site), Ok)?;
+    Ok(tell(Event::PedestrianDetected(request)))
+}
+
+fn until(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
+    match words {
+        [name, time] => Ok(Line::Until(state(name)?, seconds(time)?)),
+        words => {
+            let name = only(words, "until", "a state")?;
+            Ok(Line::Until(state(name)?, Duration::from_mins(1)))
+        }
+    }
+}
+
+fn help(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let [name] = words else {
+        return nothing(words).map(|()| Line::Help(None));
+    };
+    let command = Command::named(name);
+    let command = command.ok_or_else(|| Misunderstood::Command((*name).to_owned()))?;
+    Ok(Line::Help(Some(command.name)))
+}
+
+fn clock(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let error_ms = match words {
+        [LOST] => None,
+        [word] => {
+            let error_ms = word
+                .parse()
+                .ok()
+                .filter(|error_ms| *error_ms <= ERROR_MAX_MS);
+            let wanted = || format!("'{LOST}', or an error from 0 to {ERROR_MAX_MS} ms");
+            Some(error_ms.ok_or_else(|| wrong(word, wanted()))?)
+        }
+        [] => {
+            return Err(Misunderstood::Missing {
+                command: "clock",
+                wanted: "its error in ms, or 'lost'",
+            });
+        }
+        [.., last] => return Err(surplus(last)),
+    };
+    Ok(Line::Order(Tell::Clock(ClockQuality { error_ms })))
+}
+
+fn battery(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let (percent, charging) = match words {
+        [percent] => (percent, false),
+        [percent, CHARGING] => (percent, true),
+        [_, other] => return Err(wrong(other, "'charging'")),
+        [] => {
+            return Err(Misunderstood::Missing {
+                command: "battery",
+                wanted: "a charge in percent",
+            });
+        }
+        [.., last] => return Err(surplus(last)),
+    };
+    let charge = number(percent).filter(|charge| (0.0..=100.0).contains(charge));
+    let charge = charge.ok_or_else(|| wrong(percent, "a charge from 0 to 100 percent"))?;
+    Ok(Line::Order(Tell::Battery(Battery {
+        state_of_charge: Some(charge),
+        charging,
+    })))
+}
+
+fn serve(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let place = match words {
+        [NONE] => None,
+        [kind, reference] => Some(map_place(kind, reference)?),
+        [] => {
+            return Err(Misunderstood::Missing {
+                command: "serve",
+                wanted: "a road segment, an intersection, or none",
+            });
+        }
+        [only] => return Err(wrong(only, MAP_PLACE)),
+        [.., last] => return Err(surplus(last)),
+    };
+    Ok(Line::Order(Tell::Serve(place)))
+}
+
+fn request(words: &[&str], site: &Site) -> Result<HelpRequest, Misunderstood> {
+    let mut request = HelpRequest {
+        urgency: Urgency::Medium,
+        followers: 1,
+        tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]),
+        place: site.crossing,
+    };
+    let mut tasks = Vec::new();
+    for (i, word) in words.iter().enumerate() {
+        if i == 0
+            && let Ok(followers) = word.parse()
+        {
+            if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
+                let wanted = format!("a number of followers from 1 to {MAX_FOLLOWERS}");
+                return Err(wrong(word, wanted));
+            }
+            request.followers = followers;
+        } else if let Some(urgency) = urgency(word) {
+            request.urgency = urgency;
+        } else {
+            tasks.push(task(word)?);
+        }
+    }
+    if !tasks.is_empty() {
+        request.tasks = TaskSet::of(&tasks);
+    }
+    Ok(request)
+}
+
+fn order(words: &[&str], scope: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let [station, name, rest @ ..] = words else {
+        return Err(Misunderstood::Missing {
+            command: "order",
+            wanted: "a station and a task",
+        });
+    };
+    let follower = StationId(
+        station
+            .parse()
+            .map_err(|_| wrong(station, "a station id"))?,
+    );
+    let (rest, map_place) = match rest {
+        [rest @ .., kind @ (SEGMENT | INTERSECTION), reference] => {
+            (rest, Some(map_place(kind, reference)?))
+        }
+        rest => (rest, scope.site.map_place),
+    };
+    let metres = |word: &str| number(word).ok_or_else(|| wrong(word, "a number of metres"));
+    let (target, maximum_speed) = match rest {
+        [] => (None, None),
+        [east, north] => (Some(Place::new(metres(east)?, metres(north)?)), None),
+        [east, north, speed] => {
+            let target = Place::new(metres(east)?, metres(north)?);
+            let speed = number(speed).filter(|speed| *speed > 0.0);
+            (
+                Some(target),
+                Some(speed.ok_or_else(|| wrong(rest[2], "a speed in m/s"))?),
+            )
+        }
+        [only] => return Err(wrong(only, "a place: two numbers of metres are")),
+        [.., last] => return Err(surplus(last)),
+    };
+    let target = target.map(|place| scope.site.target(place));
+    let parameters = TaskParameters {
+        target,
+        maximum_speed,
+        map_place,
+        ..TaskParameters::default()
+    };
+    Ok(Line::Order(Tell::Wish(Wish::Order {
+        follower,
+        task: task(name)?,
+        parameters,
+    })))
+}
+
+fn show(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let [vehicles, rest @ ..] = words else {
+        return Err(Misunderstood::Missing {
+            command: "show",
+            wanted: "what is shown to vehicles",
+        });
+    };
+    let to_vehicles =
+        signal(vehicles).ok_or_else(|| wrong(vehicles, "none, stop, go or caution"))?;
+    let (to_pedestrians, rest) = match rest {
+        ["go", ..] => {
+            return Err(wrong(
+                "go",
+                "for pedestrians here; 'open' opens the corridor",
+            ));
+        }
+        [word, others @ ..] => signal(word).map_or((PublicSignal::None, rest), |it| (it, others)),
+        [] => (PublicSignal::None, rest),
+    };
+    let means = rest.iter().try_fold(SignalMeans::default(), |all, word| {
+        Ok(all.union(means(word)?))
+    })?;
+    Ok(Line::Order(Tell::Show(SignalsShown {
+        to_vehicles,
+        to_pedestrians,
+        means,
+    })))
+}

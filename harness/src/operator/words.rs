@@ -1,0 +1,191 @@
+//! Words in a line, and what they can be.
+
+use std::borrow::Cow;
+use std::time::Duration;
+
+use crossguard_codec::{JobRole, MapPlace, PublicSignal, SignalMeans};
+use crossguard_protocol::{State, TaskNames, TaskSet, TaskType, Unavailability, Urgency};
+use crossguard_robot::robot_file::{job_named, job_names};
+
+use super::Misunderstood;
+
+/// What a word can be, as far as there are names to choose from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// The name of a command.
+    Command,
+    /// A station that was heard.
+    Station,
+    Task,
+    Urgency,
+    Reason,
+    State,
+    Job,
+    /// A sign to vehicles.
+    Signal,
+    /// A sign to pedestrians. That they may go is for the corridor alone.
+    SignalToPedestrians,
+    Means,
+    /// This word.
+    Word(&'static str),
+}
+
+pub(super) const SEGMENT: &str = "segment";
+pub(super) const INTERSECTION: &str = "intersection";
+pub(super) const NONE: &str = "none";
+pub(super) const LOST: &str = "lost";
+pub(super) const CHARGING: &str = "charging";
+
+const STATES: [(&str, State); 4] = [
+    ("idle", State::Idle),
+    ("help-requested", State::HelpRequested),
+    ("role-established", State::RoleEstablished),
+    ("maneuver-executing", State::ManeuverExecuting),
+];
+
+const MEANS: [(&str, SignalMeans); 4] = [
+    ("gesture", SignalMeans::GESTURE),
+    ("display", SignalMeans::DISPLAY),
+    ("lights", SignalMeans::LIGHTS),
+    ("speech", SignalMeans::SPEECH),
+];
+
+const URGENCIES: [Urgency; 4] = [
+    Urgency::Low,
+    Urgency::Medium,
+    Urgency::High,
+    Urgency::Emergency,
+];
+
+const REASONS: [Unavailability; 5] = [
+    Unavailability::LowBattery,
+    Unavailability::Teleoperated,
+    Unavailability::EmergencyStop,
+    Unavailability::LocalFault,
+    Unavailability::NotSafe,
+];
+
+const SIGNALS: [PublicSignal; 4] = [
+    PublicSignal::None,
+    PublicSignal::Stop,
+    PublicSignal::Go,
+    PublicSignal::Caution,
+];
+
+fn tasks() -> impl Iterator<Item = TaskType> {
+    TaskSet(u16::MAX).iter()
+}
+
+fn name_of(reason: Unavailability) -> String {
+    reason.to_string().replace(' ', "-")
+}
+
+impl Kind {
+    /// The names to choose from. Commands and stations are named elsewhere.
+    pub(super) fn names(self) -> Vec<String> {
+        let texts = |all: &[PublicSignal]| all.iter().map(ToString::to_string).collect();
+        match self {
+            Self::Command | Self::Station => Vec::new(),
+            Self::Task => tasks().map(|task| task.to_string()).collect(),
+            Self::Urgency => URGENCIES.iter().map(ToString::to_string).collect(),
+            Self::Reason => REASONS.into_iter().map(name_of).collect(),
+            Self::State => STATES.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            Self::Job => job_names(),
+            Self::Signal => texts(&SIGNALS),
+            Self::SignalToPedestrians => {
+                let mut all = SIGNALS.to_vec();
+                all.retain(|signal| *signal != PublicSignal::Go);
+                texts(&all)
+            }
+            Self::Means => MEANS.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            Self::Word(word) => vec![word.to_owned()],
+        }
+    }
+}
+
+pub(super) fn wrong(word: &str, wanted: impl Into<Cow<'static, str>>) -> Misunderstood {
+    Misunderstood::Word {
+        word: word.to_owned(),
+        wanted: wanted.into(),
+    }
+}
+
+/// A command that takes no words was given none.
+pub(super) fn nothing(words: &[&str]) -> Result<(), Misunderstood> {
+    words.last().map_or(Ok(()), |last| Err(surplus(last)))
+}
+
+/// The only word of a command.
+pub(super) fn only<'a>(
+    words: &[&'a str],
+    command: &'static str,
+    wanted: &'static str,
+) -> Result<&'a str, Misunderstood> {
+    match words {
+        [] => Err(Misunderstood::Missing { command, wanted }),
+        [word] => Ok(word),
+        [.., last] => Err(surplus(last)),
+    }
+}
+
+pub(super) fn surplus(word: &str) -> Misunderstood {
+    Misunderstood::Surplus(word.to_owned())
+}
+
+pub(super) fn number(word: &str) -> Option<f64> {
+    word.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+pub(super) fn seconds(word: &str) -> Result<Duration, Misunderstood> {
+    let seconds = number(word).filter(|seconds| (0.0..=86_400.0).contains(seconds));
+    seconds
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| wrong(word, "a number of seconds up to a day"))
+}
+
+pub(super) fn task(name: &str) -> Result<TaskType, Misunderstood> {
+    let task = tasks().find(|task| task.to_string() == name);
+    task.ok_or_else(|| wrong(name, format!("a task: {TaskNames}")))
+}
+
+pub(super) fn urgency(name: &str) -> Option<Urgency> {
+    let mut all = URGENCIES.into_iter();
+    all.find(|urgency| urgency.to_string() == name)
+}
+
+pub(super) fn unavailability(name: &str) -> Result<Unavailability, Misunderstood> {
+    let reason = REASONS.into_iter().find(|reason| name_of(*reason) == name);
+    reason.ok_or_else(|| wrong(name, "a reason to be unavailable; see 'help'"))
+}
+
+pub(super) fn state(name: &str) -> Result<State, Misunderstood> {
+    let state = STATES.into_iter().find(|(it, _)| *it == name);
+    state
+        .map(|(_, state)| state)
+        .ok_or_else(|| wrong(name, "a state; see 'help'"))
+}
+
+pub(super) fn job(name: &str) -> Result<JobRole, Misunderstood> {
+    job_named(name).ok_or_else(|| wrong(name, "a job; see 'help'"))
+}
+
+pub(super) fn signal(name: &str) -> Option<PublicSignal> {
+    let mut all = SIGNALS.into_iter();
+    all.find(|signal| signal.to_string() == name)
+}
+
+pub(super) fn means(name: &str) -> Result<SignalMeans, Misunderstood> {
+    let means = MEANS.into_iter().find(|(it, _)| *it == name);
+    means
+        .map(|(_, means)| means)
+        .ok_or_else(|| wrong(name, "gesture, display, lights or speech"))
+}
+
+/// What a place of the map is like.
+pub(super) const MAP_PLACE: &str =
+    "a road segment or intersection, like 'segment 276:12' or 'intersection 4711'";
+
+pub(super) fn map_place(kind: &str, reference: &str) -> Result<MapPlace, Misunderstood> {
+    let text = format!("{kind} {reference}");
+    text.parse().map_err(|_| wrong(&text, MAP_PLACE))
+}

@@ -1,0 +1,245 @@
+//! The server of the views.
+//!
+//! Pages, style and scripts are in the program, and load nothing from elsewhere. What logs say reaches
+//! a page as JSON and is put into it as text, never as markup; the browser runs no other script
+//! (see the policy in the head of each answer). Only clients that name this machine are answered, so that a page of a
+//! stranger whose name is made to lead here reads nothing.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+use std::net::{IpAddr, SocketAddr};
+
+use super::Studio;
+use crate::http::{self, Answer, Request};
+
+/// What goes with each answer: the page may run and load what this server has, and nothing else.
+const HEADERS: &str = "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; \
+    img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
+    X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n\
+    Cross-Origin-Opener-Policy: same-origin\r\nCache-Control: no-store\r\n";
+
+/// The most octets that a page may send with one question.
+const QUESTION_MAX: usize = 1 << 20;
+
+const TEXT: &str = "text/plain; charset=utf-8";
+const HTML: &str = "text/html; charset=utf-8";
+
+/// Where a page has the links to the views, and the first page their descriptions.
+const LINKS: &str = "<!-- views -->";
+const CARDS: &str = "<!-- cards -->";
+
+/// A file of a page: its name, and what is in it. The end of the name says the type.
+pub(super) type Asset = (&'static str, &'static str);
+
+/// The files that pages share.
+const SHARED: [Asset; 11] = [
+    ("studio.css", include_str!("shell/studio.css")),
+    ("icon.svg", include_str!("shell/icon.svg")),
+    ("dom.js", include_str!("shell/dom.js")),
+    ("run.css", include_str!("run/run.css")),
+    ("map.js", include_str!("run/map.js")),
+    ("messages.js", include_str!("run/messages.js")),
+    ("panels.js", include_str!("run/panels.js")),
+    ("walk.css", include_str!("walk/walk.css")),
+    ("chart.js", include_str!("walk/chart.js")),
+    ("scene.js", include_str!("walk/scene.js")),
+    ("model.js", include_str!("walk/model.js")),
+];
+
+/// A view: a page, and what it asks the server.
+pub(super) trait View: Send + Sync {
+    /// The page is at `/NAME/`.
+    fn name(&self) -> &'static str;
+    /// How it is called on pages.
+    fn title(&self) -> &'static str;
+    /// What is seen there, in a sentence.
+    fn about(&self) -> &'static str;
+    /// The command that gives it something to show, where this studio was given nothing.
+    fn wants(&self) -> Option<&'static str>;
+    /// Its page as `index.html`, with [`LINKS`] in it, its scripts and styles.
+    fn files(&self) -> &'static [Asset];
+    /// The answer, in JSON, to `/NAME/api/WHAT?QUERY`, with the body of a POST.
+    fn ask(&self, what: &str, query: &str, body: &str) -> Result<String, Refusal>;
+}
+
+/// Why a question of a page has no answer.
+pub(super) enum Refusal {
+    /// There is no such question.
+    Unknown,
+    /// It is asked wrongly: what is wanted.
+    Wrong(String),
+}
+
+/// The value of a name in a query.
+pub(super) fn value<'a>(query: &'a str, name: &str) -> Option<&'a str> {
+    let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
+    pairs.find(|(key, _)| *key == name).map(|(_, value)| value)
+}
+
+/// Serves the pages at `address` until the process ends. The address that they are served at.
+///
+/// # Errors
+/// When nothing can be served there.
+pub fn serve(address: SocketAddr, studio: Studio) -> std::io::Result<SocketAddr> {
+    let views = studio.views();
+    http::serve(address, "studio", QUESTION_MAX, move |request| {
+        if !is_own(request.host, address) {
+            let refusal =
+                "the studio answers to 127.0.0.1, localhost and the address that it is served at\n";
+            return answer("421 Misdirected Request", TEXT, refusal);
+        }
+        respond(request, &views)
+    })
+}
+
+/// Whether a client means this server, and not a name of somebody else that was made to lead here.
+fn is_own(host: Option<&str>, address: SocketAddr) -> bool {
+    let Some(host) = host else { return false };
+    let bracket = host.rfind(']').unwrap_or(0);
+    let name = match host.rfind(':').filter(|colon| *colon > bracket) {
+        Some(colon) => &host[..colon],
+        None => host,
+    };
+    let ip = address.ip();
+    let own = match ip {
+        IpAddr::V4(ip) => ip.to_string(),
+        IpAddr::V6(ip) => format!("[{ip}]"),
+    };
+    // At all addresses of a machine its own are meant, and a number is nobody's name.
+    let plain = name.trim_start_matches('[').trim_end_matches(']');
+    let is_number = ip.is_unspecified() && plain.parse::<IpAddr>().is_ok();
+    ["127.0.0.1", "[::1]", "localhost", &own].contains(&name) || is_number
+}
+
+fn respond(request: &Request, views: &[Box<dyn View>]) -> Answer {
+    let path = request.path.trim_start_matches('/');
+    if path.is_empty() {
+        return answer("200 OK", HTML, home(views));
+    }
+    let Some((folder, file)) = path.split_once('/') else {
+        let view = views.iter().find(|view| view.name() == path);
+        return view.map_or_else(nothing, |view| moved(view.name()));
+    };
+    if folder == "shell" {
+        return find(&SHARED, file, views, None);
+    }
+    let Some(view) = views.iter().find(|view| view.name() == folder) else {
+        return nothing();
+    };
+    let Some(what) = file.strip_prefix("api/") else {
+        return find(view.files(), file, views, Some(&**view));
+    };
+    match view.ask(what, request.query, request.body) {
+        Ok(json) => answer("200 OK", "application/json", json),
+        Err(Refusal::Unknown) => nothing(),
+        Err(Refusal::Wrong(cause)) => answer("400 Bad Request", TEXT, format!("{cause}\n")),
+    }
+}
+
+/// To the folder of a view: its files are beside its page.
+fn moved(view: &str) -> Answer {
+    let answer = answer("308 Permanent Redirect", TEXT, "the page is a folder\n");
+    Answer {
+        headers: format!("{}Location: /{view}/\r\n", answer.headers).into(),
+        ..answer
+    }
+}
+
+fn nothing() -> Answer {
+    answer("404 Not Found", TEXT, "the page is at /\n")
+}
+
+fn find(files: &[Asset], name: &str, views: &[Box<dyn View>], of: Option<&dyn View>) -> Answer {
+    let name = if name.is_empty() { "index.html" } else { name };
+    let Some((_, text)) = files.iter().find(|(file, _)| *file == name) else {
+        return nothing();
+    };
+    let kind = match name.rsplit('.').next() {
+        Some("css") => "text/css; charset=utf-8",
+        Some("svg") => "image/svg+xml",
+        Some("js") => "text/javascript; charset=utf-8",
+        _ => return answer("200 OK", HTML, text.replace(LINKS, &links(views, of))),
+    };
+    answer("200 OK", kind, *text)
+}
+
+/// The links to the views, one of which may be the page that they stand on.
+fn links(views: &[Box<dyn View>], here: Option<&dyn View>) -> String {
+    let mut links = String::from("<nav aria-label=\"Views\">");
+    for view in views {
+        let is_here = here.is_some_and(|here| here.name() == view.name());
+        let current = if is_here {
+            " aria-current=\"page\""
+        } else {
+            ""
+        };
+        let _ = write!(
+            links,
+            "<a href=\"/{}/\"{current}>{}</a>",
+            view.name(),
+            view.title()
+        );
+    }
+    links + "</nav>"
+}
+
+/// The first page: what can be looked at.
+fn home(views: &[Box<dyn View>]) -> String {
+    let mut cards = String::new();
+    for view in views {
+        let _ = write!(
+            cards,
+            "<li><h2><a href=\"/{}/\">{}</a></h2><p>{}</p>",
+            view.name(),
+            view.title(),
+            view.about()
+        );
+        if let Some(command) = view.wants() {
+            let _ = write!(
+                cards,
+                "<p class=\"faint\">Nothing to show yet: <code>{command}</code></p>"
+            );
+        }
+        cards.push_str("</li>\n");
+    }
+    let page = include_str!("shell/home.html").replace(LINKS, &links(views, None));
+    page.replace(CARDS, &cards)
+}
+
+fn answer(
+    status: &'static str,
+    content_type: &'static str,
+    body: impl Into<Cow<'static, str>>,
+) -> Answer {
+    Answer {
+        status,
+        content_type,
+        headers: HEADERS.into(),
+        body: body.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_others_are_not_answered() {
+        let local = "127.0.0.1:3100".parse().unwrap();
+        for host in ["127.0.0.1:3100", "localhost:9", "localhost", "[::1]:3100"] {
+            assert!(is_own(Some(host), local), "{host}");
+        }
+        for host in [
+            "evil.example:3100",
+            "127.0.0.1.evil.example",
+            "10.0.0.7:3100",
+            "",
+        ] {
+            assert!(!is_own(Some(host), local), "{host}");
+        }
+        assert!(!is_own(None, local));
+        let all = "0.0.0.0:3100".parse().unwrap();
+        assert!(is_own(Some("10.0.0.7:3100"), all));
+        assert!(!is_own(Some("evil.example:3100"), all));
+    }
+}

@@ -1,0 +1,207 @@
+//! `crossguard check --workers` and `--hosts`, as their user runs them: threads, processes, and processes that die.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+use crossguard_testkit::command::*;
+use tempfile::TempDir;
+
+/// A file with this number of hosts that are free just now.
+fn hosts(folder: &Path, number: u16) -> String {
+    let first = free_tcp_ports(number);
+    let lines = (first..first + number).map(|port| format!("127.0.0.1:{port}\n"));
+    let file = folder.join("hosts.txt");
+    fs::write(&file, lines.collect::<String>()).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+fn process(scenario: &str, hosts: &str, number: usize) -> Child {
+    let mut command = crossguard(&["check", scenario, "--json", "--hosts", hosts, "--process"]);
+    command.args([&number.to_string(), "--patience", "300"]);
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command.spawn().unwrap()
+}
+
+#[test]
+fn workers_report_what_they_judge_and_name_what_they_do_not() {
+    let output = run(&["check", "stable", "--workers", "2", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let scenario = &json(&output)["scenarios"][0];
+    let existing = json(&run(&["check", "stable", "--json"]));
+    let existing = &existing["scenarios"][0];
+    for figure in [
+        "unique_states",
+        "transitions",
+        "depth",
+        "exhaustive",
+        "size_as_expected",
+    ] {
+        assert_eq!(scenario[figure], existing[figure], "{figure}");
+    }
+    assert_eq!(scenario["fingerprint_bits"], 92);
+    assert!(scenario["omission_probability"].as_f64().unwrap() < 1e-9);
+    let judged = scenario["properties"].as_array().unwrap();
+    let not_judged = scenario["not_judged"].as_array().unwrap();
+    assert!(!judged.is_empty() && !not_judged.is_empty());
+    assert!(
+        judged
+            .iter()
+            .all(|property| !not_judged.contains(&property["id"]))
+    );
+}
+
+#[test]
+fn two_processes_report_the_same() {
+    let folder = TempDir::new().unwrap();
+    let hosts = hosts(folder.path(), 2);
+    let processes = [0, 1].map(|number| process("stable", &hosts, number));
+    let reports = processes.map(|process| {
+        let output = process.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let mut report = json(&output)["scenarios"][0].clone();
+        report["seconds"].take();
+        report
+    });
+    assert_eq!(reports[0], reports[1]);
+    assert_eq!(reports[0]["processes"], 2);
+}
+
+#[test]
+fn when_one_of_four_processes_is_killed_the_others_say_that_they_are_incomplete() {
+    let folder = TempDir::new().unwrap();
+    let hosts = hosts(folder.path(), 4);
+    let mut processes: Vec<_> = (0..4)
+        .map(|number| process("team-of-four", &hosts, number))
+        .collect();
+    // It is in mid-run once it tells of a level.
+    let mut killed = processes.remove(2);
+    let progress = std::io::BufReader::new(killed.stderr.take().unwrap());
+    let line =
+        std::io::BufRead::lines(progress).find(|line| line.as_ref().unwrap().contains("level"));
+    assert!(line.is_some(), "it ended before it was killed");
+    killed.kill().unwrap();
+    let killed_at = Instant::now();
+    killed.wait().unwrap();
+    for process in processes {
+        let output = process.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+        let told = stderr(&output);
+        assert!(
+            told.contains("incomplete: a process or the connection to it was lost"),
+            "{told}"
+        );
+        assert!(!told.contains("panicked"), "{told}");
+        assert!(output.stdout.is_empty(), "{}", stdout(&output));
+    }
+    // The run itself takes minutes.
+    eprintln!("noticed within {:?}", killed_at.elapsed());
+    assert!(killed_at.elapsed() < Duration::from_mins(1));
+}
+
+#[test]
+fn a_process_that_is_held_up_does_not_hold_up_the_others_for_ever() {
+    let folder = TempDir::new().unwrap();
+    let hosts = hosts(folder.path(), 2);
+    let begin = |number: usize| {
+        let number = number.to_string();
+        let mut command = crossguard(&["check", "team-of-four", "--hosts", &hosts]);
+        command.args(["--process", &number, "--timeout", "3"]);
+        command
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command.spawn().unwrap()
+    };
+    let (waits, mut held) = (begin(0), begin(1));
+    let progress = std::io::BufReader::new(held.stderr.take().unwrap());
+    let line =
+        std::io::BufRead::lines(progress).find(|line| line.as_ref().unwrap().contains("level"));
+    assert!(line.is_some(), "it ended before it was held up");
+    signal(&held, "-STOP");
+    let output = waits.wait_with_output().unwrap();
+    held.kill().unwrap();
+    held.wait().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let told = stderr(&output);
+    assert!(told.contains("says nothing any more"), "{told}");
+    assert!(output.stdout.is_empty(), "{}", stdout(&output));
+}
+
+#[test]
+fn processes_that_check_something_else_are_refused() {
+    let folder = TempDir::new().unwrap();
+    let hosts = hosts(folder.path(), 2);
+    let processes = [process("stable", &hosts, 0), process("wrap", &hosts, 1)];
+    for process in processes {
+        let output = process.wait_with_output().unwrap();
+        assert_refused(
+            &output,
+            "checks something else: all processes need the same scenario",
+        );
+    }
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_with_its_cause() {
+    let folder = TempDir::new().unwrap();
+    let good = hosts(folder.path(), 2);
+    let one = folder.path().join("one.txt");
+    fs::write(&one, "127.0.0.1:7000\n").unwrap();
+    let one = one.to_str().unwrap();
+    for (arguments, cause) in [
+        (vec!["timed-pair", "--workers", "2"], "is a timed scenario"),
+        (vec!["paper-literal", "--workers", "2"], "is no scenario"),
+        (vec!["--workers", "2"], "want a scenario"),
+        (vec!["stable", "--workers", "0"], "from 1 to 1024"),
+        (
+            vec!["stable", "--hosts", one, "--process", "0"],
+            "1 of at least 2 hosts",
+        ),
+        (
+            vec!["stable", "--hosts", "no-such-file", "--process", "0"],
+            "no-such-file",
+        ),
+        (
+            vec!["stable", "--hosts", &good, "--process", "2"],
+            "there is no process 2",
+        ),
+        (
+            vec!["stable", "wrap", "--hosts", &good, "--process", "0"],
+            "--hosts wants one scenario",
+        ),
+        (vec!["stable", "--hosts", &good], "--process"),
+    ] {
+        assert_refused(&run(&[vec!["check"], arguments].concat()), cause);
+    }
+    let port = fs::read_to_string(&good).unwrap();
+    let _taken = std::net::TcpListener::bind(port.lines().next().unwrap()).unwrap();
+    let refused = run(&["check", "stable", "--hosts", &good, "--process", "0"]);
+    assert_refused(&refused, "process 0 cannot listen at 127.0.0.1:");
+}
+
+#[test]
+fn a_process_that_never_comes_leaves_the_check_incomplete() {
+    let folder = TempDir::new().unwrap();
+    let hosts = hosts(folder.path(), 2);
+    let output = run(&[
+        "check",
+        "stable",
+        "--hosts",
+        &hosts,
+        "--process",
+        "0",
+        "--patience",
+        "1",
+    ]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(
+        stderr(&output).contains("was not there within 1 s"),
+        "{}",
+        stderr(&output)
+    );
+}

@@ -1,0 +1,316 @@
+//! States that leave their process, and fingerprints that are the same in every process.
+//!
+//! Inside a process a state is made of numbers of its parts, in the order of first use; another process has
+//! other numbers for the same parts. So a state travels with the sender's numbers, and each part goes ahead of
+//! it once ([`Packer`]); the receiver looks up its own numbers ([`Unpacker`]). A fingerprint is made of what the
+//! parts hold and of nothing else ([`Fingerprints`]), and of all states that stand for one class of symmetric ones
+//! it is the smallest.
+//!
+//! Both ends have to be the same build of the same version: the parts are hashed as they lie in memory.
+
+use std::collections::{HashMap, HashSet};
+use std::hash::Hash;
+
+use rustc_hash::FxBuildHasher;
+use serde::{Deserialize, Serialize};
+use siphasher::sip128::{Hasher128, SipHasher13};
+
+use super::{Action, Draft, Model, ModelState};
+use crate::check::chart;
+use crate::network::{Message, Network, Transmission};
+use crate::scenario::{Bounds, MAX_ROBOTS};
+use crate::sequence::ChartStep;
+
+/// What a part of a state is.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+pub enum PartKind {
+    /// A robot with its body.
+    Node,
+    /// What has happened.
+    History,
+    /// A message.
+    Message,
+    /// All messages ever sent on a monotone channel.
+    Sent,
+}
+
+/// A part of states, under the sender's number.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Part {
+    /// What it is.
+    pub kind: PartKind,
+    /// The sender's number of it.
+    pub number: u32,
+    /// What it holds, as JSON: each part travels once, and few do.
+    pub text: String,
+}
+
+/// A state, made of the sender's numbers of its parts.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct PackedState {
+    nodes: [u32; MAX_ROBOTS],
+    history: u32,
+    broken: u32,
+    left: Bounds,
+    hung: u8,
+    on_air: Vec<Transmission>,
+    delayed: Vec<Transmission>,
+    sent: u32,
+}
+
+/// A state came with a part that was not sent before it, or that is none.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("another process sent a state of which a part is missing or cannot be read: {0}")]
+pub struct UnknownPart(String);
+
+/// Packs states for one receiver.
+#[derive(Default)]
+pub struct Packer(HashSet<(PartKind, u32), FxBuildHasher>);
+
+impl Packer {
+    /// The state for the receiver. Parts that were not sent before are added to `news`.
+    ///
+    /// # Panics
+    /// Where a part cannot be written as JSON, which all can.
+    pub fn pack(&mut self, model: &Model, state: &ModelState, news: &mut Vec<Part>) -> PackedState {
+        let (robots, network) = (model.0.scenario.robots.len(), model.network(state));
+        for &node in &state.nodes[..robots] {
+            self.tell(PartKind::Node, node, news, || {
+                serde_json::to_string(model.0.steps.nodes.value(node))
+            });
+        }
+        self.tell(PartKind::History, state.history, news, || {
+            serde_json::to_string(model.history(state))
+        });
+        for message in network.messages() {
+            self.tell_message(model, message, news);
+        }
+        for sent in model.0.sets.transmissions(network.sent) {
+            self.tell_message(model, sent.message, news);
+        }
+        self.tell(PartKind::Sent, network.sent, news, || {
+            let sent: Vec<_> = model.0.sets.transmissions(network.sent).collect();
+            serde_json::to_string(&sent)
+        });
+        PackedState {
+            nodes: state.nodes,
+            history: state.history,
+            broken: state.broken,
+            left: state.left,
+            hung: state.hung,
+            on_air: network.on_air().collect(),
+            delayed: network.delayed().collect(),
+            sent: network.sent,
+        }
+    }
+
+    fn tell_message(&mut self, model: &Model, message: u16, news: &mut Vec<Part>) {
+        self.tell(PartKind::Message, message.into(), news, || {
+            serde_json::to_string(model.message(message))
+        });
+    }
+
+    fn tell(
+        &mut self,
+        kind: PartKind,
+        number: u32,
+        news: &mut Vec<Part>,
+        text: impl FnOnce() -> serde_json::Result<String>,
+    ) {
+        if self.0.insert((kind, number)) {
+            let text = text().expect("parts have names as keys alone");
+            news.push(Part { kind, number, text });
+        }
+    }
+}
+
+/// Unpacks the states of one sender.
+#[derive(Default)]
+pub struct Unpacker(HashMap<(PartKind, u32), u32, FxBuildHasher>);
+
+impl Unpacker {
+    /// Takes in a part.
+    ///
+    /// # Errors
+    /// It is not what it says that it is.
+    pub fn learn(&mut self, model: &Model, part: &Part) -> Result<(), UnknownPart> {
+        let cannot = |cause: serde_json::Error| UnknownPart(cause.to_string());
+        let shared = &model.0;
+        let own = match part.kind {
+            PartKind::Node => shared
+                .steps
+                .nodes
+                .number(serde_json::from_str(&part.text).map_err(cannot)?),
+            PartKind::History => shared
+                .histories
+                .number(serde_json::from_str(&part.text).map_err(cannot)?),
+            PartKind::Message => {
+                let message: Message = serde_json::from_str(&part.text).map_err(cannot)?;
+                shared.steps.message_number(message).into()
+            }
+            PartKind::Sent => {
+                let sent: Vec<Transmission> = serde_json::from_str(&part.text).map_err(cannot)?;
+                let sent = self.own(sent)?;
+                shared.sets.of(&sent, &shared.steps)
+            }
+        };
+        self.0.insert((part.kind, part.number), own);
+        Ok(())
+    }
+
+    /// The state, made of this process's numbers; where robots are symmetric, the one that stands for its class here.
+    ///
+    /// # Errors
+    /// A part of it was not sent before.
+    pub fn unpack(&self, model: &Model, packed: PackedState) -> Result<ModelState, UnknownPart> {
+        let mut nodes = packed.nodes;
+        for node in &mut nodes[..model.0.scenario.robots.len()] {
+            *node = self.number(PartKind::Node, *node)?;
+        }
+        let mut network = Network::EMPTY;
+        for sent in self.own(packed.on_air)? {
+            network.send(sent);
+        }
+        for delayed in self.own(packed.delayed)? {
+            network.delay(delayed);
+        }
+        network.sent = self.number(PartKind::Sent, packed.sent)?;
+        let state = ModelState {
+            nodes,
+            history: self.number(PartKind::History, packed.history)?,
+            broken: packed.broken,
+            left: packed.left,
+            hung: packed.hung,
+            network: 0,
+        };
+        Ok(model.interned(model.representative_of(Draft { state, network })))
+    }
+
+    fn own(&self, mut sent: Vec<Transmission>) -> Result<Vec<Transmission>, UnknownPart> {
+        for transmission in &mut sent {
+            let own = self.number(PartKind::Message, transmission.message.into())?;
+            transmission.message = u16::try_from(own).expect("numbers of messages are small");
+        }
+        Ok(sent)
+    }
+
+    fn number(&self, kind: PartKind, number: u32) -> Result<u32, UnknownPart> {
+        let own = self.0.get(&(kind, number)).copied();
+        own.ok_or_else(|| UnknownPart(format!("{kind:?} {number}")))
+    }
+}
+
+/// Hashes of 128 bits of a process's parts of one kind, by number.
+#[derive(Default)]
+struct KnownHashes(Vec<Option<u128>>);
+
+impl KnownHashes {
+    fn of(&mut self, number: u32, hash: impl FnOnce() -> u128) -> u128 {
+        let at = number as usize;
+        if at >= self.0.len() {
+            self.0.resize(at + 1, None);
+        }
+        *self.0[at].get_or_insert_with(hash)
+    }
+}
+
+/// Makes fingerprints of 128 bits; states of one class of symmetric ones have the same. For one thread.
+#[derive(Default)]
+pub struct Fingerprints {
+    nodes: KnownHashes,
+    histories: KnownHashes,
+    messages: KnownHashes,
+    sent: KnownHashes,
+}
+
+impl Fingerprints {
+    /// The fingerprint of a state.
+    pub fn of(&mut self, model: &Model, state: &ModelState) -> u128 {
+        let symmetry = &model.0.symmetry;
+        let network = *model.network(state);
+        if symmetry.is_trivial() {
+            return self.of_one(model, state, &network);
+        }
+        let draft = Draft {
+            state: state.clone(),
+            network,
+        };
+        let images = model.node_images(state);
+        let exchanges = symmetry.exchanges.iter().enumerate();
+        let nodes: Vec<_> = exchanges
+            .map(|(i, exchange)| {
+                let nodes = super::canonical::exchanged(&state.nodes, &images, i, exchange);
+                (self.hashes_of_nodes(model, &nodes), nodes)
+            })
+            .collect();
+        let smallest = nodes.iter().map(|(hashes, _)| *hashes).min();
+        // Robots in equal states leave it to the rest to tell which is which.
+        let candidates = nodes.iter().enumerate();
+        let of_candidates = candidates
+            .filter(|(_, (hashes, _))| Some(*hashes) == smallest)
+            .map(|(i, (_, nodes))| {
+                let image = model.image(&draft, *nodes, i);
+                self.of_one(model, &image.state, &image.network)
+            });
+        of_candidates.fold(u128::MAX, u128::min)
+    }
+
+    fn hashes_of_nodes(&mut self, model: &Model, nodes: &[u32; MAX_ROBOTS]) -> [u128; MAX_ROBOTS] {
+        let mut hashes = [0; MAX_ROBOTS];
+        let robots = model.0.scenario.robots.len();
+        for (hash, &node) in hashes.iter_mut().zip(&nodes[..robots]) {
+            *hash = self
+                .nodes
+                .of(node, || hashed(model.0.steps.nodes.value(node)));
+        }
+        hashes
+    }
+
+    fn of_one(&mut self, model: &Model, state: &ModelState, network: &Network) -> u128 {
+        let nodes = self.hashes_of_nodes(model, &state.nodes);
+        let history = self.histories.of(state.history, || {
+            hashed(model.0.histories.value(state.history))
+        });
+        let mut hasher = SipHasher13::new();
+        (nodes, history, state.broken, state.left, state.hung).hash(&mut hasher);
+        for sent in network.on_air() {
+            self.of_transmission(model, sent).hash(&mut hasher);
+        }
+        // Sets, whose order is that of this process's numbers.
+        let delayed = self.sum(model, network.delayed());
+        let sent = network.sent;
+        let known = self.sent.0.get(sent as usize).copied().flatten();
+        let all_sent = known.unwrap_or_else(|| {
+            let sum = self.sum(model, model.0.sets.transmissions(sent));
+            self.sent.of(sent, || sum)
+        });
+        (delayed, all_sent).hash(&mut hasher);
+        hasher.finish128().into()
+    }
+
+    fn sum(&mut self, model: &Model, sent: impl Iterator<Item = Transmission>) -> u128 {
+        sent.fold(0, |sum: u128, one| {
+            sum.wrapping_add(self.of_transmission(model, one))
+        })
+    }
+
+    fn of_transmission(&mut self, model: &Model, sent: Transmission) -> u128 {
+        let message = self
+            .messages
+            .of(sent.message.into(), || hashed(model.message(sent.message)));
+        hashed(&(sent.from, sent.to, message))
+    }
+}
+
+/// A hash of 128 bits that is the same in each process of a build.
+pub fn hashed(value: &impl Hash) -> u128 {
+    let mut hasher = SipHasher13::new();
+    value.hash(&mut hasher);
+    hasher.finish128().into()
+}
+
+/// A run through states that stand for their classes, as the steps of a chart of real robots.
+#[must_use]
+pub fn charted(model: &Model, path: Vec<(ModelState, Option<Action>)>) -> Vec<ChartStep> {
+    chart(model, model.real_run(path))
+}

@@ -1,0 +1,114 @@
+//! Runs that the paper's wording allows, for people who step through them.
+
+use serde::Serialize;
+
+use super::robot::{HelpStatus, PaperRobot};
+use super::world::PaperWorld;
+use super::{Counterexample, broken_on_road, counterexamples};
+use crate::sequence::ChartStep;
+
+/// A run that brings a hazard about, or breaks a property of the road.
+#[derive(Clone, Debug, Serialize)]
+pub struct PaperRun {
+    /// The hazard's id, or the property's.
+    pub id: &'static str,
+    /// What happens, in a few words.
+    pub title: &'static str,
+    /// What the text says about it, in one word.
+    pub kind: &'static str,
+    /// The section of the paper.
+    pub section: &'static str,
+    /// The paragraph in it.
+    pub paragraph: &'static str,
+    /// What it breaks.
+    pub statement: &'static str,
+    /// How it comes about.
+    pub explanation: &'static str,
+    /// What it means for a person on the road or at the kerb.
+    pub person: &'static str,
+    /// The rule of the kit's protocol that closes it.
+    pub closed_by: &'static str,
+    /// The robots' names.
+    pub robots: Vec<&'static str>,
+    /// What happens, in order.
+    pub steps: Vec<ChartStep>,
+    /// How many steps come before the steps that are repeated for ever, where the run is without end.
+    pub repeats_after: Option<usize>,
+    /// What each robot is doing at the start, and after each step.
+    pub frames: Vec<Vec<PaperRobotFrame>>,
+}
+
+/// One robot in one state.
+#[derive(Clone, Debug, Serialize)]
+pub struct PaperRobotFrame {
+    /// The state of the paper's machine.
+    pub state: String,
+    /// Its side in that state; empty where it has none.
+    pub role: &'static str,
+    /// What its RAM says.
+    pub words: String,
+    /// Whether it has broken down.
+    pub is_down: bool,
+}
+
+/// The shortest run of each hazard and of each property of the road that the paper's wording breaks.
+#[must_use]
+pub fn runs() -> Vec<PaperRun> {
+    let found = counterexamples().into_iter().chain(broken_on_road());
+    found.map(|found| PaperRun::of(&found)).collect()
+}
+
+impl PaperRun {
+    fn of(found: &Counterexample) -> Self {
+        let text = found.text;
+        let first = found.steps.first().map(|step| frame(&step.before));
+        let later = found.steps.iter().map(|step| frame(&step.after));
+        Self {
+            id: text.id,
+            title: text.title,
+            kind: text.kind.name(),
+            section: text.passage.section,
+            paragraph: text.passage.paragraph,
+            statement: text.statement,
+            explanation: text.explanation,
+            person: text.person,
+            closed_by: text.closed_by,
+            robots: found.cast.names.to_vec(),
+            steps: found.chart(),
+            repeats_after: found.repeats_after(),
+            frames: first.into_iter().chain(later).collect(),
+        }
+    }
+}
+
+fn frame(world: &PaperWorld) -> Vec<PaperRobotFrame> {
+    let robots = world.robots.iter();
+    robots
+        .map(|robot| PaperRobotFrame::of(robot.as_ref()))
+        .collect()
+}
+
+impl PaperRobotFrame {
+    fn of(robot: Option<&PaperRobot>) -> Self {
+        let Some(robot) = robot else {
+            return Self {
+                state: String::new(),
+                role: "",
+                words: "down".to_owned(),
+                is_down: true,
+            };
+        };
+        Self {
+            state: format!("{:?}", robot.state),
+            role: match robot.status {
+                HelpStatus::None => "",
+                HelpStatus::NeedHelp => "requester",
+                HelpStatus::OfferHelp { .. } => "helper",
+                HelpStatus::Leader { .. } => "leader",
+                HelpStatus::Follower { .. } => "follower",
+            },
+            words: robot.ram().to_string(),
+            is_down: false,
+        }
+    }
+}

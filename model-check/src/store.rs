@@ -1,0 +1,191 @@
+//! States, each stored once, by sharing of their parts.
+//!
+//! A state is a row of numbers: of its robots, and of what is around them. Two neighbours are stored as a pair, which has a
+//! number itself, and so on up to one pair per state. Parts take far fewer values than there are states, so nearly all
+//! memory is that of the last pairs. Nothing is lost: states are equal where their pairs are. This is tree compression
+//! (Laarman, van de Pol and Weber, *Parallel Recursive State Compression for Free*, 2011).
+//!
+//! ```text
+//!   robot 0  robot 1   robot 2  robot 3   robot 4  robot 5   backdrop
+//!       └─ pair ─┘         └─ pair ─┘         └─ pair ─┘          │
+//!            └────── pair ──────┘                  └───── pair ───┘
+//!                        └─────────── state ───────────┘
+//! ```
+
+use std::hash::{BuildHasher, Hash};
+
+use hashbrown::HashTable;
+use rustc_hash::FxBuildHasher;
+
+use crate::model::{Backdrop, ModelState};
+use crate::scenario::MAX_ROBOTS;
+
+/// Values with numbers from 0, in the order in which they were added.
+struct Numbered<T> {
+    values: Vec<T>,
+    /// By what the values are.
+    numbers: HashTable<u32>,
+}
+
+impl<T> Default for Numbered<T> {
+    fn default() -> Self {
+        Self {
+            values: Vec::new(),
+            numbers: HashTable::new(),
+        }
+    }
+}
+
+impl<T: Copy + Eq + Hash> Numbered<T> {
+    fn find(&self, value: &T) -> Option<u32> {
+        self.find_hashed(hash(value), value)
+    }
+
+    fn find_hashed(&self, hashed: u64, value: &T) -> Option<u32> {
+        let is_it = |number: &u32| self.values[*number as usize] == *value;
+        self.numbers.find(hashed, is_it).copied()
+    }
+
+    /// The number of a value, a new one where it was not there.
+    ///
+    /// # Panics
+    /// Where 2^32 values are there.
+    fn add(&mut self, value: T) -> u32 {
+        let hashed = hash(&value);
+        if let Some(known) = self.find_hashed(hashed, &value) {
+            return known;
+        }
+        let fresh = u32::try_from(self.values.len()).expect("fewer than 2^32 values");
+        self.values.push(value);
+        let rehash = |&number: &u32| hash(&self.values[number as usize]);
+        self.numbers.insert_unique(hashed, fresh, rehash);
+        fresh
+    }
+
+    /// The value of a number that was given out.
+    fn get(&self, number: u32) -> T {
+        self.values[number as usize]
+    }
+
+    fn freeze(&mut self) {
+        self.numbers = HashTable::new();
+        self.values.shrink_to_fit();
+    }
+}
+
+fn hash(value: &impl Hash) -> u64 {
+    FxBuildHasher.hash_one(value)
+}
+
+type Pairs = Numbered<(u32, u32)>;
+
+/// States with numbers from 0, in the order in which they were added.
+#[derive(Default)]
+pub(crate) struct States {
+    backdrop: Numbered<Backdrop>,
+    /// Pairs of robots, by their places.
+    robots: [Pairs; PAIRS],
+    /// Pairs of the first two of these.
+    front: Pairs,
+    /// Pairs of the last of these with the backdrop.
+    back: Pairs,
+    whole: Pairs,
+}
+
+/// How many pairs of robots there are; the drawing above is about three.
+const PAIRS: usize = MAX_ROBOTS / 2;
+const _: () = assert!(PAIRS == 3 && MAX_ROBOTS.is_multiple_of(2));
+
+impl States {
+    /// As many as can be numbered.
+    pub(crate) const MAX: usize = u32::MAX as usize;
+
+    pub(crate) fn len(&self) -> usize {
+        self.whole.values.len()
+    }
+
+    /// The number of a state, if it was added, before [`States::freeze`].
+    pub(crate) fn find(&self, state: &ModelState) -> Option<u32> {
+        let (robots, backdrop) = state.parts();
+        let pair = |i: usize| self.robots[i].find(&(robots[2 * i], robots[2 * i + 1]));
+        let front = self.front.find(&(pair(0)?, pair(1)?))?;
+        let backdrop = self.backdrop.find(&backdrop)?;
+        let back = self.back.find(&(pair(2)?, backdrop))?;
+        self.whole.find(&(front, back))
+    }
+
+    /// The number of a state, a new one where it was not added before.
+    ///
+    /// # Panics
+    /// Where [`States::MAX`] states are there.
+    pub(crate) fn add(&mut self, state: &ModelState) -> u32 {
+        let (robots, backdrop) = state.parts();
+        let mut pair = |i: usize| self.robots[i].add((robots[2 * i], robots[2 * i + 1]));
+        let pairs: [u32; PAIRS] = std::array::from_fn(&mut pair);
+        let front = self.front.add((pairs[0], pairs[1]));
+        let backdrop = self.backdrop.add(backdrop);
+        let back = self.back.add((pairs[2], backdrop));
+        self.whole.add((front, back))
+    }
+
+    /// The state of a number.
+    pub(crate) fn get(&self, number: u32) -> ModelState {
+        let (front, back) = self.whole.get(number);
+        let (back, backdrop) = self.back.get(back);
+        let (first, second) = self.front.get(front);
+        let mut robots = [0; MAX_ROBOTS];
+        for (i, pair) in [first, second, back].into_iter().enumerate() {
+            (robots[2 * i], robots[2 * i + 1]) = self.robots[i].get(pair);
+        }
+        ModelState::of_parts(robots, self.backdrop.get(backdrop))
+    }
+
+    /// Gives memory back: nothing is added or looked for any more.
+    pub(crate) fn freeze(&mut self) {
+        self.backdrop.freeze();
+        for pairs in &mut self.robots {
+            pairs.freeze();
+        }
+        self.front.freeze();
+        self.back.freeze();
+        self.whole.freeze();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Model;
+    use crate::scenario::Scenario;
+
+    #[test]
+    fn a_state_is_what_its_number_says() {
+        let model = Model::new(Scenario::load("stable").unwrap());
+        let mut found = vec![model.initial()];
+        let mut states = States::default();
+        let mut at = 0;
+        while at < found.len() && found.len() < 2_000 {
+            let mut actions = Vec::new();
+            model.actions_in(&found[at], &mut actions);
+            for action in actions {
+                if let Some((next, _)) = model.successor(&found[at], action) {
+                    found.push(next);
+                }
+            }
+            at += 1;
+        }
+        let numbers: Vec<u32> = found.iter().map(|state| states.add(state)).collect();
+        assert!(states.len() > 100 && states.len() < found.len());
+        assert!(states.front.values.len() < states.len());
+        for (state, &number) in found.iter().zip(&numbers) {
+            assert_eq!(
+                (states.get(number), states.find(state)),
+                (state.clone(), Some(number))
+            );
+        }
+        states.freeze();
+        for (state, &number) in found.iter().zip(&numbers) {
+            assert_eq!(states.get(number), *state);
+        }
+    }
+}

@@ -1,0 +1,422 @@
+//! A walk through a scenario, step by step: what each robot is doing after each step, and what may happen next.
+//!
+//! The steps are those of [`Replay`], so a walk is kept and followed like a counterexample.
+//! Nothing is stored between two walks: whoever goes one step further walks again from the start.
+
+use crossguard_protocol::{Availability, Role, State, StationId};
+use rustc_hash::FxHashSet;
+use serde::{Deserialize, Serialize};
+
+use crate::check::{names, placed};
+use crate::model::{Action, Model, ModelState};
+use crate::network::Transmission;
+use crate::node::Node;
+use crate::properties::PropertyId;
+use crate::replay::{Replay, take};
+use crate::road::{Body, Pedestrian};
+use crate::scenario::{Bounds, Scenario};
+use crate::sequence::ChartStep;
+use crate::transitions::mode_parts;
+
+/// A scenario on its way.
+#[derive(Clone, Debug, Serialize)]
+pub struct Walk {
+    /// The scenario's name.
+    pub scenario: String,
+    /// What the scenario is about, in one line.
+    pub summary: String,
+    /// The robots' names, in the order of their places.
+    pub robots: Vec<String>,
+    /// What is so at the start, and after each step.
+    pub frames: Vec<WalkFrame>,
+    /// What may happen next; empty also where the last step broke a property of steps.
+    pub possible: Vec<ChartStep>,
+    /// Where the walk left the scenario, if it did. The frames end before that step.
+    pub stray: Option<Stray>,
+}
+
+/// What is so in one state.
+#[derive(Clone, Debug, Serialize)]
+pub struct WalkFrame {
+    /// The robots, in the order of their places.
+    pub robots: Vec<RobotFrame>,
+    /// The messages on air, in the order of sending.
+    pub on_air: Vec<OnItsWay>,
+    /// The messages that are delayed.
+    pub delayed: Vec<OnItsWay>,
+    /// The person at the crossing.
+    pub person: PersonFrame,
+    /// The ids of the properties whose premise the step, or the state after it, meets.
+    pub met: Vec<&'static str>,
+    /// The ids of the properties that the step or the state breaks.
+    pub broken: Vec<&'static str>,
+    /// How often what may still happen.
+    pub left: Bounds,
+}
+
+/// One robot in one state.
+#[derive(Clone, Debug, Serialize)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "facts that have nothing to do with each other"
+)]
+pub struct RobotFrame {
+    /// Its station id. It changes with its pseudonym.
+    pub station: StationId,
+    /// The state of the paper's machine.
+    pub state: &'static str,
+    /// Its side in that state: `leader`, `follower`, `requester`, `helper`; empty where it has none.
+    pub role: &'static str,
+    /// Protocol state and body in full, in words.
+    pub words: String,
+    /// The timers that run.
+    pub timers: Vec<String>,
+    /// What its body does.
+    pub body: BodyFrame,
+    /// The same, with the maneuver.
+    pub body_words: String,
+    /// Whether its sign shows go.
+    pub shows_go: bool,
+    /// Whether it has crashed and not booted again.
+    pub is_down: bool,
+    /// Whether it hangs.
+    pub hangs: bool,
+    /// Whether it takes part in coordination.
+    pub is_available: bool,
+    /// Whether its application has not yet said that the road is clear.
+    pub on_duty: bool,
+    /// Whether it follows and has lost contact with its leader.
+    pub lost_contact: bool,
+}
+
+/// What a body does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "as in Body")]
+pub enum BodyFrame {
+    Parked,
+    UnderWay,
+    InPosition,
+    FallingBack,
+    Ended,
+}
+
+/// The person at the crossing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PersonFrame {
+    /// Waits for a sign that shows go.
+    Waiting,
+    /// Is on the road, at the sign of the robot at this place.
+    OnRoad(Option<usize>),
+    /// Has crossed.
+    Across,
+}
+
+/// A message on its way; robots by their places.
+#[derive(Clone, Debug, Serialize)]
+pub struct OnItsWay {
+    /// The sender.
+    pub from: u8,
+    /// The receiver.
+    pub to: u8,
+    /// The message, in words.
+    pub text: String,
+}
+
+/// Where a walk left its scenario.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Stray {
+    /// The step, counted from 0.
+    pub step: usize,
+    /// What the robot puts out in this step now; `None` where the step cannot happen at all.
+    pub puts_out: Option<Vec<String>>,
+}
+
+impl Walk {
+    /// Follows `steps` through an untimed scenario, as far as that goes.
+    #[must_use]
+    pub fn along(scenario: Scenario, steps: &[ChartStep]) -> Self {
+        // A model of its own: it notes which premises are met.
+        let model = Model::new(scenario);
+        let mut state = model.initial();
+        let mut frames = vec![WalkFrame::of(&model, &state)];
+        let mut stray = None;
+        for (i, step) in steps.iter().enumerate() {
+            let taken = take(&model, &state, step);
+            let Some((_, next, outputs)) = taken else {
+                let (step, puts_out) = (i, None);
+                stray = Some(Stray { step, puts_out });
+                break;
+            };
+            if outputs != step.outputs {
+                let (step, puts_out) = (i, Some(outputs));
+                stray = Some(Stray { step, puts_out });
+                break;
+            }
+            state = next;
+            frames.push(WalkFrame::of(&model, &state));
+        }
+        let scenario = model.scenario();
+        Self {
+            scenario: scenario.name.clone(),
+            summary: scenario.summary.clone(),
+            robots: names(scenario),
+            possible: possible(&model, &state),
+            frames,
+            stray,
+        }
+    }
+}
+
+impl WalkFrame {
+    /// Premises count that were met since the last frame of the model.
+    fn of(model: &Model, state: &ModelState) -> Self {
+        let properties = &model.scenario().properties;
+        let is_broken =
+            |id: &PropertyId| Model::breaks(state, *id) || !model.state_rule_holds(state, *id);
+        let broken: Vec<_> = properties.iter().copied().filter(is_broken).collect();
+        let met = model.newly_met();
+        let (on_air, delayed) = model.on_their_way(state);
+        let robots = model.nodes(state).enumerate();
+        Self {
+            robots: robots
+                .map(|(place, node)| RobotFrame::of(node, state.hangs(place)))
+                .collect(),
+            on_air: OnItsWay::all(model, &on_air),
+            delayed: OnItsWay::all(model, &delayed),
+            person: match model.history(state).pedestrian {
+                Pedestrian::Waiting => PersonFrame::Waiting,
+                Pedestrian::OnRoad(session) => {
+                    PersonFrame::OnRoad(model.scenario().place_of(session.leader))
+                }
+                Pedestrian::Across => PersonFrame::Across,
+            },
+            met: met.into_iter().map(PropertyId::name).collect(),
+            broken: broken.into_iter().map(PropertyId::name).collect(),
+            left: state.left(),
+        }
+    }
+}
+
+impl RobotFrame {
+    fn of(node: &Node, hangs: bool) -> Self {
+        let robot = node.robot.as_ref();
+        let mode = robot.map_or((Role::None, State::Idle), |robot| {
+            (robot.role(), robot.state())
+        });
+        let (state, role) = mode_parts(mode);
+        let timers = robot.map(|robot| {
+            let timers = robot.timers();
+            timers.iter().map(|(timer, _)| timer.to_string()).collect()
+        });
+        Self {
+            station: node.persisted.station,
+            state,
+            role,
+            words: node.to_string(),
+            timers: timers.unwrap_or_default(),
+            body: match node.actuation.body {
+                Body::Parked => BodyFrame::Parked,
+                Body::UnderWay(_) => BodyFrame::UnderWay,
+                Body::InPosition(_) => BodyFrame::InPosition,
+                Body::FallingBack(..) => BodyFrame::FallingBack,
+                Body::Ended(..) => BodyFrame::Ended,
+            },
+            body_words: node.actuation.body.to_string(),
+            shows_go: node.actuation.corridor_open,
+            is_down: robot.is_none(),
+            hangs,
+            is_available: robot.is_none_or(|robot| robot.availability() == Availability::Available),
+            on_duty: node.actuation.road_unsure,
+            lost_contact: node.has_lost_contact(),
+        }
+    }
+}
+
+impl OnItsWay {
+    fn all(model: &Model, transmissions: &[Transmission]) -> Vec<Self> {
+        let of = |it: &Transmission| Self {
+            from: it.from,
+            to: it.to,
+            text: model.message(it.message).input().to_string(),
+        };
+        transmissions.iter().map(of).collect()
+    }
+}
+
+fn possible(model: &Model, state: &ModelState) -> Vec<ChartStep> {
+    let mut actions = Vec::new();
+    model.actions_in(state, &mut actions);
+    let step = |action: Action| {
+        let (_, taken) = model.successor(state, action)?;
+        let outputs = taken.map_or_else(Vec::new, |taken| {
+            taken.outputs().iter().map(ToString::to_string).collect()
+        });
+        let (place, action) = placed(model, action);
+        Some(ChartStep {
+            place,
+            action,
+            outputs,
+        })
+    };
+    actions.into_iter().filter_map(step).collect()
+}
+
+/// What is looked for in a scenario.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Goal {
+    /// The robot at a place is in a state of the paper's machine.
+    Robot {
+        /// Its place in the scenario, from 0.
+        place: usize,
+        /// The state.
+        state: StateName,
+        /// The side in it, where that matters.
+        role: Option<Side>,
+    },
+    /// A person is on the road.
+    PersonOnRoad,
+    /// A robot's sign shows go.
+    ShowsGo,
+    /// A body falls back.
+    FallsBack,
+}
+
+/// A state of the paper's machine, by its name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[allow(missing_docs, reason = "as in State")]
+pub enum StateName {
+    Idle,
+    HelpRequested,
+    RoleEstablished,
+    ManeuverExecuting,
+}
+
+/// A side in a state, by its name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "as in Role")]
+pub enum Side {
+    Requester,
+    Helper,
+    Leader,
+    Follower,
+}
+
+/// What a search has come to.
+#[derive(Clone, Debug, Serialize)]
+pub struct Search {
+    /// A shortest way there; `None` where none was found.
+    pub steps: Option<Vec<ChartStep>>,
+    /// How many states were looked at.
+    pub states: usize,
+    /// Whether all states were looked at, so that a goal that was not found is not there.
+    pub is_complete: bool,
+}
+
+/// Looks for the first state that meets a goal, in order of distance from the start, in at most this many states.
+#[must_use]
+pub fn search(scenario: Scenario, goal: Goal, states_max: usize) -> Search {
+    let model = Model::new(scenario);
+    let mut found = Found::default();
+    found.add(model.initial(), None);
+    let mut actions = Vec::new();
+    let (mut at, mut is_complete) = (0, true);
+    let reached = loop {
+        let Some(state) = found.states.get(at).cloned() else {
+            break None;
+        };
+        if goal.is_met(&model, &state) {
+            break Some(at);
+        }
+        if found.states.len() >= states_max {
+            is_complete = false;
+            break None;
+        }
+        actions.clear();
+        model.actions_in(&state, &mut actions);
+        for &action in &actions {
+            if let Some((next, _)) = model.successor(&state, action) {
+                found.add(next, Some((at, action)));
+            }
+        }
+        at += 1;
+    };
+    let steps = reached.map(|at| Replay::along(&model, &found.way(at)).steps);
+    Search {
+        steps,
+        states: at,
+        is_complete,
+    }
+}
+
+impl Goal {
+    fn is_met(self, model: &Model, found: &ModelState) -> bool {
+        let nodes = model.nodes(found);
+        let any = |is: fn(&Node) -> bool| nodes.clone().any(is);
+        match self {
+            Self::Robot { place, state, role } => {
+                let node = nodes.clone().nth(place);
+                let robot = node.and_then(|node| node.robot.as_ref());
+                robot.is_some_and(|robot| {
+                    robot.state() == state.of_protocol()
+                        && role.is_none_or(|role| robot.role() == role.of_protocol())
+                })
+            }
+            Self::PersonOnRoad => model.history(found).pedestrian.on_road().is_some(),
+            Self::ShowsGo => any(|node| node.actuation.corridor_open),
+            Self::FallsBack => any(|node| matches!(node.actuation.body, Body::FallingBack(..))),
+        }
+    }
+}
+
+impl StateName {
+    const fn of_protocol(self) -> State {
+        match self {
+            Self::Idle => State::Idle,
+            Self::HelpRequested => State::HelpRequested,
+            Self::RoleEstablished => State::RoleEstablished,
+            Self::ManeuverExecuting => State::ManeuverExecuting,
+        }
+    }
+}
+
+impl Side {
+    const fn of_protocol(self) -> Role {
+        match self {
+            Self::Requester => Role::Requester,
+            Self::Helper => Role::Helper,
+            Self::Leader => Role::Leader,
+            Self::Follower => Role::Follower,
+        }
+    }
+}
+
+/// The states of a search, in the order in which they were found, each with the one before it.
+#[derive(Default)]
+struct Found {
+    states: Vec<ModelState>,
+    before: Vec<Option<(usize, Action)>>,
+    known: FxHashSet<ModelState>,
+}
+
+impl Found {
+    fn add(&mut self, state: ModelState, before: Option<(usize, Action)>) {
+        if self.known.insert(state.clone()) {
+            self.states.push(state);
+            self.before.push(before);
+        }
+    }
+
+    fn way(&self, mut at: usize) -> Vec<Action> {
+        let mut way = Vec::new();
+        while let Some((before, action)) = self.before[at] {
+            way.push(action);
+            at = before;
+        }
+        way.reverse();
+        way
+    }
+}

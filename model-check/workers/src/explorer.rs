@@ -1,0 +1,331 @@
+//! What one worker does: it keeps the states that it owns, and expands them.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use crossguard_model_check::check::Stop;
+use crossguard_model_check::model::portable::{Fingerprints, PackedState, Packer, Part, Unpacker};
+use crossguard_model_check::model::{Action, Model, ModelState};
+use crossguard_model_check::properties::PropertyId;
+use crossguard_model_check::report::CutOff;
+use serde::{Deserialize, Serialize};
+
+use crate::table::{Fingerprint, Hint, Table};
+
+/// A state on its way to the worker that owns it.
+#[derive(Clone, Serialize, Deserialize)]
+pub(crate) struct Found {
+    fingerprint: Fingerprint,
+    from: Hint,
+    sender: u32,
+    cargo: Cargo,
+}
+
+impl Found {
+    /// What decides which worker it goes to.
+    pub(crate) const fn share(&self) -> u64 {
+        self.fingerprint.share()
+    }
+}
+
+#[derive(Clone, Serialize, Deserialize)]
+enum Cargo {
+    /// To another process, with the parts that were not sent there before.
+    Abroad(PackedState, Vec<Part>),
+    /// Within the process, where all share the numbers of parts. The last one: serde numbers variants that it
+    /// skips when it writes, and not when it reads.
+    #[serde(skip)]
+    Here(ModelState),
+}
+
+/// What the workers of a process have in common.
+pub(crate) struct Common {
+    pub(crate) model: Model,
+    /// Properties that states and steps can be judged by.
+    pub(crate) judged: Vec<PropertyId>,
+    pub(crate) workers: usize,
+    pub(crate) limits: Limits,
+    pub(crate) counters: Counters,
+}
+
+/// When the workers of this process give up.
+pub(crate) struct Limits {
+    pub(crate) states_max: Option<u64>,
+    pub(crate) until: Option<Instant>,
+    pub(crate) stop: Stop,
+}
+
+/// How far the workers of a process are.
+#[derive(Default)]
+pub(crate) struct Counters {
+    pub(crate) states: AtomicU64,
+    pub(crate) level: AtomicU32,
+    pub(crate) table_bytes: AtomicU64,
+}
+
+/// What one worker has found.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Told {
+    pub(crate) states: u64,
+    pub(crate) transitions: u64,
+    pub(crate) depth: u32,
+    pub(crate) table_bytes: u64,
+    /// Of the judged properties: whether the premise was met in this process.
+    pub(crate) premises: Vec<bool>,
+    /// Of the judged properties: the first state that breaks it.
+    pub(crate) broken: Vec<Option<(u32, Fingerprint)>>,
+    pub(crate) cut_off: Option<CutOff>,
+}
+
+/// How many fingerprints a worker remembers of the states that it has sent last.
+const REMEMBERED: usize = 1 << 16;
+
+/// How many steps of states a worker takes between two looks at what has arrived.
+pub(crate) const BITE: usize = 2_000;
+
+pub(crate) struct Explorer {
+    common: Arc<Common>,
+    index: usize,
+    peers: usize,
+    fingerprints: Fingerprints,
+    pub(crate) table: Table,
+    /// States that wait to be expanded, by level.
+    waiting: BTreeMap<u32, Vec<(ModelState, Hint)>>,
+    packers: HashMap<usize, Packer>,
+    unpackers: HashMap<u32, Unpacker>,
+    sent_last: Vec<Option<Fingerprint>>,
+    told: Told,
+    actions: Vec<Action>,
+    successors: Vec<ModelState>,
+}
+
+impl Explorer {
+    pub(crate) fn new(common: &Arc<Common>, index: usize, peers: usize) -> Self {
+        let told = Told {
+            broken: vec![None; common.judged.len()],
+            ..Told::default()
+        };
+        Self {
+            common: Arc::clone(common),
+            index,
+            peers,
+            fingerprints: Fingerprints::default(),
+            table: Table::new(),
+            waiting: BTreeMap::new(),
+            packers: HashMap::new(),
+            unpackers: HashMap::new(),
+            sent_last: vec![None; REMEMBERED],
+            told,
+            actions: Vec::new(),
+            successors: Vec::new(),
+        }
+    }
+
+    /// The state in which every run begins, on its way to its owner.
+    pub(crate) fn first(&mut self) -> Found {
+        let state = self.common.model.initial();
+        let fingerprint = self.fingerprint(&state);
+        let owner = self.owner(fingerprint);
+        self.on_its_way(state, fingerprint, fingerprint.hint(), owner)
+    }
+
+    fn fingerprint(&mut self, state: &ModelState) -> Fingerprint {
+        Fingerprint::of(self.fingerprints.of(&self.common.model, state))
+    }
+
+    /// As timely routes it.
+    fn owner(&self, fingerprint: Fingerprint) -> usize {
+        usize::try_from(fingerprint.share() % self.peers as u64).expect("less than the peers")
+    }
+
+    fn on_its_way(
+        &mut self,
+        state: ModelState,
+        fingerprint: Fingerprint,
+        from: Hint,
+        owner: usize,
+    ) -> Found {
+        let is_here = owner / self.common.workers == self.index / self.common.workers;
+        let cargo = if is_here {
+            Cargo::Here(state)
+        } else {
+            let mut news = Vec::new();
+            let packer = self.packers.entry(owner).or_default();
+            let state = packer.pack(&self.common.model, &state, &mut news);
+            Cargo::Abroad(state, news)
+        };
+        Found {
+            fingerprint,
+            from,
+            sender: u32::try_from(self.index).expect("few workers"),
+            cargo,
+        }
+    }
+
+    /// Takes in a state that was found at this level.
+    ///
+    /// # Panics
+    /// Where it cannot be read: another process sent nonsense. The panic ends the check as incomplete.
+    pub(crate) fn receive(&mut self, found: Found, level: u32) {
+        let Found {
+            fingerprint,
+            from,
+            sender,
+            cargo,
+        } = found;
+        match cargo {
+            Cargo::Here(state) => self.add(state, fingerprint, level, from),
+            Cargo::Abroad(packed, news) => {
+                let unpacker = self.unpackers.entry(sender).or_default();
+                let model = &self.common.model;
+                for part in &news {
+                    let learned = unpacker.learn(model, part);
+                    learned.unwrap_or_else(|cause| panic!("{cause}"));
+                }
+                let state = unpacker.unpack(model, packed);
+                let state = state.unwrap_or_else(|cause| panic!("{cause}"));
+                self.add(state, fingerprint, level, from);
+            }
+        }
+    }
+
+    fn add(&mut self, state: ModelState, fingerprint: Fingerprint, level: u32, from: Hint) {
+        if self.told.cut_off.is_some() || !self.table.insert(fingerprint, level, from) {
+            return;
+        }
+        self.told.states += 1;
+        self.told.depth = self.told.depth.max(level);
+        self.common.counters.states.fetch_add(1, Ordering::Relaxed);
+        for (property, broken) in self.common.judged.iter().zip(&mut self.told.broken) {
+            let holds = !Model::breaks(&state, *property)
+                && self.common.model.state_rule_holds(&state, *property);
+            let found = (level, fingerprint);
+            if !holds && broken.is_none_or(|known| found < known) {
+                *broken = Some(found);
+            }
+        }
+        let waiting = self.waiting.entry(level).or_default();
+        waiting.push((state, fingerprint.hint()));
+    }
+
+    /// Whether states of this level wait to be expanded.
+    pub(crate) fn waits_at(&self, level: u32) -> bool {
+        self.waiting.contains_key(&level)
+    }
+
+    /// Expands some of the states of a level. Their successors that others own are sent.
+    pub(crate) fn expand(&mut self, level: u32, send: &mut dyn FnMut(Found)) {
+        self.give_up_where_asked();
+        let Some(mut waiting) = self.waiting.remove(&level) else {
+            return;
+        };
+        for _ in 0..BITE {
+            let Some((state, from)) = waiting.pop() else {
+                break;
+            };
+            self.expand_one(&state, from, level + 1, send);
+        }
+        if !waiting.is_empty() {
+            self.waiting.insert(level, waiting);
+        }
+        let counters = &self.common.counters;
+        counters.level.fetch_max(level, Ordering::Relaxed);
+        let bytes = self.table.bytes() as u64;
+        let grown = bytes - std::mem::replace(&mut self.told.table_bytes, bytes);
+        counters.table_bytes.fetch_add(grown, Ordering::Relaxed);
+    }
+
+    fn expand_one(
+        &mut self,
+        state: &ModelState,
+        from: Hint,
+        level: u32,
+        send: &mut dyn FnMut(Found),
+    ) {
+        let common = Arc::clone(&self.common);
+        let mut actions = std::mem::take(&mut self.actions);
+        let mut successors = std::mem::take(&mut self.successors);
+        actions.clear();
+        common.model.actions_in(state, &mut actions);
+        for &action in &actions {
+            if let Some((next, _)) = common.model.successor_up_to_symmetry(state, action)
+                && !successors.contains(&next)
+            {
+                successors.push(next);
+            }
+        }
+        self.told.transitions += successors.len() as u64;
+        for next in successors.drain(..) {
+            let fingerprint = self.fingerprint(&next);
+            let owner = self.owner(fingerprint);
+            if owner == self.index {
+                self.add(next, fingerprint, level, from);
+            } else if !self.was_just_sent(fingerprint) {
+                send(self.on_its_way(next, fingerprint, from, owner));
+            }
+        }
+        (self.actions, self.successors) = (actions, successors);
+    }
+
+    /// Whether the state was sent not long ago; it counts as sent from now on. Its owner knows it then, at this
+    /// level or one before.
+    fn was_just_sent(&mut self, fingerprint: Fingerprint) -> bool {
+        let at = usize::try_from(fingerprint.share() >> 20).unwrap_or_default() % REMEMBERED;
+        self.sent_last[at].replace(fingerprint) == Some(fingerprint)
+    }
+
+    fn give_up_where_asked(&mut self) {
+        let (limits, counters) = (&self.common.limits, &self.common.counters);
+        let states = counters.states.load(Ordering::Relaxed);
+        let cut_off = if let Some(cut_off) = limits.given_up() {
+            Some(cut_off)
+        } else if limits.states_max.is_some_and(|max| states >= max) {
+            Some(CutOff::StateLimit)
+        } else {
+            None
+        };
+        if cut_off.is_some() {
+            self.told.cut_off = self.told.cut_off.or(cut_off);
+            self.waiting.clear();
+        }
+    }
+
+    /// What it has found until now.
+    pub(crate) fn told(&self) -> Told {
+        let judged = self.common.judged.iter();
+        Told {
+            premises: judged
+                .map(|property| self.common.model.premise_met(*property))
+                .collect(),
+            ..self.told.clone()
+        }
+    }
+}
+
+impl Limits {
+    /// The limits of one of this number of processes; time runs from now.
+    pub(crate) fn new(
+        states_max: Option<usize>,
+        time_max: Option<Duration>,
+        stop: &Stop,
+        processes: usize,
+    ) -> Self {
+        Self {
+            states_max: states_max.map(|states| states.div_ceil(processes) as u64),
+            until: time_max.map(|time| Instant::now() + time),
+            stop: stop.clone(),
+        }
+    }
+    /// Why the workers give up, whatever they have found.
+    pub(crate) fn given_up(&self) -> Option<CutOff> {
+        if self.stop.is_requested() {
+            Some(CutOff::Stopped)
+        } else if self.until.is_some_and(|until| Instant::now() >= until) {
+            Some(CutOff::TimeLimit)
+        } else {
+            None
+        }
+    }
+}

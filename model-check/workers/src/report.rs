@@ -1,0 +1,166 @@
+//! What the workers found, in the form of every other check.
+
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use crossguard_model_check::check::{assumptions, collision_probability, names};
+use crossguard_model_check::cost::{Cost, Meter};
+use crossguard_model_check::model::portable::charted;
+use crossguard_model_check::properties::PropertyId;
+use crossguard_model_check::report::{CutOff, PropertyReport, ScenarioReport};
+use crossguard_model_check::scenario::Size;
+use crossguard_model_check::sequence::ChartStep;
+use serde::Serialize;
+
+use crate::dataflow::{Candidates, Outcome};
+use crate::explorer::Common;
+use crate::path;
+use crate::table::FINGERPRINT_BITS;
+
+/// How far the workers of this process are.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// The level that is being expanded; 0 is the initial state's.
+    pub level: u32,
+    /// Distinct states that this process owns.
+    pub states: u64,
+    /// Bytes of its tables.
+    pub table_bytes: u64,
+    /// For how long it has worked.
+    pub elapsed: Duration,
+}
+
+impl Progress {
+    pub(crate) fn of(common: &Common, begin: Instant) -> Self {
+        let counters = &common.counters;
+        Self {
+            level: counters.level.load(Ordering::Relaxed),
+            states: counters.states.load(Ordering::Relaxed),
+            table_bytes: counters.table_bytes.load(Ordering::Relaxed),
+            elapsed: begin.elapsed(),
+        }
+    }
+}
+
+/// The result of a check by workers.
+#[derive(Clone, Debug, Serialize)]
+pub struct WorkersReport {
+    /// As of every check, of what is judged. It is exhaustive up to a collision of fingerprints.
+    #[serde(flatten)]
+    pub scenario: ScenarioReport,
+    /// Processes that took part.
+    pub processes: usize,
+    /// Workers of each.
+    pub workers: usize,
+    /// Bits of a fingerprint, by which states are compared.
+    pub fingerprint_bits: u32,
+    /// The probability that any two of the states share a fingerprint, so that some states may have been left out:
+    /// an upper bound, where fingerprints are as good as random.
+    pub omission_probability: f64,
+    /// Bytes of the tables of all processes.
+    pub table_bytes: u64,
+    /// Properties of the scenario that were not judged: they need the graph of all states.
+    pub not_judged: Vec<String>,
+}
+
+pub(crate) fn of(
+    common: &Common,
+    outcome: &Outcome,
+    processes: usize,
+    meter: Meter,
+    begin: Instant,
+) -> WorkersReport {
+    let (model, told) = (&common.model, &outcome.told);
+    let scenario = model.scenario();
+    let states: u64 = told.iter().map(|told| told.states).sum();
+    let transitions: u64 = told.iter().map(|told| told.transitions).sum();
+    let size = Size {
+        unique_states: whole(states),
+        depth: whole(told.iter().map(|told| told.depth).max().unwrap_or(0).into()),
+    };
+    let cut_off = told.iter().find_map(|told| told.cut_off);
+    let omission_probability = collision_probability(states, FINGERPRINT_BITS);
+    let compared = format!(
+        "states are compared by fingerprints of {FINGERPRINT_BITS} bits: any two of these states share one with a \
+         probability of at most {omission_probability:.0e}"
+    );
+    let properties = common.judged.iter().enumerate();
+    let not_judged = scenario.properties.iter();
+    let not_judged = not_judged.filter(|id| !common.judged.contains(id));
+    WorkersReport {
+        scenario: ScenarioReport {
+            name: scenario.name.clone(),
+            summary: scenario.summary.clone(),
+            robots: names(scenario),
+            unique_states: size.unique_states,
+            transitions: whole(transitions),
+            depth: size.depth,
+            seconds: begin.elapsed().as_secs_f64(),
+            // The kernel counts those of this process alone.
+            cost: if processes == 1 {
+                meter.read(size.unique_states)
+            } else {
+                Cost::default()
+            },
+            engines: vec!["crossguard-workers"],
+            exhaustive: cut_off.is_none(),
+            cut_off,
+            size_as_expected: scenario.is_expected(size).filter(|_| cut_off.is_none()),
+            properties: properties
+                .flat_map(|(i, id)| judged(common, outcome, i, *id, cut_off))
+                .collect(),
+            figures: Vec::new(),
+            assumptions: assumptions(scenario, compared),
+            transitions_taken: model.transitions_taken(),
+        },
+        processes,
+        workers: common.workers,
+        fingerprint_bits: FINGERPRINT_BITS,
+        omission_probability,
+        table_bytes: told.iter().map(|told| told.table_bytes).sum(),
+        not_judged: not_judged.map(ToString::to_string).collect(),
+    }
+}
+
+fn whole(number: u64) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}
+
+/// What was found about a property, and about its premise where it has one.
+fn judged(
+    common: &Common,
+    outcome: &Outcome,
+    i: usize,
+    id: PropertyId,
+    cut_off: Option<CutOff>,
+) -> Vec<PropertyReport> {
+    let Some(claim) = id.untimed() else {
+        return Vec::new();
+    };
+    let run = outcome.ways[i]
+        .as_ref()
+        .map(|way| counterexample(common, way));
+    let rule = PropertyReport::of_rule(id, claim, run, None, cut_off);
+    let is_met = outcome.told.iter().any(|told| told.premises[i]);
+    let premise = PropertyReport::of_premise(id, claim, is_met, cut_off);
+    [rule].into_iter().chain(premise).collect()
+}
+
+/// The shortest run along what may lie on it.
+fn counterexample(common: &Common, way: &Candidates) -> Vec<ChartStep> {
+    let run = path::run(&common.model, way);
+    run.map(|run| charted(&common.model, run))
+        .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_billion_states_are_told_apart_but_for_a_probability_below_a_billionth() {
+        let probability = collision_probability(1_000_000_000, FINGERPRINT_BITS);
+        assert!(probability > 1e-11 && probability < 1e-9, "{probability}");
+        assert!(collision_probability(0, FINGERPRINT_BITS).abs() < f64::EPSILON);
+    }
+}

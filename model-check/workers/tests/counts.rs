@@ -1,0 +1,152 @@
+//! Workers find what the existing exploration finds, however many they are and wherever they run.
+
+mod processes;
+
+use crossguard_model_check::check;
+use crossguard_model_check::model::Model;
+use crossguard_model_check::report::ScenarioReport;
+use crossguard_model_check::scenario::Scenario;
+use crossguard_workers::{WorkersReport, check as check_by_workers};
+
+use processes::{by_processes, workers};
+
+/// The scenarios that workers can explore, with at most so many states.
+fn untimed(states_max: usize) -> impl Iterator<Item = &'static str> {
+    Scenario::shipped().filter(move |name| {
+        let scenario = Scenario::load(name).unwrap();
+        let states = scenario.expected.unwrap().unique_states;
+        scenario.timed.is_none() && states <= states_max
+    })
+}
+
+/// What a test without patience explores.
+const SMALL: usize = 120_000;
+
+fn explored(name: &str, number: usize) -> WorkersReport {
+    let model = Model::new(Scenario::load(name).unwrap());
+    check_by_workers(&model, &workers(number), &mut |_| ()).unwrap()
+}
+
+/// States, depth and transitions.
+fn size(report: &ScenarioReport) -> (usize, usize, usize) {
+    (report.unique_states, report.depth, report.transitions)
+}
+
+fn verdicts(report: &ScenarioReport) -> Vec<String> {
+    let properties = report.properties.iter();
+    let verdict = |p: &crossguard_model_check::report::PropertyReport| {
+        format!("{} {:?} {:?}", p.id, p.verdict, p.statement)
+    };
+    properties.map(verdict).collect()
+}
+
+/// That the kit's own exploration and stateright find the size that a file says is tested in
+/// `model-check/tests/scenarios.rs`.
+fn assert_size_of_file(report: &WorkersReport) {
+    let scenario = &report.scenario;
+    let name = &scenario.name;
+    let expected = Scenario::load(name).unwrap().expected.unwrap();
+    let (states, depth, _) = size(scenario);
+    assert_eq!(
+        (states, depth),
+        (expected.unique_states, expected.depth),
+        "{name}"
+    );
+    assert_eq!(scenario.size_as_expected, Some(true));
+    assert!(scenario.exhaustive && !scenario.failed(), "{name}");
+}
+
+fn assert_counts_of_workers(states_max: usize) {
+    for name in untimed(states_max) {
+        let one = explored(name, 1);
+        assert_size_of_file(&one);
+        for number in [2, 4] {
+            let more = explored(name, number);
+            assert_eq!(
+                size(&more.scenario),
+                size(&one.scenario),
+                "{name} by {number}"
+            );
+            assert_eq!(
+                verdicts(&more.scenario),
+                verdicts(&one.scenario),
+                "{name} by {number}"
+            );
+        }
+    }
+}
+
+fn assert_counts_of_processes(states_max: usize) {
+    for name in untimed(states_max) {
+        for processes in [2, 4] {
+            let model = || Model::new(Scenario::load(name).unwrap());
+            for report in by_processes(&model, processes, 1) {
+                let report = report.unwrap();
+                assert_eq!(report.processes, processes);
+                assert_size_of_file(&report);
+            }
+        }
+    }
+}
+
+#[test]
+fn one_two_and_four_workers_count_what_a_scenario_has() {
+    assert!(untimed(SMALL).count() > 5);
+    assert_counts_of_workers(SMALL);
+}
+
+#[test]
+fn two_and_four_processes_count_what_a_scenario_has() {
+    assert_counts_of_processes(SMALL);
+}
+
+#[test]
+#[ignore = "takes half an hour"]
+fn one_two_and_four_workers_count_what_each_scenario_has() {
+    assert_counts_of_workers(usize::MAX);
+}
+
+#[test]
+#[ignore = "takes half an hour"]
+fn two_and_four_processes_count_what_each_scenario_has() {
+    assert_counts_of_processes(usize::MAX);
+}
+
+#[test]
+fn transitions_and_verdicts_are_those_of_the_existing_exploration() {
+    for name in ["leader-crash", "stable", "lying-follower"] {
+        let model = Model::new(Scenario::load(name).unwrap());
+        let existing = check::check(&model, &check::Options::default(), &mut |_| ());
+        let by_workers = explored(name, 2);
+        assert_eq!(size(&by_workers.scenario), size(&existing), "{name}");
+        let judged = |id: &str| {
+            let id = id.trim_end_matches("-premise");
+            !by_workers.not_judged.iter().any(|not| not == id)
+        };
+        let mut of_states = existing.clone();
+        of_states.properties.retain(|property| judged(&property.id));
+        assert_eq!(
+            verdicts(&by_workers.scenario),
+            verdicts(&of_states),
+            "{name}"
+        );
+        let liveness = existing.properties.len() - of_states.properties.len();
+        assert!(liveness >= by_workers.not_judged.len(), "{name}");
+    }
+}
+
+#[test]
+fn symmetric_robots_count_once_in_two_processes_of_two_workers() {
+    let text =
+        include_str!("../../scenarios/team-of-four.toml").replace("losses = 1", "losses = 0");
+    let (text, _) = text.split_once("[expected]").unwrap();
+    let text = text.replacen("properties", "symmetric = [2, 3, 4]\nproperties", 1);
+    let text = ["L1", "L2", "L4"]
+        .iter()
+        .fold(text, |text, id| text.replace(&format!("\"{id}\","), ""));
+    let scenario = Scenario::parse("symmetric.toml", &text).unwrap();
+    let states = crossguard_model_check::count_states(&Model::new(scenario.clone()));
+    for report in by_processes(&|| Model::new(scenario.clone()), 2, 2) {
+        assert_eq!(report.unwrap().scenario.unique_states, states);
+    }
+}

@@ -1,0 +1,53 @@
+//! Processes of a check, as threads of the test: each has a model of its own, and they speak over TCP.
+
+use std::net::TcpListener;
+use std::num::NonZeroUsize;
+use std::thread;
+use std::time::Duration;
+
+use crossguard_model_check::model::Model;
+use crossguard_workers::{Hosts, Options, WorkersError, WorkersReport, check};
+
+/// Options for this number of workers.
+pub(crate) fn workers(number: usize) -> Options {
+    Options {
+        workers: NonZeroUsize::new(number).unwrap(),
+        patience: Duration::from_mins(5),
+        ..Options::default()
+    }
+}
+
+/// Hosts on this machine that are free just now.
+#[allow(dead_code, reason = "not every test needs it alone")]
+pub(crate) fn hosts(number: usize) -> Hosts {
+    let free: Vec<_> = (0..number)
+        .map(|_| TcpListener::bind("127.0.0.1:0").unwrap())
+        .collect();
+    let lines: Vec<_> = free
+        .iter()
+        .map(|free| free.local_addr().unwrap().to_string())
+        .collect();
+    Hosts::parse(&lines.join("\n")).unwrap()
+}
+
+/// What each of some processes reports, of this number of workers each.
+#[allow(dead_code, reason = "not every test needs it")]
+pub(crate) fn by_processes(
+    model: &(dyn Fn() -> Model + Sync),
+    processes: usize,
+    number: usize,
+) -> Vec<Result<WorkersReport, WorkersError>> {
+    let hosts = hosts(processes);
+    thread::scope(|scope| {
+        let running: Vec<_> = (0..processes)
+            .map(|process| {
+                let options = Options {
+                    cluster: Some(hosts.clone().process(process).unwrap()),
+                    ..workers(number)
+                };
+                scope.spawn(move || check(&model(), &options, &mut |_| ()))
+            })
+            .collect();
+        running.into_iter().map(|one| one.join().unwrap()).collect()
+    })
+}
