@@ -71,6 +71,27 @@ fn the_page_tells_of_every_robot_and_loads_nothing() {
 }
 
 #[test]
+fn the_map_has_the_road_of_the_site() {
+    let folder = tempfile::tempdir().unwrap();
+    let (log, page) = (log_of(3, folder.path()), folder.path().join("page.html"));
+    let drawn = |site: &[&str]| {
+        let mut command = crossguard(&["report", "--output"]);
+        let output = command.arg(&page).arg(&log).args(site).output().unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+        let page = std::fs::read_to_string(&page).unwrap();
+        ["<path class=\"lane\"", "<path class=\"kerb\""].map(|it| page.matches(it).count())
+    };
+    // The third kerb is that of the legend.
+    assert_eq!(drawn(&["--site", "street"]), [2, 3]);
+    assert_eq!(drawn(&[]), [0, 0]);
+    let output = crossguard(&["report", "--site", "nowhere.toml"])
+        .arg(&log)
+        .output()
+        .unwrap();
+    assert_refused(&output, "nowhere.toml");
+}
+
+#[test]
 fn a_broadcast_is_one_row_with_all_who_heard_it() {
     let folder = tempfile::tempdir().unwrap();
     let seed = (1..200)

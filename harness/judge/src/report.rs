@@ -13,6 +13,7 @@ mod people;
 mod street;
 mod timeline;
 
+use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::trace::{LogError, Merged};
 
 use crate::validate::{Invalid, Validated};
@@ -30,6 +31,8 @@ pub struct Report<'a> {
     pub finding: Option<&'a str>,
     /// How many times as fast as real the robots' bodies moved, where the logs do not say it, or wrongly.
     pub time_scale: Option<f64>,
+    /// The site, for kerbs and lanes on the map.
+    pub site: Option<&'a SiteFile>,
     /// The command that runs it again, where one does.
     pub reproduce: Option<&'a str>,
 }

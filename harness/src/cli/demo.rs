@@ -229,7 +229,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let captured = super::finish_capture(options.capture);
     let title = "Crossguard demo";
-    let written = arguments.records.write(title, &log, arguments.json);
+    let site = options.scenario.street();
+    let written = (arguments.records).write(title, site, &log, arguments.json);
     told.and(captured).and(written)?;
     if log_file.is_some_and(|file| file.has_failed) || outcome.stopped && outcome.trace_valid {
         Err(Failure::Incomplete)

@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::path::PathBuf;
 
+use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::trace::{Log, Merged};
 
 use super::report::ReportPage;
@@ -25,8 +26,14 @@ impl RecordArguments {
         destinations::files([&self.mcap, &self.report])
     }
 
-    /// Writes what is wanted of `log`; says so unless the output is for a program.
-    pub(super) fn write(&self, title: &str, log: &[u8], is_json: bool) -> Result<(), Failure> {
+    /// Writes what is wanted of `log`, which tells of a run on `site`; says so unless the output is for a program.
+    pub(super) fn write(
+        &self,
+        title: &str,
+        site: &SiteFile,
+        log: &[u8],
+        is_json: bool,
+    ) -> Result<(), Failure> {
         let logs = || {
             vec![Log {
                 name: "the log of this run".to_owned(),
@@ -43,6 +50,7 @@ impl RecordArguments {
                 title,
                 logs: &["the log of this run".to_owned()],
                 time_scale: None,
+                site: Some(site),
             };
             // What it says of the log is what the command says of it, too.
             let _ = page.write(path, logs(), logs())?;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crossguard_judge::report::Report;
 use crossguard_judge::validate::{self, Invalid, Validated};
+use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::trace::{Log, Merged};
 
 use super::validate::verdict;
@@ -21,6 +22,9 @@ pub(super) struct Arguments {
     /// What stands at the top of the page.
     #[arg(long, value_name = "TEXT", default_value = "Crossguard run")]
     title: String,
+    /// The site, for kerbs and lanes on the map: a file, or `street` for the street of the demonstrations.
+    #[arg(long, value_name = "FILE|street")]
+    site: Option<PathBuf>,
     /// How many times as fast as real the robots' bodies moved, for the table of times, where their logs do
     /// not say it, or wrongly.
     #[arg(long, value_name = "N", value_parser = super::ranges::speed)]
@@ -40,10 +44,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .iter()
         .map(|path| path.display().to_string())
         .collect();
+    let site = super::site::named(arguments.site.as_deref())?;
     let page = ReportPage {
         title: &arguments.title,
         logs: &names,
         time_scale: arguments.speed,
+        site: site.as_ref(),
     };
     let result = page.write(&arguments.output, open()?, open()?)?;
     let text = match &result {
@@ -63,6 +69,8 @@ pub(super) struct ReportPage<'a> {
     pub(super) logs: &'a [String],
     /// How many times as fast as real the robots' bodies moved, where the logs do not say it.
     pub(super) time_scale: Option<f64>,
+    /// The site, for kerbs and lanes on the map.
+    pub(super) site: Option<&'a SiteFile>,
 }
 
 impl ReportPage<'_> {
@@ -80,6 +88,7 @@ impl ReportPage<'_> {
             verdict: result.as_ref(),
             finding: None,
             time_scale: self.time_scale,
+            site: self.site,
             reproduce: None,
         };
         let page = Merged::new(again).and_then(|logs| report.page(logs));

@@ -1,6 +1,6 @@
 //! `crossguard site`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use crossguard_harness::site_picture;
@@ -76,4 +76,13 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
                 .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
         }
     }
+}
+
+/// The site that an option names, if it names one: a file, or the street of the demonstrations.
+pub(super) fn named(path: Option<&Path>) -> Result<Option<SiteFile>, Failure> {
+    path.map(|path| match path.to_str() {
+        Some("street") => Ok(SiteFile::street()),
+        _ => SiteFile::read(path).map_err(Failure::input),
+    })
+    .transpose()
 }

@@ -7,7 +7,6 @@ use crossguard_harness::studio::{self, Followed, GivenRun, Numbered, Studied, St
 use crossguard_judge::playback::{Playback, written_us};
 use crossguard_judge::validate::{self, Invalid, Validated};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::trace::Merged;
 
 use super::interrupts::interrupts_that;
@@ -138,21 +137,13 @@ fn followed(arguments: &Arguments) -> Result<Followed, Failure> {
     }
     Ok(Followed {
         logs: arguments.logs.clone(),
-        street: street(arguments)?,
-    })
-}
-
-fn street(arguments: &Arguments) -> Result<Option<SiteFile>, Failure> {
-    Ok(match &arguments.site {
-        None => None,
-        Some(path) if path.as_os_str() == "street" => Some(SiteFile::street()),
-        Some(path) => Some(SiteFile::read(path).map_err(Failure::input)?),
+        street: super::site::named(arguments.site.as_deref())?,
     })
 }
 
 /// Reads the logs and judges them, both at once.
 fn study(arguments: &Arguments) -> Result<Studied, Failure> {
-    let street = street(arguments)?;
+    let street = super::site::named(arguments.site.as_deref())?;
     let logs = Merged::new(open_logs(&arguments.logs)?).map_err(Failure::input)?;
     let judge = || open_logs(&arguments.logs).map(validate::all);
     let (playback, validated) = std::thread::scope(|scope| {

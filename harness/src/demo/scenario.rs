@@ -90,6 +90,12 @@ impl Scenario {
         &self.0.summary
     }
 
+    /// The street that it happens on.
+    #[must_use]
+    pub const fn street(&self) -> &SiteFile {
+        &self.0.site
+    }
+
     /// Where it happens.
     #[must_use]
     pub const fn site(&self) -> Site {

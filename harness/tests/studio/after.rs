@@ -120,8 +120,9 @@ fn a_hostile_log_runs_no_script_and_shows_where_it_is_cut() {
     // Very many events, and a cut in the middle of a record with more behind it.
     let mut log = std::fs::read_to_string(&path).unwrap();
     let last = records.last().unwrap().at_us;
-    let detail = format!("{hostile}{}", "x".repeat(300));
-    for number in 0..40_000_u64 {
+    let long = format!("{hostile}{}", "x".repeat(300));
+    for number in 0..1_000_000_u64 {
+        let detail = if number % 25 == 0 { &long } else { hostile };
         let dropped = json!({"atUs": last + number * 100, "robot": hostile, "entry": "dropped", "layer": "syntax",
             "cause": "malformed", "detail": detail, "octets": ""});
         log.push_str(&dropped.to_string());
@@ -135,7 +136,7 @@ fn a_hostile_log_runs_no_script_and_shows_where_it_is_cut() {
     };
     browser.open(&studio.url);
     let trouble = browser.evaluate("document.getElementById('troubles').textContent");
-    let cut = format!("line {}: is not a record", records.len() + 40_001);
+    let cut = format!("line {}: is not a record", records.len() + 1_000_001);
     assert!(trouble.as_str().unwrap().contains(&cut), "{trouble}");
     assert_eq!(
         browser.evaluate("document.getElementById('chip').textContent"),

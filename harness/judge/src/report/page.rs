@@ -18,7 +18,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
 /// The page of a run.
 pub(super) fn page(report: &Report, run: &Run) -> Markup {
-    let street = street::street(run);
+    let street = street::street(run, report.site);
     let sections = [
         ("states", "States", Some(timeline::timeline(run))),
         (
@@ -198,7 +198,7 @@ fn around(run: &Run) -> Option<Markup> {
                 }
             }
         }
-        p.faint { "From the local dynamic map, once a second: the robots, vehicles, people and clusters that RAM, CAM, VAM and CPM told of. Times are seconds since the begin." }
+        p.faint { "From the local dynamic map, once a second: the robots, vehicles, people and clusters that RAM, CAM, VAM and CPM told of. Times are seconds since the beginning." }
     })
 }
 

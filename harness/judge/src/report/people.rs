@@ -145,6 +145,6 @@ pub(super) fn table(run: &Run) -> Option<Markup> {
                 }
             }
         }
-        p.faint { "Times are seconds since the begin. The log of a robot has places of people, and nothing that tracks them." }
+        p.faint { "Times are seconds since the beginning. The log of a robot has places of people, and nothing that tracks them." }
     })
 }

@@ -2,6 +2,7 @@
 
 use crossguard_protocol::TaskType;
 use crossguard_robot::site::{Place, Site};
+use crossguard_robot::site_file::SiteFile;
 use maud::{Markup, html};
 
 use super::charts::{Look, number, step};
@@ -30,18 +31,26 @@ struct Projection {
 }
 
 impl Projection {
-    fn of(run: &Run) -> Option<Self> {
+    fn of(run: &Run, street: Option<&SiteFile>) -> Option<Self> {
         let ways = run.robots.iter().flat_map(|robot| robot.way.iter());
         let goals = run.areas.iter().map(|area| &area.to);
         let people = run.robots.iter().flat_map(|robot| robot.people.points());
         let points: Vec<_> = ways.chain(goals).chain(people).copied().collect();
         let &(latitude, longitude) = points.first()?;
-        let site = Site {
-            latitude,
-            longitude,
-            ..Site::default()
-        };
-        let places: Vec<_> = points.iter().map(|at| site.place(at.0, at.1)).collect();
+        let site = street.map_or_else(
+            || Site {
+                latitude,
+                longitude,
+                ..Site::default()
+            },
+            |street| street.site,
+        );
+        let mut places: Vec<_> = points.iter().map(|at| site.place(at.0, at.1)).collect();
+        places.extend(
+            street
+                .iter()
+                .flat_map(|street| street.kerbs.iter().flatten()),
+        );
         let range = |of: fn(&Place) -> f64| {
             let values = places.iter().map(of);
             let (min, max) = values.fold((f64::MAX, f64::MIN), |(min, max), it| {
@@ -66,7 +75,11 @@ impl Projection {
     }
 
     fn pixel(&self, (latitude, longitude): (f64, f64)) -> (f64, f64) {
-        let place = self.site.place(latitude, longitude);
+        self.pixel_of(self.site.place(latitude, longitude))
+    }
+
+    /// The pixel of a place on the site.
+    fn pixel_of(&self, place: Place) -> (f64, f64) {
         (
             MARGIN + (place.east - self.west) * self.pixels_per_m,
             MARGIN + (self.north - place.north) * self.pixels_per_m,
@@ -75,8 +88,8 @@ impl Projection {
 }
 
 /// The map; `None` where no robot says where it is.
-pub(super) fn street(run: &Run) -> Option<Markup> {
-    let view = Projection::of(run)?;
+pub(super) fn street(run: &Run, site: Option<&SiteFile>) -> Option<Markup> {
+    let view = Projection::of(run, site)?;
     let bar_m = step(WIDTH / view.pixels_per_m, 6.0);
     let bar = bar_m * view.pixels_per_m;
     Some(html! {
@@ -86,6 +99,7 @@ pub(super) fn street(run: &Run) -> Option<Markup> {
                 title id="map-title" { "The crossing from above" }
                 desc id="map-text" { (description(run)) }
                 rect.street width="100%" height="100%" {}
+                (road(&view, site))
                 (people::zones(run, |at| view.pixel(at)))
                 (grid(&view, bar_m))
                 @for area in &run.areas { (place(&view, area)) }
@@ -99,6 +113,10 @@ pub(super) fn street(run: &Run) -> Option<Markup> {
             }
         }
         ul.legend {
+            @if site.is_some_and(|site| !site.kerbs.is_empty()) {
+                li { svg.key viewBox="0 0 44 20" width="44" height="20" aria-hidden="true" { path.kerb d="M2 10H42" {} }
+                    "kerb between which people cross" }
+            }
             @for (number, robot) in run.robots.iter().enumerate() {
                 @let look = Look::of(number);
                 li {
@@ -118,6 +136,25 @@ pub(super) fn street(run: &Run) -> Option<Markup> {
             (people::legend(run))
         }
     })
+}
+
+/// Lanes and kerbs.
+fn road(view: &Projection, site: Option<&SiteFile>) -> Markup {
+    let line = |from: Place, to: Place| {
+        let ((x1, y1), (x2, y2)) = (view.pixel_of(from), view.pixel_of(to));
+        format!("M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}")
+    };
+    html! {
+        @for lane in site.iter().flat_map(|site| &site.lanes) {
+            path.lane d=(line(lane.from, lane.to)) stroke-width=(format!("{:.1}", lane.width_m * view.pixels_per_m)) {
+                title { "lane " (lane.name) }
+            }
+            path.lane-middle d=(line(lane.from, lane.to)) {}
+        }
+        @for kerb in site.iter().flat_map(|site| &site.kerbs) {
+            path.kerb d=(line(kerb[0], kerb[1])) {}
+        }
+    }
 }
 
 fn description(run: &Run) -> String {

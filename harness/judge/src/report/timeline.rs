@@ -32,7 +32,7 @@ impl Axis {
         at_us.saturating_sub(self.from_us) as f64 / self.us * 100.0
     }
 
-    /// In seconds since the begin.
+    /// In seconds since the beginning.
     fn seconds(self, at_us: u64) -> f64 {
         at_us.saturating_sub(self.from_us) as f64 / 1e6
     }

@@ -156,6 +156,7 @@ fn write_report(files: &Files, seed: u64, title: &str, again: &str) -> std::io::
         verdict: result.as_ref(),
         finding: Some(title),
         time_scale: None,
+        site: None,
         reproduce: Some(again),
     };
     let page = Merged::new(open()?).and_then(|logs| report.page(logs));

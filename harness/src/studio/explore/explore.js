@@ -32,7 +32,8 @@ async function show(run) {
 }
 
 function about(run) {
-  const pair = ([term, value]) => value ? [html("dt", {}, term), html("dd", {}, value)] : [];
+  const quoted = (text) => text.split("`").map((part, place) => place % 2 ? html("code", {}, part) : part);
+  const pair = ([term, value]) => value ? [html("dt", {}, term), html("dd", {}, quoted(value))] : [];
   id("what").textContent = run.title;
   id("about").replaceChildren(html("p", {}, html("b", {}, run.title)), run.isPaper || run.broken ? html("dl", {}, [
     ["breaks", run.broken], ["how", run.explanation], ["for a person", run.person], ["the paper", run.passage], ["closed by", run.closedBy],
