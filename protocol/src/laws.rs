@@ -13,6 +13,7 @@
 //! ```
 
 pub mod arbitrary;
+pub mod budgets;
 pub mod causes;
 pub mod commands;
 pub mod contact;

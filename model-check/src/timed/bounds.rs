@@ -12,6 +12,9 @@ use super::limits::Limits;
 use super::measure::Measure;
 use crate::properties::{PropertyId, listed};
 
+/// The longest time that a message is taken to need where nothing else is said.
+pub const USUAL_DELAY: Millis = Millis(50);
+
 /// The longest time that something takes.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Bound {

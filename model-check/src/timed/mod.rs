@@ -80,7 +80,7 @@ pub(crate) mod teams;
 pub(crate) mod told;
 pub(crate) mod watch;
 
-pub use bounds::{Bound, bounds};
+pub use bounds::{Bound, USUAL_DELAY, bounds};
 pub use channel::Flight;
 pub use check::check;
 pub use clock::{Clock, longest};

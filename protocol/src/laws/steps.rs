@@ -15,7 +15,9 @@ use crate::time::Millis;
 use super::arithmetic::{age_ms, beat_is_newer, request_is_newer};
 use super::taken::{Taken, executing, following, is_listed, leading, own_number};
 use super::watch::{Sort, is_open};
-use super::{causes, commands, contact, farewells, liars, news, offers, requests, road, times};
+use super::{
+    budgets, causes, commands, contact, farewells, liars, news, offers, requests, road, times,
+};
 
 /// All laws of one step.
 pub fn all(config: &Config, step: &Taken) {
@@ -41,6 +43,7 @@ pub fn all_but_validity(config: &Config, step: &Taken) {
     causes::all(step);
     liars::all(step);
     commands::all(config, step);
+    budgets::all(config, step);
     contact::all(config, step);
     farewells::all(step);
     offers::all(config, step);

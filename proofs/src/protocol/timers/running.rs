@@ -1,7 +1,7 @@
 //! 1: all countdowns run.
 
 use crossguard_protocol::laws::arbitrary::Stage;
-use crossguard_protocol::laws::{Source, timers as laws};
+use crossguard_protocol::laws::{Source, budgets, timers as laws};
 use crossguard_protocol::{Config, Millis};
 
 use super::peers;
@@ -14,6 +14,7 @@ fn any_running(stage: Stage) {
     let robot = any_valid(&config, stage, peers(stage));
     let elapsed = Millis(Symbolic.number(u32::MAX, 100));
     laws::running_keeps_the_state_consistent(&config, &robot, elapsed);
+    budgets::time_uses_them_up(&robot, elapsed);
     let is_any_due = robot.next_due().is_some_and(|due| due <= elapsed);
     kani::cover!(is_any_due, "some are due");
     kani::cover!(!is_any_due, "none is due");

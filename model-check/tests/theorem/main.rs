@@ -1,6 +1,7 @@
 //! The predicates of the theorem, on states that are reached: they hold there, so a proof from them is about the robots
 //! that run, and what breaks a property of safety breaks them.
 
+mod budgets;
 mod runs;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -1,0 +1,140 @@
+//! Laws of response times. An obligation has a budget: the time until it is met or given up at the latest. Time uses
+//! it up, no input raises it while the obligation stands, and it begins with what the settings say. So each response
+//! ends within that time, in runs of any length (properties L1, L2, L4 and L5, one robot's part).
+
+use crate::config::Config;
+use crate::id::SessionNumber;
+use crate::state::{Contact, Lease, Member, Outstanding, Robot};
+use crate::time::{Countdown, Millis};
+
+use super::taken::{Taken, following, leading, requesting};
+
+/// All laws of this module.
+pub fn all(config: &Config, step: &Taken) {
+    a_request_gets_no_more_time(config, step);
+    a_command_gets_no_more_time(config, step);
+    a_lost_leader_gets_no_more_time(config, step);
+    a_silent_follower_gets_no_more_time(config, step);
+}
+
+/// What is left, nothing where nothing runs.
+fn left(countdown: Countdown) -> u64 {
+    u64::from(countdown.left().unwrap_or(Millis::ZERO).0)
+}
+
+/// L1: the time until a request has a team or is given up, and the request.
+fn request(robot: &Robot) -> Option<(SessionNumber, u64)> {
+    let requesting = requesting(robot)?;
+    Some((requesting.number, left(requesting.help)))
+}
+
+/// L1: neither offers nor rivals prolong a request. It begins with `T_help`.
+pub fn a_request_gets_no_more_time(config: &Config, step: &Taken) {
+    let Some((number, budget)) = request(&step.after) else {
+        return;
+    };
+    match request(&step.before) {
+        Some((same, before)) if same == number => assert!(budget <= before),
+        _ => assert!(budget <= u64::from(config.settings().t_help.0)),
+    }
+}
+
+/// L2: the time until a command is acknowledged, or its follower given up.
+fn command(config: &Config, outstanding: Outstanding) -> u64 {
+    let settings = config.settings();
+    let repeats = u64::from(settings.n_ack.saturating_sub(outstanding.repeats));
+    left(outstanding.acknowledgement) + repeats * u64::from(settings.t_ack.0)
+}
+
+fn same_member(robot: &Robot, member: &Member) -> Option<Member> {
+    let mut members = leading(robot)?.members.iter();
+    members
+        .find(|it| (it.station, it.offer) == (member.station, member.offer))
+        .copied()
+}
+
+/// L2: nothing but its answer ends the wait for a command early, and nothing prolongs it. It begins with
+/// `(N_ack + 1) * T_ack`.
+pub fn a_command_gets_no_more_time(config: &Config, step: &Taken) {
+    let settings = config.settings();
+    let whole = (u64::from(settings.n_ack) + 1) * u64::from(settings.t_ack.0);
+    for member in leading(&step.after).iter().flat_map(|it| it.members.iter()) {
+        let Some(now) = member.outstanding else {
+            continue;
+        };
+        let before = same_member(&step.before, member).and_then(|it| it.outstanding);
+        match before.filter(|before| before.request == now.request) {
+            Some(before) => assert!(command(config, now) <= command(config, before)),
+            None => assert!(command(config, now) <= whole),
+        }
+    }
+}
+
+/// L4, L5: a follower that has lost contact leaves at the end of `T_leave`, unless it hears of its leader; it executes
+/// nothing meanwhile. What is news of a leader, [`contact`](super::contact) says.
+pub fn a_lost_leader_gets_no_more_time(config: &Config, step: &Taken) {
+    let Some(after) = following(&step.after) else {
+        return;
+    };
+    let Contact::Lost(now) = after.contact else {
+        return;
+    };
+    assert!(after.executing().is_none());
+    let lost = following(&step.before).map(|before| before.contact);
+    match lost {
+        Some(Contact::Lost(before)) => assert!(left(now) <= left(before)),
+        _ => assert!(left(now) <= u64::from(config.settings().t_leave.0)),
+    }
+}
+
+/// L5: a follower of which nothing new is heard loses its lease, then its place, and neither gets more time. The
+/// echoes that renew a lease are those of the leader's own heartbeats, so what is new is a newer echo.
+pub fn a_silent_follower_gets_no_more_time(config: &Config, step: &Taken) {
+    for member in leading(&step.after).iter().flat_map(|it| it.members.iter()) {
+        let before = same_member(&step.before, member);
+        let silent = before.filter(|before| before.echoed == member.echoed);
+        match (member.lease, silent.map(|before| before.lease)) {
+            (Lease::Stands(now), Some(Lease::Stands(before))) => assert!(left(now) <= left(before)),
+            (Lease::Stands(_), Some(Lease::Expired(_))) => {
+                panic!("a lease stands again without an echo")
+            }
+            (Lease::Expired(now), Some(Lease::Expired(before))) => {
+                assert!(left(now) <= left(before));
+            }
+            (Lease::Stands(now), None) => {
+                assert!(left(now) <= u64::from(config.settings().t_lease.0));
+            }
+            (Lease::Expired(now), _) => assert!(left(now) <= u64::from(config.t_lost().0)),
+        }
+    }
+}
+
+/// L1, L2, L4, L5: time that passes is used up: each budget falls by it, or to nothing.
+pub fn time_uses_them_up(robot: &Robot, elapsed: Millis) {
+    let mut after = robot.clone();
+    after.advance(elapsed);
+    let less = |before: u64, now: u64| now == before.saturating_sub(u64::from(elapsed.0));
+    if let (Some((_, before)), Some((_, now))) = (request(robot), request(&after)) {
+        assert!(less(before, now));
+    }
+    for member in leading(robot).iter().flat_map(|it| it.members.iter()) {
+        let now = same_member(&after, member);
+        let now = now.expect("time alone drops nobody");
+        if let (Some(before), Some(now)) = (member.outstanding, now.outstanding) {
+            let (before, now) = (before.acknowledgement, now.acknowledgement);
+            assert!(less(left(before), left(now)));
+        }
+        assert!(match (member.lease, now.lease) {
+            (Lease::Stands(before), Lease::Stands(now))
+            | (Lease::Expired(before), Lease::Expired(now)) => less(left(before), left(now)),
+            _ => false,
+        });
+    }
+    if let (Some(before), Some(now)) = (following(robot), following(&after)) {
+        assert!(match (before.contact, now.contact) {
+            (Contact::Fresh(before), Contact::Fresh(now))
+            | (Contact::Lost(before), Contact::Lost(now)) => less(left(before), left(now)),
+            _ => false,
+        });
+    }
+}
