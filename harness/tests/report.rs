@@ -42,6 +42,7 @@ fn the_page_tells_of_every_robot_and_loads_nothing() {
         "states",
         "map",
         "times",
+        "bounds",
         "nothing",
         "properties",
         "robots",

@@ -4,6 +4,7 @@
 //! is, and can be printed.
 
 mod around;
+mod bounds;
 mod charts;
 mod collect;
 mod crowd;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
-use crossguard_model_check::timed::{Bound, bounds};
+use crossguard_model_check::timed::{Bound, USUAL_DELAY, bounds};
 use crossguard_protocol::{Config, Millis};
 use crossguard_robot::robot_file::RobotFile;
 use serde::Serialize;
@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// The longest time that a message takes, in milliseconds.
-    #[arg(long, value_name = "MS", default_value_t = 50, value_parser = whole::<u32>(0..=60_000))]
+    #[arg(long, value_name = "MS", default_value_t = USUAL_DELAY.0, value_parser = whole::<u32>(0..=60_000))]
     delay: u32,
     /// Print the bounds as JSON, and nothing else.
     #[arg(long)]

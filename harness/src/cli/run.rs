@@ -26,6 +26,7 @@ use crossguard_codec::{MapPlace, Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_harness::operator::{self, Line, help};
+use crossguard_model_check::timed::{Limits, USUAL_DELAY};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::attachment::Sends;
 use crossguard_robot::boot;
@@ -193,6 +194,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     console.say(&format!(
         "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
     ));
+    console.say(&longest_times(arguments, &file));
     if let Some(port) = &file.body_port {
         console.say(&format!("Its body connects at {}.", port.address));
     }
@@ -217,6 +219,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Wrong);
     }
     written
+}
+
+/// How long a failure may go unanswered with these settings.
+fn longest_times(arguments: &Arguments, file: &RobotFile) -> String {
+    let limits = Limits::new(&file.config, USUAL_DELAY);
+    format!(
+        "With these settings a guard that falls silent closes the corridor within {} ms, and a leader that does stops its \
+         followers within {} ms; 'crossguard bounds --config {}' has more such times.",
+        limits.corridor_closed.0,
+        limits.stopped.0,
+        arguments.config.display(),
+    )
 }
 
 /// Refuses what would sign twice, and warns where nobody signs.

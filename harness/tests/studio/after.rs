@@ -120,9 +120,9 @@ fn a_hostile_log_runs_no_script_and_shows_where_it_is_cut() {
     // Very many events, and a cut in the middle of a record with more behind it.
     let mut log = std::fs::read_to_string(&path).unwrap();
     let last = records.last().unwrap().at_us;
-    let long = format!("{hostile}{}", "x".repeat(300));
+    let filler = format!("{hostile}{}", "x".repeat(300));
     for number in 0..1_000_000_u64 {
-        let detail = if number % 25 == 0 { &long } else { hostile };
+        let detail = if number % 25 == 0 { &filler } else { hostile };
         let dropped = json!({"atUs": last + number * 100, "robot": hostile, "entry": "dropped", "layer": "syntax",
             "cause": "malformed", "detail": detail, "octets": ""});
         log.push_str(&dropped.to_string());

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crossguard_endpoint::counters::CauseName;
-use crossguard_protocol::StationId;
-use crossguard_robot::trace::{LogError, Merged, Record, Timed};
+use crossguard_protocol::{Settings, StationId};
+use crossguard_robot::trace::{Entry, LogError, Merged, Record, Timed};
 
 use super::around::AroundRun;
 use super::crowd::{PeopleRun, Span};
@@ -35,6 +35,8 @@ pub(super) struct RobotRun {
     pub(super) name: String,
     pub(super) stations: Vec<StationId>,
     pub(super) boots: Vec<u16>,
+    /// Those that it booted with last.
+    pub(super) settings: Option<Settings>,
     pub(super) records: u64,
     pub(super) steps: u64,
     pub(super) sent: u64,
@@ -85,7 +87,11 @@ impl Run {
             for fact in facts {
                 run.take((at_us, record.at_us), &record.robot, fact);
             }
-            run.robot(&record).last_us = at_us;
+            let robot = run.robot(&record);
+            robot.last_us = at_us;
+            if let Entry::Started { settings, .. } = &record.entry {
+                robot.settings = Some((**settings).clone());
+            }
         }
         run.playback = reading.finish(None);
         for robot in &mut run.robots {

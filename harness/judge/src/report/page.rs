@@ -7,7 +7,7 @@ use crossguard_robot::around::Nearest;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::collect::Run;
-use super::{Report, Validity, messages, people, street, timeline};
+use super::{Report, Validity, bounds, messages, people, street, timeline};
 use crate::timing::{Statistic, Summary, offsets_in_words};
 use crate::verdict;
 
@@ -29,6 +29,7 @@ pub(super) fn page(report: &Report, run: &Run) -> Markup {
         ("people", "People", people::table(run)),
         ("around", "Who was around", around(run)),
         ("times", "Times", Some(times(report, run))),
+        ("bounds", "Longest times", bounds::table(run)),
         ("nothing", "Dropped or ignored", Some(counters(run))),
         ("properties", "Properties", properties(report)),
         ("robots", "Robots", Some(robots(run))),
