@@ -60,6 +60,7 @@ fn a_person_types_every_step_and_reads_what_happens() {
     assert_eq!(output.status.code(), Some(0), "{text}{}", stderr(&output));
     for expected in [
         "ARI is station 1, boot 1, on 127.0.0.1:",
+        "a leader that does stops its followers within ",
         "now RoleEstablished (leader)",
         "2 joined",
         "2 acknowledged 1#1.0/0",
