@@ -1,7 +1,7 @@
 //! A walk through a scenario, step by step: what each robot is doing after each step, and what may happen next.
 //!
 //! The steps are those of [`Replay`], so a walk is kept and followed like a counterexample.
-//! Nothing is stored between two walks: whoever goes one step further walks again from the start.
+//! Nothing is stored between two walks: to go one step further, a caller walks again from the start.
 
 use crossguard_protocol::{Availability, Role, State, StationId};
 use rustc_hash::FxHashSet;

@@ -29,6 +29,8 @@ struct Section {
     name: String,
     text: String,
     is_verified: bool,
+    /// Whether Kani has ended it at the limit.
+    is_late: bool,
     /// Whether Kani has said how long it took.
     is_judged: bool,
     /// How many cover marks are satisfied, of how many.
@@ -80,13 +82,14 @@ impl Batch {
             for outcome in late.into_iter().chain(done) {
                 judged += 1;
                 if !takes(outcome) {
-                    return Ok(());
+                    let _ = kani.kill();
+                    return kani.wait().map(|_| ()).map_err(|cause| failed(&cause));
                 }
             }
         }
         let status = kani.wait().map_err(|cause| failed(&cause))?;
         let complaints = complaints.and_then(|it| it.join().ok()).unwrap_or_default();
-        if section.is_open() && status.code() == Some(1) {
+        if section.is_open() && section.is_late {
             judged += 1;
             takes(section.outcome(limit, &self.entries));
         }
@@ -119,6 +122,7 @@ impl Section {
         self.text.push_str(line);
         self.text.push('\n');
         self.is_verified |= line.contains("VERIFICATION:- SUCCESSFUL");
+        self.is_late |= line.contains("CBMC timed out");
         self.marks = marks(line).unwrap_or(self.marks);
         let (_, time) = line.split_once("Verification Time: ")?;
         self.is_judged = true;
@@ -129,13 +133,13 @@ impl Section {
         let wanted = entries.iter().find(|entry| entry.name == self.name);
         let wanted = wanted.map_or(0, |entry| entry.covers);
         let (satisfied, of) = self.marks;
-        let failure = match (self.is_verified, self.is_judged) {
+        let failure = match (self.is_verified, self.is_late) {
             (true, _) if satisfied == of && of == wanted => None,
             (true, _) => Some(format!(
                 "{satisfied} of {of} cover marks satisfied, {wanted} expected"
             )),
-            (false, false) => Some("not verified within the limit".to_owned()),
-            (false, true) => Some(format!("NOT verified\n{}", self.text)),
+            (false, true) => Some("not verified within the limit".to_owned()),
+            (false, false) => Some(format!("NOT verified\n{}", self.text)),
         };
         Outcome {
             name: self.name.clone(),

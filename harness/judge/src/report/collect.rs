@@ -35,7 +35,7 @@ pub(super) struct RobotRun {
     pub(super) name: String,
     pub(super) stations: Vec<StationId>,
     pub(super) boots: Vec<u16>,
-    /// Those that it booted with last.
+    /// The settings of its last boot.
     pub(super) settings: Option<Settings>,
     pub(super) records: u64,
     pub(super) steps: u64,

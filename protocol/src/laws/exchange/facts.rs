@@ -3,7 +3,7 @@
 use super::{Exchange, History};
 use crate::id::StationId;
 
-/// What facts imply of each other, whoever knows them. Each consequence is known before its cause becomes known,
+/// What facts imply of each other, for leader and follower alike. Each consequence is known before its cause becomes known,
 /// and stays known.
 #[must_use]
 pub fn are_consistent(exchange: &Exchange, history: &History) -> bool {
