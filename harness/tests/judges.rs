@@ -105,7 +105,7 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
 #[test]
 #[ignore = "needs what harness/judges/run installs"]
 fn a_subscriber_to_zenoh_hears_packets_that_can_be_decoded() {
-    let port = command::free_tcp_ports(1);
+    let port = command::free_ports(1);
     let demo = ["demo", "--zenoh", "router", "--quiet", "--trials", "3"];
     let mut demo = command::crossguard(&demo)
         .args(["--port", &port.to_string()])

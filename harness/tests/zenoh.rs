@@ -18,7 +18,7 @@ fn endpoint(port: u16) -> String {
 
 /// Peers, each connected to each other, whose keys these are.
 fn peers(keys: &[&str]) -> Vec<Zenoh> {
-    let first = free_tcp_ports(u16::try_from(keys.len()).unwrap());
+    let first = free_ports(u16::try_from(keys.len()).unwrap());
     let peer = |(key, port): (&&str, u16)| Zenoh {
         key: (*key).to_owned(),
         listen: vec![endpoint(port)],
@@ -102,7 +102,7 @@ fn robots_of_another_key_are_not_heard() {
 
 #[test]
 fn clients_reach_each_other_only_through_the_router() {
-    let port = free_tcp_ports(1);
+    let port = free_ports(1);
     let routing = router(port);
     let mut halves = open(&[client(port), client(port)]);
     meet(&mut halves, 0, 1);
@@ -206,7 +206,7 @@ fn what_cannot_be_opened_says_why() {
         Err(LinkError::Zenoh(error)) => error,
         Err(other) => panic!("{other}"),
     };
-    let port = free_tcp_ports(1);
+    let port = free_ports(1);
     let error = open(client(port));
     assert!(matches!(error, ZenohError::Unreachable { .. }), "{error}");
     let error = open(Zenoh::new(ZenohMode::Client));
@@ -292,7 +292,7 @@ fn two_processes_cross_as_peers_and_their_packets_are_recorded() {
     let folder = tempfile::tempdir().unwrap();
     let pcap = folder.path().join("ari.pcap");
     let pcap = pcap.to_str().unwrap();
-    let there = endpoint(free_tcp_ports(1));
+    let there = endpoint(free_ports(1));
     cross(
         &["--zenoh", "peer", "--zenoh-connect", &there, "--pcap", pcap],
         &["--zenoh", "peer", "--zenoh-listen", &there],
@@ -305,7 +305,7 @@ fn two_processes_cross_as_peers_and_their_packets_are_recorded() {
 
 #[test]
 fn a_robot_may_be_the_router_itself() {
-    let there = endpoint(free_tcp_ports(1));
+    let there = endpoint(free_ports(1));
     cross(
         &["--zenoh", "client", "--zenoh-connect", &there],
         &["--zenoh", "router", "--zenoh-listen", &there],
@@ -315,7 +315,7 @@ fn a_robot_may_be_the_router_itself() {
 #[test]
 fn a_robot_file_names_the_network_as_well() {
     let folder = tempfile::tempdir().unwrap();
-    let there = endpoint(free_tcp_ports(1));
+    let there = endpoint(free_ports(1));
     let with_link = |name: &str, station, link: &str| {
         let path = robot_file(folder.path(), name, station, 47_400, 47_401);
         let text = std::fs::read_to_string(&path).unwrap();
@@ -341,7 +341,7 @@ fn the_demo_meets_over_zenoh_with_loss_and_signatures_while_somebody_listens() {
     ] {
         let folder = tempfile::tempdir().unwrap();
         let log = folder.path().join("demo.jsonl");
-        let port = free_tcp_ports(4).to_string();
+        let port = free_ports(4).to_string();
         let there = format!("tcp/127.0.0.1:{port}");
         let mut demo = crossguard(&["demo", "--json", "--speed", "10", "--scenario", "trio"]);
         demo.args(["--zenoh", how, "--port", &port, "--log"])

@@ -39,7 +39,7 @@ fn until(config: &str, expected: &str, from: usize) -> usize {
 #[test]
 fn robots_cross_again_when_the_router_is_back() {
     let folder = tempfile::tempdir().unwrap();
-    let endpoint = format!("tcp/127.0.0.1:{}", free_tcp_ports(1));
+    let endpoint = format!("tcp/127.0.0.1:{}", free_ports(1));
     // The addresses of these files are not used: the command line's link takes their place.
     let robots = [("ARI", 1, 47_400, 47_401), ("Go2", 2, 47_401, 47_400)];
     let [ari, go2] = robots.map(|(name, station, port, peer)| {

@@ -10,10 +10,8 @@ use crossguard_ros2::entity::NodeName;
 use crossguard_ros2::msgs::{Command, Corridor, Event, Status, Task};
 use crossguard_ros2::node::{Options, start};
 use crossguard_ros2::robot::{BodyKind, Robot};
-use crossguard_testkit::command::edit;
-use support::{
-    Observer, PATIENCE, free_endpoint, free_tcp_port, meeting, node, robot, two_free_ports, was_at,
-};
+use crossguard_testkit::command::{edit, free_ports};
+use support::{Observer, PATIENCE, free_endpoint, meeting, node, robot, two_free_ports, was_at};
 
 /// A process that is killed with its test.
 struct Killed(Child);
@@ -80,7 +78,7 @@ fn robots(folder: &Path, port: u16) -> [Robot; 2] {
 #[test]
 fn a_body_at_its_port_guards_by_a_plan_of_the_kit_and_its_silence_stops_the_robot() {
     let folder = tempfile::tempdir().unwrap();
-    let (first, port) = (free_endpoint(), free_tcp_port());
+    let (first, port) = (free_endpoint(), free_ports(1));
     let [leader, guard] = robots(folder.path(), port);
     let log = guard.log.clone().unwrap();
     let leading = node(meeting(&first, &[]), "/ari", leader);
@@ -139,7 +137,7 @@ fn a_body_at_its_port_guards_by_a_plan_of_the_kit_and_its_silence_stops_the_robo
 #[test]
 fn a_plan_that_is_not_there_and_two_who_move_the_body_are_refused_in_words() {
     let folder = tempfile::tempdir().unwrap();
-    let [leader, guard] = robots(folder.path(), free_tcp_port());
+    let [leader, guard] = robots(folder.path(), free_ports(1));
     let lost = Robot {
         plan: Some(folder.path().join("lost.toml")),
         ..leader
@@ -163,7 +161,7 @@ fn a_plan_that_is_not_there_and_two_who_move_the_body_are_refused_in_words() {
 #[test]
 fn a_robot_whose_body_port_is_taken_is_not_activated_and_takes_no_boot_counter() {
     let folder = tempfile::tempdir().unwrap();
-    let (first, port) = (free_endpoint(), free_tcp_port());
+    let (first, port) = (free_endpoint(), free_ports(1));
     let [_, guard] = robots(folder.path(), port);
     let running = node(meeting(&first, &[]), "/guard", guard);
     let observer = Observer::at(&meeting("tcp/127.0.0.1:0", &[&first]));

@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io::Write;
-use std::net::{TcpListener, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,6 +10,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 
 use crate::built;
+pub use crate::ports::{free_ports, two_free_ports};
 
 /// The `crossguard` command with these arguments.
 pub fn crossguard(arguments: &[&str]) -> Command {
@@ -55,35 +55,6 @@ pub fn assert_refused(output: &Output, cause: &str) {
 pub fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout)
         .unwrap_or_else(|error| panic!("{error}\n{}\n{}", stdout(output), stderr(output)))
-}
-
-/// A UDP port on 127.0.0.1 that is free, and so is the next one.
-pub fn two_free_ports() -> u16 {
-    free_ports(2)
-}
-
-/// The first of this many UDP ports on 127.0.0.1 that are free.
-pub fn free_ports(ports: u16) -> u16 {
-    loop {
-        let first = UdpSocket::bind("127.0.0.1:0").unwrap();
-        let port = first.local_addr().unwrap().port();
-        let is_free = |next: u16| UdpSocket::bind(("127.0.0.1", port + next)).is_ok();
-        if (1_024..65_000).contains(&port) && (1..ports).all(is_free) {
-            return port;
-        }
-    }
-}
-
-/// The first of this many TCP ports on 127.0.0.1 that are free.
-pub fn free_tcp_ports(ports: u16) -> u16 {
-    loop {
-        let first = TcpListener::bind("127.0.0.1:0").unwrap();
-        let port = first.local_addr().unwrap().port();
-        let is_free = |next: u16| TcpListener::bind(("127.0.0.1", port + next)).is_ok();
-        if (1_024..65_000).contains(&port) && (1..ports).all(is_free) {
-            return port;
-        }
-    }
 }
 
 /// What a demo says as JSON, and what `attack` gives, which gets the first of its two ports and goes on

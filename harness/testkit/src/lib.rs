@@ -13,6 +13,8 @@ pub mod c;
 pub mod command;
 #[cfg(feature = "markdown")]
 pub mod markdown;
+#[cfg(feature = "ports")]
+pub mod ports;
 #[cfg(feature = "rules")]
 pub mod rules;
 #[cfg(feature = "story")]

@@ -182,7 +182,7 @@ fn a_full_channel_is_shown_and_bad_frames_are_counted_each_under_its_cause() {
     let (unit, heard) = busy_unit(8_000);
     let config = robot_file(folder.path(), "ARI", 1, port, port + 1);
     let config = attached(config, unit, "", "speed = 40.0");
-    let address = format!("127.0.0.1:{}", free_tcp_ports(1));
+    let address = format!("127.0.0.1:{}", free_ports(1));
     let arguments = [
         "run",
         "--config",

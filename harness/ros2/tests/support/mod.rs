@@ -1,7 +1,6 @@
 //! What the tests of the node share: robots, nodes, and somebody who knows them by ROS messages only.
 #![allow(dead_code, unreachable_pub, reason = "each test uses what it needs")]
 
-use std::net::{TcpListener, UdpSocket};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
@@ -15,26 +14,19 @@ use crossguard_ros2::node::{Options, Running, start};
 use crossguard_ros2::qos::Qos;
 use crossguard_ros2::robot::{BodyKind, Robot};
 use crossguard_ros2::standard::{ChangeState, ChangeStateRequest, Empty, GetState, Transition};
-use crossguard_testkit::command::robot_file;
+use crossguard_testkit::command::{free_ports, robot_file};
 
 pub const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Two UDP ports on 127.0.0.1 that are free.
+/// Two ports on 127.0.0.1 that are free.
 pub fn two_free_ports() -> [u16; 2] {
-    let sockets = [(); 2].map(|()| UdpSocket::bind("127.0.0.1:0").unwrap());
-    sockets.map(|socket| socket.local_addr().unwrap().port())
-}
-
-/// A TCP port on 127.0.0.1 that is free.
-pub fn free_tcp_port() -> u16 {
-    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-    listener.local_addr().unwrap().port()
+    let first = free_ports(2);
+    [first, first + 1]
 }
 
 /// An endpoint of zenoh on 127.0.0.1 that is free.
 pub fn free_endpoint() -> String {
-    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-    format!("tcp/{}", listener.local_addr().unwrap())
+    format!("tcp/127.0.0.1:{}", free_ports(1))
 }
 
 /// A robot, with its configuration in a file. The first leads by itself once somebody is detected.

@@ -1,11 +1,11 @@
 //! Processes of a check, as threads of the test: each has a model of its own, and they speak over TCP.
 
-use std::net::TcpListener;
 use std::num::NonZeroUsize;
 use std::thread;
 use std::time::Duration;
 
 use crossguard_model_check::model::Model;
+use crossguard_testkit::ports::free_ports;
 use crossguard_workers::{Hosts, Options, WorkersError, WorkersReport, check};
 
 /// Options for this number of workers.
@@ -20,12 +20,10 @@ pub(crate) fn workers(number: usize) -> Options {
 /// Hosts on this machine that are free just now.
 #[allow(dead_code, reason = "not every test needs it alone")]
 pub(crate) fn hosts(number: usize) -> Hosts {
-    let free: Vec<_> = (0..number)
-        .map(|_| TcpListener::bind("127.0.0.1:0").unwrap())
-        .collect();
-    let lines: Vec<_> = free
-        .iter()
-        .map(|free| free.local_addr().unwrap().to_string())
+    let ports = u16::try_from(number).unwrap();
+    let first = free_ports(ports);
+    let lines: Vec<_> = (first..first + ports)
+        .map(|port| format!("127.0.0.1:{port}"))
         .collect();
     Hosts::parse(&lines.join("\n")).unwrap()
 }
