@@ -2,13 +2,15 @@
 //! that run, and what breaks a property of safety breaks them.
 
 mod budgets;
+mod leases;
 mod runs;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_protocol::laws::exchange::History;
+use crossguard_protocol::Heartbeat;
+use crossguard_protocol::laws::exchange::{Heard, History};
 use crossguard_testkit::rules::*;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use runs::{Run, follow};
@@ -26,7 +28,7 @@ fn walk(scenario: &Scenario, rules: &dyn Rules, seeds: std::ops::Range<u8>) -> V
             run.go_on(&mut random);
         }
         for exchange in run.exchanges() {
-            histories.push(follow(&exchange, &run.entries));
+            histories.push(follow(&scenario.config, &exchange, &run.entries));
         }
     }
     histories
@@ -35,10 +37,12 @@ fn walk(scenario: &Scenario, rules: &dyn Rules, seeds: std::ops::Range<u8>) -> V
 #[test]
 fn it_holds_in_all_short_runs_of_a_pair() {
     let scenario = Scenario::load("pair").unwrap();
-    let met = runs::all::explore(&scenario, 9);
+    let met = runs::all::explore(&scenario, Heartbeat(1), 9);
     println!("{} histories", met.len());
     assert!(met.iter().any(|history| history.started));
     assert!(met.iter().any(|history| history.left && !history.started));
+    let before_the_end = Some(Heard::BeforeTheEnd);
+    assert!(met.iter().any(|history| history.heard == before_the_end));
 }
 
 #[test]
@@ -52,15 +56,22 @@ fn it_holds_in_runs_of_every_scenario() {
         }
     }
     println!("{} exchanges", histories.len());
-    let facts: [(&str, IsKnown); 16] = [
+    let facts: [(&str, IsKnown); 19] = [
         ("requested", |h| h.requested),
         ("ended", |h| h.ended),
         ("listed", |h| h.listed.is_some()),
         ("dropped", |h| h.dropped),
+        ("beaten", |h| h.beaten),
         ("commanded", |h| h.commanded.is_some()),
         ("offered", |h| h.offered),
         ("joined", |h| h.joined),
         ("left", |h| h.left),
+        ("heard before the end", |h| {
+            h.heard == Some(Heard::BeforeTheEnd)
+        }),
+        ("heard after the end", |h| {
+            h.heard == Some(Heard::AfterTheEnd)
+        }),
         ("accepted", |h| h.accepted),
         ("refused", |h| h.refused),
         ("started", |h| h.started),
@@ -91,18 +102,19 @@ fn breaks(scenario: &str, rules: &dyn Rules, what: &str) -> bool {
     })
 }
 
-/// The weakenings of `weakenings.rs` that break a property of safety which is one of an exchange, with the properties that
+/// The weakenings of `weakenings.rs`, and those of leases, that break a property of safety which is one of an exchange, with the properties that
 /// they break there, and what each breaks here.
 #[test]
 fn it_does_not_hold_without_a_rule_that_it_rests_on() {
     let disagree = "state and facts disagree";
-    let weakenings: [(&str, &dyn Rules, &str, &str); 14] = [
+    let on_heartbeats = "I10: state and facts disagree on heartbeats";
+    let weakenings: [(&str, &dyn Rules, &str, &str); 19] = [
         ("I2, I15", &ConfirmsByStationAlone, "pair-reboot", disagree),
         (
             "I2",
             &NeedsNoConfirmation,
             "pair",
-            "I2, I3, I6: facts disagree",
+            "I2, I3, I6, I10: facts disagree",
         ),
         (
             "I3",
@@ -150,6 +162,31 @@ fn it_does_not_hold_without_a_rule_that_it_rests_on() {
             &LosesTwoForOne,
             "trio",
             "I17: another robot touches the record",
+        ),
+        (
+            "I10",
+            &leases::CountsWhatWasNotEchoed,
+            "pair",
+            on_heartbeats,
+        ),
+        (
+            "I10",
+            &leases::HearsWhatWasNotSent,
+            "pair",
+            "I2, I3, I6, I10: facts disagree",
+        ),
+        ("I10, I11", &ReadsNoProgress, "pair", on_heartbeats),
+        (
+            "I10",
+            &leases::CountsFromTheArrival,
+            "pair",
+            "I10: a lease outlasts the heartbeat that it counts from",
+        ),
+        (
+            "I10",
+            &leases::LosesContactEarly,
+            "pair",
+            "I10: contact is shortened",
         ),
         (
             "I18",

@@ -47,6 +47,7 @@ fn of(part: Part, config: Config, robot: Robot) -> Watched {
     kani::assume(part.is_of(&exchange, &robot));
     kani::assume(exchange.session.leader != exchange.follower);
     let history = arbitrary::history(&mut Symbolic, &exchange, &robot);
+    kani::assume(robots::are_near(&exchange, &robot));
     kani::assume(steps::holds(&exchange, &history, &robot));
     Watched {
         config,

@@ -66,4 +66,16 @@ harnesses! {
         kani::cover!(robot.next_ram().is_some_and(|left| left > elapsed), "not yet");
         kani::cover!(elapsed.0 == PASSAGE, "the longest time");
     }
+
+    /// All leaders with the default configuration, up to a second at once.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn time_leaves_leases_covered() {
+        let config = Config::default();
+        let robot = any_valid(&config, Stage::Leading, (1, 1));
+        let elapsed = Millis(any_time() & PASSAGE);
+        let stand = laws::time_leaves_leases_covered(&config, &robot, elapsed);
+        kani::cover!(stand, "a lease stands before and after");
+        kani::cover!(robot.next_ram().is_some_and(|left| left < elapsed), "late");
+    }
 }

@@ -8,16 +8,20 @@
 //!  messages::ram_is_true, rmcm_is_true    what a message implies of the history, whenever it arrives
 //!  robots::agrees                         what the state of a robot and the history imply of each other
 //!  steps::keeps                           one step keeps both, and breaks no property
+//!  leases                                 from facts to real time: what an open corridor rests on
 //! ```
 //!
 //! Nothing here calls a predicate of the protocol: numbers are compared by their positions from the first one, and
 //! states are read field by field.
 
-use crate::id::{ManeuverId, OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
+use crate::id::{
+    Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, StationId, UniqueNumber,
+};
 use crate::task::TaskType;
 
 pub mod alone;
 pub mod facts;
+pub mod leases;
 pub mod messages;
 pub mod observer;
 pub mod robots;
@@ -36,6 +40,8 @@ pub struct Exchange {
     pub request: RequestId,
     /// The number of the leader's first command of a session.
     pub first: RequestId,
+    /// One heartbeat of the leader.
+    pub heartbeat: Heartbeat,
 }
 
 impl Exchange {
@@ -59,10 +65,35 @@ impl Exchange {
         request.0.wrapping_sub(self.first.0)
     }
 
+    /// Whether this is the watched heartbeat or a later one, among heartbeats that are near it.
+    pub(super) const fn has_come(&self, heartbeat: Heartbeat) -> bool {
+        heartbeat.0.wrapping_sub(self.heartbeat.0) < HALF_SPACE
+    }
+
+    /// Whether a heartbeat is less than a quarter of the number space from the watched one, so that any two such
+    /// heartbeats can be put in order. That is 27 minutes with a RAM in 100 ms.
+    #[must_use]
+    pub const fn is_near(&self, heartbeat: Heartbeat) -> bool {
+        let from_quarter = self.heartbeat.0.wrapping_sub(HALF_SPACE / 2);
+        heartbeat.0.wrapping_sub(from_quarter) < HALF_SPACE
+    }
+
     /// The position of the watched request.
     pub(super) const fn place(&self) -> u8 {
         self.position(self.request)
     }
+}
+
+/// Half of the number space of heartbeats.
+const HALF_SPACE: u16 = 1 << 15;
+
+/// When the follower has heard the watched heartbeat, or a later one, first.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Heard {
+    /// It was not through with the watched request: it executed it, or it had not accepted it yet.
+    BeforeTheEnd,
+    /// It did not execute the watched request any more.
+    AfterTheEnd,
 }
 
 /// What has happened in an exchange. A fact that is known stays known.
@@ -77,6 +108,8 @@ pub struct History {
     pub listed: Option<OfferNumber>,
     /// The leader has dropped the follower.
     pub dropped: bool,
+    /// The leader has sent the watched heartbeat of the session, or a later one.
+    pub beaten: bool,
     /// The leader has commanded this as the watched request.
     pub commanded: Option<TaskType>,
     /// The follower has made the watched offer to the session.
@@ -85,6 +118,8 @@ pub struct History {
     pub joined: bool,
     /// The follower has no part in the session any more.
     pub left: bool,
+    /// The follower has heard the watched heartbeat of the session, or a later one.
+    pub heard: Option<Heard>,
     /// The follower has accepted the watched request.
     pub accepted: bool,
     /// The follower has refused it.

@@ -5,9 +5,11 @@
 use crate::config::{Config, Inequality, Settings};
 use crate::id::Heartbeat;
 use crate::input::Timer;
-use crate::state::{Phase, Robot};
+use crate::state::{Lease, Phase, Robot};
 use crate::time::Millis;
 
+use super::exchange::leases::are_covered;
+use super::taken::leading;
 use super::timers::fire;
 
 /// How far two clocks have come since the leader sent a heartbeat, all in milliseconds.
@@ -101,6 +103,32 @@ pub fn heartbeats_age_as_time_passes(
     if expected < longest {
         assert!(u64::from(age.0) == expected);
     }
+}
+
+/// Leases stay [covered](are_covered) by the heartbeats that they count from, however much time passes at once and however
+/// late the RAM is.
+///
+/// `robot` is a leader whose followers are not out of order. Gives whether it has a lease that stands before and after.
+pub fn time_leaves_leases_covered(config: &Config, robot: &Robot, elapsed: Millis) -> bool {
+    let Some(left) = robot.next_ram() else {
+        return false;
+    };
+    if !are_covered(config, robot) {
+        return false;
+    }
+    let mut after = robot.clone();
+    after.advance(elapsed);
+    if after.next_ram() == Some(Millis::ZERO) {
+        after = fire(config, &after, Timer::Ram, elapsed.saturating_sub(left)).after;
+    }
+    assert!(are_covered(config, &after));
+    let stands = |robot: &Robot| {
+        leading(robot).is_some_and(|leading| {
+            let mut members = leading.members.iter();
+            members.any(|member| matches!(member.lease, Lease::Stands(left) if left.left() > Some(Millis::ZERO)))
+        })
+    };
+    stands(robot) && stands(&after)
 }
 
 fn age_of(config: &Config, robot: &Robot, heartbeat: Heartbeat) -> Option<Millis> {

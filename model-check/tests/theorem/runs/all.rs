@@ -15,16 +15,16 @@ struct World {
     robots: [Robot; 2],
     sent: Vec<(usize, Input)>,
     history: History,
-    /// How often somebody may still detect a pedestrian, command, disturb or lose power.
-    left: [u8; 4],
+    /// How often somebody may still detect a pedestrian, command, disturb, lose power, or beat.
+    left: [u8; 5],
 }
 
-/// Explores all runs of `depth` steps: each message may arrive at any time and again, each timer may expire but that of the
-/// RAM. The histories that were met.
+/// Explores all runs of `depth` steps: each message may arrive at any time and again, each timer may expire, and the leader
+/// may send one more heartbeat. The histories that were met.
 ///
 /// # Panics
 /// When a step of the induction does not hold.
-pub(crate) fn explore(scenario: &Scenario, depth: usize) -> HashSet<History> {
+pub(crate) fn explore(scenario: &Scenario, heartbeat: Heartbeat, depth: usize) -> HashSet<History> {
     let [leader, follower] = [0, 1].map(|place| scenario.robots[place].station);
     let number = UniqueNumber { boot: 1, count: 0 };
     let first = scenario.config.settings().first_request;
@@ -37,12 +37,13 @@ pub(crate) fn explore(scenario: &Scenario, depth: usize) -> HashSet<History> {
         offer: OfferNumber(number),
         request: first,
         first,
+        heartbeat,
     };
     let start = World {
         robots: [leader, follower].map(|station| Robot::new(station, 1)),
         sent: Vec::new(),
         history: History::default(),
-        left: [1, 2, 1, 1],
+        left: [1, 2, 1, 1, 1],
     };
     let mut seen = HashSet::from([start.clone()]);
     let mut last = vec![start];
@@ -68,14 +69,21 @@ pub(crate) fn explore(scenario: &Scenario, depth: usize) -> HashSet<History> {
 }
 
 impl World {
-    fn inputs(&self, scenario: &Scenario) -> Vec<(usize, Input, [u8; 4])> {
+    fn inputs(&self, scenario: &Scenario) -> Vec<(usize, Input, [u8; 5])> {
         let mut inputs = Vec::new();
         for (sender, input) in &self.sent {
             inputs.push((1 - sender, *input, self.left));
         }
         for (place, robot) in self.robots.iter().enumerate() {
-            for (timer, _) in robot.timers().iter().filter(|it| it.0 != Timer::Ram) {
-                inputs.push((place, Input::Expired(*timer), self.left));
+            for &(timer, _) in robot.timers().iter() {
+                let mut left = self.left;
+                if timer == Timer::Ram {
+                    if !matches!(robot.phase(), Phase::Leading(_)) || left[4] == 0 {
+                        continue;
+                    }
+                    left[4] -= 1;
+                }
+                inputs.push((place, Input::Expired(timer), left));
             }
             let mut event = |event, bound: Option<usize>| {
                 let mut left = self.left;
@@ -118,7 +126,7 @@ impl World {
         scenario: &Scenario,
         exchange: &Exchange,
         (place, input): (usize, Input),
-        left: [u8; 4],
+        left: [u8; 5],
     ) -> Self {
         let mut world = self.clone();
         world.left = left;

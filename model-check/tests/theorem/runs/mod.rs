@@ -4,10 +4,12 @@
 
 pub(crate) mod all;
 
+use std::collections::BTreeSet;
+
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::laws::exchange::observer::lose_power;
-use crossguard_protocol::laws::exchange::{Exchange, History, alone, robots, steps};
+use crossguard_protocol::laws::exchange::{Exchange, History, alone, leases, robots, steps};
 use crossguard_protocol::*;
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
@@ -181,7 +183,8 @@ impl<'a> Run<'a> {
         self.entries.push(Entry::Reboot { before, after });
     }
 
-    /// Every exchange that occurs in the run: each session, follower and request of it, with each offer that was made.
+    /// Every exchange that occurs in the run: each session, follower and request of it, with each offer that was made. Each
+    /// has one of the heartbeats that the follower has echoed, in turn.
     pub(crate) fn exchanges(&self) -> Vec<Exchange> {
         let first = self.scenario.config.settings().first_request;
         let mut exchanges = Vec::new();
@@ -203,14 +206,32 @@ impl<'a> Run<'a> {
                 _ => {}
             }
         }
-        let exchange = |&(session, follower, offer, request)| Exchange {
-            session,
-            follower,
-            offer: Option::unwrap_or(offer, OfferNumber(UniqueNumber { boot: 0, count: 0 })),
-            request,
-            first,
+        let exchange = |(turn, &(session, follower, offer, request))| {
+            let echoed = self.echoed(session, follower);
+            Exchange {
+                session,
+                follower,
+                offer: Option::unwrap_or(offer, OfferNumber(UniqueNumber { boot: 0, count: 0 })),
+                request,
+                first,
+                heartbeat: Heartbeat(*echoed.iter().cycle().nth(turn).unwrap_or(&1)),
+            }
         };
-        exchanges.iter().map(exchange).collect()
+        exchanges.iter().enumerate().map(exchange).collect()
+    }
+
+    /// The heartbeats that a follower has echoed in a session.
+    fn echoed(&self, watched: SessionId, follower: StationId) -> BTreeSet<u16> {
+        let echo = |(_, input): &(usize, Input)| match *input {
+            Input::Ram { ram, .. } => match ram.coordination {
+                Coordination::Follower { session, echo, .. } => {
+                    (ram.station == follower && session == watched).then_some(echo.0)
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+        self.sent.iter().filter_map(echo).collect()
     }
 }
 
@@ -230,7 +251,7 @@ fn message(after: &Robot, output: &Output) -> Option<Input> {
 ///
 /// # Panics
 /// When a step of the induction does not hold.
-pub(crate) fn follow(exchange: &Exchange, entries: &[Entry]) -> History {
+pub(crate) fn follow(config: &Config, exchange: &Exchange, entries: &[Entry]) -> History {
     let mut history = History::default();
     for entry in entries {
         match entry {
@@ -248,6 +269,7 @@ pub(crate) fn follow(exchange: &Exchange, entries: &[Entry]) -> History {
                     steps::can_be_next(exchange, &history, before, input),
                     "a message does not stay true"
                 );
+                leases::are_kept(config, before, input, after);
                 alone::leaves_the_record(exchange, (before, input), after);
                 alone::keeps_its_station(exchange, before, outputs.iter(), after);
                 let seen = (before, input);

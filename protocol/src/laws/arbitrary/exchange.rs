@@ -1,9 +1,11 @@
 //! Arbitrary exchanges and histories: every history whose facts are consistent.
 
-use super::{ME, PEER, Source, likely, offer_number, request_id, session, station, task_like};
+use super::{
+    HEARTBEAT, ME, PEER, Source, likely, offer_number, request_id, session, station, task_like,
+};
 use crate::config::Config;
-use crate::id::{RequestId, SessionId, SessionNumber, UniqueNumber};
-use crate::laws::exchange::{Exchange, History};
+use crate::id::{Heartbeat, RequestId, SessionId, SessionNumber, StationId, UniqueNumber};
+use crate::laws::exchange::{Exchange, Heard, History};
 use crate::state::{Following, Leading, Member, Phase, Robot};
 
 /// The part that a robot has in an exchange.
@@ -48,6 +50,7 @@ pub fn exchange(source: &mut impl Source, part: Part, robot: &Robot, config: &Co
         offer: offer_number(source),
         request: request_id(source),
         first: config.settings().first_request,
+        heartbeat: heartbeat_like(source, follower, robot),
     }
 }
 
@@ -64,6 +67,20 @@ fn session_like(source: &mut impl Source, robot: &Robot) -> SessionId {
         leader: station(source, likely.leader.0),
         number: SessionNumber(number),
     }
+}
+
+/// Any heartbeat; hints let it be the newest one that the state knows of the follower.
+fn heartbeat_like(source: &mut impl Source, follower: StationId, robot: &Robot) -> Heartbeat {
+    let echoed = |leading: &Leading| {
+        let mut members = leading.members.iter();
+        members.find(|member| member.station == follower)?.echoed
+    };
+    let likely = match &robot.phase {
+        Phase::Leading(leading) => echoed(leading),
+        Phase::Following(following) => Some(following.heard),
+        Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => None,
+    };
+    Heartbeat(source.u16(likely.map_or(HEARTBEAT, |heartbeat| heartbeat.0)))
 }
 
 /// What a state makes likely.
@@ -122,8 +139,12 @@ pub fn history(source: &mut impl Source, exchange: &Exchange, robot: &Robot) -> 
         .and_then(|member| member.outstanding.map(|it| it.task))
         .or(member.and_then(|member| member.order.map(|it| it.task)))
         .or(following.and_then(|following| following.job.map(|it| it.task)));
-    let commanded = likely(source, task.map(|_| true), |s| {
-        task_like(s, task.map_or(u32::MAX, |task| u32::from(task.value())))
+    let is_commanded = task.is_some() || following.is_some();
+    let commanded = likely(source, is_commanded.then_some(true), |source| {
+        task_like(
+            source,
+            task.map_or(u32::MAX, |task| u32::from(task.value())),
+        )
     })
     .filter(|_| is_known);
     let can_answer = joined && commanded.is_some();
@@ -132,15 +153,25 @@ pub fn history(source: &mut impl Source, exchange: &Exchange, robot: &Robot) -> 
         .and_then(|following| following.job)
         .is_some_and(|job| job.progress.is_running());
     let over = accepted && source.likely(Some(!is_running));
+    let beaten = requested && source.likely(Some(hints.is_open));
+    let heard = likely(source, is_listed, |source| {
+        if over && source.flag() {
+            Heard::AfterTheEnd
+        } else {
+            Heard::BeforeTheEnd
+        }
+    });
     History {
         requested,
         ended,
         listed,
         dropped: requested && source.likely(Some(false)),
+        beaten,
         commanded,
         offered: source.likely(Some(true)) || listed == Some(exchange.offer),
         joined,
         left: joined && source.likely(Some(!is_peer)),
+        heard: heard.filter(|_| joined && beaten),
         accepted,
         refused: can_answer && !accepted && source.flag(),
         started: accepted,

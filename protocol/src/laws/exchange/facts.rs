@@ -1,6 +1,6 @@
 //! What facts imply of each other, and who makes which known.
 
-use super::{Exchange, History};
+use super::{Exchange, Heard, History};
 use crate::id::StationId;
 
 /// What facts imply of each other, for leader and follower alike. Each consequence is known before its cause becomes known,
@@ -12,10 +12,12 @@ pub fn are_consistent(exchange: &Exchange, history: &History) -> bool {
         ended,
         listed,
         dropped,
+        beaten,
         commanded,
         offered,
         joined,
         left,
+        heard,
         accepted,
         refused,
         started,
@@ -25,10 +27,13 @@ pub fn are_consistent(exchange: &Exchange, history: &History) -> bool {
         fell_back,
         over,
     } = *history;
-    (requested || (!ended && !dropped && listed.is_none()))
+    (requested || (!ended && !dropped && !beaten && listed.is_none()))
         && (offered || listed != Some(exchange.offer))
         // I2: who follows was listed.
         && (listed.is_some() || (!joined && commanded.is_none()))
+        // I10: what is heard was sent.
+        && ((joined && beaten) || heard.is_none())
+        && (over || heard != Some(Heard::AfterTheEnd))
         && (joined || (!left && !accepted && !refused && !newer_started))
         // I3: what is answered was commanded.
         && (commanded.is_some() || (!accepted && !refused))
@@ -54,6 +59,7 @@ fn the_leaders_only_grow(before: &History, after: &History) -> bool {
         && (!before.ended || after.ended)
         && grows(before.listed, after.listed)
         && (!before.dropped || after.dropped)
+        && (!before.beaten || after.beaten)
         && grows(before.commanded, after.commanded)
 }
 
@@ -61,6 +67,7 @@ fn the_followers_only_grow(before: &History, after: &History) -> bool {
     (!before.offered || after.offered)
         && (!before.joined || after.joined)
         && (!before.left || after.left)
+        && grows(before.heard, after.heard)
         && (!before.accepted || after.accepted)
         && (!before.refused || after.refused)
         && (!before.started || after.started)
@@ -103,6 +110,7 @@ pub fn with_others(
         ended: leaders.ended,
         listed: leaders.listed,
         dropped: leaders.dropped,
+        beaten: leaders.beaten,
         commanded: leaders.commanded,
         ..*followers
     }

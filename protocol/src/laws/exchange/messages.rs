@@ -4,9 +4,11 @@
 //! A message of a robot that is neither leader nor follower of the exchange implies nothing of it; nor does a farewell: no
 //! property rests on what it says. Each `match` names all messages, so that a new one has to be given a meaning here.
 
-use super::{Exchange, History};
-use crate::id::RequestId;
-use crate::message::{Answer, Command, Coordination, Farewell, Progress, Ram, Rmcm, Verdict};
+use super::{Exchange, Heard, History};
+use crate::id::{RequestId, SessionId};
+use crate::message::{
+    Answer, Command, Coordination, Farewell, Progress, Ram, Report, Rmcm, Verdict,
+};
 
 /// What a RAM implies.
 #[must_use]
@@ -18,32 +20,73 @@ pub fn ram_is_true(exchange: &Exchange, history: &History, ram: &Ram) -> bool {
     let is_follower = ram.station == exchange.follower;
     match &ram.coordination {
         Coordination::None => true,
-        Coordination::NeedHelp { number, .. } => {
-            !is_leader || *number != exchange.session.number || history.requested
+        Coordination::NeedHelp {
+            number, heartbeat, ..
+        } => {
+            !is_leader
+                || *number != exchange.session.number
+                || (history.requested && (history.beaten || !exchange.has_come(*heartbeat)))
         }
         Coordination::OfferHelp { session, offer, .. } => {
             let is_watched = *session == exchange.session && *offer == exchange.offer;
             !is_follower || !is_watched || history.offered
         }
         Coordination::Leader {
-            number, followers, ..
+            number,
+            heartbeat,
+            followers,
+            ..
         } => {
             !is_leader
                 || *number != exchange.session.number
                 || (history.requested
+                    && (history.beaten || !exchange.has_come(*heartbeat))
                     && followers.iter().all(|listed| {
                         listed.station != exchange.follower || history.listed == Some(listed.offer)
                     }))
         }
-        Coordination::Follower { session, last, .. } => {
+        Coordination::Follower {
+            session,
+            echo,
+            last,
+            ..
+        } => {
             !is_follower
                 || *session != exchange.session
                 || (history.joined
+                    && (!exchange.has_come(*echo)
+                        || was_heard(history, says_over(exchange, *last)))
                     && last.is_none_or(|report| {
                         report.request != exchange.request
                             || (history.accepted && progress_is_true(history, report.progress))
                     }))
         }
+    }
+}
+
+/// Whether the follower has heard the watched heartbeat, and before the end of the watched request, where nothing says that
+/// this is over.
+pub(super) const fn was_heard(history: &History, is_over: bool) -> bool {
+    match history.heard {
+        None => false,
+        Some(Heard::BeforeTheEnd) => true,
+        Some(Heard::AfterTheEnd) => is_over,
+    }
+}
+
+/// Whether a report says that the watched request is over.
+fn says_over(exchange: &Exchange, last: Option<Report>) -> bool {
+    last.is_some_and(|report| {
+        let newer = exchange.position(report.request) > exchange.place();
+        newer || (report.request == exchange.request && !runs(report.progress))
+    })
+}
+
+/// Whether the body executes a request with this progress.
+pub(super) const fn runs(progress: Progress) -> bool {
+    match progress {
+        Progress::Executing | Progress::InPosition => true,
+        Progress::Completed | Progress::Failed(_) | Progress::SafeIdle => false,
     }
 }
 
@@ -56,6 +99,25 @@ pub(super) const fn progress_is_true(history: &History, progress: Progress) -> b
         Progress::Failed(_) => history.over,
         Progress::SafeIdle => history.fell_back,
     }
+}
+
+/// Whether the heartbeat of the session that a RAM tells [is near](Exchange::is_near).
+#[must_use]
+pub fn is_near(exchange: &Exchange, ram: &Ram) -> bool {
+    let (session, heartbeat) = match ram.coordination {
+        Coordination::None | Coordination::OfferHelp { .. } => return true,
+        Coordination::NeedHelp {
+            number, heartbeat, ..
+        }
+        | Coordination::Leader {
+            number, heartbeat, ..
+        } => {
+            let leader = ram.station;
+            (SessionId { leader, number }, heartbeat)
+        }
+        Coordination::Follower { session, echo, .. } => (session, echo),
+    };
+    session != exchange.session || exchange.is_near(heartbeat)
 }
 
 /// What an RMCM implies.

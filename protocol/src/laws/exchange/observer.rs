@@ -4,8 +4,8 @@
 //! Only the leader and the follower of the exchange make facts known, each its own. Each `match` names all inputs and
 //! outputs, so that a new one has to be considered here.
 
-use super::{Exchange, History, messages};
-use crate::id::StationId;
+use super::{Exchange, Heard, History, messages};
+use crate::id::{Heartbeat, StationId};
 use crate::input::{Event, Input};
 use crate::message::{Rmcm, Verdict};
 use crate::output::{Maneuver, Notice, Output, Sink};
@@ -239,6 +239,8 @@ fn take_part(exchange: &Exchange, history: &mut History, robot: &Robot) {
         let leads = leads(exchange, robot);
         history.requested |= leads;
         history.ended |= history.requested && !leads;
+        let heartbeat = newest_heartbeat(robot).filter(|_| leads);
+        history.beaten |= heartbeat.is_some_and(|heartbeat| exchange.has_come(heartbeat));
         if let (true, Phase::Leading(leading)) = (leads, &robot.phase) {
             let is_watched = |station| station == exchange.follower;
             let listed = leading.members.iter().find(|m| is_watched(m.station));
@@ -246,17 +248,27 @@ fn take_part(exchange: &Exchange, history: &mut History, robot: &Robot) {
         }
     }
     if robot.station == exchange.follower {
-        let (mut offers, mut follows) = (false, false);
+        let (mut offers, mut follows, mut hears) = (false, false, false);
         match &robot.phase {
             Phase::Offering(offering) => {
                 offers = (offering.session, offering.number) == (exchange.session, exchange.offer);
             }
-            Phase::Following(following) => follows = following.session == exchange.session,
+            Phase::Following(following) => {
+                follows = following.session == exchange.session;
+                hears = follows && exchange.has_come(following.heard);
+            }
             Phase::Idle | Phase::Requesting(_) | Phase::Leading(_) => {}
         }
         history.offered |= offers;
         history.joined |= follows;
         history.left |= history.joined && !follows;
+        if hears && history.heard.is_none() {
+            history.heard = Some(if history.over {
+                Heard::AfterTheEnd
+            } else {
+                Heard::BeforeTheEnd
+            });
+        }
     }
 }
 
@@ -272,6 +284,15 @@ pub fn lose_power(exchange: &Exchange, history: &History, robot: &Robot) -> Hist
         after.over |= after.started;
     }
     after
+}
+
+/// The newest heartbeat of a robot that leads a session, or asks for help in it.
+pub(super) fn newest_heartbeat(robot: &Robot) -> Option<Heartbeat> {
+    match &robot.phase {
+        Phase::Requesting(requesting) => Some(requesting.heartbeat),
+        Phase::Leading(leading) => Some(leading.heartbeat),
+        Phase::Idle | Phase::Offering(_) | Phase::Following(_) => None,
+    }
 }
 
 /// Whether the robot leads the session, or asks for help in it.

@@ -3,18 +3,78 @@
 //! Each fact that is *not* known is used only where its owner is the robot itself, so that no step of another robot makes
 //! this untrue: [`steps::others_leave_it_so`](super::steps::others_leave_it_so).
 
-use super::messages::progress_is_true;
+use super::messages::{progress_is_true, runs, was_heard};
 use super::observer::leads;
 use super::{Exchange, History, is_given_out};
 use crate::id::{RequestId, UniqueNumber};
-use crate::message::Progress;
-use crate::state::{Following, Identity, Job, Leading, Member, Phase, Requesting, Robot};
+use crate::message::{Coordination, Progress, Ram};
+use crate::state::{
+    Following, Identity, Job, Leading, Member, Outstanding, Phase, Requesting, Robot,
+};
 
 /// Whether robot and history agree. A robot that is neither leader nor follower knows nothing of the exchange.
 #[must_use]
 pub fn agrees(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
     (!exchange.is_led_by(robot.station) || leader_agrees(exchange, history, robot))
         && (robot.station != exchange.follower || follower_agrees(exchange, history, robot))
+}
+
+/// Whether robot and history agree on heartbeats, where these [are near](Exchange::is_near).
+#[must_use]
+pub fn agrees_on_heartbeats(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
+    let is_follower = robot.station == exchange.follower;
+    match &robot.phase {
+        Phase::Requesting(requesting) if leads(exchange, robot) => {
+            history.beaten == exchange.has_come(requesting.heartbeat)
+        }
+        Phase::Leading(leading) if leads(exchange, robot) => {
+            let is_so = |member: &Member| {
+                member.station != exchange.follower
+                    || !member.echoed.is_some_and(|echo| exchange.has_come(echo))
+                    || was_heard(history, is_recorded_as_over(exchange, member))
+            };
+            history.beaten == exchange.has_come(leading.heartbeat)
+                && leading.members.iter().all(is_so)
+        }
+        Phase::Following(following) if is_follower && following.session == exchange.session => {
+            history.heard.is_some() == exchange.has_come(following.heard)
+        }
+        Phase::Idle
+        | Phase::Requesting(_)
+        | Phase::Offering(_)
+        | Phase::Leading(_)
+        | Phase::Following(_) => true,
+    }
+}
+
+/// Whether the leader counts the watched request as over.
+fn is_recorded_as_over(exchange: &Exchange, member: &Member) -> bool {
+    member.order.is_some_and(|order| {
+        let newer = exchange.position(order.request) > exchange.place();
+        let over = order.progress.is_some_and(|progress| !runs(progress));
+        newer || (order.request == exchange.request && over)
+    })
+}
+
+/// Whether all heartbeats that the robot knows of the session [are near](Exchange::is_near).
+#[must_use]
+pub fn are_near(exchange: &Exchange, robot: &Robot) -> bool {
+    let is_near = |heartbeat| exchange.is_near(heartbeat);
+    match &robot.phase {
+        Phase::Requesting(requesting) if leads(exchange, robot) => is_near(requesting.heartbeat),
+        Phase::Leading(leading) if leads(exchange, robot) => {
+            let mut members = leading.members.iter();
+            is_near(leading.heartbeat) && members.all(|member| member.echoed.is_none_or(is_near))
+        }
+        Phase::Following(following) if following.session == exchange.session => {
+            is_near(following.heard)
+        }
+        Phase::Idle
+        | Phase::Requesting(_)
+        | Phase::Offering(_)
+        | Phase::Leading(_)
+        | Phase::Following(_) => true,
+    }
 }
 
 const fn next_of(robot: &Robot) -> UniqueNumber {
@@ -70,6 +130,9 @@ fn member_agrees(exchange: &Exchange, history: &History, member: &Member) -> boo
     (member.echoed.is_none() || history.joined)
         && (history.commanded.is_none()
             || exchange.place() < exchange.position(member.next_request))
+        && (history.commanded.is_none()
+            || history.refused
+            || awaits_or_counts(exchange, member, exchange.request))
         && member.outstanding.is_none_or(|outstanding| {
             outstanding.request != exchange.request || history.commanded == Some(outstanding.task)
         })
@@ -87,6 +150,36 @@ fn member_agrees(exchange: &Exchange, history: &History, member: &Member) -> boo
                         | Progress::SafeIdle => progress_is_true(history, progress),
                     }))
         })
+}
+
+/// Whether the leader waits for the answer to a request, or counts this or a newer one as accepted.
+fn awaits_or_counts(exchange: &Exchange, member: &Member, request: RequestId) -> bool {
+    let is_awaited = |outstanding: Outstanding| outstanding.request == request;
+    let position = exchange.position(request);
+    member.outstanding.is_some_and(is_awaited)
+        || member
+            .order
+            .is_some_and(|order| position <= exchange.position(order.request))
+}
+
+/// What the theorem says of the exchange with the request that a RAM of the follower reports, which is another one than the
+/// watched: it was accepted, so it was commanded and not refused, and the leader waits for its answer or counts it.
+#[must_use]
+pub fn can_report(exchange: &Exchange, robot: &Robot, ram: &Ram) -> bool {
+    let (Phase::Leading(leading), Coordination::Follower { session, last, .. }) =
+        (&robot.phase, &ram.coordination)
+    else {
+        return true;
+    };
+    if ram.station != exchange.follower || *session != exchange.session || !leads(exchange, robot) {
+        return true;
+    }
+    let mut members = leading.members.iter();
+    let member = members.find(|member| member.station == exchange.follower);
+    match (member, last) {
+        (Some(member), Some(report)) => awaits_or_counts(exchange, member, report.request),
+        _ => true,
+    }
 }
 
 fn follower_agrees(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
@@ -145,9 +238,8 @@ fn following_agrees(exchange: &Exchange, history: &History, following: &Followin
 
 /// I9, I14: the body executes exactly what the state says.
 fn job_agrees(history: &History, job: Job) -> bool {
-    let runs = matches!(job.progress, Progress::Executing | Progress::InPosition);
     history.accepted
         && history.commanded == Some(job.task)
         && progress_is_true(history, job.progress)
-        && history.runs() == runs
+        && history.runs() == runs(job.progress)
 }

@@ -1,7 +1,7 @@
 //! The steps of the induction.
 
 use super::observer::{Observer, lose_power};
-use super::{Exchange, History, facts, is_given_out, messages, robots};
+use super::{Exchange, History, facts, is_given_out, leases, messages, robots};
 use crate::config::Config;
 use crate::id::{StationId, UniqueNumber};
 use crate::input::{Event, Input, Timer};
@@ -14,15 +14,21 @@ use crate::time::Millis;
 /// What holds between any two steps, of each robot.
 #[must_use]
 pub fn holds(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
-    facts::are_consistent(exchange, history) && robots::agrees(exchange, history, robot)
+    facts::are_consistent(exchange, history)
+        && robots::agrees(exchange, history, robot)
+        && robots::agrees_on_heartbeats(exchange, history, robot)
 }
 
-/// Whether this can be the next input of `robot`: what a message says is so, and a new station id is that of nobody else,
+/// Whether this can be the next input of `robot`: what a message says is so, of a heartbeat that can be put in order, and a new station id is that of nobody else,
 /// with numbers that it has not given out.
 #[must_use]
 pub fn can_be_next(exchange: &Exchange, history: &History, robot: &Robot, input: &Input) -> bool {
     match input {
-        Input::Ram { ram, .. } => messages::ram_is_true(exchange, history, ram),
+        Input::Ram { ram, .. } => {
+            messages::ram_is_true(exchange, history, ram)
+                && messages::is_near(exchange, ram)
+                && robots::can_report(exchange, robot, ram)
+        }
         Input::Rmcm(rmcm) => messages::rmcm_is_true(exchange, history, *rmcm),
         Input::Local(Event::IdentityChanged(station, next)) => {
             let next = next.unwrap_or(UniqueNumber {
@@ -68,6 +74,7 @@ pub fn keeps(
     let mut after = before.clone();
     let mut observer = Observer::new(exchange, history, before, &input);
     after.step_into(config, input, &mut observer);
+    leases::are_kept(config, before, &input, &after);
     (judged(exchange, history, observer, before, &after), after)
 }
 
@@ -140,12 +147,19 @@ pub fn judge(
     );
     assert!(
         facts::are_consistent(exchange, now),
-        "I2, I3, I6: facts disagree"
+        "I2, I3, I6, I10: facts disagree"
     );
     assert!(
         robots::agrees(exchange, now, after),
         "state and facts disagree"
     );
+    if robots::are_near(exchange, after) {
+        assert!(
+            robots::agrees_on_heartbeats(exchange, now, after),
+            "I10: state and facts disagree on heartbeats"
+        );
+        leases::a_corridor_rests_on_the_follower(exchange, now, after);
+    }
 }
 
 /// A robot that starts anew keeps what holds, with a boot counter that is larger than all before.
@@ -166,6 +180,7 @@ pub fn others_leave_it_so(exchange: &Exchange, history: &History, robot: &Robot,
     let now = facts::with_others(exchange, robot.station, history, later);
     if facts::only_grow(history, &now) {
         assert!(robots::agrees(exchange, &now, robot));
+        assert!(robots::agrees_on_heartbeats(exchange, &now, robot));
     }
 }
 
