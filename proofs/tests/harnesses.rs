@@ -1,6 +1,7 @@
 //! The harnesses with random values, and the list of harnesses against the harnesses.
 
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crossguard_proofs::{Harness, Proof, harnesses, stand_in};
 use serde::Deserialize;
@@ -85,6 +86,22 @@ fn every_harness_of_the_protocol_holds_for_many_random_values() {
         println!("{}", harness.name());
         stand_in::run(harness.run, 1, MANY_RUNS);
     }
+}
+
+/// With a mutant of the protocol switched on, this tells which harnesses notice: by a panic, or by a mark that is not reached.
+#[test]
+#[ignore = "fails as it should with a mutant: see `crossguard-mutants harnesses`"]
+fn the_harnesses_that_fail_are_named() {
+    let is_of_protocol = |harness: &&Harness| harness.name().starts_with("protocol::");
+    let fails = |harness: &&Harness| {
+        let record = catch_unwind(AssertUnwindSafe(|| exercise(harness)));
+        !record.is_ok_and(|record| record.covers.values().all(|reached| *reached))
+    };
+    let failed: Vec<_> = harnesses().filter(is_of_protocol).filter(fails).collect();
+    for harness in &failed {
+        println!("fails: {}", harness.name());
+    }
+    assert!(failed.is_empty());
 }
 
 /// The harnesses of one module with random values.

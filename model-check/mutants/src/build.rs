@@ -51,6 +51,11 @@ const OPTIMIZED: [&str; 4] = [
 pub(crate) fn build(tree: &Path, folder: &Path) -> Result<(), Failure> {
     let built = cargo(tree, folder, &["build", "-p", "crossguard-harness"])?;
     keep(&executable(&built, "crossguard")?, &crossguard(folder))?;
+    build_proofs(tree, folder)
+}
+
+/// Builds the bodies of the proofs alone.
+pub(crate) fn build_proofs(tree: &Path, folder: &Path) -> Result<(), Failure> {
     let tests = ["test", "--no-run", "-p", "crossguard-proofs"];
     let harnesses = [&tests[..], &["--test", "harnesses"]].concat();
     let built = cargo(tree, folder, &harnesses)?;
@@ -61,7 +66,7 @@ fn crossguard(folder: &Path) -> PathBuf {
     folder.join("bin/crossguard")
 }
 
-fn proofs(folder: &Path) -> PathBuf {
+pub(crate) fn proofs(folder: &Path) -> PathBuf {
     folder.join("bin/harnesses")
 }
 

@@ -13,6 +13,7 @@
 
 mod build;
 mod explained;
+mod harnesses;
 mod judge;
 mod points;
 mod schema;
@@ -44,6 +45,12 @@ enum Command {
     Survivors,
     /// Builds the copy with all mutants, and nothing else.
     Build,
+    /// Tells which harnesses of the proofs notice a mutant with random values, for each whose text contains one of these.
+    Harnesses {
+        /// Parts of texts as `list` prints them.
+        #[arg(required = true)]
+        only: Vec<String>,
+    },
 }
 
 #[derive(clap::Args)]
@@ -94,6 +101,8 @@ enum Failure {
         path: PathBuf,
         cause: Box<toml::de::Error>,
     },
+    #[error("no mutant has '{0}' in its text: `crossguard-mutants list` prints all")]
+    NoMutant(String),
     #[error("not every survivor is explained: see model-check/mutants/survivors.toml")]
     Unexplained,
 }
@@ -137,6 +146,10 @@ fn run(arguments: &Arguments) -> Result<(), Failure> {
                 judges.measure(options.stages, &folder)?;
             }
             verdict::run(&judges, &sources, options, &folder)
+        }
+        Command::Harnesses { only } => {
+            build::build_proofs(&schema::write(&root, &sources)?, &folder)?;
+            harnesses::tell(&sources, only, &build::proofs(&folder))
         }
         Command::Survivors => {
             let explained = explained::Explained::read(&root)?;

@@ -11,7 +11,7 @@ use crate::Failure;
 
 /// Functions that constants of the workspace are made by: they stay `const`, and so have no mutants, which
 /// read a variable. All other functions of the copy are not `const`.
-pub(crate) const IN_CONSTANTS: [&str; 4] = ["new", "of", "color", "look"];
+pub(crate) const IN_CONSTANTS: [&str; 5] = ["new", "of", "color", "look", "capacity"];
 
 /// The files that hold rules. What is left out shows states to people, brings the checker's states to
 /// one form, says which states are valid, or states laws: nothing that a robot does.

@@ -9,7 +9,7 @@ use crossguard_protocol::laws::exchange::{Exchange, History, messages, robots, s
 use crossguard_protocol::laws::timers;
 use crossguard_protocol::{Config, Millis, Phase, Robot, StationId};
 
-use super::stage::any_valid;
+use super::stage::{self, any_valid};
 use super::timers::any_within_a_step;
 use crate::harness::harnesses;
 use crate::{Symbolic, kani};
@@ -32,7 +32,7 @@ struct Kept {
 }
 
 fn any_watched(part: Part, stage: Stage) -> Watched {
-    let config = Config::default();
+    let config = stage::config();
     let peers = match stage {
         Stage::Requesting => (0, 2),
         Stage::Leading => (1, 2),
@@ -78,7 +78,7 @@ fn any_step(part: Part, stage: Stage, kind: Kind) -> Kept {
 
 /// A due timer, in any state that can occur within a step.
 fn any_firing(part: Part, stage: Stage, countdown: TimerKind) -> Kept {
-    let config = Config::default();
+    let config = stage::config();
     let timer = countdown.timer(&mut Symbolic);
     let robot = timers::with_due(any_within_a_step(&config, stage), timer);
     kani::assume(timers::is_due(&robot, timer) && timers::is_consistent(&robot, &config));

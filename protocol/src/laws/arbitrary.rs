@@ -9,7 +9,7 @@ mod message;
 mod state;
 
 use super::Source;
-use crate::config::{Config, Inequality, Settings};
+use crate::config::{Config, Settings};
 use crate::id::{
     Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, SessionNumber, StationId,
     UniqueNumber,
@@ -43,9 +43,10 @@ const REQUEST: u8 = 1;
 /// A configuration in which every timer is within its range, so are the repeats and the drift, and a
 /// farewell fits under the identity lock. The other inequalities may be broken: a law that holds here holds for every [`Config`].
 ///
-/// `None` where a number is out of its range.
+/// `None` where the farewell does not fit. All ranges hold by construction: to check them would be a loop.
 pub fn config(source: &mut impl Source) -> Option<Config> {
     let hints = Settings::default();
+    let delay_max = Millis(source.number(Millis::MAX_TIMER.0, hints.delay_max.0));
     let mut time = |hint: Millis| self::time(source, hint);
     let settings = Settings {
         ram_period: time(hints.ram_period),
@@ -59,30 +60,52 @@ pub fn config(source: &mut impl Source) -> Option<Config> {
         t_farewell: time(hints.t_farewell),
         t_lock: time(hints.t_lock),
         t_cross: time(hints.t_cross),
-        delay_max: time(hints.delay_max),
-        t_exec: hints.t_exec.map(time),
-        n_ack: source.u8(hints.n_ack),
-        drift_ppm: source.number(u32::MAX, hints.drift_ppm),
+        delay_max,
+        t_exec: of_each_task(|task| time(hints.t_exec[task])),
+        n_ack: repeats(source, hints.n_ack),
+        drift_ppm: source.number(99_999, hints.drift_ppm),
         capabilities: task_set(source),
         guarding: task_set(source),
         holding: task_set(source),
-        fallback: hints.fallback.map(|_| fallback_policy(source)),
+        fallback: of_each_task(|_| fallback_policy(source)),
         first_request: RequestId(source.u8(REQUEST)),
         first_heartbeat: Heartbeat(source.u16(0)),
     };
-    let ranges = [
-        Inequality::TimerInRange,
-        Inequality::RepeatsInRange,
-        Inequality::DriftInRange,
-    ];
-    let within = ranges.iter().all(|range| range.holds(&settings))
-        // Part of `LockOutlastsTask`.
-        && settings.t_farewell < settings.t_lock;
-    within.then_some(Config::unchecked(settings))
+    // Part of `LockOutlastsTask`.
+    let fits = settings.t_farewell < settings.t_lock;
+    fits.then(|| Config::unchecked(settings))
 }
 
+/// Something of each of the 16 types of task. To a proof, a loop over them would be to unwind every loop as often.
+fn of_each_task<T>(mut of: impl FnMut(usize) -> T) -> [T; 16] {
+    [
+        of(0),
+        of(1),
+        of(2),
+        of(3),
+        of(4),
+        of(5),
+        of(6),
+        of(7),
+        of(8),
+        of(9),
+        of(10),
+        of(11),
+        of(12),
+        of(13),
+        of(14),
+        of(15),
+    ]
+}
+
+/// From 1 ms to the longest time of a timer.
 fn time(source: &mut impl Source, hint: Millis) -> Millis {
-    Millis(source.number(u32::MAX, hint.0))
+    Millis(1 + source.number(Millis::MAX_TIMER.0 - 1, hint.0 - 1))
+}
+
+/// From 1 to 15.
+fn repeats(source: &mut impl Source, hint: u8) -> u8 {
+    u8::try_from(1 + source.number(14, u32::from(hint) - 1)).unwrap_or(1)
 }
 
 /// One of `choices` alternatives, counted from 0.

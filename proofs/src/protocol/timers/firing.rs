@@ -9,10 +9,11 @@ use crossguard_protocol::{Config, Millis};
 
 use super::any_within_a_step;
 use crate::harness::harnesses;
+use crate::protocol::stage;
 use crate::{Symbolic, kani};
 
 fn any_firing(stage: Stage, countdown: TimerKind, laws_of_it: fn(&Config, &Taken)) {
-    let config = Config::default();
+    let config = stage::config();
     let timer = countdown.timer(&mut Symbolic);
     let robot = laws::with_due(any_within_a_step(&config, stage), timer);
     kani::assume(laws::is_due(&robot, timer) && laws::is_consistent(&robot, &config));

@@ -1,16 +1,16 @@
 //! 1: all countdowns run.
 
+use crossguard_protocol::Millis;
 use crossguard_protocol::laws::arbitrary::Stage;
 use crossguard_protocol::laws::{Source, budgets, timers as laws};
-use crossguard_protocol::{Config, Millis};
 
 use super::peers;
 use crate::harness::harnesses;
-use crate::protocol::stage::any_valid;
+use crate::protocol::stage::{self, any_valid};
 use crate::{Symbolic, kani};
 
 fn any_running(stage: Stage) {
-    let config = Config::default();
+    let config = stage::config();
     let robot = any_valid(&config, stage, peers(stage));
     let elapsed = Millis(Symbolic.number(u32::MAX, 100));
     laws::running_keeps_the_state_consistent(&config, &robot, elapsed);

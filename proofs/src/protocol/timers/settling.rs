@@ -1,15 +1,16 @@
 //! 3: the step settles.
 
+use crossguard_protocol::Millis;
 use crossguard_protocol::laws::arbitrary::Stage;
 use crossguard_protocol::laws::timers as laws;
-use crossguard_protocol::{Config, Millis};
 
 use super::any_within_a_step;
 use crate::harness::harnesses;
 use crate::kani;
+use crate::protocol::stage;
 
 fn any_settling(stage: Stage) {
-    let config = Config::default();
+    let config = stage::config();
     let robot = any_within_a_step(&config, stage);
     kani::assume(laws::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
     laws::settling_makes_the_state_valid(&config, &robot);

@@ -1,12 +1,12 @@
 //! Arbitrary exchanges and histories: every history whose facts are consistent.
 
 use super::{
-    HEARTBEAT, ME, PEER, Source, likely, offer_number, request_id, session, station, task_like,
+    HEARTBEAT, ME, PEER, REQUEST, Source, likely, offer_number, session, station, task_like,
 };
 use crate::config::Config;
 use crate::id::{Heartbeat, RequestId, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::laws::exchange::{Exchange, Heard, History};
-use crate::state::{Following, Leading, Member, Phase, Robot};
+use crate::state::{Following, Member, Phase, Robot};
 
 /// The part that a robot has in an exchange.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,7 +48,7 @@ pub fn exchange(source: &mut impl Source, part: Part, robot: &Robot, config: &Co
         session,
         follower,
         offer: offer_number(source),
-        request: request_id(source),
+        request: request_like(source, follower, robot),
         first: config.settings().first_request,
         heartbeat: heartbeat_like(source, follower, robot),
     }
@@ -69,16 +69,32 @@ fn session_like(source: &mut impl Source, robot: &Robot) -> SessionId {
     }
 }
 
+fn record(robot: &Robot, follower: StationId) -> Option<&Member> {
+    let Phase::Leading(leading) = &robot.phase else {
+        return None;
+    };
+    let mut members = leading.members.iter();
+    members.find(|member| member.station == follower)
+}
+
+/// Any request; hints let it be the newest one that the state knows of the follower.
+fn request_like(source: &mut impl Source, follower: StationId, robot: &Robot) -> RequestId {
+    let job = match &robot.phase {
+        Phase::Following(following) => following.job.map(|job| job.request),
+        _ => None,
+    };
+    let member = record(robot, follower);
+    let outstanding = member.and_then(|member| member.outstanding.map(|it| it.request));
+    let order = member.and_then(|member| member.order.map(|it| it.request));
+    let likely = outstanding.or(order).or(job);
+    RequestId(source.u8(likely.map_or(REQUEST, |likely| likely.0)))
+}
+
 /// Any heartbeat; hints let it be the newest one that the state knows of the follower.
 fn heartbeat_like(source: &mut impl Source, follower: StationId, robot: &Robot) -> Heartbeat {
-    let echoed = |leading: &Leading| {
-        let mut members = leading.members.iter();
-        members.find(|member| member.station == follower)?.echoed
-    };
     let likely = match &robot.phase {
-        Phase::Leading(leading) => echoed(leading),
         Phase::Following(following) => Some(following.heard),
-        Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => None,
+        _ => record(robot, follower).and_then(|member| member.echoed),
     };
     Heartbeat(source.u16(likely.map_or(HEARTBEAT, |heartbeat| heartbeat.0)))
 }
@@ -93,18 +109,14 @@ struct Hints<'a> {
 
 impl<'a> Hints<'a> {
     fn of(exchange: &Exchange, robot: &'a Robot) -> Self {
-        let find = |leading: &'a Leading| {
-            let mut members = leading.members.iter();
-            members.find(|member| member.station == exchange.follower)
-        };
         match &robot.phase {
             Phase::Requesting(_) => Self {
                 is_open: true,
                 ..Self::default()
             },
-            Phase::Leading(leading) => Self {
+            Phase::Leading(_) => Self {
                 is_open: true,
-                member: find(leading),
+                member: record(robot, exchange.follower),
                 following: None,
             },
             Phase::Following(following) => Self {
@@ -155,7 +167,7 @@ pub fn history(source: &mut impl Source, exchange: &Exchange, robot: &Robot) -> 
     let over = accepted && source.likely(Some(!is_running));
     let beaten = requested && source.likely(Some(hints.is_open));
     let heard = likely(source, is_listed, |source| {
-        if over && source.flag() {
+        if over && source.likely(Some(false)) {
             Heard::AfterTheEnd
         } else {
             Heard::BeforeTheEnd

@@ -2,7 +2,7 @@
 
 use super::{
     ME, PEER, Source, choice, heartbeat, help_request, list, number, offer_number, option, place,
-    request_id, session, session_number, station, task, task_set, time, unavailability, urgency,
+    request_id, session, session_number, station, task, task_set, unavailability, urgency,
 };
 use crate::MAX_FOLLOWERS;
 use crate::config::Settings;
@@ -11,6 +11,7 @@ use crate::message::{
     Answer, Command, Confirmation, Coordination, Ending, Failure, Farewell, Progress, Ram,
     Rejection, Report, Verdict,
 };
+use crate::time::Millis;
 
 /// A RAM whose part in a session is of this kind: 0 none, 1 `needHelp`, 2 `offerHelp`, 3 leader, 4
 /// follower. With `farewells` it may name a session as over.
@@ -49,7 +50,7 @@ fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
                 } else {
                     Settings::default().t_lease
                 };
-                time(source, t_safety)
+                Millis(source.number(u32::MAX, t_safety.0))
             },
         },
         3 => Coordination::Leader {

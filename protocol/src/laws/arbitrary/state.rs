@@ -215,6 +215,14 @@ fn member(source: &mut impl Source, config: &Config, hint: u32, engaged: bool) -
     } else {
         1
     };
+    let outstanding = likely(source, unless_engaged, |s| Outstanding {
+        request: request_id(s),
+        task: task(s),
+        repeats: s.u8(settings.n_ack.saturating_sub(1)),
+        acknowledgement: countdown(s, settings.t_ack),
+    });
+    // What is outstanding is newer.
+    let accepted = REQUEST - u8::from(outstanding.is_some());
     Member {
         station,
         offer: offer_number(source),
@@ -225,13 +233,8 @@ fn member(source: &mut impl Source, config: &Config, hint: u32, engaged: bool) -
             Lease::Expired(countdown(source, config.t_lost()))
         },
         next_request: RequestId(source.u8(REQUEST + used)),
-        outstanding: likely(source, unless_engaged, |s| Outstanding {
-            request: request_id(s),
-            task: task(s),
-            repeats: s.u8(settings.n_ack.saturating_sub(1)),
-            acknowledgement: countdown(s, settings.t_ack),
-        }),
-        order: likely(source, if_engaged, |s| order(s, config, engaged)),
+        outstanding,
+        order: likely(source, if_engaged, |s| order(s, config, engaged, accepted)),
     }
 }
 
@@ -244,13 +247,14 @@ fn echo(source: &mut impl Source) -> Heartbeat {
     }
 }
 
-fn order(source: &mut impl Source, config: &Config, engaged: bool) -> Order {
+fn order(source: &mut impl Source, config: &Config, engaged: bool, hint: u8) -> Order {
+    let request = RequestId(source.u8(hint));
     let (hint, guards) = if engaged {
         (EXECUTING, u32::from(TaskType::MOVE.value()))
     } else {
         (u32::MAX, u32::MAX)
     };
-    let (request, task) = (RequestId(source.u8(REQUEST)), task_like(source, guards));
+    let task = task_like(source, guards);
     let progress = option(source, |s| progress(s, hint));
     let is_running = progress.is_none_or(Progress::is_running);
     Order {
