@@ -4,6 +4,7 @@
 
 use crate::config::Config;
 use crate::id::SessionNumber;
+use crate::message::Progress;
 use crate::state::{Contact, Lease, Member, Outstanding, Robot};
 use crate::time::{Countdown, Millis};
 
@@ -79,7 +80,11 @@ pub fn a_lost_leader_gets_no_more_time(config: &Config, step: &Taken) {
     let Contact::Lost(now) = after.contact else {
         return;
     };
-    assert!(after.executing().is_none());
+    assert!(
+        !after
+            .job
+            .is_some_and(|job| matches!(job.progress, Progress::Executing | Progress::InPosition))
+    );
     let lost = following(&step.before).map(|before| before.contact);
     match lost {
         Some(Contact::Lost(before)) => assert!(left(now) <= left(before)),
