@@ -6,9 +6,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use super::runs::{Entry, Run};
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_protocol::laws::budgets;
 use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::laws::watch::Watch;
+use crossguard_protocol::laws::{budgets, lease};
 use crossguard_protocol::*;
 use crossguard_testkit::rules::with_state;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -94,6 +94,21 @@ impl Rules for WaitsForTheLost {
     }
 }
 
+/// A leader waits for a whole period from what it hears on, so that a heartbeat seems to be younger than it is.
+struct BeatsWhenItHears;
+
+impl Rules for BeatsWhenItHears {
+    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+        let outputs = robot.step(config, input);
+        if matches!(input, Input::Ram { .. }) && matches!(robot.phase(), Phase::Leading(_)) {
+            with_state(robot, |state| {
+                state["ram"] = config.settings().ram_period.0.into();
+            });
+        }
+        outputs
+    }
+}
+
 /// Judges runs of a scenario; how many steps there were.
 fn hold(scenario: &str, rules: &dyn Rules, laws: &[Law], seeds: std::ops::Range<u8>) -> usize {
     let scenario = Scenario::load(scenario).unwrap();
@@ -130,7 +145,7 @@ fn hold(scenario: &str, rules: &dyn Rules, laws: &[Law], seeds: std::ops::Range<
     steps
 }
 
-const LAWS: [(&str, Law, &str, &dyn Rules); 4] = [
+const LAWS: [(&str, Law, &str, &dyn Rules); 5] = [
     (
         "L1",
         budgets::a_request_gets_no_more_time,
@@ -154,6 +169,12 @@ const LAWS: [(&str, Law, &str, &dyn Rules); 4] = [
         budgets::a_silent_follower_gets_no_more_time,
         "pair",
         &WaitsForTheLost,
+    ),
+    (
+        "I10",
+        |_, step| lease::heartbeats_count_time_alone(step),
+        "pair",
+        &BeatsWhenItHears,
     ),
 ];
 

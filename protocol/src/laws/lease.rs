@@ -4,12 +4,12 @@
 
 use crate::config::{Config, Inequality, Settings};
 use crate::id::Heartbeat;
-use crate::input::Timer;
+use crate::input::{Input, Timer};
 use crate::state::{Lease, Phase, Robot};
 use crate::time::Millis;
 
 use super::exchange::leases::are_covered;
-use super::taken::leading;
+use super::taken::{Taken, leading};
 use super::timers::fire;
 
 /// How far two clocks have come since the leader sent a heartbeat, all in milliseconds.
@@ -102,6 +102,20 @@ pub fn heartbeats_age_as_time_passes(
     let expected = u64::from(before.0) + u64::from(elapsed.0);
     if expected < longest {
         assert!(u64::from(age.0) == expected);
+    }
+}
+
+/// Heartbeats of a leader count time alone: a step that is neither time nor the RAM's timer leaves the newest heartbeat and the
+/// time until the next one as they are. Otherwise leases would count from later than their heartbeats were sent.
+pub fn heartbeats_count_time_alone(step: &Taken) {
+    if matches!(step.input, Input::Elapsed(_) | Input::Expired(Timer::Ram)) {
+        return;
+    }
+    if let (Some(before), Some(after)) = (leading(&step.before), leading(&step.after))
+        && before.number == after.number
+    {
+        assert!(before.heartbeat == after.heartbeat);
+        assert!(step.before.next_ram() == step.after.next_ram());
     }
 }
 

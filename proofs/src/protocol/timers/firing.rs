@@ -2,6 +2,7 @@
 
 use crossguard_protocol::laws::Source;
 use crossguard_protocol::laws::arbitrary::{Stage, TimerKind};
+use crossguard_protocol::laws::lease::heartbeats_count_time_alone;
 use crossguard_protocol::laws::steps;
 use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::laws::timers::{self as laws, firing_keeps_the_state_consistent};
@@ -33,6 +34,12 @@ fn conduct(_: &Config, fired: &Taken) {
     laws::firing_keeps_within_the_outputs(fired);
     steps::tells_the_body(fired);
     steps::final_progress_stays(fired);
+}
+
+/// All laws of a leader, whose leases count from heartbeats.
+fn leader(config: &Config, fired: &Taken) {
+    all(config, fired);
+    heartbeats_count_time_alone(fired);
 }
 
 /// Declares one harness for each stage and each timer that it can have.
@@ -68,12 +75,12 @@ firing! {
     following_identity_lock(Following, IdentityLock, all)
     following_farewell(Following, Farewell, all)
     following_ram(Following, Ram, all)
-    leading_lease(Leading, Lease, all)
-    leading_lost(Leading, Lost, all)
-    leading_execution(Leading, Execution, all)
-    leading_acknowledgement(Leading, Acknowledgement, all)
-    leading_identity_lock(Leading, IdentityLock, all)
-    leading_farewell(Leading, Farewell, all)
+    leading_lease(Leading, Lease, leader)
+    leading_lost(Leading, Lost, leader)
+    leading_execution(Leading, Execution, leader)
+    leading_acknowledgement(Leading, Acknowledgement, leader)
+    leading_identity_lock(Leading, IdentityLock, leader)
+    leading_farewell(Leading, Farewell, leader)
     leading_ram(Leading, Ram, conduct)
     leading_ram_stays_consistent(Leading, Ram, firing_keeps_the_state_consistent)
 }
