@@ -332,8 +332,11 @@ pub mod follower {
 /// What is needed besides the steps.
 pub mod frame {
     use super::{
-        Happening, Kind, Part, Source, Stage, StationId, Symbolic, any_step, any_watched,
-        arbitrary, harnesses, kani, messages, robots, steps,
+        Happening, Kind, Part, Source, Stage, StationId, Symbolic, any_step, any_valid,
+        any_watched, arbitrary, harnesses, kani, messages, robots, steps,
+    };
+    use crossguard_protocol::{
+        Event, FallbackPolicy, Input, Maneuver, ManeuverId, Output, Rmcm, StopReason,
     };
 
     fn others_leave_it_so(part: Part, stage: Stage) {
@@ -341,6 +344,55 @@ pub mod frame {
         let later = arbitrary::history(&mut Symbolic, &it.exchange, &it.robot);
         steps::others_leave_it_so(&it.exchange, &it.history, &it.robot, &later);
         kani::cover!(it.history != later, "more is known");
+    }
+
+    fn bystands(stage: Stage) {
+        let it = any_watched(Part::Bystander, stage);
+        let followers = usize::from(stage == Stage::Leading);
+        let after = any_valid(&it.config, stage, (followers, followers));
+        kani::assume(after.station() == it.robot.station());
+        let id = any_maneuver();
+        let input = Input::Local(match choice(3) {
+            0 => Event::InPosition(id),
+            1 => Event::ManeuverCompleted(id),
+            _ => Event::ManeuverFailed(id),
+        });
+        let maneuver = Maneuver {
+            id: any_maneuver(),
+            task: arbitrary::command(&mut Symbolic).task,
+        };
+        let output = match choice(6) {
+            0 => Output::SendRam,
+            1 => {
+                let mut command = arbitrary::command(&mut Symbolic);
+                command.session.leader = after.station();
+                Output::SendRmcm(Rmcm::Command(command))
+            }
+            2 => {
+                let mut answer = arbitrary::answer(&mut Symbolic);
+                answer.from = after.station();
+                Output::SendRmcm(Rmcm::Answer(answer))
+            }
+            3 => Output::StartManeuver(maneuver),
+            4 => Output::StopManeuver(maneuver, StopReason::Superseded),
+            _ => Output::FallBack(maneuver, FallbackPolicy::StopInPlace),
+        };
+        let step = (&it.robot, &input);
+        steps::a_bystander_makes_nothing_known(&it.exchange, &it.history, step, &output, &after);
+        kani::cover!(it.history.requested, "while a session is open");
+    }
+
+    /// One of so many alternatives.
+    fn choice(of: u32) -> u32 {
+        Symbolic.number(of - 1, of)
+    }
+
+    fn any_maneuver() -> ManeuverId {
+        let command = arbitrary::command(&mut Symbolic);
+        ManeuverId {
+            session: command.session,
+            request: command.request,
+        }
     }
 
     fn stays_true(kind: u32) {
@@ -352,9 +404,9 @@ pub mod frame {
             ram.station = StationId(Symbolic.number(u32::MAX, it.exchange.follower.0));
         }
         let rmcm = if Symbolic.flag() {
-            crossguard_protocol::Rmcm::Command(arbitrary::command(&mut Symbolic))
+            Rmcm::Command(arbitrary::command(&mut Symbolic))
         } else {
-            crossguard_protocol::Rmcm::Answer(arbitrary::answer(&mut Symbolic))
+            Rmcm::Answer(arbitrary::answer(&mut Symbolic))
         };
         let facts = (&it.history, &later);
         steps::messages_stay_true(&it.exchange, facts, &ram, rmcm);
@@ -421,6 +473,41 @@ pub mod frame {
         #[solver(cadical)]
         fn what_a_follower_says_stays_true() {
             stays_true(4);
+        }
+
+        /// A robot that leads or follows elsewhere makes nothing known.
+        #[unwind(6)]
+        #[solver(cadical)]
+        fn a_bystander_leads() {
+            bystands(Stage::Leading);
+        }
+
+        /// A robot that follows elsewhere makes nothing known.
+        #[unwind(6)]
+        #[solver(cadical)]
+        fn a_bystander_follows() {
+            bystands(Stage::Following);
+        }
+
+        /// A robot that asks for help makes nothing known.
+        #[unwind(6)]
+        #[solver(cadical)]
+        fn a_bystander_asks() {
+            bystands(Stage::Requesting);
+        }
+
+        /// A helper of another session makes nothing known.
+        #[unwind(6)]
+        #[solver(cadical)]
+        fn a_bystander_helps() {
+            bystands(Stage::Offering);
+        }
+
+        /// A robot without a part makes nothing known.
+        #[unwind(6)]
+        #[solver(cadical)]
+        fn a_bystander_idles() {
+            bystands(Stage::Idle);
         }
 
         /// A leader loses power and boots.

@@ -184,6 +184,25 @@ pub fn others_leave_it_so(exchange: &Exchange, history: &History, robot: &Robot,
     }
 }
 
+/// A robot that is neither leader nor follower makes nothing known, whatever it is told, says and becomes, as long as it keeps
+/// its station and names itself in what it says; the theorem says so of the exchanges in which it leads or follows.
+///
+/// # Panics
+/// When it does.
+pub fn a_bystander_makes_nothing_known(
+    exchange: &Exchange,
+    history: &History,
+    (before, input): (&Robot, &Input),
+    output: &Output,
+    after: &Robot,
+) {
+    let mut observer = Observer::new(exchange, history, before, input);
+    observer.see(output);
+    assert!(observer.end(after) == *history);
+    assert!(robots::agrees(exchange, history, after));
+    assert!(robots::agrees_on_heartbeats(exchange, history, after));
+}
+
 /// What a message implies is still so when it arrives.
 ///
 /// # Panics
