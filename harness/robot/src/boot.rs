@@ -250,7 +250,7 @@ fn lock(path: &Path) -> Result<File, BootError> {
         path: lock_path.clone(),
         cause,
     };
-    // Whoever may write in the folder must not have another file written through a link.
+    // Another program that may write in the folder must not have another file written through a link.
     let lock = File::options()
         .create(true)
         .truncate(false)

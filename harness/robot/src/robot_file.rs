@@ -440,7 +440,7 @@ impl RobotTable {
         let map_place = self.map_place.as_deref().map(str::parse).transpose()?;
         let site = Site {
             crossing: crossing.map_or(layout.site.crossing, |CrossingReference(place)| place),
-            // Whoever says nothing else commands maneuvers at the crossing.
+            // A file that says nothing else commands maneuvers at the crossing.
             map_place: map_place
                 .or(crossing.and_then(CrossingReference::map_place))
                 .or(layout.site.map_place),

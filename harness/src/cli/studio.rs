@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     /// The port of the page; 0 for any that is free.
     #[arg(long, value_name = "N", default_value_t = 3100)]
     port: u16,
-    /// The address of the page. Whoever reaches it can read the logs: leave it as it is unless you trust the network.
+    /// The address of the page. Anybody who reaches it can read the logs: leave it as it is unless you trust the network.
     #[arg(long, default_value_t = Ipv4Addr::LOCALHOST.into(), value_parser = address)]
     address: IpAddr,
     /// Do not open a browser.

@@ -5,10 +5,9 @@ use crossguard_judge::validate::{Invalid, Validated};
 use crossguard_judge::verdict::{self, PropertyVerdict};
 use serde::Serialize;
 
-use super::shell::{Asset, Refusal, View, value};
+use super::shell::{Asset, Refusal, Skip, View, value};
 
-const FILES: [Asset; 5] = [
-    ("index.html", include_str!("after/index.html")),
+const FILES: [Asset; 4] = [
     ("after.css", include_str!("after/after.css")),
     ("after.js", include_str!("after/after.js")),
     ("player.js", include_str!("after/player.js")),
@@ -107,6 +106,21 @@ impl View for After {
     fn wants(&self) -> Option<&'static str> {
         let wants = "crossguard studio LOG...";
         self.0.is_none().then_some(wants)
+    }
+
+    fn skip(&self) -> Skip {
+        Skip {
+            to: "messages-title",
+            words: "Skip to the messages",
+        }
+    }
+
+    fn content(&self) -> &'static str {
+        include_str!("after/content.html")
+    }
+
+    fn shared_style(&self) -> Option<&'static str> {
+        Some("run.css")
     }
 
     fn files(&self) -> &'static [Asset] {

@@ -6,11 +6,10 @@ use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
 use serde::Serialize;
 
-use super::shell::{Asset, Refusal, View};
+use super::shell::{Asset, Refusal, Skip, View};
 use super::walks::{self, json};
 
-const FILES: [Asset; 3] = [
-    ("index.html", include_str!("explore/index.html")),
+const FILES: [Asset; 2] = [
     ("explore.css", include_str!("explore/explore.css")),
     ("explore.js", include_str!("explore/explore.js")),
 ];
@@ -55,6 +54,21 @@ impl View for Explore {
 
     fn wants(&self) -> Option<&'static str> {
         None
+    }
+
+    fn skip(&self) -> Skip {
+        Skip {
+            to: "steps-title",
+            words: "Skip to the steps",
+        }
+    }
+
+    fn content(&self) -> &'static str {
+        include_str!("explore/content.html")
+    }
+
+    fn shared_style(&self) -> Option<&'static str> {
+        Some("walk.css")
     }
 
     fn files(&self) -> &'static [Asset] {

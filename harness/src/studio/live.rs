@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crossguard_robot::site_file::SiteFile;
 
-use super::shell::{Asset, Refusal, View};
+use super::shell::{Asset, Refusal, Skip, View};
 use super::walks::json;
 use state::State;
 use tail::Tail;
@@ -17,8 +17,7 @@ use tail::Tail;
 /// How often it is looked whether logs have grown.
 const LOOK: Duration = Duration::from_millis(100);
 
-const FILES: [Asset; 3] = [
-    ("index.html", include_str!("live/index.html")),
+const FILES: [Asset; 2] = [
     ("live.css", include_str!("live/live.css")),
     ("live.js", include_str!("live/live.js")),
 ];
@@ -80,6 +79,21 @@ impl View for Live {
     fn wants(&self) -> Option<&'static str> {
         let wants = "crossguard studio --follow LOG...";
         self.0.is_none().then_some(wants)
+    }
+
+    fn skip(&self) -> Skip {
+        Skip {
+            to: "messages-title",
+            words: "Skip to the messages",
+        }
+    }
+
+    fn content(&self) -> &'static str {
+        include_str!("live/content.html")
+    }
+
+    fn shared_style(&self) -> Option<&'static str> {
+        Some("run.css")
     }
 
     fn files(&self) -> &'static [Asset] {

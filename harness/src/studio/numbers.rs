@@ -4,11 +4,10 @@ mod figures;
 
 pub use figures::{NoNumbers, Numbered};
 
-use super::shell::{Asset, Refusal, View};
+use super::shell::{Asset, Refusal, Skip, View};
 use super::walks::json;
 
-const FILES: [Asset; 4] = [
-    ("index.html", include_str!("numbers/index.html")),
+const FILES: [Asset; 3] = [
     ("numbers.css", include_str!("numbers/numbers.css")),
     ("numbers.js", include_str!("numbers/numbers.js")),
     ("plot.js", include_str!("numbers/plot.js")),
@@ -39,6 +38,21 @@ impl View for Numbers {
     fn wants(&self) -> Option<&'static str> {
         let wants = "crossguard odds --json > odds.json && crossguard studio --numbers odds.json";
         self.0.is_empty().then_some(wants)
+    }
+
+    fn skip(&self) -> Skip {
+        Skip {
+            to: "figures",
+            words: "Skip to the figures",
+        }
+    }
+
+    fn content(&self) -> &'static str {
+        include_str!("numbers/content.html")
+    }
+
+    fn shared_style(&self) -> Option<&'static str> {
+        None
     }
 
     fn files(&self) -> &'static [Asset] {

@@ -1,10 +1,9 @@
 //! The protocol to play with: whatever may happen next is done by a click or a key.
 
-use super::shell::{Asset, Refusal, View};
+use super::shell::{Asset, Refusal, Skip, View};
 use super::walks;
 
-const FILES: [Asset; 4] = [
-    ("index.html", include_str!("play/index.html")),
+const FILES: [Asset; 3] = [
     ("play.css", include_str!("play/play.css")),
     ("play.js", include_str!("play/play.js")),
     ("setup.js", include_str!("play/setup.js")),
@@ -28,6 +27,21 @@ impl View for Play {
 
     fn wants(&self) -> Option<&'static str> {
         None
+    }
+
+    fn skip(&self) -> Skip {
+        Skip {
+            to: "air-title",
+            words: "Skip to what may happen",
+        }
+    }
+
+    fn content(&self) -> &'static str {
+        include_str!("play/content.html")
+    }
+
+    fn shared_style(&self) -> Option<&'static str> {
+        Some("walk.css")
     }
 
     fn files(&self) -> &'static [Asset] {

@@ -24,9 +24,12 @@ const QUESTION_MAX: usize = 1 << 20;
 const TEXT: &str = "text/plain; charset=utf-8";
 const HTML: &str = "text/html; charset=utf-8";
 
-/// Where a page has the links to the views, and the first page their descriptions.
-const LINKS: &str = "<!-- views -->";
-const CARDS: &str = "<!-- cards -->";
+/// What all pages have around their content.
+const PAGE: &str = include_str!("shell/page.html");
+
+/// What is in front of the content of each view.
+const SCRIPTED: &str = "<noscript><p class=\"trouble\">This page needs its scripts, which come from this server \
+    alone.</p></noscript>\n<div id=\"troubles\" role=\"alert\"></div>\n";
 
 /// A file of a page: its name, and what is in it. The end of the name says the type.
 pub(super) type Asset = (&'static str, &'static str);
@@ -56,10 +59,24 @@ pub(super) trait View: Send + Sync {
     fn about(&self) -> &'static str;
     /// The command that gives it something to show, where this studio was given nothing.
     fn wants(&self) -> Option<&'static str>;
-    /// Its page as `index.html`, with [`LINKS`] in it, its scripts and styles.
+    /// Where the first link of its page leads.
+    fn skip(&self) -> Skip;
+    /// What is on its page below the header.
+    fn content(&self) -> &'static str;
+    /// The style that it shares with another view.
+    fn shared_style(&self) -> Option<&'static str>;
+    /// Its scripts and styles, `NAME.js` and `NAME.css` among them.
     fn files(&self) -> &'static [Asset];
     /// The answer, in JSON, to `/NAME/api/WHAT?QUERY`, with the body of a POST.
     fn ask(&self, what: &str, query: &str, body: &str) -> Result<String, Refusal>;
+}
+
+/// A link past the header, for who goes by keys.
+pub(super) struct Skip {
+    /// What gets the focus.
+    pub(super) to: &'static str,
+    /// What the link says.
+    pub(super) words: &'static str,
 }
 
 /// Why a question of a page has no answer.
@@ -121,13 +138,16 @@ fn respond(request: &Request, views: &[Box<dyn View>]) -> Answer {
         return view.map_or_else(nothing, |view| moved(view.name()));
     };
     if folder == "shell" {
-        return find(&SHARED, file, views, None);
+        return find(&SHARED, file);
     }
     let Some(view) = views.iter().find(|view| view.name() == folder) else {
         return nothing();
     };
+    if file.is_empty() || file == "index.html" {
+        return page(views, &**view);
+    }
     let Some(what) = file.strip_prefix("api/") else {
-        return find(view.files(), file, views, Some(&**view));
+        return find(view.files(), file);
     };
     match view.ask(what, request.query, request.body) {
         Ok(json) => answer("200 OK", "application/json", json),
@@ -149,18 +169,43 @@ fn nothing() -> Answer {
     answer("404 Not Found", TEXT, "the page is at /\n")
 }
 
-fn find(files: &[Asset], name: &str, views: &[Box<dyn View>], of: Option<&dyn View>) -> Answer {
-    let name = if name.is_empty() { "index.html" } else { name };
+fn find(files: &[Asset], name: &str) -> Answer {
     let Some((_, text)) = files.iter().find(|(file, _)| *file == name) else {
         return nothing();
     };
     let kind = match name.rsplit('.').next() {
         Some("css") => "text/css; charset=utf-8",
         Some("svg") => "image/svg+xml",
-        Some("js") => "text/javascript; charset=utf-8",
-        _ => return answer("200 OK", HTML, text.replace(LINKS, &links(views, of))),
+        _ => "text/javascript; charset=utf-8",
     };
     answer("200 OK", kind, *text)
+}
+
+/// The page of a view.
+fn page(views: &[Box<dyn View>], view: &dyn View) -> Answer {
+    let (name, Skip { to, words }) = (view.name(), view.skip());
+    let shared = view.shared_style().map(|style| format!("/shell/{style}"));
+    let mut head = String::new();
+    for style in shared.into_iter().chain([format!("{name}.css")]) {
+        let _ = writeln!(head, "<link rel=\"stylesheet\" href=\"{style}\">");
+    }
+    let _ = write!(head, "<script type=\"module\" src=\"{name}.js\"></script>");
+    let page = PAGE
+        .replace(
+            "<!-- title -->",
+            &format!("{} · Crossguard studio", view.title()),
+        )
+        .replace("<!-- links -->", &head)
+        .replace(
+            "<!-- skip -->",
+            &format!("<a class=\"skip\" href=\"#{to}\">{words}</a>"),
+        )
+        .replace("<!-- views -->", &links(views, Some(view)))
+        .replace(
+            "<!-- content -->",
+            &[SCRIPTED, view.content().trim_end()].concat(),
+        );
+    answer("200 OK", HTML, page)
 }
 
 /// The links to the views, one of which may be the page that they stand on.
@@ -202,8 +247,14 @@ fn home(views: &[Box<dyn View>]) -> String {
         }
         cards.push_str("</li>\n");
     }
-    let page = include_str!("shell/home.html").replace(LINKS, &links(views, None));
-    page.replace(CARDS, &cards)
+    PAGE.replace("<!-- title -->", "Crossguard studio")
+        .replace("<!-- links -->\n", "")
+        .replace("<!-- skip -->\n", "")
+        .replace("<!-- views -->", &links(views, None))
+        .replace(
+            "<!-- content -->",
+            &format!("<ul class=\"views\">\n{cards}</ul>"),
+        )
 }
 
 fn answer(

@@ -418,7 +418,7 @@ impl Rules for CountsOneForAll {
     }
 }
 
-/// Whoever says that it follows in the session is a follower there, with the record of the first.
+/// Any robot that says that it follows in the session is a follower there, with the record of the first.
 pub struct AdmitsWhoSaysThatItFollows;
 
 impl Rules for AdmitsWhoSaysThatItFollows {

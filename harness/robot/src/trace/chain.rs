@@ -5,7 +5,7 @@
 //!   {"atUs":40,…,"link":"c1…"}             SHA-256 of "5a…" and of this line up to its link
 //! ```
 //!
-//! So a line that is gone, altered, or put elsewhere is noticed at the line after it. Whoever can rewrite the whole log
+//! So a line that is gone, altered, or put elsewhere is noticed at the line after it. Anybody who can rewrite the whole log
 //! can compute all links anew: keep the last one elsewhere where that matters. A log without links is an older one, or
 //! one that another program has rewritten, and says nothing of what is missing.
 
