@@ -123,6 +123,7 @@ pub fn heartbeats_count_time_alone(step: &Taken) {
 /// late the RAM is.
 ///
 /// `robot` is a leader whose followers are not out of order. Gives whether it has a lease that stands before and after.
+#[must_use]
 pub fn time_leaves_leases_covered(config: &Config, robot: &Robot, elapsed: Millis) -> bool {
     let Some(left) = robot.next_ram() else {
         return false;
