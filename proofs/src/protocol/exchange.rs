@@ -539,8 +539,8 @@ pub mod frame {
         /// Any robot, with any part or none, any input.
         #[random_only("all stages, parts and kinds of input at once")]
         fn any_robot_keeps_it() {
-            let part = [Part::Leader, Part::Follower, Part::Bystander][any(3)];
-            let stage = Stage::ALL[any(5)];
+            let part = [Part::Leader, Part::Follower, Part::Bystander][choice(3) as usize];
+            let stage = Stage::ALL[choice(5) as usize];
             let kinds = [
                 Kind::RamNone,
                 Kind::RamNeedHelp,
@@ -552,19 +552,13 @@ pub mod frame {
                 Kind::Elapsed,
                 Kind::Expired,
             ];
-            let kind = match any(2) {
-                0 => kinds[any(9)],
-                _ => Kind::EVENTS[any(14)],
+            let kind = match choice(2) {
+                0 => kinds[choice(9) as usize],
+                _ => Kind::EVENTS[choice(14) as usize],
             };
             let kept = any_step(part, stage, kind);
             kani::cover!(kept.changed(), "a fact becomes known");
             kani::cover!(robots::agrees(&kept.exchange, &kept.was, &kept.after) && kept.before != kept.after, "none does");
         }
-    }
-
-    /// One of so many places.
-    #[cfg(not(all(kani, not(feature = "stand-in"))))]
-    fn any(places: u32) -> usize {
-        Symbolic.number(places - 1, places) as usize
     }
 }

@@ -247,12 +247,37 @@ fn message(after: &Robot, output: &Output) -> Option<Input> {
     }
 }
 
-/// What has happened to an exchange after each entry.
+/// What came of an exchange along a run.
+pub(crate) struct Followed {
+    pub(crate) history: History,
+    /// After how many steps a corridor was open that rests on the watched heartbeat and request.
+    pub(crate) corridors: usize,
+}
+
+/// Whether the leader of the exchange has an open corridor, over the watched request, on the strength of the watched heartbeat.
+fn rests_on(exchange: &Exchange, robot: &Robot) -> bool {
+    let Phase::Leading(leading) = robot.phase() else {
+        return false;
+    };
+    let leader = robot.station();
+    let number = leading.number;
+    leading.corridor == Corridor::Open
+        && SessionId { leader, number } == exchange.session
+        && leading.members.iter().any(|member| {
+            member.station == exchange.follower
+                && member.echoed == Some(exchange.heartbeat)
+                && member
+                    .order
+                    .is_some_and(|order| order.request == exchange.request)
+        })
+}
+
+/// Follows an exchange along a run.
 ///
 /// # Panics
 /// When a step of the induction does not hold.
-pub(crate) fn follow(config: &Config, exchange: &Exchange, entries: &[Entry]) -> History {
-    let mut history = History::default();
+pub(crate) fn follow(config: &Config, exchange: &Exchange, entries: &[Entry]) -> Followed {
+    let (mut history, mut corridors) = (History::default(), 0);
     for entry in entries {
         match entry {
             Entry::Step {
@@ -274,6 +299,7 @@ pub(crate) fn follow(config: &Config, exchange: &Exchange, entries: &[Entry]) ->
                 alone::keeps_its_station(exchange, before, outputs.iter(), after);
                 let seen = (before, input);
                 history = steps::keeps_as_seen(exchange, &history, seen, outputs.iter(), after);
+                corridors += usize::from(rests_on(exchange, after));
             }
             Entry::Reboot { before, after } => {
                 let now = lose_power(exchange, &history, before);
@@ -287,5 +313,5 @@ pub(crate) fn follow(config: &Config, exchange: &Exchange, entries: &[Entry]) ->
         &history,
         &Robot::new(StationId(9_999), 1)
     ));
-    history
+    Followed { history, corridors }
 }

@@ -19,8 +19,8 @@ pub fn holds(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
         && robots::agrees_on_heartbeats(exchange, history, robot)
 }
 
-/// Whether this can be the next input of `robot`: what a message says is so, of a heartbeat that can be put in order, and a new station id is that of nobody else,
-/// with numbers that it has not given out.
+/// Whether this can be the next input of `robot`: what a message says is so, of a heartbeat that can be put in order, and a
+/// new station id is that of nobody else, with numbers that it has not given out.
 #[must_use]
 pub fn can_be_next(exchange: &Exchange, history: &History, robot: &Robot, input: &Input) -> bool {
     match input {
