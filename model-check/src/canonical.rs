@@ -10,10 +10,9 @@
 //! makes no difference; [`symmetry`](crate::symmetry) does that where a scenario allows it.
 
 use crossguard_protocol::{Heartbeat, Renaming, SessionId, StationId, UniqueNumber};
-use dashmap::DashMap;
-use dashmap::mapref::entry::Entry;
-use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
+
+use crate::memo::Memo;
 
 /// Something that holds names.
 pub(crate) trait Renamable {
@@ -112,8 +111,8 @@ pub(crate) type GivenOut = SmallVec<[(UniqueNumber, u16); 6]>;
 pub(crate) struct Renamings {
     rank: fn(&mut Ranks) -> bool,
     sets: boxcar::Vec<Names>,
-    numbers: DashMap<Names, u32, FxBuildHasher>,
-    of_sets: DashMap<NameSets, Option<u32>, FxBuildHasher>,
+    numbers: Memo<Names, u32>,
+    of_sets: Memo<NameSets, Option<u32>>,
     ranks: boxcar::Vec<Ranks>,
 }
 
@@ -138,8 +137,8 @@ impl Renamings {
         let renamings = Self {
             rank,
             sets: boxcar::Vec::new(),
-            numbers: DashMap::default(),
-            of_sets: DashMap::default(),
+            numbers: Memo::default(),
+            of_sets: Memo::default(),
             ranks: boxcar::Vec::new(),
         };
         let empty = renamings.set(Names::default());
@@ -149,14 +148,12 @@ impl Renamings {
 
     /// The number of a set of names.
     pub(crate) fn set(&self, names: Names) -> u32 {
-        let number = |index| u32::try_from(index).expect("fewer than 2^32 sets of names");
-        match self.numbers.entry(names) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(vacant) => {
-                let set = number(self.sets.push(vacant.key().clone()));
-                *vacant.insert(set)
-            }
+        if let Some(known) = self.numbers.get(&names) {
+            return known;
         }
+        let set = self.sets.push(names.clone());
+        let set = u32::try_from(set).expect("fewer than 2^32 sets of names");
+        self.numbers.keep(names, set)
     }
 
     /// The number of the set of all names in these sets.
@@ -174,7 +171,7 @@ impl Renamings {
     /// changes.
     pub(crate) fn of(&self, sets: NameSets) -> Option<u32> {
         if let Some(known) = self.of_sets.get(&sets) {
-            return *known;
+            return known;
         }
         let mut ranks = Ranks::default();
         for &set in &sets.0 {
@@ -182,8 +179,7 @@ impl Renamings {
         }
         let number = |index| u32::try_from(index).expect("fewer than 2^32 renamings");
         let renaming = (self.rank)(&mut ranks).then(|| number(self.ranks.push(ranks)));
-        self.of_sets.insert(sets, renaming);
-        renaming
+        self.of_sets.keep(sets, renaming)
     }
 
     /// The numbers that `station` gave out, of the names in these sets, in order, each with how many heartbeats

@@ -5,23 +5,32 @@
 //! cheap. Numbers are given in the order of first use, so they may differ between runs with several
 //! threads; the states they make up do not.
 
-use std::hash::Hash;
-use std::sync::Arc;
+use std::hash::{BuildHasher, Hash};
+use std::sync::{Arc, PoisonError, RwLock};
 
-use dashmap::DashMap;
-use dashmap::mapref::entry::Entry;
+use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
 use crate::canonical::{Names, Renamable, Renamings};
+use crate::memo::Memo;
 
 /// A growing set of values, each with a number and the set of names that occur in it.
 pub(crate) struct Interner<T> {
     values: boxcar::Vec<(T, u32)>,
-    numbers: DashMap<T, u32, FxBuildHasher>,
+    /// By what the values are, which are not stored once more here.
+    numbers: [Shard; SHARDS],
     renamings: Arc<Renamings>,
     /// What renamings have made of values.
-    renamed: DashMap<(u32, u32), u32, FxBuildHasher>,
+    renamed: Memo<(u32, u32), u32>,
 }
+
+/// Threads that look for different values seldom wait for each other.
+const SHARDS: usize = 64;
+
+/// In a cache line of its own.
+#[derive(Default)]
+#[repr(align(64))]
+struct Shard(RwLock<HashTable<u32>>);
 
 impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
     /// The number of `value`, a new one if it was not seen before.
@@ -39,12 +48,11 @@ impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
             return number;
         }
         if let Some(known) = self.renamed.get(&(number, renaming)) {
-            return *known;
+            return known;
         }
         let mut ranks = self.renamings.ranks(renaming);
         let renamed = self.number(self.value(number).renamed(&mut ranks));
-        self.renamed.insert((number, renaming), renamed);
-        renamed
+        self.renamed.keep((number, renaming), renamed)
     }
 }
 
@@ -52,9 +60,9 @@ impl<T: Clone + Eq + Hash> Interner<T> {
     pub(crate) fn new(renamings: &Arc<Renamings>) -> Self {
         Self {
             values: boxcar::Vec::new(),
-            numbers: DashMap::default(),
+            numbers: std::array::from_fn(|_| Shard::default()),
             renamings: Arc::clone(renamings),
-            renamed: DashMap::default(),
+            renamed: Memo::default(),
         }
     }
 
@@ -70,19 +78,26 @@ impl<T: Clone + Eq + Hash> Interner<T> {
 
     /// The number of a value in which the set of names of this number occurs.
     pub(crate) fn number_with(&self, value: T, names: impl FnOnce(&T) -> u32) -> u32 {
-        if let Some(number) = self.numbers.get(&value) {
+        let hashed = FxBuildHasher.hash_one(&value);
+        // Neither the lowest nor the highest bits: the table of a shard goes by these.
+        let shard = &self.numbers[(hashed >> 32) as usize % SHARDS];
+        let is_it = |number: &u32| self.values[*number as usize].0 == value;
+        let known = shard.0.read().unwrap_or_else(PoisonError::into_inner);
+        if let Some(number) = known.find(hashed, is_it) {
             return *number;
         }
+        drop(known);
         let names = names(&value);
-        match self.numbers.entry(value) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(vacant) => {
-                let index = self.values.push((vacant.key().clone(), names));
-                let number = u32::try_from(index).expect("fewer than 2^32 distinct values");
-                vacant.insert(number);
-                number
-            }
+        let mut known = shard.0.write().unwrap_or_else(PoisonError::into_inner);
+        // Another thread may have come first.
+        if let Some(number) = known.find(hashed, is_it) {
+            return *number;
         }
+        let index = self.values.push((value, names));
+        let number = u32::try_from(index).expect("fewer than 2^32 distinct values");
+        let rehash = |number: &u32| FxBuildHasher.hash_one(&self.values[*number as usize].0);
+        known.insert_unique(hashed, number, rehash);
+        number
     }
 
     /// The value of a number that [`Interner::number`] gave out.

@@ -59,6 +59,7 @@ mod graph;
 mod held;
 pub mod history;
 mod intern;
+mod memo;
 pub mod model;
 pub mod monitor;
 pub mod monotone;

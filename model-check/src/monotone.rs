@@ -29,11 +29,9 @@
 
 use std::sync::Arc;
 
-use dashmap::DashMap;
-use rustc_hash::FxBuildHasher;
-
 use crate::canonical::Renamings;
 use crate::intern::Interner;
+use crate::memo::Memo;
 use crate::transmission::{PackedTransmission, Transmission};
 
 /// A set of messages, each with its way, in order.
@@ -43,8 +41,8 @@ type Set = Box<[PackedTransmission]>;
 pub(crate) struct Sets {
     known: Interner<Set>,
     /// What a set and one more message make.
-    with: DashMap<(u32, PackedTransmission), u32, FxBuildHasher>,
-    renamed: DashMap<(u32, u32), u32, FxBuildHasher>,
+    with: Memo<(u32, PackedTransmission), u32>,
+    renamed: Memo<(u32, u32), u32>,
     renamings: Arc<Renamings>,
 }
 
@@ -63,8 +61,8 @@ impl Sets {
         debug_assert_eq!(empty, Self::EMPTY);
         Self {
             known: sets,
-            with: DashMap::default(),
-            renamed: DashMap::default(),
+            with: Memo::default(),
+            renamed: Memo::default(),
             renamings: Arc::clone(renamings),
         }
     }
@@ -95,13 +93,12 @@ impl Sets {
             return set;
         };
         if let Some(known) = self.with.get(&(set, message)) {
-            return *known;
+            return known;
         }
         let mut slots = slots.to_vec();
         slots.insert(at, message);
         let with = self.number(slots.into(), names);
-        self.with.insert((set, message), with);
-        with
+        self.with.keep((set, message), with)
     }
 
     /// A set without the messages to one receiver.
@@ -123,14 +120,13 @@ impl Sets {
             return set;
         }
         if let Some(known) = self.renamed.get(&(set, renaming)) {
-            return *known;
+            return known;
         }
         let renamed = self.map(set, names, |sent| Transmission {
             message: message(sent.message),
             ..sent
         });
-        self.renamed.insert((set, renaming), renamed);
-        renamed
+        self.renamed.keep((set, renaming), renamed)
     }
 
     /// A set with every message replaced.

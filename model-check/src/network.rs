@@ -24,6 +24,7 @@ use crossguard_protocol::{
 };
 
 use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
 
 use crate::canonical::Renamable;
 use crate::monotone::Sets;
@@ -90,6 +91,39 @@ pub(crate) struct Network {
     delayed: [PackedTransmission; MAX_DELAYED],
     /// Number of the set of all messages ever sent, where the channel is monotone.
     pub(crate) sent: u32,
+}
+
+/// A network as it is interned, without empty places: there are millions.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct PackedNetwork {
+    /// On air, then delayed.
+    messages: SmallVec<[PackedTransmission; 4]>,
+    /// How many are on air.
+    on_air: u8,
+    sent: u32,
+}
+
+impl PackedNetwork {
+    pub(crate) fn of(network: &Network) -> Self {
+        let on_air = network.on_air.iter().filter(|slot| !slot.is_empty());
+        let count = u8::try_from(on_air.clone().count()).expect("at most MAX_ON_AIR");
+        let delayed = network.delayed.iter().filter(|slot| !slot.is_empty());
+        Self {
+            messages: on_air.chain(delayed).copied().collect(),
+            on_air: count,
+            sent: network.sent,
+        }
+    }
+
+    pub(crate) fn unpacked(&self) -> Network {
+        let mut network = Network::EMPTY;
+        let (on_air, delayed) = self.messages.split_at(self.on_air.into());
+        network.on_air[..on_air.len()].copy_from_slice(on_air);
+        // As a sorted set: the empty places come first.
+        network.delayed[MAX_DELAYED - delayed.len()..].copy_from_slice(delayed);
+        network.sent = self.sent;
+        network
+    }
 }
 
 impl Network {
@@ -275,6 +309,20 @@ mod tests {
             network.take_off_air(taken);
         }
         assert!(network.first_broadcast().eq([to(1, 6)]));
+    }
+
+    #[test]
+    fn a_network_comes_back_as_it_was_packed() {
+        let mut network = Network::EMPTY;
+        for (i, message) in (0..).zip([5, 3, 4, 9, 8, 8]) {
+            assert_eq!(PackedNetwork::of(&network).unpacked(), network);
+            network.send(transmission(message));
+            if i % 2 == 0 {
+                network.delay(transmission(message));
+            }
+            network.sent = i;
+        }
+        assert_eq!(PackedNetwork::of(&network).unpacked(), network);
     }
 
     #[test]

@@ -8,13 +8,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crossguard_protocol::{Config, Event, Input, Outputs, Timer};
-use dashmap::DashMap;
-use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
 use crate::canonical::Renamings;
 use crate::history::History;
 use crate::intern::Interner;
+use crate::memo::Memo;
 use crate::monotone::MessageNames;
 use crate::network::Message;
 use crate::node::{Node, Rules};
@@ -44,6 +43,8 @@ pub(crate) struct ComputedStep {
     pub(crate) is_ignored: bool,
     /// Whether what it means depends on the history, or changes it.
     pub(crate) is_historic: bool,
+    /// Whether it changes no part of a state, whatever the rest of the state is.
+    pub(crate) changes_nothing: bool,
     /// One bit for each step property whose premise it meets, as far as it depends on no history.
     pub(crate) premises: u32,
     /// One bit for each step property that it breaks, as far as it depends on no history.
@@ -58,8 +59,8 @@ pub(crate) struct Steps {
     pub(crate) nodes: Interner<Node>,
     pub(crate) messages: Interner<Message>,
     computed: boxcar::Vec<ComputedStep>,
-    outputs: DashMap<Outputs, Arc<Outputs>, FxBuildHasher>,
-    numbers: DashMap<(u32, Cause), u32, FxBuildHasher>,
+    outputs: Memo<Outputs, Arc<Outputs>>,
+    numbers: Memo<(u32, Cause), u32>,
 }
 
 impl Steps {
@@ -69,8 +70,8 @@ impl Steps {
             nodes: Interner::new(renamings),
             messages: Interner::new(renamings),
             computed: boxcar::Vec::new(),
-            outputs: DashMap::default(),
-            numbers: DashMap::default(),
+            outputs: Memo::default(),
+            numbers: Memo::default(),
         }
     }
 
@@ -83,12 +84,12 @@ impl Steps {
         cause: Cause,
     ) -> Option<&ComputedStep> {
         if let Some(number) = self.numbers.get(&(node, cause)) {
-            return Some(&self.computed[*number as usize]);
+            return Some(&self.computed[number as usize]);
         }
         let step = self.compute(config, properties, node, cause)?;
         let number = self.computed.push(step);
         let number = u32::try_from(number).expect("fewer than 2^32 steps");
-        self.numbers.insert((node, cause), number);
+        let number = self.numbers.keep((node, cause), number);
         Some(&self.computed[number as usize])
     }
 
@@ -99,9 +100,9 @@ impl Steps {
 
     /// The steps that have been taken, each with the node before it.
     pub(crate) fn taken(&self) -> impl Iterator<Item = (&Node, &ComputedStep)> {
-        let steps = self.numbers.iter().map(|entry| {
-            let before = self.nodes.value(entry.key().0);
-            (before, &self.computed[*entry.value() as usize])
+        let steps = self.numbers.all().into_iter().map(|((node, _), step)| {
+            let before = self.nodes.value(node);
+            (before, &self.computed[step as usize])
         });
         steps.filter(|(_, step)| step.taken.load(Ordering::Relaxed))
     }
@@ -131,23 +132,27 @@ impl Steps {
         };
         let is_historic = view.is_historic();
         let (premises, broken) = judge(properties, &view, is_historic);
+        let sends = self.sends(&after, &outputs);
+        let restarted = after.restarted_timers();
+        let after = self.nodes.number(after.untimed());
         Some(ComputedStep {
             input,
             outputs: self.shared(&outputs),
-            sends: self.sends(&after, &outputs),
-            restarted: after.restarted_timers(),
+            changes_nothing: after == node && sends.is_empty() && !is_historic && broken == 0,
+            sends,
+            restarted,
             is_ignored: outputs.ignored().is_some(),
             is_historic,
             premises,
             broken,
-            after: self.nodes.number(after.untimed()),
+            after,
             taken: AtomicBool::new(false),
         })
     }
 
     fn shared(&self, outputs: &Outputs) -> Arc<Outputs> {
-        let known = self.outputs.entry(*outputs);
-        Arc::clone(&known.or_insert_with(|| Arc::new(*outputs)))
+        let known = self.outputs.get(outputs);
+        known.unwrap_or_else(|| self.outputs.keep(*outputs, Arc::new(*outputs)))
     }
 
     fn sends(&self, sender: &Node, outputs: &Outputs) -> SmallVec<[u16; 2]> {

@@ -33,20 +33,14 @@
 //! ranking and exchanging commute.
 
 use crossguard_protocol::{Renaming, StationId};
-use dashmap::DashMap;
-use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
+use crate::memo::Memo;
 use crate::network::{Network, Transmission};
 use crate::scenario::{MAX_ROBOTS, Scenario};
 
 /// How many symmetric robots a scenario may have: one robot at least detects.
 const MAX_SYMMETRIC: usize = MAX_ROBOTS - 1;
-
-/// In how many ways they can be exchanged: the orders of [`MAX_SYMMETRIC`] robots.
-pub(crate) const MAX_EXCHANGES: usize = 120;
-
-const _: () = assert!(MAX_SYMMETRIC == 5);
 
 /// One way to exchange the symmetric robots.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -133,12 +127,12 @@ fn exchanges(scenario: &Scenario) -> Vec<Exchange> {
     orders.into_iter().map(exchange).collect()
 }
 
-/// The number of a part after each of the exchanges.
-pub(crate) type Images = [u32; MAX_EXCHANGES];
+/// The number of a part after each of the exchanges: six for three robots, which have six orders.
+pub(crate) type Images = SmallVec<[u32; 6]>;
 
 /// The images of parts of one kind, each computed once.
 #[derive(Default)]
-pub(crate) struct KnownImages(DashMap<u32, Images, FxBuildHasher>);
+pub(crate) struct KnownImages(Memo<u32, Images>);
 
 /// The exchanges of a scenario, and what they make of the parts of its states.
 pub(crate) struct Symmetry {
@@ -173,13 +167,10 @@ impl Symmetry {
         image: impl Fn(&Exchange) -> u32,
     ) -> Images {
         if let Some(images) = known.0.get(&part) {
-            return *images;
+            return images;
         }
-        let mut images: Images = [0; MAX_EXCHANGES];
-        for (slot, exchange) in images.iter_mut().zip(&self.exchanges) {
-            *slot = image(exchange);
-        }
-        known.0.insert(part, images);
-        images
+        known
+            .0
+            .keep(part, self.exchanges.iter().map(image).collect())
     }
 }

@@ -1,11 +1,13 @@
 //! The state that stands for all states that differ in names, or in which of the symmetric robots is
 //! which.
 
+use smallvec::SmallVec;
+
 use super::{Action, Draft, Model, ModelState, Shared};
 use crate::canonical::{NameSets, Renamable};
 use crate::network::Network;
 use crate::scenario::MAX_ROBOTS;
-use crate::symmetry::{Exchange, Images, MAX_EXCHANGES};
+use crate::symmetry::{Exchange, Images};
 
 impl Model {
     /// The state that stands for all states that differ from the draft in names alone.
@@ -54,7 +56,7 @@ impl Model {
     }
 
     pub(super) fn interned(&self, Draft { mut state, network }: Draft) -> ModelState {
-        state.network = self.0.networks.number_nameless(network);
+        state.network = self.number_of(&network);
         state
     }
 
@@ -62,7 +64,7 @@ impl Model {
     /// robots is which.
     #[must_use]
     pub fn representative(&self, state: &ModelState) -> ModelState {
-        let network = *self.network(state);
+        let network = self.network(state);
         let state = state.clone();
         self.interned(self.representative_of(Draft { state, network }))
     }
@@ -87,23 +89,22 @@ impl Model {
             .unwrap_or(draft)
     }
 
-    pub(super) fn node_images(&self, state: &ModelState) -> [Images; MAX_ROBOTS] {
+    /// The images of the nodes of all robots.
+    pub(super) fn node_images(&self, state: &ModelState) -> NodeImages {
         let Shared {
             scenario,
             steps,
             symmetry,
             ..
         } = &*self.0;
-        let mut images = [[0; MAX_EXCHANGES]; MAX_ROBOTS];
-        let places = images.iter_mut().zip(state.nodes);
-        for (images, node) in places.take(scenario.robots.len()) {
-            *images = symmetry.images(&symmetry.nodes, node, |mut exchange| {
-                steps
-                    .nodes
-                    .number(steps.nodes.value(node).renamed(&mut exchange))
-            });
-        }
-        images
+        let nodes = state.nodes[..scenario.robots.len()].iter();
+        let images = nodes.map(|&node| {
+            symmetry.images(&symmetry.nodes, node, |mut exchange| {
+                let image = steps.nodes.value(node).renamed(&mut exchange);
+                steps.nodes.number(image)
+            })
+        });
+        images.collect()
     }
 
     /// What an exchange makes of a state that has these nodes after it.
@@ -174,10 +175,13 @@ impl Model {
     }
 }
 
+/// The images of a node, by robot.
+pub(super) type NodeImages = SmallVec<[Images; MAX_ROBOTS]>;
+
 /// The nodes after the exchange of this number.
 pub(super) fn exchanged(
     nodes: &[u32; MAX_ROBOTS],
-    images: &[Images; MAX_ROBOTS],
+    images: &NodeImages,
     number: usize,
     exchange: &Exchange,
 ) -> [u32; MAX_ROBOTS] {
@@ -238,7 +242,7 @@ mod tests {
     fn class(model: &Model, state: &ModelState) -> HashSet<ModelState> {
         let draft = Draft {
             state: state.clone(),
-            network: *model.network(state),
+            network: model.network(state),
         };
         let images = model.node_images(state);
         let exchanges = model.0.symmetry.exchanges.iter().enumerate();

@@ -11,13 +11,12 @@ use std::sync::Arc;
 use crossguard_protocol::{
     Heartbeat, OfferNumber, Phase, RequestId, Robot, SessionNumber, StationId, UniqueNumber,
 };
-use dashmap::DashMap;
-use rustc_hash::FxBuildHasher;
 
 use super::{Action, Model, ModelState};
 use crate::canonical::GivenOut;
 use crate::confinement::LyingPart;
 use crate::history::History;
+use crate::memo::Memo;
 use crate::network::{Transmission, concerns};
 use crate::node::Node;
 use crate::properties::StepView;
@@ -28,7 +27,7 @@ use crate::utterances::Utterances;
 /// The messages of an insider that change something in a robot, by insider, robot and the numbers that the insider has
 /// given out.
 #[derive(Default)]
-pub(super) struct KnownLies(DashMap<(u8, u32, GivenOut), Arc<[u16]>, FxBuildHasher>);
+pub(super) struct KnownLies(Memo<(u8, u32, GivenOut), Arc<[u16]>>);
 
 /// The boot counter of all numbers that an insider gives out anew.
 const BOOT: u16 = 1;
@@ -91,7 +90,8 @@ impl Model {
         let steps = &self.0.steps;
         let nodes = state.nodes[..self.0.scenario.robots.len()].iter();
         let of_nodes = nodes.map(|&node| steps.nodes.names(node));
-        let messages = self.network(state).messages();
+        let network = self.network(state);
+        let messages = network.messages();
         let of_messages = messages.map(|message| steps.messages.names(message.into()));
         let of_history = self.0.histories.names(state.history);
         let sets = of_nodes.chain(of_messages).chain([of_history]);
@@ -107,11 +107,10 @@ impl Model {
     ) -> Arc<[u16]> {
         let key = (from, node, given_out.clone());
         if let Some(known) = self.0.lies.0.get(&key) {
-            return Arc::clone(&known);
+            return known;
         }
         let lies = Arc::from(self.compute(liar, node, given_out));
-        self.0.lies.0.insert(key, Arc::clone(&lies));
-        lies
+        self.0.lies.0.keep(key, lies)
     }
 
     /// The numbers of the messages that change something.

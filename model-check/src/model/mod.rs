@@ -16,6 +16,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use crossguard_protocol::{Event, Input, Outputs, Timer};
+use serde::{Deserialize, Serialize};
 
 pub(crate) use self::parts::Backdrop;
 use crate::canonical::{Ranks, Renamings};
@@ -24,7 +25,7 @@ use crate::history::History;
 use crate::intern::Interner;
 use crate::model::lies::KnownLies;
 use crate::monotone::Sets;
-use crate::network::{Message, Network, Transmission};
+use crate::network::{Message, Network, PackedNetwork, Transmission};
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::PropertyId;
 use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
@@ -32,8 +33,9 @@ use crate::steps::{Cause, ComputedStep, Steps};
 use crate::symmetry::Symmetry;
 use crate::transitions::Transitions;
 
-/// A global state: numbers of interned parts, and what may still happen.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+/// A global state: numbers of interned parts, and what may still happen. It means something to the model that made it
+/// alone, also where it was written down.
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub struct ModelState {
     nodes: [u32; MAX_ROBOTS],
     history: u32,
@@ -129,7 +131,7 @@ struct Shared {
     symmetry: Symmetry,
     steps: Steps,
     histories: Interner<History>,
-    networks: Interner<Network>,
+    networks: Interner<PackedNetwork>,
     /// Sets of messages on a monotone channel.
     sets: Sets,
     renamings: Arc<Renamings>,
@@ -223,12 +225,16 @@ impl Model {
             broken: 0,
             left: self.0.scenario.bounds,
             hung: 0,
-            network: self.0.networks.number_nameless(Network::EMPTY),
+            network: self.number_of(&Network::EMPTY),
         }
     }
 
-    fn network(&self, state: &ModelState) -> &Network {
-        self.0.networks.value(state.network)
+    fn network(&self, state: &ModelState) -> Network {
+        self.0.networks.value(state.network).unpacked()
+    }
+
+    fn number_of(&self, network: &Network) -> u32 {
+        self.0.networks.number_nameless(PackedNetwork::of(network))
     }
 
     /// The robots of a state.

@@ -227,7 +227,7 @@ impl Fingerprints {
     /// The fingerprint of a state.
     pub fn of(&mut self, model: &Model, state: &ModelState) -> u128 {
         let symmetry = &model.0.symmetry;
-        let network = *model.network(state);
+        let network = model.network(state);
         if symmetry.is_trivial() {
             return self.of_one(model, state, &network);
         }

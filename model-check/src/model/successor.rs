@@ -37,9 +37,17 @@ impl Model {
     }
 
     fn take(&self, state: &ModelState, action: Action) -> Option<(Draft, Option<RobotStep<'_>>)> {
+        if let Action::Deliver {
+            transmission,
+            how: Delivery::AnyTime,
+        } = action
+            && self.changes_nothing(state, transmission)
+        {
+            return None;
+        }
         let mut next = Draft {
             state: state.clone(),
-            network: *self.network(state),
+            network: self.network(state),
         };
         let step = match action {
             Action::Deliver { transmission, how } => {
@@ -53,7 +61,7 @@ impl Model {
                 if how == Delivery::LateAndAgain && step.step.is_ignored {
                     return None;
                 }
-                if how == Delivery::AnyTime && next.is(state, self.network(state)) {
+                if how == Delivery::AnyTime && next.is(state, &self.network(state)) {
                     return None;
                 }
                 Some(step)
@@ -135,6 +143,23 @@ impl Model {
         };
         self.forget_bodies(&mut next.state);
         Some((self.ranked(next), step))
+    }
+
+    /// Whether a robot that hears this message stays as it is and sends nothing. On a monotone channel most are heard
+    /// again and again.
+    fn changes_nothing(&self, state: &ModelState, heard: Transmission) -> bool {
+        let Shared {
+            scenario, steps, ..
+        } = &*self.0;
+        let cause = Cause::Message(heard.message);
+        let node = state.nodes[usize::from(heard.to)];
+        let step = steps.step(&scenario.config, &scenario.properties, node, cause);
+        step.is_some_and(|step| {
+            if step.changes_nothing && !state.hangs(heard.to.into()) {
+                self.note_premises(step.premises);
+            }
+            step.changes_nothing
+        })
     }
 
     /// The session at whose sign a pedestrian steps on the road. Judges whether the guards are in place.

@@ -17,8 +17,6 @@
 use std::sync::Arc;
 
 use crossguard_protocol::{Event, Input, Millis, Outputs, StationId};
-use dashmap::DashMap;
-use rustc_hash::FxBuildHasher;
 use smallvec::SmallVec;
 
 use super::broken::BrokenSet;
@@ -34,6 +32,7 @@ use super::watch::StopWatch;
 use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
 use crate::held::Held;
 use crate::intern::Interner;
+use crate::memo::Memo;
 use crate::network::Message;
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::PropertyId;
@@ -65,7 +64,7 @@ pub struct TimedModel {
     messages: Interner<Message>,
     renamings: Arc<Renamings>,
     /// Each step of a robot is computed once.
-    steps: DashMap<(u32, TimedCause), TimedRobotStep, FxBuildHasher>,
+    steps: Memo<(u32, TimedCause), TimedRobotStep>,
 }
 
 impl TimedModel {
@@ -88,7 +87,7 @@ impl TimedModel {
             nodes: Interner::new(&renamings),
             messages: Interner::new(&renamings),
             renamings,
-            steps: DashMap::default(),
+            steps: Memo::default(),
         })
     }
 
@@ -165,7 +164,7 @@ impl TimedModel {
 
     pub(super) fn step(&self, node: u32, cause: TimedCause) -> Option<TimedRobotStep> {
         if let Some(known) = self.steps.get(&(node, cause)) {
-            return Some(known.clone());
+            return Some(known);
         }
         let (after, outputs) = self.compute(node, cause)?;
         let robot = after.robot.as_ref()?;
@@ -189,8 +188,7 @@ impl TimedModel {
             is_valid: robot.is_valid(&self.scenario.config),
             after: self.nodes.number(after.renamed(&mut held)),
         };
-        self.steps.insert((node, cause), step.clone());
-        Some(step)
+        Some(self.steps.keep((node, cause), step))
     }
 
     pub(super) fn compute(&self, node: u32, cause: TimedCause) -> Option<(Node, Outputs)> {
