@@ -13,6 +13,7 @@ use crossguard_model_check::report::CutOff;
 use serde::{Deserialize, Serialize};
 
 use crate::table::{Fingerprint, Hint, Table};
+use crate::waiting::Queue;
 
 /// A state on its way to the worker that owns it.
 #[derive(Clone, Serialize, Deserialize)]
@@ -33,7 +34,7 @@ impl Found {
 #[derive(Clone, Serialize, Deserialize)]
 enum Cargo {
     /// To another process, with the parts that were not sent there before.
-    Abroad(PackedState, Vec<Part>),
+    Abroad(Box<(PackedState, Vec<Part>)>),
     /// Within the process, where all share the numbers of parts. The last one: serde numbers variants that it
     /// skips when it writes, and not when it reads.
     #[serde(skip)]
@@ -92,7 +93,7 @@ pub(crate) struct Explorer {
     fingerprints: Fingerprints,
     pub(crate) table: Table,
     /// States that wait to be expanded, by level.
-    waiting: BTreeMap<u32, Vec<(ModelState, Hint)>>,
+    waiting: BTreeMap<u32, Queue>,
     packers: HashMap<usize, Packer>,
     unpackers: HashMap<u32, Unpacker>,
     sent_last: Vec<Option<Fingerprint>>,
@@ -154,7 +155,7 @@ impl Explorer {
             let mut news = Vec::new();
             let packer = self.packers.entry(owner).or_default();
             let state = packer.pack(&self.common.model, &state, &mut news);
-            Cargo::Abroad(state, news)
+            Cargo::Abroad(Box::new((state, news)))
         };
         Found {
             fingerprint,
@@ -177,7 +178,8 @@ impl Explorer {
         } = found;
         match cargo {
             Cargo::Here(state) => self.add(state, fingerprint, level, from),
-            Cargo::Abroad(packed, news) => {
+            Cargo::Abroad(abroad) => {
+                let (packed, news) = *abroad;
                 let unpacker = self.unpackers.entry(sender).or_default();
                 let model = &self.common.model;
                 for part in &news {

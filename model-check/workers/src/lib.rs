@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   scenario ──► model ──► worker 0 ┐   each owns the states of its share of fingerprints:
-//!                  ├─────► worker 1 ├── a table of 16 bytes per state, and states that wait.
+//!                  ├─────► worker 1 ├── a table of 15 bytes per state, and states that wait.
 //!                  └─────► …        ┘   A level is one round of a loop in a timely dataflow;
 //!                             │         what a worker finds goes to its owner.
 //!                             ▼
@@ -38,6 +38,7 @@ mod path;
 mod processes;
 mod report;
 mod table;
+mod waiting;
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
