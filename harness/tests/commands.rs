@@ -6,6 +6,7 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::golden;
+use crossguard_model_check::scenario::Scenario;
 use crossguard_testkit::command::*;
 use serde_json::Value;
 
@@ -284,7 +285,7 @@ fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
 #[test]
 fn the_shipped_scenarios_are_listed() {
     let text = stdout(&run(&["check", "--list"]));
-    for name in crossguard_model_check::scenario::Scenario::shipped() {
+    for name in Scenario::shipped().chain(Scenario::large()) {
         assert!(text.contains(name), "{text}");
     }
 }

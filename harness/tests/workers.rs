@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
+use crossguard_model_check::scenario::Scenario;
 use crossguard_testkit::command::*;
 use tempfile::TempDir;
 
@@ -53,6 +54,20 @@ fn workers_report_what_they_judge_and_name_what_they_do_not() {
             .iter()
             .all(|property| !not_judged.contains(&property["id"]))
     );
+}
+
+#[test]
+fn large_scenarios_are_explored_by_workers() {
+    let output = run(&["check", "--large", "--max-states", "2000", "--json"]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let report = json(&output);
+    let explored = report["scenarios"].as_array().unwrap();
+    assert!(Scenario::large().eq(explored.iter().map(|it| it["name"].as_str().unwrap())));
+    assert!(!explored.is_empty());
+    for scenario in explored {
+        assert_eq!(scenario["cut_off"], "StateLimit");
+        assert_eq!(scenario["engines"][0], "crossguard-workers");
+    }
 }
 
 #[test]

@@ -36,4 +36,5 @@ shipped! {
     long timed timed_in_use "timed-in-use";
     long timed timed_trio_drift "timed-trio-drift";
     long timed timed_trio_delay "timed-trio-delay";
+    large plain trio_late "trio-late";
 }

@@ -164,21 +164,32 @@ pub enum Impossibility {
 struct Shipped {
     name: &'static str,
     text: &'static str,
-    /// Whether a check takes seconds.
-    is_quick: bool,
+    effort: Effort,
+}
+
+/// What a check takes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Effort {
+    /// Seconds.
+    Quick,
+    /// Up to minutes.
+    Long,
+    /// Up to hours, by workers that judge states and steps.
+    Large,
 }
 
 macro_rules! shipped {
     ($($duration:ident $time:ident $test:ident $name:literal;)*) => {
-        /// The scenarios that take seconds come first, the ones that take minutes follow.
+        /// The scenarios that take seconds come first, then the ones that take minutes, then the large ones.
         const SHIPPED: &[Shipped] = &[$(Shipped {
             name: $name,
             text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/", $name, ".toml")),
-            is_quick: shipped!(@ $duration),
+            effort: shipped!(@ $duration),
         }),*];
     };
-    (@ quick) => { true };
-    (@ long) => { false };
+    (@ quick) => { Effort::Quick };
+    (@ long) => { Effort::Long };
+    (@ large) => { Effort::Large };
 }
 
 include!("../scenarios/list.rs");
@@ -192,13 +203,22 @@ impl Scenario {
 
     /// The names of the shipped scenarios that take seconds.
     pub fn quick() -> impl Iterator<Item = &'static str> {
-        let quick = SHIPPED.iter().filter(|shipped| shipped.is_quick);
-        quick.map(|shipped| shipped.name)
+        Self::names(|effort| effort == Effort::Quick)
     }
 
-    /// The names of the shipped scenarios.
+    /// The names of the shipped scenarios that take up to minutes.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
-        SHIPPED.iter().map(|shipped| shipped.name)
+        Self::names(|effort| effort != Effort::Large)
+    }
+
+    /// The names of the shipped scenarios of up to 10^9 states, which are for workers.
+    pub fn large() -> impl Iterator<Item = &'static str> {
+        Self::names(|effort| effort == Effort::Large)
+    }
+
+    fn names(of: impl Fn(Effort) -> bool) -> impl Iterator<Item = &'static str> {
+        let shipped = SHIPPED.iter().filter(move |shipped| of(shipped.effort));
+        shipped.map(|shipped| shipped.name)
     }
 
     /// The names of the shipped scenarios, each with its file.
@@ -216,7 +236,7 @@ impl Scenario {
         }
         let path = Path::new(name);
         if !path.exists() && path.extension().is_none() {
-            let shipped = Self::shipped().collect::<Vec<_>>().join(", ");
+            let shipped = Self::names(|_| true).collect::<Vec<_>>().join(", ");
             return Err(ScenarioError::Unknown {
                 name: name.to_owned(),
                 shipped,

@@ -47,6 +47,29 @@ fn every_scenario_stands_there_with_its_size_and_properties() {
 }
 
 #[test]
+fn every_large_scenario_stands_there_with_its_size_and_properties() {
+    for name in Scenario::large() {
+        let scenario = Scenario::load(name).unwrap();
+        let size = scenario.expected.expect("large scenarios are pinned");
+        let start = format!(
+            "| `{name}` | {} | {} |",
+            scenario.robots.len(),
+            grouped(size.unique_states)
+        );
+        let row = PAGE.lines().find(|line| line.starts_with(&start));
+        let row = row.unwrap_or_else(|| panic!("no row begins with {start}"));
+        let cells: Vec<_> = row.split('|').map(str::trim).collect();
+        assert_eq!(cells[5], size.depth.to_string(), "{row}");
+        let judged = scenario.properties.iter();
+        let judged = judged.filter(|id| id.is_of_states_or_steps());
+        let judged: Vec<_> = judged.map(|id| id.name()).collect();
+        assert_eq!(cells[8], judged.join(", "), "{row}");
+        let summary = format!("| `{name}` | {} |", scenario.summary);
+        assert!(PAGE.contains(&summary), "no row begins with {summary}");
+    }
+}
+
+#[test]
 fn every_property_stands_there() {
     for id in PropertyId::ALL {
         assert!(PAGE.contains(&format!("| {id} |")), "{id}");

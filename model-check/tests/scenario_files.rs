@@ -18,7 +18,7 @@ fn line_of(text: &str) -> usize {
 
 #[test]
 fn the_shipped_scenarios_load_by_name() {
-    for name in Scenario::shipped() {
+    for name in Scenario::shipped().chain(Scenario::large()) {
         assert_eq!(Scenario::load(name).unwrap().name, name);
     }
 }

@@ -47,12 +47,16 @@ pub(super) struct Arguments {
     /// Check all shipped scenarios, also the long ones, which take minutes.
     #[arg(long, conflicts_with = "scenarios")]
     all: bool,
+    /// Check the large ones of the shipped scenarios instead, with as many workers as there are processors unless --workers
+    /// says otherwise. Takes a quarter of an hour on two cores. States and steps are judged, and no runs.
+    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads", "replay", "export", "junit"])]
+    large: bool,
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
     list: bool,
     /// Print who can do what by a lie in its own name, and for how many milliseconds at most with the settings by
     /// default, and check nothing.
-    #[arg(long, conflicts_with_all = ["scenarios", "all", "list"])]
+    #[arg(long, conflicts_with_all = ["scenarios", "all", "large", "list"])]
     confinement: bool,
     /// Threads to explore with; as many as there are processors by default.
     #[arg(long, value_name = "N", value_parser = threads)]
@@ -130,7 +134,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(file) = &arguments.replay {
         return replay::run(&arguments.scenarios, file, arguments.endpoints);
     }
-    if arguments.workers.are_given() {
+    if arguments.large || arguments.workers.are_given() {
         return workers::run(arguments);
     }
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
@@ -217,9 +221,15 @@ fn outcome<'a>(
 fn list() -> Result<(), Failure> {
     for name in Scenario::shipped() {
         let scenario = Scenario::load(name).map_err(Failure::input)?;
-        print(format_args!("{name:<14} {}", scenario.summary))?;
+        print(format_args!("{name:<19} {}", scenario.summary))?;
     }
-    print(format_args!("{:<14} {}", paper::NAME, paper::SUMMARY))
+    print(format_args!("{:<19} {}", paper::NAME, paper::SUMMARY))?;
+    print(format_args!("\nLarge ones, for --large or --workers:"))?;
+    for name in Scenario::large() {
+        let scenario = Scenario::load(name).map_err(Failure::input)?;
+        print(format_args!("{name:<19} {}", scenario.summary))?;
+    }
+    Ok(())
 }
 
 fn options(arguments: &Arguments, stop: &Stop) -> Options {

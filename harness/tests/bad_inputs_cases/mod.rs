@@ -305,6 +305,8 @@ pub(crate) const CASES: &[(&str, &[Case])] = &[
             ("check no-property.toml", 2),
             ("check pair nosuch", 2),
             ("check pair --all", 2),
+            ("check pair --large", 2),
+            ("check --large --threads 2", 2),
             ("check --threads 0", 2),
             ("check --threads -1", 2),
             ("check --max-states 0", 2),

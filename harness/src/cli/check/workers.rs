@@ -20,7 +20,7 @@ use super::Arguments;
 
 #[derive(clap::Args)]
 pub(super) struct WorkersArguments {
-    /// Explore with this number of workers, each with the states of its share of fingerprints: 16 bytes per state, and
+    /// Explore with this number of workers, each with the states of its share of fingerprints: 15 bytes per state, and
     /// no graph of them. Properties that need the graph (L) are not judged, and named.
     #[arg(long, value_name = "N", value_parser = threads,
         conflicts_with_all = ["all", "threads", "replay", "export", "junit"])]
@@ -60,22 +60,32 @@ impl WorkersArguments {
 
 /// Checks each scenario with workers.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.scenarios.is_empty() {
+    let names: Vec<&str> = if arguments.large {
+        Scenario::large().collect()
+    } else {
+        arguments.scenarios.iter().map(String::as_str).collect()
+    };
+    if names.is_empty() {
         return Err(Failure::input("--workers and --hosts want a scenario"));
     }
     let cluster = arguments.workers.cluster()?;
-    if cluster.is_some() && arguments.scenarios.len() > 1 {
+    if cluster.is_some() && names.len() > 1 {
         return Err(Failure::input("--hosts wants one scenario"));
     }
-    let scenarios = arguments.scenarios.iter().map(|name| scenario(name));
+    let scenarios = names.into_iter().map(scenario);
     let scenarios = scenarios.collect::<Result<Vec<_>, _>>()?;
     destinations::folders([&arguments.charts])?;
     let stop = Stop::default();
     let asked = stop.clone();
     let _interrupted = interrupts_that(move || asked.request());
     let limits = super::options(arguments, &stop);
+    let by_default = if arguments.large {
+        std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+    } else {
+        NonZeroUsize::MIN
+    };
     let options = Options {
-        workers: arguments.workers.workers.unwrap_or(NonZeroUsize::MIN),
+        workers: arguments.workers.workers.unwrap_or(by_default),
         cluster,
         patience: Duration::from_secs(arguments.workers.patience.into()),
         states_max: limits.states_max,
