@@ -94,12 +94,15 @@ fn a_team_of_four_takes_commands_of_one_leader_also_when_messages_get_lost() {
     let states = result["final_states"].as_object().unwrap();
     assert_eq!(states.len(), 4);
     assert!(states.values().all(|state| state == "Idle"), "{states:?}");
-    // Each is timed by itself, although the leader counts its commands for each alike.
-    let times = |maneuver: &Value| (maneuver["task"].clone(), maneuver["trials"].clone());
-    let maneuvers = result["maneuvers"].as_array().unwrap().iter().map(times);
+    // Each is timed by itself, although the leader counts its commands for each alike. Where messages get lost, a follower
+    // may be gone and come back, and is commanded once more.
+    let maneuvers = result["maneuvers"].as_array().unwrap();
     let expected = [("initialPos", 3), ("move", 1), ("block", 2)];
-    let expected = expected.map(|(task, count): (&str, u64)| (task.into(), count.into()));
-    assert_eq!(maneuvers.collect::<Vec<_>>(), expected);
+    assert_eq!(maneuvers.len(), expected.len(), "{maneuvers:?}");
+    for (maneuver, (task, at_least)) in maneuvers.iter().zip(expected) {
+        assert_eq!(maneuver["task"], task);
+        assert!(maneuver["trials"].as_u64() >= Some(at_least), "{maneuver}");
+    }
     let losses = &result["counters"]["Go2"]["simulated"]["loss"];
     assert!(losses.as_u64() > Some(0), "{result:#}");
 }

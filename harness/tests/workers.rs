@@ -65,7 +65,7 @@ fn large_scenarios_are_explored_by_workers() {
     assert!(Scenario::large().eq(explored.iter().map(|it| it["name"].as_str().unwrap())));
     assert!(!explored.is_empty());
     for scenario in explored {
-        assert_eq!(scenario["cut_off"], "StateLimit");
+        assert_eq!(scenario["cut_off"], "state-limit");
         assert_eq!(scenario["engines"][0], "crossguard-workers");
     }
 }

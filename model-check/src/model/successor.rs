@@ -51,20 +51,7 @@ impl Model {
         };
         let step = match action {
             Action::Deliver { transmission, how } => {
-                match how {
-                    Delivery::AtOnce => next.network.take_off_air(transmission),
-                    Delivery::Late => next.network.forget(transmission),
-                    Delivery::LateAndAgain | Delivery::AnyTime => {}
-                }
-                let cause = Cause::Message(transmission.message);
-                let step = self.robot_step(&mut next, transmission.to.into(), cause)?;
-                if how == Delivery::LateAndAgain && step.step.is_ignored {
-                    return None;
-                }
-                if how == Delivery::AnyTime && next.is(state, &self.network(state)) {
-                    return None;
-                }
-                Some(step)
+                Some(self.deliver(state, &mut next, transmission, how)?)
             }
             Action::Lose(transmission) => {
                 let is_on_air = next.network.next_on_air().is_some();
@@ -143,6 +130,28 @@ impl Model {
         };
         self.forget_bodies(&mut next.state);
         Some((self.ranked(next), step))
+    }
+
+    fn deliver(
+        &self,
+        state: &ModelState,
+        next: &mut Draft,
+        transmission: Transmission,
+        how: Delivery,
+    ) -> Option<RobotStep<'_>> {
+        match how {
+            Delivery::AtOnce => next.network.take_off_air(transmission),
+            Delivery::Late => next.network.forget(transmission),
+            Delivery::LateAndAgain | Delivery::AnyTime => {}
+        }
+        let cause = Cause::Message(transmission.message);
+        let step = self.robot_step(next, transmission.to.into(), cause)?;
+        let has_effect = match how {
+            Delivery::AtOnce | Delivery::Late => true,
+            Delivery::LateAndAgain => !step.step.is_ignored,
+            Delivery::AnyTime => !next.is(state, &self.network(state)),
+        };
+        has_effect.then_some(step)
     }
 
     /// Whether a robot that hears this message stays as it is and sends nothing. On a monotone channel most are heard

@@ -22,7 +22,8 @@ const SEGMENT_BITS: u32 = 8;
 const HALF_BITS: u32 = (FINGERPRINT_BITS - SEGMENT_BITS) / 2;
 /// What is left of these bits once the bucket is known.
 const REST_BITS: u32 = 33;
-const ENTRY_BYTES: usize = 14;
+const ENTRY_BITS: u32 = HINT_BITS + LEVEL_BITS + 1 + HALF_BITS + REST_BITS;
+const ENTRY_BYTES: usize = (ENTRY_BITS / 8) as usize;
 
 const SLOTS: usize = 9;
 const BUCKET_BYTES: usize = 128;
@@ -37,7 +38,7 @@ const BLOCKS_MAX: usize = (1 << (u64::BITS - HALF_BITS)) / BLOCK;
 const MOVES_MAX: u32 = 200;
 
 const _: () = assert!(SEGMENT_BITS + 2 * HALF_BITS == FINGERPRINT_BITS);
-const _: () = assert!(HINT_BITS + LEVEL_BITS + 1 + HALF_BITS + REST_BITS == 8 * ENTRY_BYTES as u32);
+const _: () = assert!(ENTRY_BITS.is_multiple_of(8));
 const _: () = assert!(SLOTS * ENTRY_BYTES < BUCKET_BYTES);
 
 const fn lowest(bits: u32) -> u128 {
@@ -63,7 +64,7 @@ impl Fingerprint {
 
     /// 28 bits that tell it apart from most others.
     pub(crate) const fn hint(self) -> Hint {
-        Hint((self.share() >> 32) as u32 & lowest(HINT_BITS) as u32)
+        Hint((self.share() >> 32) as u32 & ((1 << HINT_BITS) - 1))
     }
 
     const fn segment(self) -> usize {
@@ -71,6 +72,7 @@ impl Fingerprint {
     }
 
     /// What chooses its bucket on this side.
+    #[expect(clippy::cast_possible_truncation, reason = "42 bits are meant")]
     const fn half(self, side: Side) -> u64 {
         (match side {
             Side::High => self.0 >> HALF_BITS & lowest(HALF_BITS),
@@ -262,10 +264,10 @@ struct Segment {
 
 impl Segment {
     /// The bucket that a half of a fingerprint chooses, and the half that it begins with.
-    #[expect(clippy::cast_possible_truncation, reason = "less than the buckets")]
     fn place(&self, half: u64) -> (usize, u64) {
         let buckets = self.buckets.len() as u128;
-        let bucket = (u128::from(half) * buckets >> HALF_BITS) as usize;
+        let bucket = usize::try_from((u128::from(half) * buckets) >> HALF_BITS);
+        let bucket = bucket.expect("less than the buckets");
         (bucket, self.begin(bucket))
     }
 
@@ -319,9 +321,11 @@ impl Segment {
     /// was not.
     fn exchange(&mut self, state: State, side: Side, moves: u32) -> (State, Side) {
         let (bucket, begin) = self.place(state.fingerprint.half(side));
-        let slot = (state.fingerprint.share() as usize + moves as usize) % SLOTS;
-        let moved = self.buckets[bucket].replace(slot, Entry::of(state, side, begin));
-        (moved.state(self.number, begin), moved.side().other())
+        let [some_bits, ..] = state.fingerprint.share().to_le_bytes();
+        let slot = (usize::from(some_bits) + moves as usize) % SLOTS;
+        let displaced = self.buckets[bucket].replace(slot, Entry::of(state, side, begin));
+        let other_side = displaced.side().other();
+        (displaced.state(self.number, begin), other_side)
     }
 
     /// Makes it larger by a sixteenth. The order of buckets is that of halves, so all states move in that order.
