@@ -23,26 +23,32 @@ fn grouped(number: usize) -> String {
     text
 }
 
+/// Asserts that a scenario stands there with its size and summary, and with these properties in this cell.
+fn assert_stands_there(scenario: &Scenario, properties: &[&str], cell: usize) {
+    let name = &scenario.name;
+    let size = scenario.expected.expect("shipped scenarios are pinned");
+    let start = format!(
+        "| `{name}` | {} | {} |",
+        scenario.robots.len(),
+        grouped(size.unique_states)
+    );
+    let row = PAGE.lines().find(|line| line.starts_with(&start));
+    let row = row.unwrap_or_else(|| panic!("no row begins with {start}"));
+    let cells: Vec<_> = row.split('|').map(str::trim).collect();
+    assert_eq!(cells[5], size.depth.to_string(), "{row}");
+    assert_eq!(cells[cell], properties.join(", "), "{row}");
+    let summary = format!("| `{name}` | {} |", scenario.summary);
+    assert!(PAGE.contains(&summary), "no row begins with {summary}");
+}
+
 #[test]
 fn every_scenario_stands_there_with_its_size_and_properties() {
     for name in Scenario::shipped() {
         let scenario = Scenario::load(name).unwrap();
-        let size = scenario.expected.expect("shipped scenarios are pinned");
-        let start = format!(
-            "| `{name}` | {} | {} |",
-            scenario.robots.len(),
-            grouped(size.unique_states)
-        );
-        let row = PAGE.lines().find(|line| line.starts_with(&start));
-        let row = row.unwrap_or_else(|| panic!("no row begins with {start}"));
-        let cells: Vec<_> = row.split('|').map(str::trim).collect();
-        assert_eq!(cells[5], size.depth.to_string(), "{row}");
         let timed = scenario.timed.as_ref().map(|timed| &timed.properties);
         let properties = timed.unwrap_or(&scenario.properties).iter();
         let properties: Vec<_> = properties.map(|id| id.name()).collect();
-        assert_eq!(cells[7], properties.join(", "), "{row}");
-        let summary = format!("| `{name}` | {} |", scenario.summary);
-        assert!(PAGE.contains(&summary), "no row begins with {summary}");
+        assert_stands_there(&scenario, &properties, 7);
     }
 }
 
@@ -50,22 +56,10 @@ fn every_scenario_stands_there_with_its_size_and_properties() {
 fn every_large_scenario_stands_there_with_its_size_and_properties() {
     for name in Scenario::large() {
         let scenario = Scenario::load(name).unwrap();
-        let size = scenario.expected.expect("large scenarios are pinned");
-        let start = format!(
-            "| `{name}` | {} | {} |",
-            scenario.robots.len(),
-            grouped(size.unique_states)
-        );
-        let row = PAGE.lines().find(|line| line.starts_with(&start));
-        let row = row.unwrap_or_else(|| panic!("no row begins with {start}"));
-        let cells: Vec<_> = row.split('|').map(str::trim).collect();
-        assert_eq!(cells[5], size.depth.to_string(), "{row}");
         let judged = scenario.properties.iter();
         let judged = judged.filter(|id| id.is_of_states_or_steps());
         let judged: Vec<_> = judged.map(|id| id.name()).collect();
-        assert_eq!(cells[8], judged.join(", "), "{row}");
-        let summary = format!("| `{name}` | {} |", scenario.summary);
-        assert!(PAGE.contains(&summary), "no row begins with {summary}");
+        assert_stands_there(&scenario, &judged, 8);
     }
 }
 

@@ -219,17 +219,17 @@ fn outcome<'a>(
 }
 
 fn list() -> Result<(), Failure> {
-    for name in Scenario::shipped() {
-        let scenario = Scenario::load(name).map_err(Failure::input)?;
-        print(format_args!("{name:<19} {}", scenario.summary))?;
-    }
-    print(format_args!("{:<19} {}", paper::NAME, paper::SUMMARY))?;
-    print(format_args!("\nLarge ones, for --large or --workers:"))?;
-    for name in Scenario::large() {
-        let scenario = Scenario::load(name).map_err(Failure::input)?;
-        print(format_args!("{name:<19} {}", scenario.summary))?;
-    }
-    Ok(())
+    let row = |name: &str, summary: &str| print(format_args!("{name:<19} {summary}"));
+    let rows = |names: &mut dyn Iterator<Item = &'static str>| {
+        for name in names {
+            row(name, &Scenario::load(name).map_err(Failure::input)?.summary)?;
+        }
+        Ok(())
+    };
+    rows(&mut Scenario::shipped())?;
+    row(paper::NAME, paper::SUMMARY)?;
+    print("\nLarge ones, for --large or --workers:")?;
+    rows(&mut Scenario::large())
 }
 
 fn options(arguments: &Arguments, stop: &Stop) -> Options {

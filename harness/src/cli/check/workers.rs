@@ -80,7 +80,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _interrupted = interrupts_that(move || asked.request());
     let limits = super::options(arguments, &stop);
     let by_default = if arguments.large {
-        std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+        limits.threads
     } else {
         NonZeroUsize::MIN
     };
