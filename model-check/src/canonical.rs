@@ -149,11 +149,11 @@ impl Renamings {
     /// The number of a set of names.
     pub(crate) fn set(&self, names: Names) -> u32 {
         if let Some(known) = self.numbers.get(&names) {
-            return known;
+            return *known;
         }
         let set = self.sets.push(names.clone());
         let set = u32::try_from(set).expect("fewer than 2^32 sets of names");
-        self.numbers.keep(names, set)
+        *self.numbers.keep(names, set)
     }
 
     /// The number of the set of all names in these sets.
@@ -171,7 +171,7 @@ impl Renamings {
     /// changes.
     pub(crate) fn of(&self, sets: NameSets) -> Option<u32> {
         if let Some(known) = self.of_sets.get(&sets) {
-            return known;
+            return *known;
         }
         let mut ranks = Ranks::default();
         for &set in &sets.0 {
@@ -179,7 +179,7 @@ impl Renamings {
         }
         let number = |index| u32::try_from(index).expect("fewer than 2^32 renamings");
         let renaming = (self.rank)(&mut ranks).then(|| number(self.ranks.push(ranks)));
-        self.of_sets.keep(sets, renaming)
+        *self.of_sets.keep(sets, renaming)
     }
 
     /// The numbers that `station` gave out, of the names in these sets, in order, each with how many heartbeats

@@ -6,31 +6,23 @@
 //! threads; the states they make up do not.
 
 use std::hash::{BuildHasher, Hash};
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::Arc;
 
-use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
 use crate::canonical::{Names, Renamable, Renamings};
 use crate::memo::Memo;
+use crate::numbers::Numbers;
 
 /// A growing set of values, each with a number and the set of names that occur in it.
 pub(crate) struct Interner<T> {
     values: boxcar::Vec<(T, u32)>,
-    /// By what the values are, which are not stored once more here.
-    numbers: [Shard; SHARDS],
+    /// By what the values are.
+    numbers: Numbers,
     renamings: Arc<Renamings>,
     /// What renamings have made of values.
     renamed: Memo<(u32, u32), u32>,
 }
-
-/// Threads that look for different values seldom wait for each other.
-const SHARDS: usize = 64;
-
-/// In a cache line of its own.
-#[derive(Default)]
-#[repr(align(64))]
-struct Shard(RwLock<HashTable<u32>>);
 
 impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
     /// The number of `value`, a new one if it was not seen before.
@@ -48,11 +40,11 @@ impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
             return number;
         }
         if let Some(known) = self.renamed.get(&(number, renaming)) {
-            return known;
+            return *known;
         }
         let mut ranks = self.renamings.ranks(renaming);
         let renamed = self.number(self.value(number).renamed(&mut ranks));
-        self.renamed.keep((number, renaming), renamed)
+        *self.renamed.keep((number, renaming), renamed)
     }
 }
 
@@ -60,7 +52,7 @@ impl<T: Clone + Eq + Hash> Interner<T> {
     pub(crate) fn new(renamings: &Arc<Renamings>) -> Self {
         Self {
             values: boxcar::Vec::new(),
-            numbers: std::array::from_fn(|_| Shard::default()),
+            numbers: Numbers::default(),
             renamings: Arc::clone(renamings),
             renamed: Memo::default(),
         }
@@ -79,25 +71,14 @@ impl<T: Clone + Eq + Hash> Interner<T> {
     /// The number of a value in which the set of names of this number occurs.
     pub(crate) fn number_with(&self, value: T, names: impl FnOnce(&T) -> u32) -> u32 {
         let hashed = FxBuildHasher.hash_one(&value);
-        // Neither the lowest nor the highest bits: the table of a shard goes by these.
-        let shard = &self.numbers[(hashed >> 32) as usize % SHARDS];
-        let is_it = |number: &u32| self.values[*number as usize].0 == value;
-        let known = shard.0.read().unwrap_or_else(PoisonError::into_inner);
-        if let Some(number) = known.find(hashed, is_it) {
-            return *number;
+        let is_it = |number: u32| self.values[number as usize].0 == value;
+        if let Some(number) = self.numbers.find(hashed, is_it) {
+            return number;
         }
-        drop(known);
         let names = names(&value);
-        let mut known = shard.0.write().unwrap_or_else(PoisonError::into_inner);
-        // Another thread may have come first.
-        if let Some(number) = known.find(hashed, is_it) {
-            return *number;
-        }
-        let index = self.values.push((value, names));
-        let number = u32::try_from(index).expect("fewer than 2^32 distinct values");
-        let rehash = |number: &u32| FxBuildHasher.hash_one(&self.values[*number as usize].0);
-        known.insert_unique(hashed, number, rehash);
-        number
+        let locked = self.numbers.lock(hashed);
+        let known = locked.find(is_it);
+        known.unwrap_or_else(|| locked.add(self.values.push((value, names))))
     }
 
     /// The value of a number that [`Interner::number`] gave out.

@@ -65,6 +65,7 @@ pub mod monitor;
 pub mod monotone;
 pub mod network;
 pub mod node;
+mod numbers;
 pub mod odds;
 pub mod paper;
 mod parallel;

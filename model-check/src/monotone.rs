@@ -93,12 +93,12 @@ impl Sets {
             return set;
         };
         if let Some(known) = self.with.get(&(set, message)) {
-            return known;
+            return *known;
         }
         let mut slots = slots.to_vec();
         slots.insert(at, message);
         let with = self.number(slots.into(), names);
-        self.with.keep((set, message), with)
+        *self.with.keep((set, message), with)
     }
 
     /// A set without the messages to one receiver.
@@ -120,13 +120,13 @@ impl Sets {
             return set;
         }
         if let Some(known) = self.renamed.get(&(set, renaming)) {
-            return known;
+            return *known;
         }
         let renamed = self.map(set, names, |sent| Transmission {
             message: message(sent.message),
             ..sent
         });
-        self.renamed.keep((set, renaming), renamed)
+        *self.renamed.keep((set, renaming), renamed)
     }
 
     /// A set with every message replaced.

@@ -58,9 +58,8 @@ pub(crate) struct Steps {
     rules: Box<dyn Rules>,
     pub(crate) nodes: Interner<Node>,
     pub(crate) messages: Interner<Message>,
-    computed: boxcar::Vec<ComputedStep>,
     outputs: Memo<Outputs, Arc<Outputs>>,
-    numbers: Memo<(u32, Cause), u32>,
+    computed: Memo<(u32, Cause), ComputedStep>,
 }
 
 impl Steps {
@@ -69,9 +68,8 @@ impl Steps {
             rules,
             nodes: Interner::new(renamings),
             messages: Interner::new(renamings),
-            computed: boxcar::Vec::new(),
             outputs: Memo::default(),
-            numbers: Memo::default(),
+            computed: Memo::default(),
         }
     }
 
@@ -83,14 +81,11 @@ impl Steps {
         node: u32,
         cause: Cause,
     ) -> Option<&ComputedStep> {
-        if let Some(number) = self.numbers.get(&(node, cause)) {
-            return Some(&self.computed[number as usize]);
+        if let Some(known) = self.computed.get(&(node, cause)) {
+            return Some(known);
         }
         let step = self.compute(config, properties, node, cause)?;
-        let number = self.computed.push(step);
-        let number = u32::try_from(number).expect("fewer than 2^32 steps");
-        let number = self.numbers.keep((node, cause), number);
-        Some(&self.computed[number as usize])
+        Some(self.computed.keep((node, cause), step))
     }
 
     /// A step of a robot that is only looked at.
@@ -100,10 +95,8 @@ impl Steps {
 
     /// The steps that have been taken, each with the node before it.
     pub(crate) fn taken(&self) -> impl Iterator<Item = (&Node, &ComputedStep)> {
-        let steps = self.numbers.all().into_iter().map(|((node, _), step)| {
-            let before = self.nodes.value(node);
-            (before, &self.computed[step as usize])
-        });
+        let computed = self.computed.all();
+        let steps = computed.map(|((node, _), step)| (self.nodes.value(*node), step));
         steps.filter(|(_, step)| step.taken.load(Ordering::Relaxed))
     }
 
@@ -152,7 +145,8 @@ impl Steps {
 
     fn shared(&self, outputs: &Outputs) -> Arc<Outputs> {
         let known = self.outputs.get(outputs);
-        known.unwrap_or_else(|| self.outputs.keep(*outputs, Arc::new(*outputs)))
+        let shared = known.unwrap_or_else(|| self.outputs.keep(*outputs, Arc::new(*outputs)));
+        Arc::clone(shared)
     }
 
     fn sends(&self, sender: &Node, outputs: &Outputs) -> SmallVec<[u16; 2]> {

@@ -35,7 +35,7 @@
 use crossguard_protocol::{Renaming, StationId};
 use smallvec::SmallVec;
 
-use crate::memo::Memo;
+use crate::memo::MemoOfNumbers;
 use crate::network::{Network, Transmission};
 use crate::scenario::{MAX_ROBOTS, Scenario};
 
@@ -132,7 +132,7 @@ pub(crate) type Images = SmallVec<[u32; 6]>;
 
 /// The images of parts of one kind, each computed once.
 #[derive(Default)]
-pub(crate) struct KnownImages(Memo<u32, Images>);
+pub(crate) struct KnownImages(MemoOfNumbers<Images>);
 
 /// The exchanges of a scenario, and what they make of the parts of its states.
 pub(crate) struct Symmetry {
@@ -144,6 +144,9 @@ pub(crate) struct Symmetry {
 }
 
 impl Symmetry {
+    /// Among the exchanges, the one that leaves all robots where they are.
+    pub(crate) const IDENTITY: usize = 0;
+
     pub(crate) fn of(scenario: &Scenario) -> Self {
         Self {
             exchanges: exchanges(scenario),
@@ -160,17 +163,13 @@ impl Symmetry {
     }
 
     /// The images of a part, which `image` computes where they are not known yet.
-    pub(crate) fn images(
+    pub(crate) fn images<'a>(
         &self,
-        known: &KnownImages,
+        known: &'a KnownImages,
         part: u32,
         image: impl Fn(&Exchange) -> u32,
-    ) -> Images {
-        if let Some(images) = known.0.get(&part) {
-            return images;
-        }
-        known
-            .0
-            .keep(part, self.exchanges.iter().map(image).collect())
+    ) -> &'a Images {
+        let all = || self.exchanges.iter().map(image).collect();
+        known.0.get_or_compute(part, all)
     }
 }

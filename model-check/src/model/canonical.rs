@@ -7,7 +7,7 @@ use super::{Action, Draft, Model, ModelState, Shared};
 use crate::canonical::{NameSets, Renamable};
 use crate::network::Network;
 use crate::scenario::MAX_ROBOTS;
-use crate::symmetry::{Exchange, Images};
+use crate::symmetry::{Exchange, Images, Symmetry};
 
 impl Model {
     /// The state that stands for all states that differ from the draft in names alone.
@@ -76,21 +76,31 @@ impl Model {
         }
         let images = self.node_images(&draft.state);
         let exchanges = symmetry.exchanges.iter().enumerate();
-        let nodes: Vec<[u32; MAX_ROBOTS]> = exchanges
+        let nodes: SmallVec<[[u32; MAX_ROBOTS]; 6]> = exchanges
             .map(|(i, exchange)| exchanged(&draft.state.nodes, &images, i, exchange))
             .collect();
-        // Robots in equal states leave it to the rest to tell which is which.
         let smallest = nodes.iter().min();
-        let candidates = nodes.iter().enumerate();
-        candidates
-            .filter(|(_, nodes)| Some(*nodes) == smallest)
-            .map(|(i, nodes)| self.image(&draft, *nodes, i))
-            .min_by_key(|image| (image.state.history, image.state.hung, image.network))
-            .unwrap_or(draft)
+        let mut candidates = (0..nodes.len()).filter(|i| smallest == Some(&nodes[*i]));
+        let Some(first) = candidates.next() else {
+            return draft;
+        };
+        let mut others = candidates.peekable();
+        if first == Symmetry::IDENTITY && others.peek().is_none() {
+            return draft;
+        }
+        // Robots in equal states leave it to the rest to tell which is which.
+        let mut chosen = self.image(&draft, nodes[first], first);
+        for i in others {
+            let image = self.image(&draft, nodes[i], i);
+            if image.rest() < chosen.rest() {
+                chosen = image;
+            }
+        }
+        chosen
     }
 
     /// The images of the nodes of all robots.
-    pub(super) fn node_images(&self, state: &ModelState) -> NodeImages {
+    pub(super) fn node_images(&self, state: &ModelState) -> NodeImages<'_> {
         let Shared {
             scenario,
             steps,
@@ -175,13 +185,20 @@ impl Model {
     }
 }
 
+impl Draft {
+    /// What tells two states apart whose robots are in the same states.
+    const fn rest(&self) -> (u32, u8, &Network) {
+        (self.state.history, self.state.hung, &self.network)
+    }
+}
+
 /// The images of a node, by robot.
-pub(super) type NodeImages = SmallVec<[Images; MAX_ROBOTS]>;
+pub(super) type NodeImages<'a> = SmallVec<[&'a Images; MAX_ROBOTS]>;
 
 /// The nodes after the exchange of this number.
 pub(super) fn exchanged(
     nodes: &[u32; MAX_ROBOTS],
-    images: &NodeImages,
+    images: &NodeImages<'_>,
     number: usize,
     exchange: &Exchange,
 ) -> [u32; MAX_ROBOTS] {

@@ -6,8 +6,6 @@
 //! numbers of the state, whether it could have heard of them or not. It gives out a number anew as long as others know of
 //! at most one of its own; a bystander as long as they know of none, and that one speaks while nothing is on air.
 
-use std::sync::Arc;
-
 use crossguard_protocol::{
     Heartbeat, OfferNumber, Phase, RequestId, Robot, SessionNumber, StationId, UniqueNumber,
 };
@@ -27,7 +25,7 @@ use crate::utterances::Utterances;
 /// The messages of an insider that change something in a robot, by insider, robot and the numbers that the insider has
 /// given out.
 #[derive(Default)]
-pub(super) struct KnownLies(Memo<(u8, u32, GivenOut), Arc<[u16]>>);
+pub(super) struct KnownLies(Memo<(u8, u32, GivenOut), Box<[u16]>>);
 
 /// The boot counter of all numbers that an insider gives out anew.
 const BOOT: u16 = 1;
@@ -104,12 +102,12 @@ impl Model {
         liar: (StationId, LyingPart),
         node: u32,
         given_out: &GivenOut,
-    ) -> Arc<[u16]> {
+    ) -> &[u16] {
         let key = (from, node, given_out.clone());
         if let Some(known) = self.0.lies.0.get(&key) {
             return known;
         }
-        let lies = Arc::from(self.compute(liar, node, given_out));
+        let lies = self.compute(liar, node, given_out).into();
         self.0.lies.0.keep(key, lies)
     }
 

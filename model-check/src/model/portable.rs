@@ -14,12 +14,14 @@ use std::hash::Hash;
 use rustc_hash::FxBuildHasher;
 use serde::{Deserialize, Serialize};
 use siphasher::sip128::{Hasher128, SipHasher13};
+use smallvec::SmallVec;
 
 use super::{Action, Draft, Model, ModelState};
 use crate::check::chart;
 use crate::network::{Message, Network, Transmission};
 use crate::scenario::{Bounds, MAX_ROBOTS};
 use crate::sequence::ChartStep;
+use crate::symmetry::Symmetry;
 
 /// What a part of a state is.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
@@ -226,33 +228,59 @@ pub struct Fingerprints {
 impl Fingerprints {
     /// The fingerprint of a state.
     pub fn of(&mut self, model: &Model, state: &ModelState) -> u128 {
-        let symmetry = &model.0.symmetry;
-        let network = model.network(state);
-        if symmetry.is_trivial() {
-            return self.of_one(model, state, &network);
-        }
         let draft = Draft {
             state: state.clone(),
-            network,
+            network: model.network(state),
         };
-        let images = model.node_images(state);
+        self.representative(model, draft).1
+    }
+
+    /// The state after an action, or another one of its class, with its fingerprint; `None` if the action changes
+    /// nothing.
+    pub fn successor(
+        &mut self,
+        model: &Model,
+        state: &ModelState,
+        action: Action,
+    ) -> Option<(ModelState, u128)> {
+        let (next, _) = model.take(state, action)?;
+        let (next, fingerprint) = self.representative(model, next);
+        Some((model.interned(next), fingerprint))
+    }
+
+    /// The state of a class with the smallest hashes, which are the same in each process, and its fingerprint.
+    fn representative(&mut self, model: &Model, draft: Draft) -> (Draft, u128) {
+        let symmetry = &model.0.symmetry;
+        if symmetry.is_trivial() {
+            let fingerprint = self.of_one(model, &draft);
+            return (draft, fingerprint);
+        }
+        let images = model.node_images(&draft.state);
         let exchanges = symmetry.exchanges.iter().enumerate();
-        let nodes: Vec<_> = exchanges
+        let nodes: SmallVec<[_; 6]> = exchanges
             .map(|(i, exchange)| {
-                let nodes = super::canonical::exchanged(&state.nodes, &images, i, exchange);
+                let nodes = super::canonical::exchanged(&draft.state.nodes, &images, i, exchange);
                 (self.hashes_of_nodes(model, &nodes), nodes)
             })
             .collect();
         let smallest = nodes.iter().map(|(hashes, _)| *hashes).min();
-        // Robots in equal states leave it to the rest to tell which is which.
-        let candidates = nodes.iter().enumerate();
-        let of_candidates = candidates
-            .filter(|(_, (hashes, _))| Some(*hashes) == smallest)
-            .map(|(i, (_, nodes))| {
-                let image = model.image(&draft, *nodes, i);
-                self.of_one(model, &image.state, &image.network)
-            });
-        of_candidates.fold(u128::MAX, u128::min)
+        let mut chosen = None;
+        for (i, (hashes, nodes)) in nodes.iter().enumerate() {
+            if Some(*hashes) != smallest {
+                continue;
+            }
+            // Robots in equal states leave it to the rest to tell which is which.
+            let image = (i != Symmetry::IDENTITY).then(|| model.image(&draft, *nodes, i));
+            let fingerprint = self.of_one(model, image.as_ref().unwrap_or(&draft));
+            if chosen
+                .as_ref()
+                .is_none_or(|(_, known)| fingerprint < *known)
+            {
+                chosen = Some((image, fingerprint));
+            }
+        }
+        let (image, fingerprint) = chosen.expect("one of them is the smallest");
+        (image.unwrap_or(draft), fingerprint)
     }
 
     fn hashes_of_nodes(&mut self, model: &Model, nodes: &[u32; MAX_ROBOTS]) -> [u128; MAX_ROBOTS] {
@@ -266,7 +294,7 @@ impl Fingerprints {
         hashes
     }
 
-    fn of_one(&mut self, model: &Model, state: &ModelState, network: &Network) -> u128 {
+    fn of_one(&mut self, model: &Model, Draft { state, network }: &Draft) -> u128 {
         let nodes = self.hashes_of_nodes(model, &state.nodes);
         let history = self.histories.of(state.history, || {
             hashed(model.0.histories.value(state.history))

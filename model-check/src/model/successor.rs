@@ -36,7 +36,11 @@ impl Model {
         Some((self.interned(self.representative_of(next)), step))
     }
 
-    fn take(&self, state: &ModelState, action: Action) -> Option<(Draft, Option<RobotStep<'_>>)> {
+    pub(super) fn take(
+        &self,
+        state: &ModelState,
+        action: Action,
+    ) -> Option<(Draft, Option<RobotStep<'_>>)> {
         if let Action::Deliver {
             transmission,
             how: Delivery::AnyTime,

@@ -162,7 +162,7 @@ impl TimedModel {
         self.messages.value(number.into())
     }
 
-    pub(super) fn step(&self, node: u32, cause: TimedCause) -> Option<TimedRobotStep> {
+    pub(super) fn step(&self, node: u32, cause: TimedCause) -> Option<&TimedRobotStep> {
         if let Some(known) = self.steps.get(&(node, cause)) {
             return Some(known);
         }

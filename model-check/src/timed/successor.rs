@@ -262,7 +262,7 @@ impl TimedModel {
         i: u8,
         cause: TimedCause,
         robots: &mut RobotSteps,
-    ) -> Option<TimedRobotStep> {
+    ) -> Option<&TimedRobotStep> {
         let place = usize::from(i);
         let step = self.step(next.nodes[place], cause)?;
         next.nodes[place] = step.after;

@@ -59,7 +59,7 @@ fn explore(worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>) {
                             return;
                         };
                         let level = *capability.time();
-                        for found in batches.flat_map(|batch| batch.drain(..)) {
+                        for found in batches {
                             explorer.receive(found, level);
                         }
                         open.entry(level).or_insert(capability);

@@ -86,6 +86,17 @@ const REMEMBERED: usize = 1 << 16;
 /// How many steps of states a worker takes between two looks at what has arrived.
 pub(crate) const BITE: usize = 2_000;
 
+/// Of how many states the successors are looked up together.
+const TOGETHER: usize = 20;
+
+/// A state that comes after another one.
+struct Successor {
+    state: ModelState,
+    fingerprint: Fingerprint,
+    from: Hint,
+    owner: usize,
+}
+
 pub(crate) struct Explorer {
     common: Arc<Common>,
     index: usize,
@@ -98,8 +109,10 @@ pub(crate) struct Explorer {
     unpackers: HashMap<u32, Unpacker>,
     sent_last: Vec<Option<Fingerprint>>,
     told: Told,
+    /// How many of its states all threads know of.
+    counted: u64,
     actions: Vec<Action>,
-    successors: Vec<ModelState>,
+    successors: Vec<Successor>,
 }
 
 impl Explorer {
@@ -119,6 +132,7 @@ impl Explorer {
             unpackers: HashMap::new(),
             sent_last: vec![None; REMEMBERED],
             told,
+            counted: 0,
             actions: Vec::new(),
             successors: Vec::new(),
         }
@@ -127,13 +141,10 @@ impl Explorer {
     /// The state in which every run begins, on its way to its owner.
     pub(crate) fn first(&mut self) -> Found {
         let state = self.common.model.initial();
-        let fingerprint = self.fingerprint(&state);
+        let fingerprint = self.fingerprints.of(&self.common.model, &state);
+        let fingerprint = Fingerprint::of(fingerprint);
         let owner = self.owner(fingerprint);
         self.on_its_way(state, fingerprint, fingerprint.hint(), owner)
-    }
-
-    fn fingerprint(&mut self, state: &ModelState) -> Fingerprint {
-        Fingerprint::of(self.fingerprints.of(&self.common.model, state))
     }
 
     /// As timely routes it.
@@ -165,11 +176,19 @@ impl Explorer {
         }
     }
 
-    /// Takes in a state that was found at this level.
+    /// Takes in states that were found at this level.
     ///
     /// # Panics
-    /// Where it cannot be read: another process sent nonsense. The panic ends the check as incomplete.
-    pub(crate) fn receive(&mut self, found: Found, level: u32) {
+    /// Where one cannot be read: another process sent nonsense. The panic ends the check as incomplete.
+    pub(crate) fn receive(&mut self, found: &mut Vec<Found>, level: u32) {
+        self.table
+            .fetch(found.iter().map(|found| found.fingerprint));
+        for found in found.drain(..) {
+            self.receive_one(found, level);
+        }
+    }
+
+    fn receive_one(&mut self, found: Found, level: u32) {
         let Found {
             fingerprint,
             from,
@@ -199,7 +218,6 @@ impl Explorer {
         }
         self.told.states += 1;
         self.told.depth = self.told.depth.max(level);
-        self.common.counters.states.fetch_add(1, Ordering::Relaxed);
         for (property, broken) in self.common.judged.iter().zip(&mut self.told.broken) {
             let holds = !Model::breaks(&state, *property)
                 && self.common.model.state_rule_holds(&state, *property);
@@ -219,56 +237,75 @@ impl Explorer {
 
     /// Expands some of the states of a level. Their successors that others own are sent.
     pub(crate) fn expand(&mut self, level: u32, send: &mut dyn FnMut(Found)) {
+        self.count(level);
         self.give_up_where_asked();
         let Some(mut waiting) = self.waiting.remove(&level) else {
             return;
         };
-        for _ in 0..BITE {
-            let Some((state, from)) = waiting.pop() else {
-                break;
-            };
-            self.expand_one(&state, from, level + 1, send);
+        let common = Arc::clone(&self.common);
+        for _ in 0..BITE / TOGETHER {
+            for (state, from) in (0..TOGETHER).map_while(|_| waiting.pop()) {
+                self.find_successors(&common.model, &state, from);
+            }
+            self.pass_on_successors(level + 1, send);
         }
         if !waiting.is_empty() {
             self.waiting.insert(level, waiting);
         }
+    }
+
+    /// Counts what is new, for all threads to see. Not with each state: threads that count at the same place wait for
+    /// each other.
+    fn count(&mut self, level: u32) {
         let counters = &self.common.counters;
         counters.level.fetch_max(level, Ordering::Relaxed);
+        let states = self.told.states;
+        let new = states - std::mem::replace(&mut self.counted, states);
+        counters.states.fetch_add(new, Ordering::Relaxed);
         let bytes = self.table.bytes() as u64;
         let grown = bytes - std::mem::replace(&mut self.told.table_bytes, bytes);
         counters.table_bytes.fetch_add(grown, Ordering::Relaxed);
     }
 
-    fn expand_one(
-        &mut self,
-        state: &ModelState,
-        from: Hint,
-        level: u32,
-        send: &mut dyn FnMut(Found),
-    ) {
-        let common = Arc::clone(&self.common);
+    /// Adds the successors of a state to what was found.
+    fn find_successors(&mut self, model: &Model, state: &ModelState, from: Hint) {
         let mut actions = std::mem::take(&mut self.actions);
-        let mut successors = std::mem::take(&mut self.successors);
         actions.clear();
-        common.model.actions_in(state, &mut actions);
+        model.actions_in(state, &mut actions);
+        let begin = self.successors.len();
         for &action in &actions {
-            if let Some((next, _)) = common.model.successor_up_to_symmetry(state, action)
-                && !successors.contains(&next)
-            {
-                successors.push(next);
+            if let Some((state, fingerprint)) = self.fingerprints.successor(model, state, action) {
+                let fingerprint = Fingerprint::of(fingerprint);
+                let mut found = self.successors[begin..].iter();
+                if found.all(|known| known.fingerprint != fingerprint) {
+                    self.successors.push(Successor {
+                        owner: self.owner(fingerprint),
+                        state,
+                        fingerprint,
+                        from,
+                    });
+                }
             }
         }
-        self.told.transitions += successors.len() as u64;
+        self.told.transitions += (self.successors.len() - begin) as u64;
+        self.actions = actions;
+    }
+
+    /// Adds the successors that were found, or sends them to their owners.
+    fn pass_on_successors(&mut self, level: u32, send: &mut dyn FnMut(Found)) {
+        let mut successors = std::mem::take(&mut self.successors);
+        let index = self.index;
+        let own = successors.iter().filter(|next| next.owner == index);
+        self.table.fetch(own.map(|next| next.fingerprint));
         for next in successors.drain(..) {
-            let fingerprint = self.fingerprint(&next);
-            let owner = self.owner(fingerprint);
-            if owner == self.index {
-                self.add(next, fingerprint, level, from);
+            let (fingerprint, from) = (next.fingerprint, next.from);
+            if next.owner == index {
+                self.add(next.state, fingerprint, level, from);
             } else if !self.was_just_sent(fingerprint) {
-                send(self.on_its_way(next, fingerprint, from, owner));
+                send(self.on_its_way(next.state, fingerprint, from, next.owner));
             }
         }
-        (self.actions, self.successors) = (actions, successors);
+        self.successors = successors;
     }
 
     /// Whether the state was sent not long ago; it counts as sent from now on. Its owner knows it then, at this
@@ -301,6 +338,7 @@ impl Explorer {
             premises: judged
                 .map(|property| self.common.model.premise_met(*property))
                 .collect(),
+            table_bytes: self.table.bytes() as u64,
             ..self.told.clone()
         }
     }

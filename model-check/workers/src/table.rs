@@ -215,6 +215,11 @@ impl Bucket {
         is_free
     }
 
+    /// One octet of each of its cache lines.
+    const fn touch(&self) -> u8 {
+        self.0[0] ^ self.0[Self::LEN]
+    }
+
     /// Puts an entry into a slot that is not free, and returns what was there.
     fn replace(&mut self, slot: usize, entry: Entry) -> Entry {
         let before = self.entry(slot);
@@ -283,6 +288,18 @@ impl Segment {
             let mut entries = self.buckets[bucket].entries();
             entries.any(|entry| entry.is_of_the_fingerprint_of(sought))
         })
+    }
+
+    /// Reads from where a state may lie.
+    fn touch(&self, fingerprint: Fingerprint) -> u8 {
+        if self.used == 0 {
+            return 0;
+        }
+        let [high, low] = [Side::High, Side::Low].map(|side| {
+            let (bucket, _) = self.place(fingerprint.half(side));
+            self.buckets[bucket].touch()
+        });
+        high ^ low
     }
 
     /// Whether there was a free slot on this side.
@@ -373,6 +390,13 @@ impl Table {
         Self {
             segments: segments.collect(),
         }
+    }
+
+    /// Has the processor fetch from memory what [`Table::insert`] of these states will read, of all of them at once
+    /// and not of one after the other.
+    pub(crate) fn fetch(&self, states: impl Iterator<Item = Fingerprint>) {
+        let touched = states.map(|state| self.segments[state.segment()].touch(state));
+        std::hint::black_box(touched.fold(0, std::ops::BitXor::bitxor));
     }
 
     /// Whether the state was not known before; it is known from now on.
