@@ -195,9 +195,9 @@ pub struct PastPosition {
 /// What a robot shows to people.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub struct SignalsShown {
-    /// To those who drive.
+    /// To drivers.
     pub to_vehicles: PublicSignal,
-    /// To those who walk.
+    /// To pedestrians.
     pub to_pedestrians: PublicSignal,
     /// By which means.
     pub means: SignalMeans,

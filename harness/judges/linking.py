@@ -4,9 +4,9 @@ Usage: python3 linking.py PACKETS.pcap TRUTH.json PAGE.md [TABLE.csv]
 
 PACKETS and TRUTH are of `../robot/tests/hour.rs`: ten robots that change their pseudonyms for an
 hour. tshark takes the packets apart, with its own dissectors for Ethernet, GeoNetworking, IEEE 1609.2 and BTP, and with
-the kit's for RAM and RMCM. So the fields are those that Wireshark shows, and nobody has chosen them.
+the kit's for RAM and RMCM. So the fields are the ones that Wireshark shows, and nobody has chosen them.
 
-At each moment of change, this looks at the pseudonyms that end and at those that begin, and pairs them in three ways by
+At each moment of change, this looks at the pseudonyms that end and at the ones that begin, and pairs them in three ways by
 each field: by values that both have, the rarer the better; by the last value of one and the first of the other, the
 nearer the better; and the same for values that only grow. Besides fields there are what an eavesdropper can reckon:
 phases of transmission, the offset of the sender's clock, numbers of packets. By chance one of each moment's pairs is
@@ -127,7 +127,7 @@ def plant(heard, truth):
 
 
 def changes(heard, truth):
-    """The pairs of each moment: pseudonyms that end there, and those that follow them."""
+    """The pairs of each moment: pseudonyms that end there, and the ones that follow them."""
     moments = collections.defaultdict(list)
     for stations in truth.values():
         for before, after in zip(stations, stations[1:]):
@@ -216,7 +216,7 @@ def main():
             hits = 0
             for pairs in moments:
                 befores, afters = map(list, zip(*pairs))
-                # In no order that tells who belongs to whom.
+                # In no order that tells which belong together.
                 draws.shuffle(afters)
                 hits += right(score(name, befores, afters, heard), pairs, draws)
             rows.append((hits, name, way))

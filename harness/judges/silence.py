@@ -9,7 +9,7 @@ computes again, every 100 ms after the first 5 s:
 - the share of devices' time in which they were silent, in every cell;
 - the share in which they were so though no robot perceived them. A robot perceives who came within its radius until
   they are 1 m further away, unless it never perceives them (the share `unseen_share`);
-- by the strict rule, where robots perceive everybody in their zone, that hardly any of the silence is wrong, and that most of those who are perceived are silent;
+- by the strict rule, where robots perceive everybody in their zone, that hardly any of the silence is wrong, and that most of the people who are perceived are silent;
 - the verdicts on the paper's statements on channel load, from the cells.
 
 Simulation and judge look at different moments within 100 ms, so shares may differ by 0.2 percentage points.

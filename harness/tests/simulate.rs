@@ -132,7 +132,7 @@ fn silence_is_what_python_computes_from_the_same_traces() {
     assert_eq!(code, Some(1), "{said}");
 }
 
-/// By the strict rule hardly anybody is silent whom no robot perceives; by the loose one, more are.
+/// By the strict rule hardly anybody is silent that no robot perceives; by the loose one, more are.
 #[test]
 fn the_strict_rule_leaves_fewer_people_without_an_announcement() {
     let wrongly_silent = |rule: &str| {

@@ -81,7 +81,7 @@ pub enum Harm {
     LeadsThere,
     /// A bystander leads with ever new sessions at a place where two others lead.
     KeepsApart,
-    /// A leader keeps those that joined it.
+    /// A leader keeps robots that joined it.
     Keeps,
     /// A leader is silent from then on: its followers stop or hold.
     LeadsAndIsSilent,

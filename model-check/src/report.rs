@@ -81,7 +81,7 @@ pub struct PropertyReport {
     pub verdict: CheckVerdict,
     /// What it says.
     pub statement: String,
-    /// What it assumes of those who speak; of a property of the kit.
+    /// What it assumes of senders; of a property of the kit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub authentication: Option<String>,
     /// A run that breaks the property.

@@ -24,7 +24,7 @@ fn is_about_runs_without_cooperation(id: &PropertyId) -> bool {
     !matches!(id, PropertyId::L3 | PropertyId::W7)
 }
 
-/// Where an insider stands, all properties hold that assume no truth of it, those that the scenario's
+/// Where an insider stands, all properties hold that assume no truth of it, the ones that the scenario's
 /// file claims among them.
 fn assert_claims_what_it_cannot_break(name: &str, insiders: &[Insider]) {
     let mut scenario = Scenario::load(name).unwrap();

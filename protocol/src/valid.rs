@@ -151,7 +151,7 @@ impl Member {
             && self.lease.countdown().is_armed()
             // It echoed what this leader sent, and not so long ago that the order is in doubt.
             && self.echoed.is_none_or(|echoed| leading.heartbeat.can_follow(echoed))
-            // Commands are given only to those who have taken their role, and so is the lease.
+            // Commands are given only to followers that have taken their role, and so is the lease.
             && (self.has_joined()
                 || (self.outstanding.is_none() && self.order.is_none() && !self.lease.stands()))
             && self.outstanding.is_none_or(|outstanding| {

@@ -64,7 +64,7 @@ enum Command {
     },
     /// Writes every generated and golden file anew; look at the difference before you commit it.
     Bless {
-        /// Only those whose path contains this text.
+        /// Only paths that contain this text.
         part: Option<String>,
     },
     /// Checks what fails most often, in less than two minutes after a build.

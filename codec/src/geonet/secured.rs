@@ -42,7 +42,7 @@ impl Secured {
         &self.station
     }
 
-    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    /// Trusts none of these certificates from now on, instead of the ones that were revoked before.
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
         self.station.set_revoked(revoked);
     }

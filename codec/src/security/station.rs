@@ -70,7 +70,7 @@ impl Station {
         self.verifier.time_mut().look(now, steady_ms);
     }
 
-    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    /// Trusts none of these certificates from now on, instead of the ones that were revoked before.
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
         self.verifier.set_revoked(revoked);
     }

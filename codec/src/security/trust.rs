@@ -90,7 +90,7 @@ impl TrustStore {
         add(&mut self.learned, authority, AUTHORITIES_MAX)
     }
 
-    /// Certificates that are not to be trusted any more, instead of those that were: tickets, authorities or roots.
+    /// Certificates that are not to be trusted any more, instead of the ones before: tickets, authorities or roots.
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
         self.learned
             .retain(|authority| !authority.is_among(&revoked));
@@ -135,7 +135,7 @@ impl TrustStore {
         &self.roots
     }
 
-    /// The authorities: those that were configured, and those that messages told of.
+    /// The authorities, from the configuration and from messages.
     pub fn authorities(&self) -> impl Iterator<Item = &Certificate> {
         self.authorities.iter().chain(&self.learned)
     }

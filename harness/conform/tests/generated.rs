@@ -1,4 +1,4 @@
-//! The generated cases are those that the generator makes (`cargo xtask bless cases.txt` writes them), and the written
+//! The generated cases are the ones that the generator makes (`cargo xtask bless cases.txt` writes them), and the written
 //! ones meet the statements that they are there for.
 
 use std::collections::BTreeSet;

@@ -189,7 +189,7 @@ impl<P: StateMachine> Endpoint<P> {
         }
     }
 
-    /// Trusts none of these certificates from now on, instead of those that were revoked before.
+    /// Trusts none of these certificates from now on, instead of the ones that were revoked before.
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
         if let Envelope::Secured(secured) = self.exchange.stack_mut().envelope_mut() {
             secured.set_revoked(revoked);

@@ -78,7 +78,7 @@ pub struct CbrCell {
     pub overlapped_percent: Estimate,
 }
 
-/// Coverage in every cell, as long as `goes_on` says so; those that were not reached are left out.
+/// Coverage in every cell, as long as `goes_on` says so; cells that were not reached are left out.
 #[must_use]
 pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<ObsCell> {
     let mut cells = Vec::new();

@@ -102,7 +102,7 @@ fn the_way_back_is_in_the_round_trip_alone() {
     }
 }
 
-/// Delays like those that the paper measured: 27 to 600 ms, 129 ms on average.
+/// Delays as the paper measured them: 27 to 600 ms, 129 ms on average.
 #[test]
 fn it_agrees_with_a_delay_like_the_papers_to_a_millisecond() {
     let mut draws = ChaCha8Rng::seed_from_u64(16);

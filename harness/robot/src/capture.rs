@@ -82,7 +82,7 @@ impl Capture {
     }
 
     /// Writes a packet that was on the link so long after 1970, and waits until there is a place for
-    /// it: for those who have the time.
+    /// it, where there is time.
     pub fn record_at(&self, at: Duration, packet: &[u8]) {
         if self.items.send(frame(at, packet)).is_err() {
             self.lost.fetch_add(1, Ordering::Relaxed);

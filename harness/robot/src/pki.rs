@@ -394,7 +394,7 @@ pub fn write_ticket(ticket: &Holder, folder: &Path) -> Result<(), PkiError> {
     )
 }
 
-/// Whom a folder with certificates says to trust, that of a PKI or of a robot: its roots, and the authorities
+/// What a folder with certificates says to trust, of a PKI or of a robot: its roots, and the authorities
 /// that they vouch for.
 ///
 /// # Errors

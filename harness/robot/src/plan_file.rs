@@ -149,7 +149,7 @@ impl PlanFile {
         checked.map_err(|misfit| misfit.of(file, text))
     }
 
-    /// The roles of those who take part in a team with this many followers: all leaders, the followers that are not
+    /// The roles of robots that take part in a team with this many followers: all leaders, the followers that are not
     /// optional, and the first optional ones.
     #[must_use]
     pub fn taking_part(&self, followers: u8) -> Vec<&Role> {
@@ -172,7 +172,7 @@ impl PlanFile {
     pub fn plan(&self, leader: StationId, followers: u8) -> Plan {
         let team = self.taking_part(followers);
         let followers: Vec<_> = self.roles.iter().filter(|role| !role.leads).collect();
-        // The numbers of those who take part, by those that the file gives them.
+        // The numbers of robots that take part, by the ones that the file gives them.
         let mut seats = Vec::new();
         let mut roles = Vec::new();
         for follower in followers {

@@ -373,7 +373,7 @@ impl Watched {
         self.waiting(now_s).map(urgency).max()
     }
 
-    /// The middle of those who wait at `now_s`.
+    /// The middle of the people who wait at `now_s`.
     #[must_use]
     pub fn middle(&self, now_s: f64) -> Option<Place> {
         let (mut sum, mut count) = ([0.0, 0.0], 0.0);

@@ -1,6 +1,6 @@
 //! Hazard: the holder of one valid ticket speaks as somebody else.
 //!
-//! What a session believes of a member must come from the member. With the names of a robot open to whoever says them
+//! What a session believes of a member must come from the member. With the names of a robot open to anybody who says them
 //! first, one ticket that may only help could push a follower's entry out of the table of names and speak for it: the
 //! follower was dead, and the leader kept its corridor open.
 
@@ -288,7 +288,7 @@ fn a_member_and_a_leader_keep_the_ticket_under_which_they_joined() {
     let mut street = Street::new(&[LEADER, FOLLOWER]);
     let mut second_follower = Liar::new(&street.pki, &[Part::Help], Some(FOLLOWER));
     let mut second_leader = Liar::new(&street.pki, &[Part::Lead], Some(LEADER));
-    // Outside of a session, whoever holds a ticket with this name goes by it.
+    // Outside of a session, any holder of a ticket with this name goes by it.
     let packet = second_follower.ram(street.now_ms, &Robot::new(FOLLOWER, 1));
     street.hear(0, &packet);
     assert_eq!(street.heard(0, FOLLOWER), 2, "each of them once");

@@ -18,7 +18,7 @@
 //! What `rmw_zenoh` puts on the wire is little: two forms of key expressions, 33 octets of attachment, plain
 //! CDR and a hash. Crates that have it were looked at on 2026-11-22:
 //!
-//! - `hiroz` 0.2.1 (the former `ros-z`, of those who make zenoh) brings Python bindings, actions, shared
+//! - `hiroz` 0.2.1 (the former `ros-z`, by the makers of zenoh) brings Python bindings, actions, shared
 //!   memory, a serial transport and zenoh's default transports (its `hiroz-protocol` wants them), and the
 //!   hashes of its lifecycle services are written in by hand and are not those of `lifecycle_msgs`.
 //! - `natnet_zenoh` 0.1.0 has the mapping within a bridge for motion capture, is of one release, and wants

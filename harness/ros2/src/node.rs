@@ -285,7 +285,7 @@ impl Turn {
         });
     }
 
-    /// The robot, if it is there and not about to leave, and trusts those who can speak on the graph.
+    /// The robot, if it is there and not about to leave, and trusts whatever can speak on the graph.
     fn commanded(&self) -> Result<(&Active, &RobotFile), command::Refused> {
         let state = self.lifecycle.state();
         match (&self.active, &self.file) {

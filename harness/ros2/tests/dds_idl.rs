@@ -57,7 +57,7 @@ fn parts(name: &str) -> [&str; 3] {
     parts.try_into().unwrap()
 }
 
-/// Adds a definition behind those that it is made of.
+/// Adds a definition behind the ones that it is made of.
 fn add(name: &str, done: &mut BTreeSet<String>, text: &mut String) {
     if !done.insert(name.to_owned()) {
         return;

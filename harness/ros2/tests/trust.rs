@@ -62,7 +62,7 @@ fn a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph() {
     let refused = events.until("a refusal", |it| it.kind == Event::COMMAND_REFUSED);
     let text = &refused.last().unwrap().text;
     assert!(text.contains("trust_ros_graph"), "{text}");
-    // People whom the graph reports are not believed either: two are counted.
+    // People that the graph reports are not believed either: two are counted.
     let people = observer
         .node
         .publisher::<Person>("/ari/crossguard/perceived", Qos::depth(10));

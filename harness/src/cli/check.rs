@@ -418,7 +418,7 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
     print("")
 }
 
-/// What the properties assume of those who speak: those that assume the same in one line.
+/// What the properties assume of senders: properties that assume the same in one line.
 fn print_authentication(report: &ScenarioReport) -> Result<(), Failure> {
     let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
     for property in &report.properties {

@@ -44,7 +44,7 @@ impl fmt::Write for Escaping<'_, '_> {
     }
 }
 
-/// Whether a terminal does something else than show it: control characters, and those that turn the direction of
+/// Whether a terminal does something else than show it: control characters, and characters that turn the direction of
 /// writing, so that a text reads as another one.
 fn is_obeyed(char: char) -> bool {
     let turns = matches!(char, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

@@ -1,5 +1,5 @@
 //! The studio: what its pages show in a real browser, by keys alone, at two widths, of good files and of hostile ones;
-//! and whom its server answers.
+//! and which requests its server answers.
 
 mod after;
 mod browser;

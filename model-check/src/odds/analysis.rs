@@ -394,7 +394,7 @@ fn chain_of(space: &mut StageSpace<'_>, loss: f64, start: &[(u32, f64)], all: f6
     chain
 }
 
-/// One transition to each state, of those that have a chance.
+/// One transition to each state that has a chance.
 fn merged(row: impl Iterator<Item = (u32, f64)>) -> Vec<(u32, f64)> {
     let mut merged: Vec<(u32, f64)> = row.filter(|(_, probability)| *probability > 0.0).collect();
     merged.sort_by_key(|(to, _)| *to);

@@ -30,7 +30,7 @@ pub(super) enum HelpStatus {
     None,
     /// `needHelp`, no container.
     NeedHelp,
-    /// `offerHelp`, and a container that joins; of whom, only a reading asks.
+    /// `offerHelp`, and a container that joins; of which robot, only a reading asks.
     OfferHelp { to: RobotIndex },
     /// `RoleConfirmed`: still `needHelp`, and a container that names the follower.
     Leader { follower: RobotIndex },

@@ -88,7 +88,7 @@ const TEXTS: [Text; Hazard::ALL.len()] = [
         passage: passage("III-A", "stage 5", "explicitly released via"),
         statement: "a maneuver that the leader counts on is not stopped by a release that the leader did not mean",
         explanation: "The release is a RAM with `helpStatus = None`, and with that RAM both robots go on broadcasting in Idle: it is also what every idle robot sends all the time. A RAM from before the association, delayed on its way, releases the follower in the middle of its maneuver. The leader knows nothing of it and counts on the maneuver.",
-        person: "The guard walks away from people whom the leader has let onto the road.",
+        person: "The guard walks away from people that the leader has let onto the road.",
         closed_by: "The end of a session is announced by naming it. A bare `none` ends nothing, and a message of another session never changes a role (I2, I14).",
         other_reading: Some(other(
             Reading::OlderRamIgnored,
@@ -297,7 +297,7 @@ const W4: Text = Text {
     passage: passage("III-A", "stage 5", "remaining available for future tasks"),
     statement: "a robot begins nothing new before its fallback is finished",
     explanation: "A robot that is still on its way to its safe idle position is released, here by a late RAM with `none`. It is Idle, and answers a request at once. The text does not say when a fallback is over, and asks nobody whether the road is clear.",
-    person: "A pedestrian beside whom the robot fell back is left to themselves while it turns to the next.",
+    person: "The robot falls back beside a pedestrian, and leaves them to themselves while it turns to the next.",
     closed_by: "A duty outlives its session: the robot asks and offers again only when its application says that the road is clear (W4).",
     other_reading: None,
 };

@@ -1,4 +1,4 @@
-//! What a property assumes of those who speak: who could break it by a lie.
+//! What a property assumes of senders: who could break it by a lie.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use serde::Serialize;
 pub enum Insider {
     /// A follower that its leader has confirmed.
     Follower,
-    /// The leader of those that follow it.
+    /// The leader of its followers.
     Leader,
     /// Neither: a helper that is not confirmed, or a bystander, which may ask for help and lead a team of its own.
     Stranger,
@@ -29,7 +29,7 @@ impl Insider {
     }
 }
 
-/// What a property assumes of those who speak.
+/// What a property assumes of senders.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Authentication {
     /// Whether each message has to be of the station that it names.

@@ -164,7 +164,7 @@ impl PropertyId {
         self.property().id
     }
 
-    /// What it assumes of those who speak.
+    /// What it assumes of senders.
     #[must_use]
     pub const fn authentication(self) -> Authentication {
         self.property().authentication

@@ -13,7 +13,7 @@ use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
 pub struct Property {
     /// Its id, the same everywhere: `I4`.
     pub id: &'static str,
-    /// What it assumes of those who speak.
+    /// What it assumes of senders.
     pub authentication: Authentication,
     /// What is claimed of the model without time.
     pub untimed: Option<Claim>,

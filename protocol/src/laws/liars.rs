@@ -1,6 +1,6 @@
 //! Laws of confinement: what a station that lies can do by one message is bounded by its own part.
 //!
-//! The sender of a message is whoever it names, which holds where packets are signed: a ticket is one station. The sender
+//! The sender of a message is the station that it names, which holds where packets are signed: a ticket is one station. The sender
 //! may say anything, in any state of the robot. With these laws of one step it is so in runs of any length:
 //!
 //! The page of the verification has times for these.

@@ -73,7 +73,7 @@ impl Advisories {
         })
     }
 
-    /// Those that are about a version of a package.
+    /// The advisories about a version of a package.
     pub(crate) fn of(&self, package: &str, version: &Version) -> impl Iterator<Item = &Advisory> {
         let of_package = self.known.iter().filter(move |it| it.package == package);
         of_package.filter(move |it| it.is_of(version))

@@ -1,4 +1,4 @@
-//! Confirmations: who follows whom.
+//! Confirmations: which robot follows which.
 
 use crossguard_protocol::{Coordination, Farewell, OfferNumber, SessionId};
 

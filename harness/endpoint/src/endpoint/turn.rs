@@ -88,7 +88,7 @@ impl<'a> Turn<'a> {
         vams.into_iter().map(|(_, vam)| vam).collect()
     }
 
-    /// A message was understood, whoever sent it.
+    /// A message was understood, from any sender.
     fn understood(
         &mut self,
         moment: Moment,

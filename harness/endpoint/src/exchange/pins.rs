@@ -1,4 +1,4 @@
-//! The tickets of those who have a part in the robot's session: who joins under one ticket stays under it.
+//! The tickets of robots that have a part in the robot's session: who joins under one ticket stays under it.
 //!
 //! The station id follows from the ticket, by four octets of its digest or by a name in it, so two tickets can have one
 //! id: by chance, by search, or because the authority gave the same name twice. What a session knows of its leader and
@@ -31,7 +31,7 @@ impl Pins {
         if is_pinned || !has_part(robot, from) {
             return;
         }
-        // There is a place for each who has a part, when those who have none any more are gone.
+        // There is a place for each robot that has a part, once the ones without a part are gone.
         let place = self.0.iter_mut().find(|pin| {
             pin.as_ref()
                 .is_none_or(|(station, _)| !has_part(robot, *station))

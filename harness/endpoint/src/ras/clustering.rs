@@ -320,7 +320,7 @@ impl Clustering {
 
     /// Leaves those within a cluster of a robot that precedes this one to that robot, so that nobody is
     /// announced twice, for 2 s (`timeClusterContinuity`). Which robot precedes has to be an order, as
-    /// that of station ids is: then at least one of those who see somebody announces them.
+    /// that of station ids is: then at least one of the robots that see somebody announces them.
     pub fn leave_to(&mut self, now_ms: u64, id: (u32, Option<u8>), area: Area) {
         if self.others.len() >= OTHERS_MAX && !self.others.contains_key(&id) {
             let oldest = self.others.iter().min_by_key(|(_, other)| other.heard_ms);
@@ -333,7 +333,7 @@ impl Clustering {
         self.regroup(now_ms);
     }
 
-    /// Takes back those who were left to a robot that has no cluster any more.
+    /// Takes back the people who were left to a robot that has no cluster any more.
     pub fn take_back(&mut self, now_ms: u64, head: u32) {
         self.others.retain(|(other, _), _| *other != head);
         self.regroup(now_ms);

@@ -374,7 +374,7 @@ mod tests {
         };
         let (first, second) = (id_of_next(0, 2), id_of_next(100, 2));
         assert_ne!(first, second);
-        // A third one comes before those whose turn it would be.
+        // A third one comes before the ones whose turn it would be.
         let third = id_of_next(200, 3);
         assert!(![first, second].contains(&third));
         assert_eq!(

@@ -69,7 +69,7 @@ pub(super) struct Namesakes {
 }
 
 impl Namesakes {
-    /// A robot was heard at `now_ms`, whose id follows from its ticket: the id is its own, whoever had it before.
+    /// A robot was heard at `now_ms`, whose id follows from its ticket: the id is its own, whichever robot had it before.
     /// With more robots around than can be remembered, a new one is not: others may then go by its id, and its RAM
     /// are its own all the same.
     pub(super) fn bind(

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Robots with the same period change at the same moments, at multiples of the period on the ITS clock: where each
-//! changed at its own, whoever appears would be who has just vanished. A robot that has a part in a session then waits
+//! changed at its own, the station that appears would be the one that has just vanished. A robot that has a part in a session then waits
 //! for the next such moment.
 
 use std::collections::BTreeMap;

@@ -294,7 +294,7 @@ pub struct Rows {
     pub count: usize,
     /// How many of them are not later than the time.
     pub past: usize,
-    /// How many come before those that are here.
+    /// How many come before the ones here.
     pub shown_from: usize,
     /// The time of the one before the time.
     pub previous: Option<u64>,
@@ -318,9 +318,9 @@ pub struct MessageRow {
     pub text: String,
     /// Why it was sent.
     pub why: String,
-    /// The columns of those who heard it.
+    /// The columns of robots that heard it.
     pub heard: Vec<usize>,
-    /// The columns of those whom it did not reach because the fault layer kept it.
+    /// The columns of robots that it did not reach because the fault layer kept it.
     pub lost: Vec<usize>,
     /// The longest time from sending to hearing, in µs by the clocks of the logs.
     pub took_us: u64,

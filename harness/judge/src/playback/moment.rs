@@ -70,9 +70,9 @@ pub struct RobotMoment {
     pub body: Option<BodyMoment>,
     /// Where it was in the seconds before.
     pub trail: Vec<Metres>,
-    /// The people whom its sensors have.
+    /// The people that its sensors have seen.
     pub people: Vec<PersonMoment>,
-    /// The people whom its RAM announces as one.
+    /// The people that its RAM announces as one.
     pub cluster: Option<ClusterMoment>,
     /// Where its followers are to be.
     pub areas: Vec<AreaMoment>,

@@ -6,7 +6,7 @@ for name, and the functions here turn one into the other by the annotations of t
 - a structure is a dataclass, and its fields have the core's names, with the unit behind them
   (`t_ack_ms` is `t_ack`) and an underscore where the name is a keyword of Python (`from_`);
 - an enumeration whose members hold nothing is an `enum.Enum` whose values are the core's names;
-- any other is a union of `Variant` classes, one for each member, with the core's names. Those whose
+- any other is a union of `Variant` classes, one for each member, with the core's names. Members whose
   fields have no names there are `Positional`.
 
 `tests/test_types.py` holds every class against the core.

@@ -111,7 +111,7 @@ fn older(path: &Path, number: u32) -> PathBuf {
     path.with_added_extension(number.to_string())
 }
 
-/// Gives the file at `path` the next name, and those that have it already theirs; the oldest goes.
+/// Gives the file at `path` the next name, and the files that have it already theirs; the oldest goes.
 fn make_place(path: &Path, kept: u32) -> io::Result<()> {
     let last = (1..=kept).find(|number| !older(path, *number).exists());
     for number in (1..=last.unwrap_or(kept)).rev() {

@@ -15,7 +15,7 @@ struct Told {
     properties: Vec<Assumed>,
 }
 
-/// What a property assumes of those who speak.
+/// What a property assumes of senders.
 #[derive(Serialize)]
 struct Assumed {
     id: &'static str,
@@ -53,7 +53,7 @@ pub(super) fn tell(is_json: bool) -> Result<(), Failure> {
         print(line.trim_end())?;
     }
     print("")?;
-    print("What each property assumes of those who speak:")?;
+    print("What each property assumes of senders:")?;
     for line in assumed.lines() {
         print(line.trim_end())?;
     }

@@ -363,7 +363,7 @@ fn refusals(report: &TargetReport<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The settings that are tried: the values of the target, and those that are set.
+/// The settings that are tried: the values of the target, and the ones that are set.
 fn choices(target: &Target, settings: &Settings) -> Vec<Settings> {
     let mut choices = vec![settings.clone()];
     for (knob, values) in Knob::ALL.into_iter().zip(target.tried()) {
