@@ -1,6 +1,7 @@
 //! `crossguard check --workers` and `--hosts`, as their user runs them: threads, processes, and processes that die.
 
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
@@ -19,8 +20,15 @@ fn hosts(folder: &Path, number: u16) -> String {
 }
 
 fn process(scenario: &str, hosts: &str, number: usize) -> Child {
-    let mut command = crossguard(&["check", scenario, "--json", "--hosts", hosts, "--process"]);
-    command.args([&number.to_string(), "--patience", "300"]);
+    let number = number.to_string();
+    let hosts = ["--hosts", hosts, "--process", &number, "--patience", "300"];
+    begin(scenario, &hosts)
+}
+
+/// Begins a check.
+fn begin(scenario: &str, arguments: &[&str]) -> Child {
+    let mut command = crossguard(&["check", scenario, "--json"]);
+    command.args(arguments);
     command
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
@@ -86,6 +94,82 @@ fn two_processes_report_the_same() {
     assert_eq!(reports[0]["processes"], 2);
 }
 
+/// Waits until a process says on standard error that it is in mid-run.
+fn wait_for(process: &mut Child, is_it: impl Fn(&str) -> bool) {
+    let said = BufReader::new(process.stderr.take().unwrap());
+    let line = said.lines().find(|line| is_it(line.as_ref().unwrap()));
+    assert!(line.is_some(), "it ended before it said so");
+}
+
+fn has_level(line: &str) -> bool {
+    line.contains("level")
+}
+
+/// At this level and the ones after it, `trio` has most of its states.
+const LATE: u64 = 18;
+
+fn has_late_checkpoint(line: &str) -> bool {
+    let level = line.split_once("a checkpoint at level ");
+    let level = level.and_then(|(_, rest)| rest.split(' ').next());
+    level.is_some_and(|level| level.parse::<u64>().unwrap() >= LATE)
+}
+
+/// Asserts that a check of `trio` went on from a checkpoint and found all states.
+fn assert_went_on(process: Child) {
+    let output = process.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("trio: goes on at level "));
+    let scenario = &json(&output)["scenarios"][0];
+    assert_eq!(scenario["size_as_expected"], true, "{scenario}");
+    assert!(scenario["resumed_at"].as_u64().unwrap() >= LATE);
+}
+
+#[test]
+fn a_check_that_was_killed_goes_on_from_its_checkpoint() {
+    let folder = TempDir::new().unwrap();
+    let kept = folder.path().join("kept");
+    let kept = kept.to_str().unwrap();
+    let arguments = [
+        "--workers",
+        "2",
+        "--checkpoints",
+        kept,
+        "--checkpoint-every",
+        "0",
+    ];
+    let mut killed = begin("trio", &arguments);
+    wait_for(&mut killed, has_late_checkpoint);
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert_refused(
+        &run(&["check", "trio", "--workers", "1", "--checkpoints", kept]),
+        "is a checkpoint of another check",
+    );
+    assert_went_on(begin("trio", &arguments));
+}
+
+#[test]
+fn processes_go_on_together_after_one_of_them_was_killed() {
+    let folder = TempDir::new().unwrap();
+    let kept = folder.path().join("kept");
+    let kept = kept.to_str().unwrap();
+    let both = || {
+        let hosts = hosts(folder.path(), 2);
+        ["0", "1"].map(|number| {
+            let hosts = ["--hosts", &hosts, "--process", number, "--patience", "300"];
+            let kept = ["--checkpoints", kept, "--checkpoint-every", "0"];
+            begin("trio", &[&hosts[..], &kept[..]].concat())
+        })
+    };
+    let [left, mut killed] = both();
+    wait_for(&mut killed, has_late_checkpoint);
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    let output = left.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    both().map(assert_went_on);
+}
+
 #[test]
 fn when_one_of_four_processes_is_killed_the_others_say_that_they_are_incomplete() {
     let folder = TempDir::new().unwrap();
@@ -95,10 +179,7 @@ fn when_one_of_four_processes_is_killed_the_others_say_that_they_are_incomplete(
         .collect();
     // It is in mid-run once it tells of a level.
     let mut killed = processes.remove(2);
-    let progress = std::io::BufReader::new(killed.stderr.take().unwrap());
-    let line =
-        std::io::BufRead::lines(progress).find(|line| line.as_ref().unwrap().contains("level"));
-    assert!(line.is_some(), "it ended before it was killed");
+    wait_for(&mut killed, has_level);
     killed.kill().unwrap();
     let killed_at = Instant::now();
     killed.wait().unwrap();
@@ -122,21 +203,11 @@ fn when_one_of_four_processes_is_killed_the_others_say_that_they_are_incomplete(
 fn a_process_that_is_held_up_does_not_hold_up_the_others_for_ever() {
     let folder = TempDir::new().unwrap();
     let hosts = hosts(folder.path(), 2);
-    let begin = |number: usize| {
-        let number = number.to_string();
-        let mut command = crossguard(&["check", "team-of-four", "--hosts", &hosts]);
-        command.args(["--process", &number, "--timeout", "3"]);
-        command
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
-        command.spawn().unwrap()
-    };
-    let (waits, mut held) = (begin(0), begin(1));
-    let progress = std::io::BufReader::new(held.stderr.take().unwrap());
-    let line =
-        std::io::BufRead::lines(progress).find(|line| line.as_ref().unwrap().contains("level"));
-    assert!(line.is_some(), "it ended before it was held up");
+    let [waits, mut held] = ["0", "1"].map(|number| {
+        let hosts = ["--hosts", &hosts, "--process", number, "--timeout", "3"];
+        begin("team-of-four", &hosts)
+    });
+    wait_for(&mut held, has_level);
     signal(&held, "-STOP");
     let output = waits.wait_with_output().unwrap();
     held.kill().unwrap();
@@ -195,6 +266,14 @@ fn what_makes_no_sense_is_refused_with_its_cause() {
             "--hosts wants one scenario",
         ),
         (vec!["stable", "--hosts", &good], "--process"),
+        (
+            vec!["stable", "--checkpoints", "kept"],
+            "--checkpoints is for checks by workers",
+        ),
+        (
+            vec!["stable", "--workers", "1", "--checkpoints", one],
+            "one.txt",
+        ),
     ] {
         assert_refused(&run(&[vec!["check"], arguments].concat()), cause);
     }

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crossguard_protocol::{Coordination, Event, Farewell, Input, Progress, Rmcm, Role, State};
+use serde::{Deserialize, Serialize};
 
 use crate::node::Node;
 
@@ -10,7 +11,7 @@ use crate::node::Node;
 pub type Mode = (Role, State);
 
 /// Which inputs have led from one mode to another.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 pub struct Transitions(pub BTreeMap<(Mode, Mode), BTreeSet<String>>);
 
 impl Transitions {

@@ -1,8 +1,9 @@
 //! What one worker does: it keeps the states that it owns, and expands them.
 
 use std::collections::{BTreeMap, HashMap};
-use std::sync::Arc;
+use std::io::{self, Read, Write};
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crossguard_model_check::check::Stop;
@@ -10,8 +11,10 @@ use crossguard_model_check::model::portable::{Fingerprints, PackedState, Packer,
 use crossguard_model_check::model::{Action, Model, ModelState};
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::CutOff;
+use crossguard_model_check::transitions::Transitions;
 use serde::{Deserialize, Serialize};
 
+use crate::checkpoint::{self, Keeping, Kept};
 use crate::table::{Fingerprint, Hint, Table};
 use crate::waiting::Queue;
 
@@ -41,6 +44,13 @@ enum Cargo {
     Here(ModelState),
 }
 
+/// Some of the states that wait, in a file, with the parts that no state before them has.
+#[derive(Default, Serialize, Deserialize)]
+struct Saved {
+    parts: Vec<Part>,
+    states: Vec<(PackedState, Hint)>,
+}
+
 /// What the workers of a process have in common.
 pub(crate) struct Common {
     pub(crate) model: Model,
@@ -48,6 +58,7 @@ pub(crate) struct Common {
     pub(crate) judged: Vec<PropertyId>,
     pub(crate) workers: usize,
     pub(crate) limits: Limits,
+    pub(crate) keeping: Option<Keeping>,
     pub(crate) counters: Counters,
 }
 
@@ -64,6 +75,13 @@ pub(crate) struct Counters {
     pub(crate) states: AtomicU64,
     pub(crate) level: AtomicU32,
     pub(crate) table_bytes: AtomicU64,
+    kept: Mutex<Kept>,
+}
+
+impl Counters {
+    pub(crate) fn kept(&self) -> MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// What one worker has found.
@@ -78,6 +96,8 @@ pub(crate) struct Told {
     /// Of the judged properties: the first state that breaks it.
     pub(crate) broken: Vec<Option<(u32, Fingerprint)>>,
     pub(crate) cut_off: Option<CutOff>,
+    /// The transitions of the state diagram that were taken in this process.
+    pub(crate) transitions_taken: Transitions,
 }
 
 /// How many fingerprints a worker remembers of the states that it has sent last.
@@ -118,6 +138,7 @@ pub(crate) struct Explorer {
 impl Explorer {
     pub(crate) fn new(common: &Arc<Common>, index: usize, peers: usize) -> Self {
         let told = Told {
+            premises: vec![false; common.judged.len()],
             broken: vec![None; common.judged.len()],
             ..Told::default()
         };
@@ -138,13 +159,84 @@ impl Explorer {
         }
     }
 
-    /// The state in which every run begins, on its way to its owner.
-    pub(crate) fn first(&mut self) -> Found {
+    /// Begins with the state in which every run begins, if it owns that one.
+    pub(crate) fn begin(&mut self) {
         let state = self.common.model.initial();
         let fingerprint = self.fingerprints.of(&self.common.model, &state);
         let fingerprint = Fingerprint::of(fingerprint);
-        let owner = self.owner(fingerprint);
-        self.on_its_way(state, fingerprint, fingerprint.hint(), owner)
+        if self.owner(fingerprint) == self.index {
+            self.add(state, fingerprint, 0, fingerprint.hint());
+        }
+    }
+
+    /// Writes all that it has found. The states of this level wait, and no others.
+    pub(crate) fn save(&mut self, level: u32, file: &mut impl Write) -> io::Result<()> {
+        checkpoint::write(file, &self.told())?;
+        self.table.write(file)?;
+        let mut waiting = self.waiting.remove(&level).unwrap_or_default();
+        let mut kept = Queue::default();
+        let saved = self.save_waiting(&mut waiting, &mut kept, file);
+        while let Some(state) = waiting.pop() {
+            kept.push(state);
+        }
+        if !kept.is_empty() {
+            self.waiting.insert(level, kept);
+        }
+        saved
+    }
+
+    fn save_waiting(
+        &self,
+        waiting: &mut Queue,
+        kept: &mut Queue,
+        file: &mut impl Write,
+    ) -> io::Result<()> {
+        let mut packer = Packer::default();
+        loop {
+            let mut saved = Saved::default();
+            for (state, hint) in (0..BITE).map_while(|_| waiting.pop()) {
+                let packed = packer.pack(&self.common.model, &state, &mut saved.parts);
+                saved.states.push((packed, hint));
+                kept.push((state, hint));
+            }
+            checkpoint::write(file, &saved)?;
+            if saved.states.is_empty() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Reads what [`Explorer::save`] has written.
+    pub(crate) fn restore(&mut self, level: u32, file: &mut impl Read) -> io::Result<()> {
+        self.told = checkpoint::read(file)?;
+        // All of them are new to this process.
+        self.told.table_bytes = 0;
+        self.table = Table::read(file)?;
+        let mut waiting = Queue::default();
+        let mut unpacker = Unpacker::default();
+        loop {
+            let saved: Saved = checkpoint::read(file)?;
+            if saved.states.is_empty() {
+                break;
+            }
+            for part in &saved.parts {
+                let learned = unpacker.learn(&self.common.model, part);
+                learned.map_err(io::Error::other)?;
+            }
+            for (packed, hint) in saved.states {
+                let state = unpacker.unpack(&self.common.model, packed);
+                waiting.push((state.map_err(io::Error::other)?, hint));
+            }
+        }
+        if !waiting.is_empty() {
+            self.waiting.insert(level, waiting);
+        }
+        Ok(())
+    }
+
+    /// Whether it has given up.
+    pub(crate) const fn is_cut_off(&self) -> bool {
+        self.told.cut_off.is_some()
     }
 
     /// As timely routes it.
@@ -334,10 +426,15 @@ impl Explorer {
     /// What it has found until now.
     pub(crate) fn told(&self) -> Told {
         let judged = self.common.judged.iter();
+        let mut taken = self.common.model.transitions_taken();
+        taken.add(&self.told.transitions_taken);
         Told {
             premises: judged
                 .map(|property| self.common.model.premise_met(*property))
+                .zip(&self.told.premises)
+                .map(|(now, before)| now || *before)
                 .collect(),
+            transitions_taken: taken,
             table_bytes: self.table.bytes() as u64,
             ..self.told.clone()
         }

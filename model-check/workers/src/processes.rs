@@ -8,6 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, Once, PoisonError};
 use std::time::{Duration, Instant};
 
+use crossguard_model_check::model::Model;
 use crossguard_model_check::model::portable::hashed;
 use timely::WorkerConfig;
 use timely::communication::allocator::zero_copy::initialize::initialize_networking_from_sockets;
@@ -144,7 +145,13 @@ fn set_up(common: &Common, options: &Options) -> Result<Setup, WorkersError> {
 fn digest(common: &Common, options: &Options) -> u128 {
     let scenario = format!("{:?}", common.model.scenario());
     let limits = (options.workers, options.states_max, options.time_max);
-    hashed(&(scenario, build(), limits))
+    let keeps = options.checkpoints.is_some();
+    hashed(&(scenario, build(), limits, keeps))
+}
+
+/// What has to be the same where a check goes on: what states and their fingerprints mean, and which worker owns them.
+pub(crate) fn digest_of_states(model: &Model, shares: (usize, usize)) -> u128 {
+    hashed(&(format!("{:?}", model.scenario()), build(), shares))
 }
 
 /// The digest of this program: parts of states are hashed as they lie in memory. 0 where it cannot be read any more; then

@@ -10,15 +10,17 @@ use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CutOff, PropertyReport, ScenarioReport};
 use crossguard_model_check::scenario::Size;
 use crossguard_model_check::sequence::ChartStep;
+use crossguard_model_check::transitions::Transitions;
 use serde::Serialize;
 
+use crate::checkpoint::Kept;
 use crate::dataflow::{Candidates, Outcome};
 use crate::explorer::Common;
 use crate::path;
 use crate::table::FINGERPRINT_BITS;
 
 /// How far the workers of this process are.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Progress {
     /// The level that is being expanded; 0 is the initial state's.
     pub level: u32,
@@ -28,6 +30,8 @@ pub struct Progress {
     pub table_bytes: u64,
     /// For how long it has worked.
     pub elapsed: Duration,
+    /// What became of its checkpoints.
+    pub kept: Kept,
 }
 
 impl Progress {
@@ -38,6 +42,7 @@ impl Progress {
             states: counters.states.load(Ordering::Relaxed),
             table_bytes: counters.table_bytes.load(Ordering::Relaxed),
             elapsed: begin.elapsed(),
+            kept: counters.kept().clone(),
         }
     }
 }
@@ -59,6 +64,9 @@ pub struct WorkersReport {
     pub omission_probability: f64,
     /// Bytes of the tables of all processes.
     pub table_bytes: u64,
+    /// The level that the check went on at, where it went on from a checkpoint. Its seconds and cost are those of this
+    /// run alone.
+    pub resumed_at: Option<u32>,
     /// Properties of the scenario that were not judged: they need the graph of all states.
     pub not_judged: Vec<String>,
 }
@@ -85,6 +93,10 @@ pub(crate) fn of(
          probability of at most {omission_probability:.0e}"
     );
     let properties = common.judged.iter().enumerate();
+    let mut transitions_taken = Transitions::default();
+    for told in told {
+        transitions_taken.add(&told.transitions_taken);
+    }
     let not_judged = scenario.properties.iter();
     let not_judged = not_judged.filter(|id| !common.judged.contains(id));
     WorkersReport {
@@ -111,13 +123,14 @@ pub(crate) fn of(
                 .collect(),
             figures: Vec::new(),
             assumptions: assumptions(scenario, compared),
-            transitions_taken: model.transitions_taken(),
+            transitions_taken,
         },
         processes,
         workers: common.workers,
         fingerprint_bits: FINGERPRINT_BITS,
         omission_probability,
         table_bytes: told.iter().map(|told| told.table_bytes).sum(),
+        resumed_at: common.counters.kept().resumed.map(|(level, _)| level),
         not_judged: not_judged.map(ToString::to_string).collect(),
     }
 }
