@@ -11,14 +11,14 @@ use std::sync::Arc;
 use rustc_hash::FxBuildHasher;
 
 use crate::canonical::{Names, Renamable, Renamings};
+use crate::lookup::Lookup;
 use crate::memo::Memo;
-use crate::numbers::Numbers;
 
 /// A growing set of values, each with a number and the set of names that occur in it.
 pub(crate) struct Interner<T> {
     values: boxcar::Vec<(T, u32)>,
     /// By what the values are.
-    numbers: Numbers,
+    lookup: Lookup,
     renamings: Arc<Renamings>,
     /// What renamings have made of values.
     renamed: Memo<(u32, u32), u32>,
@@ -52,7 +52,7 @@ impl<T: Clone + Eq + Hash> Interner<T> {
     pub(crate) fn new(renamings: &Arc<Renamings>) -> Self {
         Self {
             values: boxcar::Vec::new(),
-            numbers: Numbers::default(),
+            lookup: Lookup::default(),
             renamings: Arc::clone(renamings),
             renamed: Memo::default(),
         }
@@ -72,11 +72,11 @@ impl<T: Clone + Eq + Hash> Interner<T> {
     pub(crate) fn number_with(&self, value: T, names: impl FnOnce(&T) -> u32) -> u32 {
         let hashed = FxBuildHasher.hash_one(&value);
         let is_it = |number: u32| self.values[number as usize].0 == value;
-        if let Some(number) = self.numbers.find(hashed, is_it) {
+        if let Some(number) = self.lookup.find(hashed, is_it) {
             return number;
         }
         let names = names(&value);
-        let locked = self.numbers.lock(hashed);
+        let locked = self.lookup.lock(hashed);
         let known = locked.find(is_it);
         known.unwrap_or_else(|| locked.add(self.values.push((value, names))))
     }

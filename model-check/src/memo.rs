@@ -5,19 +5,19 @@ use std::sync::OnceLock;
 
 use rustc_hash::FxBuildHasher;
 
-use crate::numbers::Numbers;
+use crate::lookup::Lookup;
 
 /// A growing table of results by what they are of, for all threads. A result never changes.
 pub(crate) struct Memo<K, V> {
     results: boxcar::Vec<(K, V)>,
-    numbers: Numbers,
+    lookup: Lookup,
 }
 
 impl<K, V> Default for Memo<K, V> {
     fn default() -> Self {
         Self {
             results: boxcar::Vec::new(),
-            numbers: Numbers::default(),
+            lookup: Lookup::default(),
         }
     }
 }
@@ -26,7 +26,7 @@ impl<K: Eq + Hash, V> Memo<K, V> {
     /// The result, where it is known.
     pub(crate) fn get(&self, of: &K) -> Option<&V> {
         let is_it = |number: u32| self.results[number as usize].0 == *of;
-        let number = self.numbers.find(FxBuildHasher.hash_one(of), is_it)?;
+        let number = self.lookup.find(FxBuildHasher.hash_one(of), is_it)?;
         Some(&self.results[number as usize].1)
     }
 
@@ -35,7 +35,7 @@ impl<K: Eq + Hash, V> Memo<K, V> {
     /// # Panics
     /// When 2^32 results are exceeded, far beyond what fits in memory.
     pub(crate) fn keep(&self, of: K, result: V) -> &V {
-        let locked = self.numbers.lock(FxBuildHasher.hash_one(&of));
+        let locked = self.lookup.lock(FxBuildHasher.hash_one(&of));
         let is_it = |number: u32| self.results[number as usize].0 == of;
         let number = locked
             .find(is_it)

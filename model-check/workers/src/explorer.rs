@@ -195,8 +195,8 @@ impl Explorer {
         loop {
             let mut saved = Saved::default();
             for (state, hint) in (0..BITE).map_while(|_| waiting.pop()) {
-                let packed = packer.pack(&self.common.model, &state, &mut saved.parts);
-                saved.states.push((packed, hint));
+                let portable = packer.pack(&self.common.model, &state, &mut saved.parts);
+                saved.states.push((portable, hint));
                 kept.push((state, hint));
             }
             checkpoint::write(file, &saved)?;

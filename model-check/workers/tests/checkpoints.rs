@@ -56,7 +56,7 @@ fn in_pieces(model: &dyn Fn() -> Model, number: usize, folder: &Path) -> (Worker
 fn kept(folder: &Path) -> Vec<String> {
     let files = fs::read_dir(folder).unwrap();
     let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    let mut names: Vec<_> = names.filter(|name| !name.ends_with(".lock")).collect();
+    let mut names: Vec<_> = names.filter(|name| name.contains(".level-")).collect();
     names.sort();
     names
 }

@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// The numbers of values that somebody else keeps. Numbers are added and never removed.
 #[derive(Default)]
-pub(crate) struct Numbers {
+pub(crate) struct Lookup {
     shards: [Shard; SHARDS],
 }
 
@@ -34,7 +34,7 @@ const fn slot(tag: u32, number: u32) -> u64 {
     ((tag as u64) << 32) + number as u64 + 1
 }
 
-impl Numbers {
+impl Lookup {
     /// The number of the value with this hash that is the one.
     pub(crate) fn find(&self, hashed: u64, is_it: impl Fn(u32) -> bool) -> Option<u32> {
         let (shard, tag) = self.place(hashed);
@@ -146,7 +146,7 @@ mod tests {
 
     /// Values that all threads add at once, each with a hash that `hash` makes of it.
     fn numbered_by_threads(count: usize, hash: impl Fn(usize) -> u64 + Sync) {
-        let (numbers, values) = (Numbers::default(), boxcar::Vec::new());
+        let (numbers, values) = (Lookup::default(), boxcar::Vec::new());
         let number = |value: usize| {
             let is_it = |number: u32| values[number as usize] == value;
             let known = numbers.find(hash(value), is_it);
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn what_was_not_added_is_not_found() {
-        let numbers = Numbers::default();
+        let numbers = Lookup::default();
         assert_eq!(numbers.find(7, |_| true), None);
         assert_eq!(numbers.lock(7).find(|_| true), None);
         assert_eq!(numbers.lock(7).add(5), 5);
