@@ -216,6 +216,16 @@ impl KnownHashes {
     }
 }
 
+/// All states that differ in which of the symmetric robots is which; one state, where none are.
+pub struct Class {
+    /// The one with the smallest hashes, which are the same in each process.
+    pub state: ModelState,
+    /// What tells the class apart, in each process.
+    pub fingerprint: u128,
+    /// How many states it has.
+    pub size: u16,
+}
+
 /// Makes fingerprints of 128 bits; states of one class of symmetric ones have the same. For one thread.
 #[derive(Default)]
 pub struct Fingerprints {
@@ -228,32 +238,35 @@ pub struct Fingerprints {
 impl Fingerprints {
     /// The fingerprint of a state.
     pub fn of(&mut self, model: &Model, state: &ModelState) -> u128 {
-        let draft = Draft {
-            state: state.clone(),
-            network: model.network(state),
-        };
-        self.representative(model, draft).1
+        self.class(model, state.clone()).fingerprint
     }
 
-    /// The state after an action, or another one of its class, with its fingerprint; `None` if the action changes
-    /// nothing.
+    /// The class of a state.
+    pub fn class(&mut self, model: &Model, state: ModelState) -> Class {
+        let network = model.network(&state);
+        self.class_of(model, Draft { state, network })
+    }
+
+    /// The class of the state after an action; `None` if the action changes nothing.
     pub fn successor(
         &mut self,
         model: &Model,
         state: &ModelState,
         action: Action,
-    ) -> Option<(ModelState, u128)> {
+    ) -> Option<Class> {
         let (next, _) = model.take(state, action)?;
-        let (next, fingerprint) = self.representative(model, next);
-        Some((model.interned(next), fingerprint))
+        Some(self.class_of(model, next))
     }
 
-    /// The state of a class with the smallest hashes, which are the same in each process, and its fingerprint.
-    fn representative(&mut self, model: &Model, draft: Draft) -> (Draft, u128) {
+    fn class_of(&mut self, model: &Model, draft: Draft) -> Class {
         let symmetry = &model.0.symmetry;
         if symmetry.is_trivial() {
             let fingerprint = self.of_one(model, &draft);
-            return (draft, fingerprint);
+            return Class {
+                state: model.interned(draft),
+                fingerprint,
+                size: 1,
+            };
         }
         let images = model.node_images(&draft.state);
         let exchanges = symmetry.exchanges.iter().enumerate();
@@ -265,6 +278,8 @@ impl Fingerprints {
             .collect();
         let smallest = nodes.iter().map(|(hashes, _)| *hashes).min();
         let mut chosen = None;
+        // How many exchanges make the chosen one.
+        let mut equal = 0;
         for (i, (hashes, nodes)) in nodes.iter().enumerate() {
             if Some(*hashes) != smallest {
                 continue;
@@ -272,15 +287,21 @@ impl Fingerprints {
             // Robots in equal states leave it to the rest to tell which is which.
             let image = (i != Symmetry::IDENTITY).then(|| model.image(&draft, *nodes, i));
             let fingerprint = self.of_one(model, image.as_ref().unwrap_or(&draft));
-            if chosen
-                .as_ref()
-                .is_none_or(|(_, known)| fingerprint < *known)
-            {
+            let known = chosen.as_ref().map(|(_, known)| *known);
+            if known.is_none_or(|known| fingerprint < known) {
                 chosen = Some((image, fingerprint));
+                equal = 1;
+            } else if known == Some(fingerprint) {
+                equal += 1;
             }
         }
         let (image, fingerprint) = chosen.expect("one of them is the smallest");
-        (image.unwrap_or(draft), fingerprint)
+        let size = nodes.len() / equal;
+        Class {
+            state: model.interned(image.unwrap_or(draft)),
+            fingerprint,
+            size: u16::try_from(size).expect("at most as many as exchanges"),
+        }
     }
 
     fn hashes_of_nodes(&mut self, model: &Model, nodes: &[u32; MAX_ROBOTS]) -> [u128; MAX_ROBOTS] {

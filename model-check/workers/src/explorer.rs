@@ -21,16 +21,24 @@ use crate::waiting::Queue;
 /// A state on its way to the worker that owns it.
 #[derive(Clone, Serialize, Deserialize)]
 pub(crate) struct Found {
-    fingerprint: Fingerprint,
-    from: Hint,
+    sighting: Sighting,
     sender: u32,
     cargo: Cargo,
+}
+
+/// What is known of a state where it is found.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+struct Sighting {
+    fingerprint: Fingerprint,
+    from: Hint,
+    /// How many states it stands for.
+    class: u16,
 }
 
 impl Found {
     /// What decides which worker it goes to.
     pub(crate) const fn share(&self) -> u64 {
-        self.fingerprint.share()
+        self.sighting.fingerprint.share()
     }
 }
 
@@ -88,6 +96,8 @@ impl Counters {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Told {
     pub(crate) states: u64,
+    /// The states that these stand for.
+    pub(crate) of_classes: u64,
     pub(crate) transitions: u64,
     pub(crate) depth: u32,
     pub(crate) table_bytes: u64,
@@ -112,8 +122,7 @@ const TOGETHER: usize = 20;
 /// A state that comes after another one.
 struct Successor {
     state: ModelState,
-    fingerprint: Fingerprint,
-    from: Hint,
+    sighting: Sighting,
     owner: usize,
 }
 
@@ -161,11 +170,16 @@ impl Explorer {
 
     /// Begins with the state in which every run begins, if it owns that one.
     pub(crate) fn begin(&mut self) {
-        let state = self.common.model.initial();
-        let fingerprint = self.fingerprints.of(&self.common.model, &state);
-        let fingerprint = Fingerprint::of(fingerprint);
+        let model = &self.common.model;
+        let class = self.fingerprints.class(model, model.initial());
+        let fingerprint = Fingerprint::of(class.fingerprint);
+        let sighting = Sighting {
+            fingerprint,
+            from: fingerprint.hint(),
+            class: class.size,
+        };
         if self.owner(fingerprint) == self.index {
-            self.add(state, fingerprint, 0, fingerprint.hint());
+            self.add(class.state, sighting, 0);
         }
     }
 
@@ -244,13 +258,12 @@ impl Explorer {
         usize::try_from(fingerprint.share() % self.peers as u64).expect("less than the peers")
     }
 
-    fn on_its_way(
-        &mut self,
-        state: ModelState,
-        fingerprint: Fingerprint,
-        from: Hint,
-        owner: usize,
-    ) -> Found {
+    fn on_its_way(&mut self, next: Successor) -> Found {
+        let Successor {
+            state,
+            sighting,
+            owner,
+        } = next;
         let is_here = owner / self.common.workers == self.index / self.common.workers;
         let cargo = if is_here {
             Cargo::Here(state)
@@ -261,8 +274,7 @@ impl Explorer {
             Cargo::Abroad(Box::new((state, news)))
         };
         Found {
-            fingerprint,
-            from,
+            sighting,
             sender: u32::try_from(self.index).expect("few workers"),
             cargo,
         }
@@ -274,7 +286,7 @@ impl Explorer {
     /// Where one cannot be read: another process sent nonsense. The panic ends the check as incomplete.
     pub(crate) fn receive(&mut self, found: &mut Vec<Found>, level: u32) {
         self.table
-            .fetch(found.iter().map(|found| found.fingerprint));
+            .fetch(found.iter().map(|found| found.sighting.fingerprint));
         for found in found.drain(..) {
             self.receive_one(found, level);
         }
@@ -282,13 +294,12 @@ impl Explorer {
 
     fn receive_one(&mut self, found: Found, level: u32) {
         let Found {
-            fingerprint,
-            from,
+            sighting,
             sender,
             cargo,
         } = found;
         match cargo {
-            Cargo::Here(state) => self.add(state, fingerprint, level, from),
+            Cargo::Here(state) => self.add(state, sighting, level),
             Cargo::Abroad(abroad) => {
                 let (packed, news) = *abroad;
                 let unpacker = self.unpackers.entry(sender).or_default();
@@ -299,16 +310,22 @@ impl Explorer {
                 }
                 let state = unpacker.unpack(model, packed);
                 let state = state.unwrap_or_else(|cause| panic!("{cause}"));
-                self.add(state, fingerprint, level, from);
+                self.add(state, sighting, level);
             }
         }
     }
 
-    fn add(&mut self, state: ModelState, fingerprint: Fingerprint, level: u32, from: Hint) {
+    fn add(&mut self, state: ModelState, sighting: Sighting, level: u32) {
+        let Sighting {
+            fingerprint,
+            from,
+            class,
+        } = sighting;
         if self.told.cut_off.is_some() || !self.table.insert(fingerprint, level, from) {
             return;
         }
         self.told.states += 1;
+        self.told.of_classes += u64::from(class);
         self.told.depth = self.told.depth.max(level);
         for (property, broken) in self.common.judged.iter().zip(&mut self.told.broken) {
             let holds = !Model::breaks(&state, *property)
@@ -366,15 +383,18 @@ impl Explorer {
         model.actions_in(state, &mut actions);
         let begin = self.successors.len();
         for &action in &actions {
-            if let Some((state, fingerprint)) = self.fingerprints.successor(model, state, action) {
-                let fingerprint = Fingerprint::of(fingerprint);
+            if let Some(class) = self.fingerprints.successor(model, state, action) {
+                let fingerprint = Fingerprint::of(class.fingerprint);
                 let mut found = self.successors[begin..].iter();
-                if found.all(|known| known.fingerprint != fingerprint) {
+                if found.all(|known| known.sighting.fingerprint != fingerprint) {
                     self.successors.push(Successor {
+                        state: class.state,
+                        sighting: Sighting {
+                            fingerprint,
+                            from,
+                            class: class.size,
+                        },
                         owner: self.owner(fingerprint),
-                        state,
-                        fingerprint,
-                        from,
                     });
                 }
             }
@@ -388,13 +408,12 @@ impl Explorer {
         let mut successors = std::mem::take(&mut self.successors);
         let index = self.index;
         let own = successors.iter().filter(|next| next.owner == index);
-        self.table.fetch(own.map(|next| next.fingerprint));
+        self.table.fetch(own.map(|next| next.sighting.fingerprint));
         for next in successors.drain(..) {
-            let (fingerprint, from) = (next.fingerprint, next.from);
             if next.owner == index {
-                self.add(next.state, fingerprint, level, from);
-            } else if !self.was_just_sent(fingerprint) {
-                send(self.on_its_way(next.state, fingerprint, from, next.owner));
+                self.add(next.state, next.sighting, level);
+            } else if !self.was_just_sent(next.sighting.fingerprint) {
+                send(self.on_its_way(next));
             }
         }
         self.successors = successors;

@@ -62,6 +62,9 @@ pub struct WorkersReport {
     /// The probability that any two of the states share a fingerprint, so that some states may have been left out:
     /// an upper bound, where fingerprints are as good as random.
     pub omission_probability: f64,
+    /// The states that the explored ones stand for: where robots are symmetric, of all states that differ in which of
+    /// them is which, one is explored.
+    pub states_of_classes: u64,
     /// Bytes of the tables of all processes.
     pub table_bytes: u64,
     /// The level that the check went on at, where it went on from a checkpoint. Its seconds and cost are those of this
@@ -129,6 +132,7 @@ pub(crate) fn of(
         workers: common.workers,
         fingerprint_bits: FINGERPRINT_BITS,
         omission_probability,
+        states_of_classes: told.iter().map(|told| told.of_classes).sum(),
         table_bytes: told.iter().map(|told| told.table_bytes).sum(),
         resumed_at: common.counters.kept().resumed.map(|(level, _)| level),
         not_judged: not_judged.map(ToString::to_string).collect(),

@@ -7,7 +7,7 @@
 //! The table is 256 smaller ones, each an array of buckets. A fingerprint may lie in one of two buckets (cuckoo
 //! hashing), each chosen by one half of it. An entry is 14 bytes, since its place says the leading bits of the half
 //! that chose it, and 9 of them are a bucket of two cache lines. The smaller tables grow one at a time, each by a
-//! sixteenth once it is full to 31 parts of 32. So to grow takes hardly any memory beside that of the table itself.
+//! sixteenth once it is full to 61 parts of 64. So to grow takes hardly any memory beside that of the table itself.
 
 use std::collections::BTreeSet;
 use std::io::{self, Read, Write};
@@ -313,7 +313,7 @@ impl Segment {
         if self.used > 0 && self.has(state) {
             return false;
         }
-        if self.used * 32 >= self.buckets.len() * SLOTS * 31 {
+        if self.used * 64 >= self.buckets.len() * SLOTS * 61 {
             self.grow();
         }
         self.add(state, Side::High);

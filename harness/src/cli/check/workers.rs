@@ -235,6 +235,12 @@ fn print_report(report: &WorkersReport) -> Result<(), Failure> {
             report.scenario.name
         ))?;
     }
+    if report.states_of_classes != report.scenario.unique_states as u64 {
+        print(format_args!(
+            "  the states stand for {}, which differ from them in which of the symmetric robots is which",
+            HumanCount(report.states_of_classes)
+        ))?;
+    }
     if let Some(level) = report.resumed_at {
         print(format_args!(
             "  it went on at level {level} from a checkpoint, and its times are of this run alone"
