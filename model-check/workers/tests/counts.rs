@@ -103,13 +103,13 @@ fn two_and_four_processes_count_what_a_scenario_has() {
 }
 
 #[test]
-#[ignore = "takes half an hour"]
+#[ignore = "takes a quarter of an hour"]
 fn one_two_and_four_workers_count_what_each_scenario_has() {
     assert_counts_of_workers(usize::MAX);
 }
 
 #[test]
-#[ignore = "takes half an hour"]
+#[ignore = "takes a quarter of an hour"]
 fn two_and_four_processes_count_what_each_scenario_has() {
     assert_counts_of_processes(usize::MAX);
 }
