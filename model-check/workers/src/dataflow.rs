@@ -73,6 +73,8 @@ impl<'a> Keeper<'a> {
         let mut explorer = explorer.borrow_mut();
         let read = self.store.read(level, |file| explorer.restore(level, file));
         read.unwrap_or_else(|cause| panic!("a checkpoint cannot be read: {cause}"));
+        // All have read theirs, so that the sum is told at once.
+        gather(worker, ());
         let mut kept = self.common.counters.kept();
         let (_, states) = kept.resumed.unwrap_or_default();
         kept.resumed = Some((level, states + explorer.told().states));
