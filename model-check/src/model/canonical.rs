@@ -80,23 +80,15 @@ impl Model {
             .map(|(i, exchange)| exchanged(&draft.state.nodes, &images, i, exchange))
             .collect();
         let smallest = nodes.iter().min();
-        let mut candidates = (0..nodes.len()).filter(|i| smallest == Some(&nodes[*i]));
-        let Some(first) = candidates.next() else {
-            return draft;
-        };
-        let mut others = candidates.peekable();
-        if first == Symmetry::IDENTITY && others.peek().is_none() {
+        let candidates = (0..nodes.len()).filter(|i| smallest == Some(&nodes[*i]));
+        let candidates: SmallVec<[usize; 6]> = candidates.collect();
+        if candidates[..] == [Symmetry::IDENTITY] {
             return draft;
         }
         // Robots in equal states leave it to the rest to tell which is which.
-        let mut chosen = self.image(&draft, nodes[first], first);
-        for i in others {
-            let image = self.image(&draft, nodes[i], i);
-            if image.rest() < chosen.rest() {
-                chosen = image;
-            }
-        }
-        chosen
+        let images = candidates.iter().map(|&i| self.image(&draft, nodes[i], i));
+        let chosen = images.min_by(|a, b| a.rest().cmp(&b.rest()));
+        chosen.unwrap_or(draft)
     }
 
     /// The images of the nodes of all robots.

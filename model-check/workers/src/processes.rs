@@ -19,6 +19,7 @@ use timely::execute::execute_from;
 use crate::connect::connect;
 use crate::dataflow::{Outcome, work};
 use crate::explorer::Common;
+use crate::hosts::Cluster;
 use crate::report::Progress;
 use crate::{Options, WorkersError};
 
@@ -143,10 +144,10 @@ fn set_up(common: &Common, options: &Options) -> Result<Setup, WorkersError> {
 
 /// What has to be the same in all processes.
 fn digest(common: &Common, options: &Options) -> u128 {
-    let scenario = format!("{:?}", common.model.scenario());
-    let limits = (options.workers, options.states_max, options.time_max);
+    let processes = options.cluster.as_ref().map_or(1, Cluster::processes);
+    let states = digest_of_states(&common.model, (processes, options.workers.get()));
     let keeps = options.checkpoints.is_some();
-    hashed(&(scenario, build(), limits, keeps))
+    hashed(&(states, options.states_max, options.time_max, keeps))
 }
 
 /// What has to be the same where a check goes on: what states and their fingerprints mean, and which worker owns them.

@@ -444,7 +444,11 @@ impl Table {
         let mut table = Self::new();
         for segment in &mut table.segments {
             segment.used = number(file)?;
-            segment.buckets = Buckets::new(number(file)?.min(BLOCKS_MAX));
+            let blocks = number(file)?;
+            if blocks > BLOCKS_MAX {
+                return Err(io::ErrorKind::InvalidData.into());
+            }
+            segment.buckets = Buckets::new(blocks);
             for bucket in segment.buckets.0.iter_mut().flatten() {
                 file.read_exact(&mut bucket.0)?;
                 if bucket.len() > SLOTS {

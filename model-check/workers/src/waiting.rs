@@ -150,6 +150,7 @@ mod tests {
             while queue.pop().is_some() {}
         }
         let len = queue.file.unwrap().metadata().unwrap().len();
-        assert!(usize::try_from(len).unwrap() < 2 * OPEN * size_of::<Waiting>());
+        // Written, they take less than two thirds of what they take as they are.
+        assert!(usize::try_from(len).unwrap() * 3 < 2 * (2 * OPEN) * size_of::<Waiting>());
     }
 }
