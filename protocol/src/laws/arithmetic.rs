@@ -2,7 +2,7 @@
 
 use crate::config::{Config, Settings};
 use crate::id::{Heartbeat, RequestId};
-use crate::time::Millis;
+use crate::time::{Countdown, Millis};
 
 /// RFC 1982, in 16 bits.
 pub(super) const fn beat_is_newer(beat: Heartbeat, known: Heartbeat) -> bool {
@@ -12,6 +12,11 @@ pub(super) const fn beat_is_newer(beat: Heartbeat, known: Heartbeat) -> bool {
 /// RFC 1982, in 8 bits.
 pub(super) const fn request_is_newer(request: RequestId, known: RequestId) -> bool {
     matches!(request.0.wrapping_sub(known.0), 1..0x80)
+}
+
+/// What is left, in ms; nothing where nothing runs.
+pub(super) fn left_ms(countdown: Countdown) -> u64 {
+    u64::from(countdown.left().unwrap_or(Millis::ZERO).0)
 }
 
 /// How long ago a heartbeat was sent, in ms: the periods since then, and what has passed of this one.

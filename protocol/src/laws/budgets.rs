@@ -4,11 +4,11 @@
 
 use crate::config::Config;
 use crate::id::SessionNumber;
-use crate::message::Progress;
 use crate::state::{Contact, Lease, Member, Outstanding, Robot};
-use crate::time::{Countdown, Millis};
+use crate::time::Millis;
 
-use super::taken::{Taken, following, leading, requesting};
+use super::arithmetic::left_ms;
+use super::taken::{Taken, following, leading, requesting, runs};
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {
@@ -18,15 +18,10 @@ pub fn all(config: &Config, step: &Taken) {
     a_silent_follower_gets_no_more_time(config, step);
 }
 
-/// What is left, nothing where nothing runs.
-fn left(countdown: Countdown) -> u64 {
-    u64::from(countdown.left().unwrap_or(Millis::ZERO).0)
-}
-
 /// L1: the time until a request has a team or is given up, and the request.
 fn request(robot: &Robot) -> Option<(SessionNumber, u64)> {
     let requesting = requesting(robot)?;
-    Some((requesting.number, left(requesting.help)))
+    Some((requesting.number, left_ms(requesting.help)))
 }
 
 /// L1: neither offers nor rivals prolong a request. It begins with `T_help`.
@@ -44,7 +39,7 @@ pub fn a_request_gets_no_more_time(config: &Config, step: &Taken) {
 fn command(config: &Config, outstanding: Outstanding) -> u64 {
     let settings = config.settings();
     let repeats = u64::from(settings.n_ack.saturating_sub(outstanding.repeats));
-    left(outstanding.acknowledgement) + repeats * u64::from(settings.t_ack.0)
+    left_ms(outstanding.acknowledgement) + repeats * u64::from(settings.t_ack.0)
 }
 
 fn same_member(robot: &Robot, member: &Member) -> Option<Member> {
@@ -80,15 +75,11 @@ pub fn a_lost_leader_gets_no_more_time(config: &Config, step: &Taken) {
     let Contact::Lost(now) = after.contact else {
         return;
     };
-    assert!(
-        !after
-            .job
-            .is_some_and(|job| matches!(job.progress, Progress::Executing | Progress::InPosition))
-    );
+    assert!(!after.job.is_some_and(|job| runs(job.progress)));
     let lost = following(&step.before).map(|before| before.contact);
     match lost {
-        Some(Contact::Lost(before)) => assert!(left(now) <= left(before)),
-        _ => assert!(left(now) <= u64::from(config.settings().t_leave.0)),
+        Some(Contact::Lost(before)) => assert!(left_ms(now) <= left_ms(before)),
+        _ => assert!(left_ms(now) <= u64::from(config.settings().t_leave.0)),
     }
 }
 
@@ -99,17 +90,19 @@ pub fn a_silent_follower_gets_no_more_time(config: &Config, step: &Taken) {
         let before = same_member(&step.before, member);
         let silent = before.filter(|before| before.echoed == member.echoed);
         match (member.lease, silent.map(|before| before.lease)) {
-            (Lease::Stands(now), Some(Lease::Stands(before))) => assert!(left(now) <= left(before)),
+            (Lease::Stands(now), Some(Lease::Stands(before))) => {
+                assert!(left_ms(now) <= left_ms(before))
+            }
             (Lease::Stands(_), Some(Lease::Expired(_))) => {
                 panic!("a lease stands again without an echo")
             }
             (Lease::Expired(now), Some(Lease::Expired(before))) => {
-                assert!(left(now) <= left(before));
+                assert!(left_ms(now) <= left_ms(before));
             }
             (Lease::Stands(now), None) => {
-                assert!(left(now) <= u64::from(config.settings().t_lease.0));
+                assert!(left_ms(now) <= u64::from(config.settings().t_lease.0));
             }
-            (Lease::Expired(now), _) => assert!(left(now) <= u64::from(config.t_lost().0)),
+            (Lease::Expired(now), _) => assert!(left_ms(now) <= u64::from(config.t_lost().0)),
         }
     }
 }
@@ -127,18 +120,18 @@ pub fn time_uses_them_up(robot: &Robot, elapsed: Millis) {
         let now = now.expect("time alone drops nobody");
         if let (Some(before), Some(now)) = (member.outstanding, now.outstanding) {
             let (before, now) = (before.acknowledgement, now.acknowledgement);
-            assert!(less(left(before), left(now)));
+            assert!(less(left_ms(before), left_ms(now)));
         }
         assert!(match (member.lease, now.lease) {
             (Lease::Stands(before), Lease::Stands(now))
-            | (Lease::Expired(before), Lease::Expired(now)) => less(left(before), left(now)),
+            | (Lease::Expired(before), Lease::Expired(now)) => less(left_ms(before), left_ms(now)),
             _ => false,
         });
     }
     if let (Some(before), Some(now)) = (following(robot), following(&after)) {
         assert!(match (before.contact, now.contact) {
             (Contact::Fresh(before), Contact::Fresh(now))
-            | (Contact::Lost(before), Contact::Lost(now)) => less(left(before), left(now)),
+            | (Contact::Lost(before), Contact::Lost(now)) => less(left_ms(before), left_ms(now)),
             _ => false,
         });
     }

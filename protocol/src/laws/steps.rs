@@ -13,10 +13,11 @@ use crate::state::{Identity, Lease, Member, Phase, Robot, Role, State};
 use crate::time::Millis;
 
 use super::arithmetic::{age_ms, beat_is_newer, request_is_newer};
-use super::taken::{Taken, executing, following, is_listed, leading, own_number};
+use super::taken::{Taken, executing, following, is_listed, leading, own_number, runs};
 use super::watch::{Sort, is_open};
 use super::{
-    budgets, causes, commands, contact, farewells, liars, news, offers, requests, road, times,
+    budgets, causes, commands, contact, farewells, lease, liars, news, offers, requests, road,
+    times,
 };
 
 /// All laws of one step.
@@ -39,6 +40,7 @@ pub fn all_but_validity(config: &Config, step: &Taken) {
     keeps_its_numbers(step);
     tells_of_lock_and_corridor(step);
     leases_count_from_the_echoed_heartbeat(config, step);
+    lease::heartbeats_count_time_alone(step);
     farewells_name_what_was_left(step);
     causes::all(step);
     liars::all(step);
@@ -91,18 +93,12 @@ pub fn tells_the_body(step: &Taken) {
 /// runs.
 pub fn shows_the_state_of_the_paper(step: &Taken) {
     let robot = &step.after;
-    let is_at_it = |progress: Option<Progress>| match progress {
-        None | Some(Progress::Executing | Progress::InPosition) => true,
-        Some(Progress::Completed | Progress::Failed(_) | Progress::SafeIdle) => false,
-    };
-    let runs = match robot.phase() {
+    let is_at_it = match robot.phase() {
         Phase::Leading(leading) => leading
             .members
             .iter()
-            .any(|member| member.order.is_some_and(|o| is_at_it(o.progress))),
-        Phase::Following(following) => following
-            .job
-            .is_some_and(|job| is_at_it(Some(job.progress))),
+            .any(|member| member.order.is_some_and(|o| o.progress.is_none_or(runs))),
+        Phase::Following(following) => following.job.is_some_and(|job| runs(job.progress)),
         Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => false,
     };
     if let Some(leading) = leading(robot) {
@@ -114,8 +110,9 @@ pub fn shows_the_state_of_the_paper(step: &Taken) {
     assert!(match robot.state() {
         State::Idle => robot.role() == Role::None,
         State::HelpRequested => matches!(robot.role(), Role::Requester | Role::Helper),
-        State::RoleEstablished => matches!(robot.role(), Role::Leader | Role::Follower) && !runs,
-        State::ManeuverExecuting => runs,
+        State::RoleEstablished =>
+            matches!(robot.role(), Role::Leader | Role::Follower) && !is_at_it,
+        State::ManeuverExecuting => is_at_it,
     });
 }
 

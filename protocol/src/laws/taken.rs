@@ -1,9 +1,9 @@
 //! One step, as the laws read it.
 
 use crate::config::Config;
-use crate::id::{OfferNumber, SessionId, StationId, UniqueNumber};
+use crate::id::{ManeuverId, OfferNumber, SessionId, StationId, UniqueNumber};
 use crate::input::Input;
-use crate::message::{Coordination, Rmcm};
+use crate::message::{Coordination, Progress, Rmcm};
 use crate::output::Maneuver;
 use crate::state::{Following, Leading, Phase, Requesting, Robot};
 
@@ -75,9 +75,23 @@ pub(super) fn requesting(robot: &Robot) -> Option<&Requesting> {
     }
 }
 
+/// Whether the body executes a command with this progress.
+pub(super) const fn runs(progress: Progress) -> bool {
+    match progress {
+        Progress::Executing | Progress::InPosition => true,
+        Progress::Completed | Progress::Failed(_) | Progress::SafeIdle => false,
+    }
+}
+
 /// The maneuver that the robot believes to be running.
 pub(super) fn executing(robot: &Robot) -> Option<Maneuver> {
-    following(robot).and_then(Following::executing)
+    let following = following(robot)?;
+    let job = following.job.filter(|job| runs(job.progress))?;
+    let id = ManeuverId {
+        session: following.session,
+        request: job.request,
+    };
+    Some(Maneuver { id, task: job.task })
 }
 
 /// The session that a robot has a part in, and its own number for that part.

@@ -11,6 +11,8 @@ use crate::state::{Corridor, Identity, Phase, Robot};
 use crate::task::FallbackPolicy;
 use crate::time::Millis;
 
+use super::taken::executing;
+
 /// The sorts of outputs that somebody asks for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
@@ -178,10 +180,7 @@ impl Watch {
     /// Over a step that takes `input` in, from this state.
     #[must_use]
     pub fn new(before: &Robot, input: &Input) -> Self {
-        let running = match before.phase() {
-            Phase::Following(following) => following.executing(),
-            _ => None,
-        };
+        let running = executing(before);
         // The application itself has ended the maneuver.
         let running = match *input {
             Input::Local(Event::ManeuverCompleted(id) | Event::ManeuverFailed(id)) => {

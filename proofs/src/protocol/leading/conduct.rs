@@ -1,21 +1,14 @@
 //! All laws of a step of a leader but that its state stays valid.
 
+use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, TimerKind};
-use crossguard_protocol::laws::lease::heartbeats_count_time_alone;
 use crossguard_protocol::laws::steps::all_but_validity;
-use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::laws::watch::Sort;
-use crossguard_protocol::{Config, Role};
 
 use super::FROM;
 use crate::protocol::stage::{becomes, steps};
 
-fn all(config: &Config, step: &Taken) {
-    all_but_validity(config, step);
-    heartbeats_count_time_alone(step);
-}
-
-steps! { FROM, all;
+steps! { FROM, all_but_validity;
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
         "joins": step.said.has(Sort::FollowerJoined),

@@ -12,20 +12,15 @@
 //! A heartbeat is heard after it was sent, so by [`lease`](super::super::lease) the follower's `T_safety` has not run out
 //! while the lease stands: since that moment it has not fallen back because it lost contact.
 
-use super::messages::runs;
 use super::observer::leads;
 use super::{Exchange, Heard, History};
 use crate::config::Config;
 use crate::input::Input;
-use crate::laws::arithmetic::age_ms;
-use crate::laws::taken::{following, leading};
+use crate::laws::arithmetic::{age_ms, left_ms};
+use crate::laws::taken::{following, leading, runs};
 use crate::laws::watch::is_open;
 use crate::state::{Contact, Lease, Member, Robot};
-use crate::time::{Countdown, Millis};
-
-fn left(countdown: Countdown) -> u64 {
-    u64::from(countdown.left().unwrap_or(Millis::ZERO).0)
-}
+use crate::time::Millis;
 
 /// Whether each lease that stands ends `t_lease` after the newest heartbeat that its follower has echoed, or earlier.
 #[must_use]
@@ -36,9 +31,9 @@ pub fn are_covered(config: &Config, robot: &Robot) -> bool {
     let next_ram = robot.next_ram().unwrap_or(Millis::ZERO);
     let is_covered = |member: &Member| match member.lease {
         // One that is over expires in the same step.
-        Lease::Stands(lease) if left(lease) > 0 => member.echoed.is_some_and(|echo| {
+        Lease::Stands(lease) if left_ms(lease) > 0 => member.echoed.is_some_and(|echo| {
             let age = age_ms(config, leading.heartbeat, echo, next_ram);
-            age + left(lease) <= u64::from(config.settings().t_lease.0)
+            age + left_ms(lease) <= u64::from(config.settings().t_lease.0)
         }),
         Lease::Stands(_) | Lease::Expired(_) => true,
     };
@@ -74,7 +69,7 @@ fn contact_is_not_shortened(before: &Robot, after: &Robot) {
     }
     if let Contact::Fresh(was_left) = before.contact {
         assert!(
-            matches!(after.contact, Contact::Fresh(is_left) if left(is_left) >= left(was_left)),
+            matches!(after.contact, Contact::Fresh(is_left) if left_ms(is_left) >= left_ms(was_left)),
             "I10: contact is shortened"
         );
     }

@@ -6,6 +6,7 @@
 
 use super::{Exchange, Heard, History};
 use crate::id::{RequestId, SessionId};
+use crate::laws::taken::runs;
 use crate::message::{
     Answer, Command, Coordination, Farewell, Progress, Ram, Report, Rmcm, Verdict,
 };
@@ -80,14 +81,6 @@ fn says_over(exchange: &Exchange, last: Option<Report>) -> bool {
         let newer = exchange.position(report.request) > exchange.place();
         newer || (report.request == exchange.request && !runs(report.progress))
     })
-}
-
-/// Whether the body executes a request with this progress.
-pub(super) const fn runs(progress: Progress) -> bool {
-    match progress {
-        Progress::Executing | Progress::InPosition => true,
-        Progress::Completed | Progress::Failed(_) | Progress::SafeIdle => false,
-    }
 }
 
 /// What the progress of the watched request implies.

@@ -3,10 +3,11 @@
 //! Each fact that is *not* known is used only where its owner is the robot itself, so that no step of another robot makes
 //! this untrue: [`steps::others_leave_it_so`](super::steps::others_leave_it_so).
 
-use super::messages::{progress_is_true, runs, was_heard};
+use super::messages::{progress_is_true, was_heard};
 use super::observer::leads;
 use super::{Exchange, History, is_given_out};
 use crate::id::{RequestId, UniqueNumber};
+use crate::laws::taken::runs;
 use crate::message::{Coordination, Progress, Ram};
 use crate::state::{
     Following, Identity, Job, Leading, Member, Outstanding, Phase, Requesting, Robot,
