@@ -37,4 +37,5 @@ shipped! {
     long timed timed_trio_drift "timed-trio-drift";
     long timed timed_trio_delay "timed-trio-delay";
     large plain trio_late "trio-late";
+    large plain trio_lossy "trio-lossy";
 }

@@ -48,7 +48,7 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with = "scenarios")]
     all: bool,
     /// Check the large ones of the shipped scenarios instead, with as many workers as there are processors unless --workers
-    /// says otherwise. Takes a quarter of an hour on two cores. States and steps are judged, and no runs.
+    /// says otherwise. Takes two hours on two cores and 15 GB. States and steps are judged, and no runs.
     #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads", "replay", "export", "junit"])]
     large: bool,
     /// List the shipped scenarios and check nothing.
