@@ -35,6 +35,7 @@ pub mod times;
 pub mod watch;
 
 mod arithmetic;
+mod part;
 mod source;
 
 pub use source::Source;

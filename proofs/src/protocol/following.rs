@@ -2,7 +2,7 @@
 
 use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
-use crossguard_protocol::laws::steps::all;
+use crossguard_protocol::laws::steps::{all, all_but_validity, keeps_the_state_valid};
 use crossguard_protocol::laws::watch::Sort;
 
 use super::stage::{From, becomes, steps};
@@ -10,8 +10,14 @@ use super::stage::{From, becomes, steps};
 const FROM: From = From::stage(Stage::Following);
 
 steps! { FROM, all;
-    /// A RAM of a leader.
-    hears_a_leader(Kind::RamLeader) |step| {
+    /// A RAM of a leader: the state stays valid.
+    stays_valid_as_it_hears_a_leader(Kind::RamLeader, keeps_the_state_valid) |step| {
+        "is not listed any more": becomes(step, Role::None),
+        "stays": becomes(step, Role::Follower),
+    }
+
+    /// A RAM of a leader: all other laws.
+    hears_a_leader(Kind::RamLeader, all_but_validity) |step| {
         "is not listed any more": becomes(step, Role::None),
         "falls back": step.said.has(Sort::FallBack),
         "hears a newer heartbeat": !step.is_ignored() && step.said.is_empty(),

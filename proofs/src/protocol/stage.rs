@@ -69,13 +69,24 @@ pub(super) fn becomes(step: &Taken, role: Role) -> bool {
     step.after.role() == role
 }
 
+/// The laws of a harness: its own, or those of all in its stage.
+macro_rules! laws_of {
+    ($all:expr) => {
+        $all
+    };
+    ($all:expr, $own:expr) => {
+        $own
+    };
+}
+
 /// Declares the harnesses of a stage: the laws of one step from any valid state of it, with any input of
-/// one kind (to a proof each is a case of its own), and what must be able to come of it.
+/// one kind (to a proof each is a case of its own), and what must be able to come of it. Where all laws together are much
+/// to prove, a harness has some of them, and another the rest.
 macro_rules! steps {
     ($from:expr, $laws:expr; $(
         $(#[doc = $doc:literal])*
         $(#[random_only($reason:literal)])?
-        $name:ident($kind:expr) |$step:ident| { $($mark:literal: $came:expr),+ $(,)? }
+        $name:ident($kind:expr $(, $own:expr)?) |$step:ident| { $($mark:literal: $came:expr),+ $(,)? }
     )+) => {
         $crate::harness::harnesses! { $(
             $(#[doc = $doc])*
@@ -83,7 +94,8 @@ macro_rules! steps {
             #[solver(cadical)]
             $(#[random_only($reason)])?
             fn $name() {
-                let $step = &$from.any_step($kind, $laws);
+                let laws = $crate::protocol::stage::laws_of!($laws $(, $own)?);
+                let $step = &$from.any_step($kind, laws);
                 // No branch in a mark: each branch of it would be a mark of its own to Kani.
                 $(
                     let came: bool = $came;
@@ -94,4 +106,4 @@ macro_rules! steps {
     };
 }
 
-pub(super) use steps;
+pub(super) use {laws_of, steps};

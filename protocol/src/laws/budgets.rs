@@ -8,7 +8,8 @@ use crate::state::{Contact, Lease, Member, Outstanding, Robot};
 use crate::time::Millis;
 
 use super::arithmetic::left_ms;
-use super::taken::{Taken, following, leading, requesting, runs};
+use super::part::{following, leading, requesting, runs};
+use super::taken::Taken;
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {

@@ -6,7 +6,8 @@ use crate::message::{Coordination, Rmcm};
 use crate::output::Ignored;
 use crate::state::Role;
 
-use super::taken::{Taken, leading};
+use super::part::leading;
+use super::taken::Taken;
 
 /// All laws of this module.
 pub fn all(step: &Taken) {

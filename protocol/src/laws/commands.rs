@@ -9,7 +9,8 @@ use crate::state::{Corridor, Leading, Member, Robot};
 use crate::task::{Availability, TaskType};
 
 use super::arithmetic::request_is_newer;
-use super::taken::{Taken, executing, following, leading, requesting};
+use super::part::{executing, following, leading, requesting};
+use super::taken::Taken;
 use super::watch::Sort;
 
 /// All laws of this module.

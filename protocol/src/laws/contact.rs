@@ -8,8 +8,9 @@ use crate::message::{Coordination, Rmcm};
 use crate::state::{Contact, Following, Offering, Phase, Robot};
 
 use super::arithmetic::{beat_is_newer, request_is_newer};
+use super::part::following;
 use super::road::ending_told;
-use super::taken::{Taken, following, is_listed};
+use super::taken::{Taken, is_listed};
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {

@@ -5,7 +5,8 @@ use crate::input::{Event, Input, Timer};
 use crate::message::{Coordination, Farewell};
 use crate::state::{Identity, Role};
 
-use super::taken::{Taken, leading, own_number, requesting};
+use super::part::{leading, own_number, requesting};
+use super::taken::Taken;
 
 /// All laws of this module.
 pub fn all(step: &Taken) {

@@ -9,7 +9,8 @@ use crate::state::{Lease, Phase, Robot};
 use crate::time::Millis;
 
 use super::exchange::leases::are_covered;
-use super::taken::{Taken, leading};
+use super::part::leading;
+use super::taken::Taken;
 use super::timers::fire;
 
 /// How far two clocks have come since the leader sent a heartbeat, all in milliseconds.

@@ -14,7 +14,8 @@
 use crate::id::StationId;
 use crate::state::{Corridor, Leading, Phase};
 
-use super::taken::{Taken, following, leading, requesting};
+use super::part::{following, leading, requesting};
+use super::taken::Taken;
 use super::watch::Sort;
 
 /// All laws of this module.

@@ -6,8 +6,9 @@ use crate::message::{Coordination, Progress};
 use crate::output::EndReason;
 use crate::state::{Contact, Member, Robot, Role};
 
+use super::part::{following, leading, own_number, requesting};
 use super::road::ending_told;
-use super::taken::{Taken, following, leading, own_number, requesting};
+use super::taken::Taken;
 use super::watch::Sort;
 
 /// All laws of this module.

@@ -9,7 +9,8 @@ use crate::state::{Identity, Offer, Requesting, Role};
 use crate::time::Millis;
 
 use super::arithmetic::{a_reservation_outlasts, age_ms, beat_is_newer};
-use super::taken::{Taken, leading, own_number, requesting};
+use super::part::{leading, own_number, requesting};
+use super::taken::Taken;
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {

@@ -6,7 +6,8 @@ use crate::input::{Event, Input};
 use crate::state::{Identity, Phase, Robot, Role};
 use crate::task::Availability;
 
-use super::taken::{Taken, requesting};
+use super::part::requesting;
+use super::taken::Taken;
 use super::watch::Sort;
 
 /// All laws of this module.

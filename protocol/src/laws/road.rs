@@ -13,7 +13,8 @@ use crate::task::{Availability, Place, Unavailability, Urgency};
 use crate::time::{Countdown, Millis};
 
 use super::arithmetic::beat_is_newer;
-use super::taken::{Taken, executing, leading, requesting};
+use super::part::{executing, leading, requesting};
+use super::taken::Taken;
 use super::watch::{Sort, is_open};
 
 /// All laws of this module.

@@ -13,7 +13,8 @@ use crate::state::{Identity, Lease, Member, Phase, Robot, Role, State};
 use crate::time::Millis;
 
 use super::arithmetic::{age_ms, beat_is_newer, request_is_newer};
-use super::taken::{Taken, executing, following, is_listed, leading, own_number, runs};
+use super::part::{executing, following, leading, own_number, runs};
+use super::taken::{Taken, is_listed};
 use super::watch::{Sort, is_open};
 use super::{
     budgets, causes, commands, contact, farewells, lease, liars, news, offers, requests, road,

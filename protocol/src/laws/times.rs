@@ -8,7 +8,8 @@ use crate::state::{Contact, Identity, Leading, Lease, Member, Requesting};
 use crate::time::{Countdown, Millis};
 
 use super::arithmetic::{a_reservation_outlasts, age_ms};
-use super::taken::{Taken, following, leading, requesting};
+use super::part::{following, leading, requesting};
+use super::taken::Taken;
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {

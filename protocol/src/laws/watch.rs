@@ -11,7 +11,7 @@ use crate::state::{Corridor, Identity, Phase, Robot};
 use crate::task::FallbackPolicy;
 use crate::time::Millis;
 
-use super::taken::executing;
+use super::part::executing;
 
 /// The sorts of outputs that somebody asks for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

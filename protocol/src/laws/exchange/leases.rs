@@ -17,7 +17,7 @@ use super::{Exchange, Heard, History};
 use crate::config::Config;
 use crate::input::Input;
 use crate::laws::arithmetic::{age_ms, left_ms};
-use crate::laws::taken::{following, leading, runs};
+use crate::laws::part::{following, leading, runs};
 use crate::laws::watch::is_open;
 use crate::state::{Contact, Lease, Member, Robot};
 use crate::time::Millis;

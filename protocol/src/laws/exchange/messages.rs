@@ -6,7 +6,7 @@
 
 use super::{Exchange, Heard, History};
 use crate::id::{RequestId, SessionId};
-use crate::laws::taken::runs;
+use crate::laws::part::runs;
 use crate::message::{
     Answer, Command, Coordination, Farewell, Progress, Ram, Report, Rmcm, Verdict,
 };

@@ -7,7 +7,7 @@ use super::messages::{progress_is_true, was_heard};
 use super::observer::leads;
 use super::{Exchange, History, is_given_out};
 use crate::id::{RequestId, UniqueNumber};
-use crate::laws::taken::runs;
+use crate::laws::part::runs;
 use crate::message::{Coordination, Progress, Ram};
 use crate::state::{
     Following, Identity, Job, Leading, Member, Outstanding, Phase, Requesting, Robot,

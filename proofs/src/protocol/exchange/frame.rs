@@ -1,0 +1,232 @@
+//! What is needed besides the steps.
+
+use super::{
+    Happening, Kind, Laws, Part, Source, Stage, StationId, Symbolic, any_step, any_valid,
+    any_watched, arbitrary, harnesses, kani, messages, robots, steps,
+};
+use crossguard_protocol::{
+    Event, FallbackPolicy, Input, Maneuver, ManeuverId, Output, Rmcm, StopReason,
+};
+
+fn others_leave_it_so(part: Part, stage: Stage) {
+    let it = any_watched(part, stage);
+    let later = arbitrary::history(&mut Symbolic, &it.exchange, &it.robot);
+    steps::others_leave_it_so(&it.exchange, &it.history, &it.robot, &later);
+    kani::cover!(it.history != later, "more is known");
+}
+
+fn bystands(stage: Stage) {
+    let it = any_watched(Part::Bystander, stage);
+    let followers = usize::from(stage == Stage::Leading);
+    let after = any_valid(&it.config, stage, (followers, followers));
+    kani::assume(after.station() == it.robot.station());
+    let id = any_maneuver();
+    let input = Input::Local(match choice(3) {
+        0 => Event::InPosition(id),
+        1 => Event::ManeuverCompleted(id),
+        _ => Event::ManeuverFailed(id),
+    });
+    let maneuver = Maneuver {
+        id: any_maneuver(),
+        task: arbitrary::command(&mut Symbolic).task,
+    };
+    let output = match choice(6) {
+        0 => Output::SendRam,
+        1 => {
+            let mut command = arbitrary::command(&mut Symbolic);
+            command.session.leader = after.station();
+            Output::SendRmcm(Rmcm::Command(command))
+        }
+        2 => {
+            let mut answer = arbitrary::answer(&mut Symbolic);
+            answer.from = after.station();
+            Output::SendRmcm(Rmcm::Answer(answer))
+        }
+        3 => Output::StartManeuver(maneuver),
+        4 => Output::StopManeuver(maneuver, StopReason::Superseded),
+        _ => Output::FallBack(maneuver, FallbackPolicy::StopInPlace),
+    };
+    let step = (&it.robot, &input);
+    steps::a_bystander_makes_nothing_known(&it.exchange, &it.history, step, &output, &after);
+    kani::cover!(it.history.requested, "while a session is open");
+}
+
+/// One of so many alternatives.
+fn choice(of: u32) -> u32 {
+    Symbolic.number(of - 1, of)
+}
+
+fn any_maneuver() -> ManeuverId {
+    let command = arbitrary::command(&mut Symbolic);
+    ManeuverId {
+        session: command.session,
+        request: command.request,
+    }
+}
+
+fn stays_true(kind: u32) {
+    let it = any_watched(Part::Bystander, Stage::Idle);
+    let later = arbitrary::history(&mut Symbolic, &it.exchange, &it.robot);
+    let mut ram = arbitrary::ram(&mut Symbolic, kind, true);
+    // Hints let it be of the follower or leader.
+    if Symbolic.flag() {
+        ram.station = StationId(Symbolic.number(u32::MAX, it.exchange.follower.0));
+    }
+    let rmcm = if Symbolic.flag() {
+        Rmcm::Command(arbitrary::command(&mut Symbolic))
+    } else {
+        Rmcm::Answer(arbitrary::answer(&mut Symbolic))
+    };
+    let facts = (&it.history, &later);
+    steps::messages_stay_true(&it.exchange, facts, &ram, rmcm);
+    kani::cover!(
+        messages::ram_is_true(&it.exchange, &it.history, &ram),
+        "is so"
+    );
+}
+
+fn reboots(part: Part, stage: Stage) {
+    let it = any_watched(part, stage);
+    let boot = Symbolic.number(u16::MAX.into(), u32::from(it.robot.boot()) + 1);
+    let boot = u16::try_from(boot).unwrap_or(u16::MAX);
+    kani::assume(boot > it.robot.boot());
+    steps::keeps_over_a_reboot(&it.exchange, &it.history, &it.robot, boot);
+    kani::cover!(true, "boots");
+}
+
+harnesses! {
+    /// What others do leaves a requesting leader as it is.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_requester_is_left_so() {
+        others_leave_it_so(Part::Leader, Stage::Requesting);
+    }
+
+    /// What others do leaves a leader as it is.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_leader_is_left_so() {
+        others_leave_it_so(Part::Leader, Stage::Leading);
+    }
+
+    /// What others do leaves a follower as it is.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_follower_is_left_so() {
+        others_leave_it_so(Part::Follower, Stage::Following);
+    }
+
+    /// A request stays true.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn what_a_requester_says_stays_true() {
+        stays_true(1);
+    }
+
+    /// An offer stays true.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn what_a_helper_says_stays_true() {
+        stays_true(2);
+    }
+
+    /// A list of followers stays true.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn what_a_leader_says_stays_true() {
+        stays_true(3);
+    }
+
+    /// A report and an answer stay true.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn what_a_follower_says_stays_true() {
+        stays_true(4);
+    }
+
+    /// A robot that leads or follows elsewhere makes nothing known.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_bystander_leads() {
+        bystands(Stage::Leading);
+    }
+
+    /// A robot that follows elsewhere makes nothing known.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_bystander_follows() {
+        bystands(Stage::Following);
+    }
+
+    /// A robot that asks for help makes nothing known.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_bystander_asks() {
+        bystands(Stage::Requesting);
+    }
+
+    /// A helper of another session makes nothing known.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_bystander_helps() {
+        bystands(Stage::Offering);
+    }
+
+    /// A robot without a part makes nothing known.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_bystander_idles() {
+        bystands(Stage::Idle);
+    }
+
+    /// A leader loses power and boots.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_leader_reboots() {
+        reboots(Part::Leader, Stage::Leading);
+    }
+
+    /// A follower loses power and boots.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_follower_reboots() {
+        reboots(Part::Follower, Stage::Following);
+    }
+
+    /// A robot takes another station id, which may be that of the leader or the follower.
+    #[unwind(6)]
+    #[solver(cadical)]
+    fn a_station_is_taken() {
+        let kind = Kind::Local(Happening::IdentityChanged);
+        let kept = any_step(Part::Bystander, Stage::Idle, kind, Laws::All);
+        let leads = Part::Leader.is_of(&kept.exchange, &kept.after);
+        let follows = Part::Follower.is_of(&kept.exchange, &kept.after);
+        kani::cover!(leads, "the leader's");
+        kani::cover!(follows, "the follower's");
+    }
+
+    /// Any robot, with any part or none, any input.
+    #[random_only("all stages, parts and kinds of input at once")]
+    fn any_robot_keeps_it() {
+        let part = [Part::Leader, Part::Follower, Part::Bystander][choice(3) as usize];
+        let stage = Stage::ALL[choice(5) as usize];
+        let kinds = [
+            Kind::RamNone,
+            Kind::RamNeedHelp,
+            Kind::RamOfferHelp,
+            Kind::RamLeader,
+            Kind::RamFollower,
+            Kind::Command,
+            Kind::Answer,
+            Kind::Elapsed,
+            Kind::Expired,
+        ];
+        let kind = match choice(2) {
+            0 => kinds[choice(9) as usize],
+            _ => Kind::EVENTS[choice(14) as usize],
+        };
+        let kept = any_step(part, stage, kind, Laws::All);
+        kani::cover!(kept.changed(), "a fact becomes known");
+        kani::cover!(robots::agrees(&kept.exchange, &kept.was, &kept.after) && kept.before != kept.after, "none does");
+    }
+}
