@@ -81,7 +81,7 @@ fn any_step(part: Part, stage: Stage, kind: Kind, laws: Laws) -> Kept {
 }
 
 /// A due timer, in any state that can occur within a step.
-fn any_firing(part: Part, stage: Stage, countdown: TimerKind) -> Kept {
+fn any_firing(part: Part, stage: Stage, countdown: TimerKind, laws: Laws) -> Kept {
     let config = stage::config();
     let timer = countdown.timer(&mut Symbolic);
     let robot = timers::with_due(any_within_a_step(&config, stage), timer);
@@ -94,7 +94,8 @@ fn any_firing(part: Part, stage: Stage, countdown: TimerKind) -> Kept {
     } = of(part, config, robot);
     let late = Millis(Symbolic.number(u32::MAX, 0));
     kani::assume(countdown != TimerKind::Ram || steps::can_pass(&config, late));
-    let (now, after) = steps::keeps_when_fired(&config, &exchange, &history, &robot, (timer, late));
+    let watched = (&exchange, &history);
+    let (now, after) = steps::keeps_when_fired(laws, &config, watched, &robot, (timer, late));
     Kept {
         exchange,
         was: history,
@@ -121,12 +122,10 @@ macro_rules! steps {
             #[unwind(6)]
             #[solver(cadical)]
             fn $name() {
+                let laws = stage::laws_of!(Laws::All $(, Laws::$laws)?);
                 let $kept = &match $kind {
-                    Kind::Fires(timer) => any_firing(Part::$part, Stage::$stage, timer),
-                    kind => {
-                        let laws = stage::laws_of!(Laws::All $(, Laws::$laws)?);
-                        any_step(Part::$part, Stage::$stage, kind, laws)
-                    }
+                    Kind::Fires(timer) => any_firing(Part::$part, Stage::$stage, timer, laws),
+                    kind => any_step(Part::$part, Stage::$stage, kind, laws),
                 };
                 $(
                     let came: bool = $came;

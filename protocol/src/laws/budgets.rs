@@ -92,7 +92,7 @@ pub fn a_silent_follower_gets_no_more_time(config: &Config, step: &Taken) {
         let silent = before.filter(|before| before.echoed == member.echoed);
         match (member.lease, silent.map(|before| before.lease)) {
             (Lease::Stands(now), Some(Lease::Stands(before))) => {
-                assert!(left_ms(now) <= left_ms(before))
+                assert!(left_ms(now) <= left_ms(before));
             }
             (Lease::Stands(_), Some(Lease::Expired(_))) => {
                 panic!("a lease stands again without an echo")

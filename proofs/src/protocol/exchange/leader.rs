@@ -114,8 +114,13 @@ steps! { Leader;
         "beats it": !kept.was.beaten && kept.now.beaten,
     }
 
-    /// It tells that it leads.
-    beats(Leading, Kind::Fires(TimerKind::Ram)) |kept| {
+    /// It tells that it leads: facts.
+    tells_that_it_leads(Leading, Kind::Fires(TimerKind::Ram), Facts) |kept| {
+        "beats it": !kept.was.beaten && kept.now.beaten,
+    }
+
+    /// It tells that it leads: heartbeats.
+    beats(Leading, Kind::Fires(TimerKind::Ram), Heartbeats) |kept| {
         "beats it": !kept.was.beaten && kept.now.beaten,
     }
 

@@ -93,14 +93,10 @@ pub fn keeps(
     let mut after = before.clone();
     let mut observer = Observer::new(exchange, history, before, &input);
     after.step_into(config, input, &mut observer);
-    let now = observer.end(&after);
-    if laws != Laws::Heartbeats {
-        judge_facts(exchange, (history, before), (&now, &after));
-    }
     if laws != Laws::Facts {
-        judge_heartbeats(exchange, (&now, &after));
         leases::are_kept(config, before, &input, &after);
     }
+    let now = judged(laws, (exchange, history), observer, before, &after);
     (now, after)
 }
 
@@ -110,9 +106,9 @@ pub fn keeps(
 /// When that does not keep what holds.
 #[must_use]
 pub fn keeps_when_fired(
+    laws: Laws,
     config: &Config,
-    exchange: &Exchange,
-    history: &History,
+    (exchange, history): (&Exchange, &History),
     before: &Robot,
     (timer, late): (Timer, Millis),
 ) -> (History, Robot) {
@@ -124,7 +120,8 @@ pub fn keeps_when_fired(
         renewed: false,
     };
     after.fire(step, timer, late);
-    (judged(exchange, history, observer, before, &after), after)
+    let now = judged(laws, (exchange, history), observer, before, &after);
+    (now, after)
 }
 
 /// [`keeps`] of a step that somebody else has taken.
@@ -142,18 +139,23 @@ pub fn keeps_as_seen<'a>(
     for output in outputs {
         observer.see(output);
     }
-    judged(exchange, history, observer, before, after)
+    judged(Laws::All, (exchange, history), observer, before, after)
 }
 
 fn judged(
-    exchange: &Exchange,
-    history: &History,
+    laws: Laws,
+    (exchange, history): (&Exchange, &History),
     observer: Observer,
     before: &Robot,
     after: &Robot,
 ) -> History {
     let now = observer.end(after);
-    judge(exchange, (history, before), (&now, after));
+    if laws != Laws::Heartbeats {
+        judge_facts(exchange, (history, before), (&now, after));
+    }
+    if laws != Laws::Facts {
+        judge_heartbeats(exchange, (&now, after));
+    }
     now
 }
 
