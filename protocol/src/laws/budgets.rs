@@ -91,14 +91,12 @@ pub fn a_silent_follower_gets_no_more_time(config: &Config, step: &Taken) {
         let before = same_member(&step.before, member);
         let silent = before.filter(|before| before.echoed == member.echoed);
         match (member.lease, silent.map(|before| before.lease)) {
-            (Lease::Stands(now), Some(Lease::Stands(before))) => {
+            (Lease::Stands(now), Some(Lease::Stands(before)))
+            | (Lease::Expired(now), Some(Lease::Expired(before))) => {
                 assert!(left_ms(now) <= left_ms(before));
             }
             (Lease::Stands(_), Some(Lease::Expired(_))) => {
                 panic!("a lease stands again without an echo")
-            }
-            (Lease::Expired(now), Some(Lease::Expired(before))) => {
-                assert!(left_ms(now) <= left_ms(before));
             }
             (Lease::Stands(now), None) => {
                 assert!(left_ms(now) <= u64::from(config.settings().t_lease.0));
