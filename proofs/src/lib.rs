@@ -42,6 +42,8 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         protocol::following::HARNESSES,
         protocol::leading::validity::HARNESSES,
         protocol::leading::conduct::HARNESSES,
+        protocol::leading::peers::HARNESSES,
+        protocol::leading::road::HARNESSES,
         protocol::timers::running::HARNESSES,
         protocol::timers::firing::HARNESSES,
         protocol::timers::settling::HARNESSES,

@@ -1,8 +1,5 @@
-//! Stages 3 and 4: a leader, with one or two followers. The laws of its steps are proved in two parts, each of
-//! which takes less than half as long as both.
-
-pub mod conduct;
-pub mod validity;
+//! Stages 3 and 4: a leader, with one or two followers. The laws of its steps are proved in four parts, each of
+//! which takes less than its share of all.
 
 use crossguard_protocol::laws::arbitrary::Stage;
 
@@ -17,3 +14,99 @@ const FROM: From = From {
     farewells: false,
     ..From::stage(Stage::Leading)
 };
+
+/// Declares a harness of these laws for each kind of input. What can come of an input is marked in [`conduct`].
+macro_rules! of_each_input {
+    ($laws:expr) => {
+        $crate::protocol::stage::steps! { super::FROM, $laws;
+            /// A RAM of a follower.
+            hears_a_follower(Kind::RamFollower) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A RAM of a robot without a part in a session.
+            hears_a_farewell(Kind::RamNone) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A RAM that asks for help.
+            hears_a_request(Kind::RamNeedHelp) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A RAM that offers help.
+            hears_an_offer(Kind::RamOfferHelp) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A RAM of a leader.
+            hears_a_leader(Kind::RamLeader) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A command.
+            hears_a_command(Kind::Command) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// An answer.
+            hears_an_answer(Kind::Answer) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A pedestrian.
+            detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The application commands a maneuver.
+            commands(Kind::Local(Happening::CommandManeuver)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The application opens the corridor.
+            opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The application closes the corridor.
+            closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The body has completed a maneuver.
+            completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The body has failed at a maneuver.
+            fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The task is completed.
+            completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The robot is to leave.
+            leaves(Kind::Local(Happening::LeaveRequested)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The robot becomes available or unavailable.
+            changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The robot has another pseudonym.
+            changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The end of a lease.
+            loses_a_lease(Kind::Fires(TimerKind::Lease)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A follower without a lease for too long.
+            gives_up_a_follower(Kind::Fires(TimerKind::Lost)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// `T_exec`.
+            limits_an_execution(Kind::Fires(TimerKind::Execution)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// `T_ack`.
+            misses_an_acknowledgement(Kind::Fires(TimerKind::Acknowledgement)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// `T_lock`.
+            must_unlock(Kind::Fires(TimerKind::IdentityLock)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The next RAM.
+            repeats_itself(Kind::Fires(TimerKind::Ram)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The end of a farewell.
+            ends_a_farewell(Kind::Fires(TimerKind::Farewell)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The body holds its place.
+            reaches_its_position(Kind::Local(Happening::InPosition)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The road is clear.
+            clears_the_road(Kind::Local(Happening::RoadClear)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// All robots nearby have answered.
+            hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A larger boot counter has been persisted.
+            renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| { "a step": step.before.role() == Role::Leader }
+        }
+    };
+}
+
+pub mod conduct;
+pub mod peers;
+pub mod road;
+pub mod validity;

@@ -29,6 +29,13 @@ pub fn all(config: &Config, step: &Taken) {
 
 /// All laws of one step but [`keeps_the_state_valid`], which is as much to prove as these together.
 pub fn all_but_validity(config: &Config, step: &Taken) {
+    of_part_and_numbers(config, step);
+    of_peers(config, step);
+    of_the_road(config, step);
+}
+
+/// What a step does to the robot's part, its numbers and its leases.
+pub fn of_part_and_numbers(config: &Config, step: &Taken) {
     keeps_within_the_outputs(step);
     ignores_without_effect(step);
     tells_the_body(step);
@@ -43,11 +50,19 @@ pub fn all_but_validity(config: &Config, step: &Taken) {
     leases_count_from_the_echoed_heartbeat(config, step);
     lease::heartbeats_count_time_alone(step);
     farewells_name_what_was_left(step);
+}
+
+/// What peers can bring about, and how long it takes.
+pub fn of_peers(config: &Config, step: &Taken) {
     causes::all(step);
     liars::all(step);
     commands::all(config, step);
     budgets::all(config, step);
     contact::all(config, step);
+}
+
+/// What is offered, told and ended, and the road.
+pub fn of_the_road(config: &Config, step: &Taken) {
     farewells::all(step);
     offers::all(config, step);
     requests::all(config, step);
