@@ -127,7 +127,7 @@ fn an_ignored_test_a_helper_and_a_proof_that_was_not_finished_are_no_evidence() 
     assert_found(&with(helper), "assert_found is no test");
     let ignored = "test:harness/tests/processes/body_port.rs::nosuch";
     assert_found(&with(ignored), "no test nosuch");
-    let open = "proof:protocol::leading::conduct::repeats_itself";
+    let open = "proof:protocol::exchange::frame::any_robot_keeps_it";
     assert_found(&with(open), "Kani has not proved");
     let ignored = repository::Repository::here()
         .with("a.rs", "#[test]\n#[ignore = \"long\"]\nfn slow() {}\n");
