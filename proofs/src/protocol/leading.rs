@@ -15,9 +15,10 @@ const FROM: From = From {
     ..From::stage(Stage::Leading)
 };
 
-/// Declares a harness of these laws for each kind of input. What can come of an input is marked in [`conduct`].
+/// Declares a harness of these laws for each kind of input but timers, and those that are added. What can come of an
+/// input is marked in [`conduct`].
 macro_rules! of_each_input {
-    ($laws:expr) => {
+    ($laws:expr $(; $($timers:tt)+)?) => {
         $crate::protocol::stage::steps! { super::FROM, $laws;
             /// A RAM of a follower.
             hears_a_follower(Kind::RamFollower) |step| { "a step": step.before.role() == Role::Leader }
@@ -70,6 +71,27 @@ macro_rules! of_each_input {
             /// The robot has another pseudonym.
             changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| { "a step": step.before.role() == Role::Leader }
 
+            /// The body holds its place.
+            reaches_its_position(Kind::Local(Happening::InPosition)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// The road is clear.
+            clears_the_road(Kind::Local(Happening::RoadClear)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// All robots nearby have answered.
+            hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| { "a step": step.before.role() == Role::Leader }
+
+            /// A larger boot counter has been persisted.
+            renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| { "a step": step.before.role() == Role::Leader }
+
+            $($($timers)+)?
+        }
+    };
+}
+
+/// The same, and for each timer.
+macro_rules! of_each_input_and_timer {
+    ($laws:expr) => {
+        of_each_input! { $laws;
             /// The end of a lease.
             loses_a_lease(Kind::Fires(TimerKind::Lease)) |step| { "a step": step.before.role() == Role::Leader }
 
@@ -90,18 +112,6 @@ macro_rules! of_each_input {
 
             /// The end of a farewell.
             ends_a_farewell(Kind::Fires(TimerKind::Farewell)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The body holds its place.
-            reaches_its_position(Kind::Local(Happening::InPosition)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The road is clear.
-            clears_the_road(Kind::Local(Happening::RoadClear)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// All robots nearby have answered.
-            hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// A larger boot counter has been persisted.
-            renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| { "a step": step.before.role() == Role::Leader }
         }
     };
 }

@@ -4,4 +4,4 @@ use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, TimerKind};
 use crossguard_protocol::laws::steps::of_the_road;
 
-of_each_input! { of_the_road }
+of_each_input_and_timer! { of_the_road }

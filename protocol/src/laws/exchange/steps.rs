@@ -1,7 +1,7 @@
 //! The steps of the induction.
 
 use super::observer::{Observer, lose_power};
-use super::{Exchange, History, facts, is_given_out, leases, messages, robots};
+use super::{Exchange, HALF_SPACE, History, facts, is_given_out, leases, messages, robots};
 use crate::config::Config;
 use crate::id::{StationId, UniqueNumber};
 use crate::input::{Event, Input, Timer};
@@ -44,9 +44,8 @@ pub fn can_be_next(exchange: &Exchange, history: &History, robot: &Robot, input:
 /// Whether so little time passes at once that a leader's heartbeats, which it counts, can be put in order: less than a quarter
 /// of their number space, 27 minutes with a RAM in 100 ms.
 #[must_use]
-pub const fn can_pass(config: &Config, time: Millis) -> bool {
-    let quarter = 1 << 14;
-    time.0 / quarter < config.settings().ram_period.0
+pub fn can_pass(config: &Config, time: Millis) -> bool {
+    time.0 / u32::from(HALF_SPACE / 2) < config.settings().ram_period.0
 }
 
 /// Whether a robot can start to be `station` and give out `next` next.
