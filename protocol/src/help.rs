@@ -174,10 +174,7 @@ impl Robot {
             heartbeat: requesting.heartbeat,
             members: requesting
                 .offers
-                .iter()
-                .take(usize::from(requesting.request.followers))
-                .map(member)
-                .collect(),
+                .first(usize::from(requesting.request.followers), member),
             corridor: Corridor::Clear,
             rival: None,
             yields_to: None,
@@ -263,11 +260,7 @@ impl Requesting {
     /// Whether the offers stand in the order of selection, one per station.
     pub(crate) fn offers_are_ranked(&self) -> bool {
         self.offers.is_dense()
-            && self
-                .offers
-                .iter()
-                .zip(self.offers.iter().skip(1))
-                .all(|(a, b)| rank(a) < rank(b))
+            && all_in_order(&self.offers, |a, b| rank(a) < rank(b))
             && all_distinct(&self.offers, |offer| offer.station)
     }
 }
@@ -282,6 +275,21 @@ impl Offering {
         self.reservation = Countdown::armed(step.config.settings().t_offer);
         Ok(())
     }
+}
+
+/// Whether each item and the next one stand in order.
+fn all_in_order<T: Copy, const N: usize>(
+    list: &List<T, N>,
+    in_order: impl Fn(&T, &T) -> bool,
+) -> bool {
+    let mut before = None;
+    for item in list.iter() {
+        if before.is_some_and(|before| !in_order(before, item)) {
+            return false;
+        }
+        before = Some(item);
+    }
+    true
 }
 
 /// Whether no two items have the same key.

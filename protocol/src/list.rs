@@ -97,6 +97,17 @@ impl<T: Copy, const N: usize> List<T, N> {
         None
     }
 
+    /// What `of` makes of each of the first `most` items.
+    pub(crate) fn first<U: Copy>(&self, most: usize, of: impl Fn(&T) -> U) -> List<U, N> {
+        let mut made = List::EMPTY;
+        let mut i = 0;
+        while i < N && i < most {
+            made.0[i] = self.0[i].as_ref().map(&of);
+            i += 1;
+        }
+        made
+    }
+
     /// How many items the list holds.
     #[must_use]
     pub fn len(&self) -> usize {

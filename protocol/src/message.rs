@@ -161,6 +161,13 @@ pub enum Farewell {
     Left(SessionId, OfferNumber),
 }
 
+impl Farewell {
+    /// Whether it takes this offer back.
+    pub(crate) fn leaves(self, session: SessionId, offer: OfferNumber) -> bool {
+        matches!(self, Self::Left(left, by) if left == session && offer <= by)
+    }
+}
+
 /// How a session ended.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -249,7 +249,7 @@ pub enum Ignored {
     OtherPlace,
     /// The leader has yielded already.
     Yielding,
-    /// The offer is older than the one that stands.
+    /// The offer is older than the one that stands, or the same RAM takes it back.
     OldOffer,
     /// The farewell names an older offer than the one that was confirmed.
     OtherOffer,

@@ -131,6 +131,12 @@ impl Robot {
                 };
                 self.hear_request(step, Rival::heard(session, heartbeat), request)
             }
+            // R3: an offer that the same RAM takes back is none.
+            Coordination::OfferHelp { session, offer, .. }
+                if ram.farewell.is_some_and(|it| it.leaves(session, offer)) =>
+            {
+                Err(Ignored::OldOffer)
+            }
             Coordination::OfferHelp {
                 session,
                 offer,

@@ -42,6 +42,35 @@ fn an_older_offer_does_not_displace_a_newer_one() {
     assert_eq!(street[GO2].role(), Role::Follower);
 }
 
+/// Kani found it: such a RAM renewed the offer that it took back.
+#[test]
+fn an_offer_that_its_own_ram_takes_back_is_none() {
+    let (mut street, _, _) = offers_twice();
+    let session = street[ARI].session().expect("it asks for help");
+    let offer = street[GO2].ram();
+    let contradiction = Ram {
+        farewell: Some(Farewell::Left(session, SECOND_OFFER)),
+        ..offer
+    };
+    assert_eq!(street.hears_ram(ARI, contradiction).ignored(), None);
+    assert_eq!(known_offer(&street), None);
+    // Said once more, it brings about nothing.
+    assert!(street.hears_ram(ARI, contradiction).ignored().is_some());
+    assert_eq!(known_offer(&street), None);
+    // One that takes an earlier offer back is no contradiction.
+    let earlier = street.offer_of(GO2);
+    let left = OfferNumber(UniqueNumber {
+        count: earlier.0.count - 1,
+        ..earlier.0
+    });
+    let renewed = Ram {
+        farewell: Some(Farewell::Left(session, left)),
+        ..offer
+    };
+    assert_eq!(street.hears_ram(ARI, renewed).ignored(), None);
+    assert_eq!(known_offer(&street), Some(SECOND_OFFER));
+}
+
 #[test]
 fn a_late_farewell_to_an_earlier_offer_ends_neither_offer_nor_part() {
     let (mut street, _, left) = offers_twice();
