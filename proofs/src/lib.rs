@@ -44,6 +44,7 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         protocol::leading::conduct::HARNESSES,
         protocol::leading::peers::HARNESSES,
         protocol::leading::road::HARNESSES,
+        protocol::ignored::HARNESSES,
         protocol::timers::running::HARNESSES,
         protocol::timers::firing::HARNESSES,
         protocol::timers::settling::HARNESSES,

@@ -9,6 +9,7 @@ pub mod boot;
 pub mod exchange;
 pub mod following;
 pub mod idle;
+pub mod ignored;
 pub mod leading;
 pub mod lease;
 pub mod lists;

@@ -402,12 +402,10 @@ impl Following {
         }
         // Newer than both: after a leap of more than half the number space, which no leader makes, a
         // number can be newer than what was refused and older than what was accepted.
-        let answered = [
-            self.refused.map(|refused| refused.request),
-            self.job.map(|job| job.request),
-        ];
         let is_new = |answered: RequestId| command.request.is_newer_than(answered);
-        if !answered.into_iter().flatten().all(is_new) {
+        let is_newest = self.refused.is_none_or(|refused| is_new(refused.request))
+            && self.job.is_none_or(|job| is_new(job.request));
+        if !is_newest {
             return Err(Ignored::OldCommand);
         }
         self.renew_contact(step);

@@ -9,7 +9,7 @@ use super::stage::From;
 const FOLLOWERS: usize = 2;
 
 /// A RAM says nothing but its sender's part in a session, unless it says nothing but a farewell.
-const FROM: From = From {
+pub(super) const FROM: From = From {
     peers: (1, FOLLOWERS),
     farewells: false,
     ..From::stage(Stage::Leading)
@@ -26,23 +26,14 @@ macro_rules! of_each_input {
             /// A RAM of a robot without a part in a session.
             hears_a_farewell(Kind::RamNone) |step| { "a step": step.before.role() == Role::Leader }
 
-            /// A RAM that asks for help.
-            hears_a_request(Kind::RamNeedHelp) |step| { "a step": step.before.role() == Role::Leader }
-
             /// A RAM that offers help.
             hears_an_offer(Kind::RamOfferHelp) |step| { "a step": step.before.role() == Role::Leader }
 
             /// A RAM of a leader.
             hears_a_leader(Kind::RamLeader) |step| { "a step": step.before.role() == Role::Leader }
 
-            /// A command.
-            hears_a_command(Kind::Command) |step| { "a step": step.before.role() == Role::Leader }
-
             /// An answer.
             hears_an_answer(Kind::Answer) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// A pedestrian.
-            detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The application commands a maneuver.
             commands(Kind::Local(Happening::CommandManeuver)) |step| { "a step": step.before.role() == Role::Leader }
@@ -53,12 +44,6 @@ macro_rules! of_each_input {
             /// The application closes the corridor.
             closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| { "a step": step.before.role() == Role::Leader }
 
-            /// The body has completed a maneuver.
-            completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The body has failed at a maneuver.
-            fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| { "a step": step.before.role() == Role::Leader }
-
             /// The task is completed.
             completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| { "a step": step.before.role() == Role::Leader }
 
@@ -68,17 +53,8 @@ macro_rules! of_each_input {
             /// The robot becomes available or unavailable.
             changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| { "a step": step.before.role() == Role::Leader }
 
-            /// The robot has another pseudonym.
-            changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The body holds its place.
-            reaches_its_position(Kind::Local(Happening::InPosition)) |step| { "a step": step.before.role() == Role::Leader }
-
             /// The road is clear.
             clears_the_road(Kind::Local(Happening::RoadClear)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// All robots nearby have answered.
-            hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// A larger boot counter has been persisted.
             renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| { "a step": step.before.role() == Role::Leader }

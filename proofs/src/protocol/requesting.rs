@@ -2,16 +2,17 @@
 
 use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage, TimerKind};
-use crossguard_protocol::laws::steps::all;
+use crossguard_protocol::laws::steps::{all, ignores};
 use crossguard_protocol::laws::watch::Sort;
 
+use super::ignored::BY_A_REQUESTER;
 use super::stage::{From, becomes, steps};
 
 /// How many offers the requester has heard, at most: one of the station that a message is about, and
 /// another.
 const OFFERS: usize = 2;
 
-const FROM: From = From {
+pub(super) const FROM: From = From {
     peers: (0, OFFERS),
     ..From::stage(Stage::Requesting)
 };
@@ -53,42 +54,42 @@ steps! { FROM, all;
     }
 
     /// A command.
-    hears_a_command(Kind::Command) |step| {
+    hears_a_command(BY_A_REQUESTER[0], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// An answer.
-    hears_an_answer(Kind::Answer) |step| {
+    hears_an_answer(BY_A_REQUESTER[1], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// A pedestrian.
-    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+    detects_a_pedestrian(BY_A_REQUESTER[2], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application commands a maneuver.
-    commands(Kind::Local(Happening::CommandManeuver)) |step| {
+    commands(BY_A_REQUESTER[3], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| {
+    opens_the_corridor(BY_A_REQUESTER[4], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| {
+    closes_the_corridor(BY_A_REQUESTER[5], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has completed a maneuver.
-    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| {
+    completes_a_maneuver(BY_A_REQUESTER[6], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has failed at a maneuver.
-    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| {
+    fails_a_maneuver(BY_A_REQUESTER[7], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -109,7 +110,7 @@ steps! { FROM, all;
     }
 
     /// The robot has another pseudonym.
-    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+    changes_its_identity(BY_A_REQUESTER[8], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -141,12 +142,12 @@ steps! { FROM, all;
     }
 
     /// The body holds its place.
-    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+    reaches_its_position(BY_A_REQUESTER[9], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The road is clear.
-    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+    clears_the_road(BY_A_REQUESTER[10], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 

@@ -62,6 +62,18 @@ impl From {
         laws(&config, &step);
         step
     }
+
+    /// Any input of any of these kinds in any such state is ignored: the laws of one step hold, whatever the cause.
+    pub(super) fn any_ignored(self, kinds: &[Kind], laws: fn(&Config, &Taken)) -> Taken {
+        let config = config();
+        let robot = any_valid(&config, self.stage, self.peers);
+        let last = u32::try_from(kinds.len() - 1).unwrap_or(0);
+        let kind = kinds[Symbolic.number(last, last) as usize];
+        let input = arbitrary::input(&mut Symbolic, kind, self.farewells);
+        let step = Taken::ignored(robot, input);
+        laws(&config, &step);
+        step
+    }
 }
 
 /// Whether the robot has this role after the step.

@@ -31,16 +31,13 @@ fn is_news(step: &Taken, before: &Following) -> bool {
             _ => false,
         },
         Input::Rmcm(Rmcm::Command(command)) => {
-            let answered = [
-                before.job.map(|job| job.request),
-                before.refused.map(|refused| refused.request),
-            ];
+            let is_newer = |answered| request_is_newer(command.request, answered);
             command.session == before.session
                 && command.to == step.before.station()
-                && answered
-                    .into_iter()
-                    .flatten()
-                    .all(|answered| request_is_newer(command.request, answered))
+                && before.job.is_none_or(|job| is_newer(job.request))
+                && before
+                    .refused
+                    .is_none_or(|refused| is_newer(refused.request))
         }
         _ => false,
     }

@@ -325,8 +325,8 @@ fn claim_that_counts(robot: &Robot, input: &Input) -> Option<Claimant> {
         (_, Some(leading)) => (leading.request, false),
         _ => return None,
     };
-    let places = [heard.place, own.place];
-    let may_be_one = places[0] == places[1] || places.contains(&Place::UNKNOWN);
+    let may_be_one =
+        heard.place == own.place || heard.place == Place::UNKNOWN || own.place == Place::UNKNOWN;
     let goes_before = heard.urgency > own.urgency
         || (heard.urgency == own.urgency && heard.session.leader < robot.station());
     // A request does not move a leader, and a leader goes before every request.

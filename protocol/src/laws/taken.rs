@@ -4,6 +4,7 @@ use crate::config::Config;
 use crate::id::{OfferNumber, SessionId, StationId};
 use crate::input::Input;
 use crate::message::{Coordination, Rmcm};
+use crate::output::{Ignored, Output, Sink};
 use crate::state::Robot;
 
 use super::watch::{Sort, Watch};
@@ -33,6 +34,19 @@ impl Taken {
             input,
             said,
             after,
+        }
+    }
+
+    /// The step in which the input is ignored, for whatever cause.
+    #[must_use]
+    pub fn ignored(before: Robot, input: Input) -> Self {
+        let mut said = Watch::new(&before, &input);
+        said.push(Output::Ignored(Ignored::NothingNew));
+        Self {
+            after: before.clone(),
+            before,
+            input,
+            said,
         }
     }
 

@@ -2,10 +2,11 @@
 
 use crossguard_protocol::Role;
 use crossguard_protocol::laws::arbitrary::{Happening, Kind, TimerKind};
-use crossguard_protocol::laws::steps::of_part_and_numbers;
+use crossguard_protocol::laws::steps::{ignores, of_part_and_numbers};
 use crossguard_protocol::laws::watch::Sort;
 
 use super::FROM;
+use crate::protocol::ignored::BY_A_LEADER;
 use crate::protocol::stage::{becomes, steps};
 
 steps! { FROM, of_part_and_numbers;
@@ -29,7 +30,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// A RAM that asks for help.
-    hears_a_request(Kind::RamNeedHelp) |step| {
+    hears_a_request(BY_A_LEADER[0], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -49,7 +50,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// A command.
-    hears_a_command(Kind::Command) |step| {
+    hears_a_command(BY_A_LEADER[1], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -61,7 +62,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// A pedestrian.
-    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+    detects_a_pedestrian(BY_A_LEADER[2], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -85,12 +86,12 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The body has completed a maneuver.
-    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| {
+    completes_a_maneuver(BY_A_LEADER[3], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has failed at a maneuver.
-    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| {
+    fails_a_maneuver(BY_A_LEADER[4], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -111,7 +112,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The robot has another pseudonym.
-    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+    changes_its_identity(BY_A_LEADER[5], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -160,7 +161,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The body holds its place.
-    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+    reaches_its_position(BY_A_LEADER[6], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -172,7 +173,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// All robots nearby have answered.
-    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+    hears_that_all_have_answered(BY_A_LEADER[7], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
