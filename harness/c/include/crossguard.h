@@ -562,7 +562,7 @@ enum CrossguardReason
   CROSSGUARD_REASON_OTHER_PLACE = 42,
   // The leader has yielded already.
   CROSSGUARD_REASON_YIELDING = 43,
-  // The offer is older than the one that stands.
+  // The offer is older than the one that stands, or the same RAM takes it back.
   CROSSGUARD_REASON_OLD_OFFER = 44,
   // The farewell names an older offer than the one that was confirmed.
   CROSSGUARD_REASON_OTHER_OFFER = 45,

@@ -388,7 +388,7 @@ pub enum CrossguardReason {
     OtherPlace = 42,
     /// The leader has yielded already.
     Yielding = 43,
-    /// The offer is older than the one that stands.
+    /// The offer is older than the one that stands, or the same RAM takes it back.
     OldOffer = 44,
     /// The farewell names an older offer than the one that was confirmed.
     OtherOffer = 45,

@@ -328,7 +328,7 @@ class Yielding(Variant):
 
 @dataclass(frozen=True, slots=True)
 class OldOffer(Variant):
-    """The offer is older than the one that stands."""
+    """The offer is older than the one that stands, or the same RAM takes it back."""
 
 
 @dataclass(frozen=True, slots=True)
