@@ -1,7 +1,7 @@
 //! Stages 3 and 4: a leader, with one or two followers. The laws of its steps are proved in four parts, each of
 //! which takes less than its share of all.
 
-use crossguard_protocol::laws::arbitrary::Stage;
+use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
 
 use super::stage::From;
 
@@ -15,7 +15,19 @@ pub(super) const FROM: From = From {
     ..From::stage(Stage::Leading)
 };
 
-/// Declares a harness of these laws for each kind of input but timers, and those that are added. What can come of an
+/// What it ignores whatever that says: other laws of such a step are in [`ignored`](super::ignored).
+pub(super) const IGNORED: [Kind; 8] = [
+    Kind::RamNeedHelp,
+    Kind::Command,
+    Kind::Local(Happening::PedestrianDetected),
+    Kind::Local(Happening::ManeuverCompleted),
+    Kind::Local(Happening::ManeuverFailed),
+    Kind::Local(Happening::IdentityChanged),
+    Kind::Local(Happening::InPosition),
+    Kind::Local(Happening::AllAnswered),
+];
+
+/// Declares a harness of these laws for each kind of input but timers and what is ignored, and those that are added. What can come of an
 /// input is marked in [`conduct`].
 macro_rules! of_each_input {
     ($laws:expr $(; $($timers:tt)+)?) => {

@@ -5,7 +5,6 @@ use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage, TimerKind};
 use crossguard_protocol::laws::steps::{all, ignores};
 use crossguard_protocol::laws::watch::Sort;
 
-use super::ignored::BY_A_REQUESTER;
 use super::stage::{From, becomes, steps};
 
 /// How many offers the requester has heard, at most: one of the station that a message is about, and
@@ -16,6 +15,21 @@ pub(super) const FROM: From = From {
     peers: (0, OFFERS),
     ..From::stage(Stage::Requesting)
 };
+
+/// What it ignores whatever that says: other laws of such a step are in [`ignored`](super::ignored).
+pub(super) const IGNORED: [Kind; 11] = [
+    Kind::Command,
+    Kind::Answer,
+    Kind::Local(Happening::PedestrianDetected),
+    Kind::Local(Happening::CommandManeuver),
+    Kind::Local(Happening::OpenCorridor),
+    Kind::Local(Happening::CloseCorridor),
+    Kind::Local(Happening::ManeuverCompleted),
+    Kind::Local(Happening::ManeuverFailed),
+    Kind::Local(Happening::IdentityChanged),
+    Kind::Local(Happening::InPosition),
+    Kind::Local(Happening::RoadClear),
+];
 
 steps! { FROM, all;
     /// A RAM that asks for help as well.
@@ -54,42 +68,42 @@ steps! { FROM, all;
     }
 
     /// A command.
-    hears_a_command(BY_A_REQUESTER[0], ignores) |step| {
+    hears_a_command(IGNORED[0], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// An answer.
-    hears_an_answer(BY_A_REQUESTER[1], ignores) |step| {
+    hears_an_answer(IGNORED[1], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// A pedestrian.
-    detects_a_pedestrian(BY_A_REQUESTER[2], ignores) |step| {
+    detects_a_pedestrian(IGNORED[2], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application commands a maneuver.
-    commands(BY_A_REQUESTER[3], ignores) |step| {
+    commands(IGNORED[3], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application opens the corridor.
-    opens_the_corridor(BY_A_REQUESTER[4], ignores) |step| {
+    opens_the_corridor(IGNORED[4], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application closes the corridor.
-    closes_the_corridor(BY_A_REQUESTER[5], ignores) |step| {
+    closes_the_corridor(IGNORED[5], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has completed a maneuver.
-    completes_a_maneuver(BY_A_REQUESTER[6], ignores) |step| {
+    completes_a_maneuver(IGNORED[6], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has failed at a maneuver.
-    fails_a_maneuver(BY_A_REQUESTER[7], ignores) |step| {
+    fails_a_maneuver(IGNORED[7], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -110,7 +124,7 @@ steps! { FROM, all;
     }
 
     /// The robot has another pseudonym.
-    changes_its_identity(BY_A_REQUESTER[8], ignores) |step| {
+    changes_its_identity(IGNORED[8], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -142,12 +156,12 @@ steps! { FROM, all;
     }
 
     /// The body holds its place.
-    reaches_its_position(BY_A_REQUESTER[9], ignores) |step| {
+    reaches_its_position(IGNORED[9], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The road is clear.
-    clears_the_road(BY_A_REQUESTER[10], ignores) |step| {
+    clears_the_road(IGNORED[10], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 

@@ -5,8 +5,7 @@ use crossguard_protocol::laws::arbitrary::{Happening, Kind, TimerKind};
 use crossguard_protocol::laws::steps::{ignores, of_part_and_numbers};
 use crossguard_protocol::laws::watch::Sort;
 
-use super::FROM;
-use crate::protocol::ignored::BY_A_LEADER;
+use super::{FROM, IGNORED};
 use crate::protocol::stage::{becomes, steps};
 
 steps! { FROM, of_part_and_numbers;
@@ -30,7 +29,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// A RAM that asks for help.
-    hears_a_request(BY_A_LEADER[0], ignores) |step| {
+    hears_a_request(IGNORED[0], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -50,7 +49,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// A command.
-    hears_a_command(BY_A_LEADER[1], ignores) |step| {
+    hears_a_command(IGNORED[1], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -62,7 +61,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// A pedestrian.
-    detects_a_pedestrian(BY_A_LEADER[2], ignores) |step| {
+    detects_a_pedestrian(IGNORED[2], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -86,12 +85,12 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The body has completed a maneuver.
-    completes_a_maneuver(BY_A_LEADER[3], ignores) |step| {
+    completes_a_maneuver(IGNORED[3], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has failed at a maneuver.
-    fails_a_maneuver(BY_A_LEADER[4], ignores) |step| {
+    fails_a_maneuver(IGNORED[4], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -112,7 +111,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The robot has another pseudonym.
-    changes_its_identity(BY_A_LEADER[5], ignores) |step| {
+    changes_its_identity(IGNORED[5], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -161,7 +160,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The body holds its place.
-    reaches_its_position(BY_A_LEADER[6], ignores) |step| {
+    reaches_its_position(IGNORED[6], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -173,7 +172,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// All robots nearby have answered.
-    hears_that_all_have_answered(BY_A_LEADER[7], ignores) |step| {
+    hears_that_all_have_answered(IGNORED[7], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
