@@ -15,7 +15,7 @@ pub(super) const FROM: From = From {
     ..From::stage(Stage::Leading)
 };
 
-/// What it ignores whatever that says: other laws of such a step are in [`ignored`](super::ignored).
+/// Inputs that a leader always ignores. [`ignored`](super::ignored) proves the other laws of such a step.
 pub(super) const IGNORED: [Kind; 8] = [
     Kind::RamNeedHelp,
     Kind::Command,
@@ -27,8 +27,8 @@ pub(super) const IGNORED: [Kind; 8] = [
     Kind::Local(Happening::AllAnswered),
 ];
 
-/// Declares a harness of these laws for each kind of input but timers and what is ignored, and those that are added. What can come of an
-/// input is marked in [`conduct`].
+/// Declares one harness of these laws for each message and event that a leader can act on, and for the timers that
+/// are passed. [`conduct`] marks the outcomes.
 macro_rules! of_each_input {
     ($laws:expr $(; $($timers:tt)+)?) => {
         $crate::protocol::stage::steps! { super::FROM, $laws;

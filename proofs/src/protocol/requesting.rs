@@ -16,7 +16,7 @@ pub(super) const FROM: From = From {
     ..From::stage(Stage::Requesting)
 };
 
-/// What it ignores whatever that says: other laws of such a step are in [`ignored`](super::ignored).
+/// Inputs that a requester always ignores. [`ignored`](super::ignored) proves the other laws of such a step.
 pub(super) const IGNORED: [Kind; 11] = [
     Kind::Command,
     Kind::Answer,

@@ -43,22 +43,22 @@ fn command(config: &Config, outstanding: Outstanding) -> u64 {
     left_ms(outstanding.acknowledgement) + repeats * u64::from(settings.t_ack.0)
 }
 
-/// Gives `law` each follower of `now`, and what `before` knew of it by the same offer. Both loops count over slots: to a
+/// Gives `law` each follower of `robot`, and its record in `other` by the same offer. Both loops count over slots: to a
 /// proof, a record that was found among four is one at any place, which is most of what it would be about.
-fn each_follower(before: &Robot, now: &Robot, law: impl Fn(Option<&Member>, &Member)) {
-    let Some(now) = leading(now) else { return };
-    for member in now.members.iter() {
-        let mut is_known = false;
-        if let Some(before) = leading(before) {
-            for known in before.members.iter() {
-                if (known.station, known.offer) == (member.station, member.offer) {
-                    is_known = true;
-                    law(Some(known), member);
+fn each_follower(robot: &Robot, other: &Robot, law: impl Fn(&Member, Option<&Member>)) {
+    let Some(leads) = leading(robot) else { return };
+    for member in leads.members.iter() {
+        let mut is_in_other = false;
+        if let Some(other) = leading(other) {
+            for record in other.members.iter() {
+                if (record.station, record.offer) == (member.station, member.offer) {
+                    is_in_other = true;
+                    law(member, Some(record));
                 }
             }
         }
-        if !is_known {
-            law(None, member);
+        if !is_in_other {
+            law(member, None);
         }
     }
 }
@@ -68,7 +68,7 @@ fn each_follower(before: &Robot, now: &Robot, law: impl Fn(Option<&Member>, &Mem
 pub fn a_command_gets_no_more_time(config: &Config, step: &Taken) {
     let settings = config.settings();
     let whole = (u64::from(settings.n_ack) + 1) * u64::from(settings.t_ack.0);
-    each_follower(&step.before, &step.after, |known, member| {
+    each_follower(&step.after, &step.before, |member, known| {
         let Some(now) = member.outstanding else {
             return;
         };
@@ -101,7 +101,7 @@ pub fn a_lost_leader_gets_no_more_time(config: &Config, step: &Taken) {
 /// L5: a follower of which nothing new is heard loses its lease, then its place, and neither gets more time. The
 /// echoes that renew a lease are those of the leader's own heartbeats, so what is new is a newer echo.
 pub fn a_silent_follower_gets_no_more_time(config: &Config, step: &Taken) {
-    each_follower(&step.before, &step.after, |known, member| {
+    each_follower(&step.after, &step.before, |member, known| {
         let was = known.and_then(|known| (known.echoed == member.echoed).then_some(known.lease));
         match (member.lease, was) {
             (Lease::Stands(now), Some(Lease::Stands(before)))
@@ -127,7 +127,7 @@ pub fn time_uses_them_up(robot: &Robot, elapsed: Millis) {
     if let (Some((_, before)), Some((_, now))) = (request(robot), request(&after)) {
         assert!(less(before, now));
     }
-    each_follower(&after, robot, |now, member| {
+    each_follower(robot, &after, |member, now| {
         let now = now.expect("time alone drops nobody");
         if let (Some(before), Some(now)) = (member.outstanding, now.outstanding) {
             let (before, now) = (before.acknowledgement, now.acknowledgement);

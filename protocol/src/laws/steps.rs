@@ -55,6 +55,11 @@ pub fn of_part_and_numbers(config: &Config, step: &Taken) {
 /// What peers can bring about, and how long it takes.
 pub fn of_peers(config: &Config, step: &Taken) {
     causes::all(step);
+    of_peers_for_any_cause(config, step);
+}
+
+/// [`of_peers`], but for the causes of what is ignored.
+fn of_peers_for_any_cause(config: &Config, step: &Taken) {
     liars::all(step);
     commands::all(config, step);
     budgets::all(config, step);
@@ -82,10 +87,7 @@ pub fn ignores(_: &Config, step: &Taken) {
 /// All laws but those of validity and causes, of [`Taken::ignored`].
 pub fn of_an_ignored_input(config: &Config, step: &Taken) {
     of_part_and_numbers(config, step);
-    liars::all(step);
-    commands::all(config, step);
-    budgets::all(config, step);
-    contact::all(config, step);
+    of_peers_for_any_cause(config, step);
     of_the_road(config, step);
 }
 
