@@ -250,7 +250,7 @@ pub enum ViewError {
         expected: TaskProgression,
     },
     /// A number of followers that cannot be asked for.
-    #[error("{0} followers are asked for, and 1 to {MAX_FOLLOWERS} can be")]
+    #[error("{0} followers are asked for, and 1 to 16 can be")]
     FollowerCount(u8),
     /// A leader has more followers than this robot has room for.
     #[error("a leader names {0} followers, and there is room for {MAX_FOLLOWERS}")]

@@ -20,6 +20,8 @@
 
 #![allow(clippy::missing_panics_doc, reason = "a law panics where it is broken")]
 
+use core::ops::RangeInclusive;
+
 use crossguard_protocol::{
     Answer, Availability, Command, Config, Coordination, Failure, Farewell, MAX_FOLLOWERS, Millis,
     Progress, Ram, Report, Rmcm, Robot, SessionId, StationId,
@@ -34,6 +36,9 @@ use crate::core::rmcm::{ManeuverCommand, ManeuverContainer, RMCM};
 use crate::identifiers::Identifiers;
 use crate::state::{Position, RobotState};
 
+/// How many followers a RAM can ask for, whatever the robot that makes or hears it has room for: who asks is a rival, too.
+const CAN_BE_ASKED_FOR: RangeInclusive<u8> = 1..=16;
+
 /// Whether a RAM can say this: its numbers have a place, and it does not contradict itself. The same
 /// as the mapping finds, put plainly.
 #[must_use]
@@ -47,10 +52,10 @@ pub fn can_be_said(view: &Ram) -> bool {
         Coordination::None => (true, None),
         Coordination::NeedHelp {
             number, request, ..
-        } => {
-            let count = usize::from(request.followers);
-            (0 < count && count <= MAX_FOLLOWERS, Some(own(number)))
-        }
+        } => (
+            CAN_BE_ASKED_FOR.contains(&request.followers),
+            Some(own(number)),
+        ),
         Coordination::OfferHelp {
             session, t_safety, ..
         } => {

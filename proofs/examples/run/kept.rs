@@ -16,7 +16,7 @@ const SOURCES: [&str; 4] = ["protocol/src", "codec/src", "proofs/src", "Cargo.lo
 /// Verified harnesses.
 pub(crate) struct Kept {
     file: File,
-    /// Of all sources.
+    /// Of all sources, and of what is checked.
     digest: u64,
     names: BTreeSet<String>,
 }
@@ -30,12 +30,13 @@ struct Line {
 }
 
 impl Kept {
-    /// Opens the file, which need not be there yet. Lines about other sources count for nothing.
+    /// Opens the file, which need not be there yet. Lines about other sources count for nothing, and about other checks:
+    /// with `memory`, each access to memory is checked.
     ///
     /// # Errors
     /// The file or a source cannot be read, and why.
-    pub(crate) fn open(path: &Path) -> Result<Self, String> {
-        let digest = digest().map_err(|cause| format!("sources: {cause}"))?;
+    pub(crate) fn open(path: &Path, memory: bool) -> Result<Self, String> {
+        let digest = digest(memory).map_err(|cause| format!("sources: {cause}"))?;
         let failed = |cause| format!("{}: {cause}", path.display());
         let mut options = OpenOptions::new();
         let file = options
@@ -78,8 +79,8 @@ impl Kept {
     }
 }
 
-/// A number that is another one when a source is changed.
-fn digest() -> std::io::Result<u64> {
+/// A number that is another one when a source is changed, or what is checked.
+fn digest(memory: bool) -> std::io::Result<u64> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut paths: Vec<_> = SOURCES.iter().map(|path| root.join(path)).collect();
     let mut files: Vec<PathBuf> = Vec::new();
@@ -98,5 +99,6 @@ fn digest() -> std::io::Result<u64> {
         hasher.write(file.to_string_lossy().as_bytes());
         hasher.write(&std::fs::read(file)?);
     }
+    hasher.write_u8(memory.into());
     Ok(hasher.finish())
 }

@@ -39,7 +39,7 @@ struct Arguments {
     #[arg(long, value_name = "SECONDS")]
     within: Option<f64>,
     /// How long one harness may take, in seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SECONDS", default_value_t = 900, value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
     /// How many run at a time; each may take some GiB of memory.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..))]
@@ -50,6 +50,9 @@ struct Arguments {
     /// Run verified harnesses again.
     #[arg(long)]
     again: bool,
+    /// Check each access to memory as well. The crates forbid unsafe code, so the compiler has done that.
+    #[arg(long)]
+    memory: bool,
 }
 
 const AFTER_HELP: &str = "\
@@ -118,9 +121,12 @@ fn choose(arguments: &Arguments) -> Vec<Entry> {
 
 /// Runs the chosen harnesses; how many were not verified.
 fn run(arguments: &Arguments, chosen: Vec<Entry>) -> Result<usize, String> {
-    let mut kept = Kept::open(&arguments.keep)?;
+    let mut kept = Kept::open(&arguments.keep, arguments.memory)?;
     let known = |entry: &Entry| !arguments.again && kept.verified(&entry.name);
-    let (known, wanted): (Vec<_>, Vec<_>) = chosen.into_iter().partition(known);
+    let (known, mut wanted): (Vec<_>, Vec<_>) = chosen.into_iter().partition(known);
+    // The longest first, so that no job is left with one at the end.
+    let seconds = |entry: &Entry| entry.measured().unwrap_or(f64::INFINITY);
+    wanted.sort_by(|one, other| seconds(other).total_cmp(&seconds(one)));
     if !known.is_empty() {
         println!(
             "{} harnesses were verified before, {} has them; --again runs them again.",
@@ -145,6 +151,7 @@ fn run(arguments: &Arguments, chosen: Vec<Entry>) -> Result<usize, String> {
                     let batch = Batch {
                         entries,
                         limit,
+                        memory: arguments.memory,
                         job,
                     };
                     let cause = batch.run(&mut |outcome| sender.send(Ok(outcome)).is_ok());

@@ -88,7 +88,7 @@ harnesses! {
     }
 
     /// Any status and any part in a session, in a RAM that is otherwise the lowest one.
-    #[unwind(6)]
+    #[unwind(18)]
     #[solver(cadical)]
     fn hearing_a_ram_is_total() {
         let mut ram = RAM::LOWEST;

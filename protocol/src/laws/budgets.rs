@@ -8,7 +8,7 @@ use crate::state::{Contact, Lease, Member, Outstanding, Robot};
 use crate::time::Millis;
 
 use super::arithmetic::left_ms;
-use super::part::{following, leading, requesting, runs};
+use super::part::{each_follower, following, requesting, runs};
 use super::taken::Taken;
 
 /// All laws of this module.
@@ -43,24 +43,9 @@ fn command(config: &Config, outstanding: Outstanding) -> u64 {
     left_ms(outstanding.acknowledgement) + repeats * u64::from(settings.t_ack.0)
 }
 
-/// Gives `law` each follower of `robot`, and its record in `other` by the same offer. Both loops count over slots: to a
-/// proof, a record that was found among four is one at any place, which is most of what it would be about.
-fn each_follower(robot: &Robot, other: &Robot, law: impl Fn(&Member, Option<&Member>)) {
-    let Some(leads) = leading(robot) else { return };
-    for member in leads.members.iter() {
-        let mut is_in_other = false;
-        if let Some(other) = leading(other) {
-            for record in other.members.iter() {
-                if (record.station, record.offer) == (member.station, member.offer) {
-                    is_in_other = true;
-                    law(member, Some(record));
-                }
-            }
-        }
-        if !is_in_other {
-            law(member, None);
-        }
-    }
+/// The record of this follower by the same offer: what is asked of another begins anew.
+fn by_the_same_offer<'a>(member: &Member, known: Option<&'a Member>) -> Option<&'a Member> {
+    known.filter(|known| known.offer == member.offer)
 }
 
 /// L2: nothing but its answer ends the wait for a command early, and nothing prolongs it. It begins with
@@ -72,7 +57,7 @@ pub fn a_command_gets_no_more_time(config: &Config, step: &Taken) {
         let Some(now) = member.outstanding else {
             return;
         };
-        match known.and_then(|known| known.outstanding) {
+        match by_the_same_offer(member, known).and_then(|known| known.outstanding) {
             Some(before) if before.request == now.request => {
                 assert!(command(config, now) <= command(config, before));
             }
@@ -102,7 +87,8 @@ pub fn a_lost_leader_gets_no_more_time(config: &Config, step: &Taken) {
 /// echoes that renew a lease are those of the leader's own heartbeats, so what is new is a newer echo.
 pub fn a_silent_follower_gets_no_more_time(config: &Config, step: &Taken) {
     each_follower(&step.after, &step.before, |member, known| {
-        let was = known.and_then(|known| (known.echoed == member.echoed).then_some(known.lease));
+        let was = by_the_same_offer(member, known)
+            .and_then(|known| (known.echoed == member.echoed).then_some(known.lease));
         match (member.lease, was) {
             (Lease::Stands(now), Some(Lease::Stands(before)))
             | (Lease::Expired(now), Some(Lease::Expired(before))) => {

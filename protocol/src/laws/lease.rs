@@ -3,11 +3,13 @@
 //! What one step does with leases and contact is among the laws of [`steps`](super::steps).
 
 use crate::config::{Config, Inequality, Settings};
-use crate::id::Heartbeat;
+use crate::id::{Heartbeat, StationId};
 use crate::input::{Input, Timer};
+use crate::message::Coordination;
 use crate::state::{Lease, Phase, Robot};
 use crate::time::Millis;
 
+use super::arithmetic::age_ms;
 use super::exchange::leases::are_covered;
 use super::part::leading;
 use super::taken::Taken;
@@ -103,6 +105,34 @@ pub fn heartbeats_age_as_time_passes(
     let expected = u64::from(before.0) + u64::from(elapsed.0);
     if expected < longest {
         assert!(u64::from(age.0) == expected);
+    }
+}
+
+/// The echo of a leader's heartbeat.
+pub(super) struct Echo {
+    /// The follower.
+    pub(super) station: StationId,
+    /// What it echoes.
+    pub(super) heartbeat: Heartbeat,
+    /// How long ago the leader sent that, in ms.
+    pub(super) age_ms: u64,
+}
+
+/// What the input echoes, where it is a RAM of a follower in this leader's session.
+pub(super) fn echo_heard(config: &Config, step: &Taken) -> Option<Echo> {
+    let (Input::Ram { ram, .. }, Some(before)) = (step.input, leading(&step.before)) else {
+        return None;
+    };
+    match ram.coordination {
+        Coordination::Follower { session, echo, .. } if step.before.session() == Some(session) => {
+            let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
+            Some(Echo {
+                station: ram.station,
+                heartbeat: echo,
+                age_ms: age_ms(config, before.heartbeat, echo, next_ram),
+            })
+        }
+        _ => None,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::message::{Coordination, Progress};
 use crate::output::EndReason;
 use crate::state::{Contact, Member, Robot, Role};
 
-use super::part::{following, leading, own_number, requesting};
+use super::part::{each_follower, following, leading, own_number, requesting};
 use super::road::ending_told;
 use super::taken::Taken;
 use super::watch::Sort;
@@ -85,10 +85,8 @@ pub fn followers_are_told_of(step: &Taken) {
     is_told(step, Sort::Yielded, yields);
     let (mut joined, mut granted, mut expired) = (false, false, false);
     let (mut acknowledged, mut rejected) = (false, false);
-    for member in after.members.iter() {
-        let Some(known) = before.member(member.station) else {
-            continue;
-        };
+    each_follower(&step.after, &step.before, |member, known| {
+        let Some(known) = known else { return };
         joined |= known.echoed.is_none() && member.echoed.is_some();
         granted |= !known.lease.stands() && member.lease.stands();
         expired |= known.lease.stands() && !member.lease.stands();
@@ -101,7 +99,7 @@ pub fn followers_are_told_of(step: &Taken) {
             acknowledged |= is_accepted;
             rejected |= !is_accepted;
         }
-    }
+    });
     is_told(step, Sort::FollowerJoined, joined);
     is_told(step, Sort::LeaseGranted, granted);
     is_told(step, Sort::LeaseExpired, expired);
@@ -111,12 +109,11 @@ pub fn followers_are_told_of(step: &Taken) {
 
 /// I8, W6: a leader's application is told of all progress that counts.
 pub fn progress_is_told(step: &Taken) {
-    let (Some(before), Some(after)) = (leading(&step.before), leading(&step.after)) else {
+    if leading(&step.before).is_none() || leading(&step.after).is_none() {
         return;
-    };
+    }
     let mut told = [false; 5];
-    for member in after.members.iter() {
-        let known = before.member(member.station);
+    each_follower(&step.after, &step.before, |member, known| {
         if known.is_some_and(|known| progress_of(known) != progress_of(member))
             && let Some((_, Some(progress))) = progress_of(member)
         {
@@ -128,7 +125,7 @@ pub fn progress_is_told(step: &Taken) {
                 Progress::SafeIdle => 4,
             }] = true;
         }
-    }
+    });
     is_told(step, Sort::ManeuverReported, told[0]);
     is_told(step, Sort::ManeuverInPosition, told[1]);
     is_told(step, Sort::ManeuverCompleted, told[2]);

@@ -9,7 +9,7 @@ use crate::state::{Identity, Offer, Requesting, Role};
 use crate::time::Millis;
 
 use super::arithmetic::{a_reservation_outlasts, age_ms, beat_is_newer};
-use super::part::{leading, own_number, requesting};
+use super::part::{each_offer, leading, own_number, requesting};
 use super::taken::Taken;
 
 /// All laws of this module.
@@ -36,9 +36,16 @@ fn offer_of(requesting: &Requesting, station: StationId) -> Option<&Offer> {
         .find(|offer| offer.station == station)
 }
 
-/// The offer to this robot's session that a RAM of `station` makes: number, echo, and the helper's
-/// `t_safety`.
-fn offered_by(step: &Taken, station: StationId) -> Option<(OfferNumber, Heartbeat, Millis)> {
+/// An offer to this robot's session, as a RAM makes it.
+pub(super) struct Made {
+    station: StationId,
+    number: OfferNumber,
+    pub(super) echo: Heartbeat,
+    t_safety: Millis,
+}
+
+/// The offer that the input makes.
+pub(super) fn made(step: &Taken) -> Option<Made> {
     let Input::Ram { ram, .. } = step.input else {
         return None;
     };
@@ -49,9 +56,12 @@ fn offered_by(step: &Taken, station: StationId) -> Option<(OfferNumber, Heartbea
             echo,
             t_safety,
             ..
-        } if ram.station == station && step.before.session() == Some(session) => {
-            Some((offer, echo, t_safety))
-        }
+        } if step.before.session() == Some(session) => Some(Made {
+            station: ram.station,
+            number: offer,
+            echo,
+            t_safety,
+        }),
         _ => None,
     }
 }
@@ -66,35 +76,30 @@ fn fits(config: &Config, t_safety: Millis) -> bool {
 }
 
 /// An offer is taken in, or renewed, only from what its helper says, only if the lease fits its `t_safety`,
-/// and never over a newer one. It stands no longer than since the echoed heartbeat was sent.
+/// and never over a newer one. For how long it stands then,
+/// [`times`](super::times::offers_stand_as_long_as_they_can) says.
 pub fn an_older_offer_replaces_nothing(config: &Config, step: &Taken) {
     let (Some(before), Some(after)) = (requesting(&step.before), requesting(&step.after)) else {
         return;
     };
-    let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
-    for offer in after.offers.iter() {
-        let known = offer_of(before, offer.station);
+    // It echoes a heartbeat that was sent.
+    let made = made(step)
+        .filter(|made| is_echo_of(before, made.echo) && fits(config, made.t_safety))
+        .map(|made| (made.station, made.number, made.echo));
+    each_offer(after, before, |offer, known| {
         if let Some(known) = known
             && (known.number, known.echo) == (offer.number, offer.echo)
         {
             assert!(offer.standing.left() <= known.standing.left());
-            continue;
+            return;
         }
-        let told = offered_by(step, offer.station);
-        assert!(told.is_some_and(|(number, echo, t_safety)| {
-            (number, echo) == (offer.number, offer.echo) && fits(config, t_safety)
-        }));
+        assert!(made == Some((offer.station, offer.number, offer.echo)));
         assert!(known.is_none_or(|known| {
             leaves(step, known)
                 || offer.number > known.number
                 || (offer.number == known.number && beat_is_newer(offer.echo, known.echo))
         }));
-        // It echoes a heartbeat that was sent.
-        assert!(is_echo_of(before, offer.echo));
-        let age = age_ms(config, before.heartbeat, offer.echo, next_ram);
-        let left = offer.standing.left().unwrap_or(Millis::ZERO);
-        assert!(a_reservation_outlasts(config, age + u64::from(left.0)));
-    }
+    });
 }
 
 /// Whether a RAM of the helper names this offer as left, or a newer one.
@@ -118,9 +123,9 @@ pub fn an_offer_goes_only_for_a_reason(step: &Taken) {
     let (Some(before), Some(after)) = (requesting(&step.before), requesting(&step.after)) else {
         return;
     };
-    for offer in before.offers.iter() {
-        if offer_of(after, offer.station).is_some() {
-            continue;
+    each_offer(before, after, |offer, then| {
+        if then.is_some() {
+            return;
         }
         assert!(match step.input {
             Input::Elapsed(elapsed) => offer.standing.left() <= Some(elapsed),
@@ -128,7 +133,7 @@ pub fn an_offer_goes_only_for_a_reason(step: &Taken) {
             Input::Ram { .. } => leaves(step, offer) || before.offers.len() == after.offers.len(),
             _ => false,
         });
-    }
+    });
 }
 
 /// W7: a helper that takes an offer back is not counted on by it, whatever else the same RAM says.
@@ -186,9 +191,10 @@ pub fn an_offer_that_is_news_is_taken(config: &Config, step: &Taken) {
     let (Input::Ram { ram, .. }, Some(before)) = (step.input, requesting(&step.before)) else {
         return;
     };
-    let Some((number, echo, t_safety)) = offered_by(step, ram.station) else {
+    let Some(made) = made(step) else {
         return;
     };
+    let Made { number, echo, .. } = made;
     let is_own = ram.station == step.before.station();
     let is_full = before.offers.len() == MAX_FOLLOWERS;
     if is_own || is_full || ram.farewell.is_some() {
@@ -203,7 +209,9 @@ pub fn an_offer_that_is_news_is_taken(config: &Config, step: &Taken) {
     let known = requesting(&step.after).and_then(|after| offer_of(after, ram.station));
     let is_taken = !step.is_ignored()
         && known.is_some_and(|known| (known.number, known.echo) == (number, echo));
-    assert!(is_taken == (is_news && is_echo_of(before, echo) && stands && fits(config, t_safety)));
+    assert!(
+        is_taken == (is_news && is_echo_of(before, echo) && stands && fits(config, made.t_safety))
+    );
 }
 
 /// L1, W7: a requester gets to lead as soon as its time to gather is over, or all have answered, and there are

@@ -1,9 +1,10 @@
 //! The part that a robot has in a session, as the laws read it.
 
-use crate::id::{ManeuverId, SessionId, UniqueNumber};
+use crate::id::{ManeuverId, SessionId, StationId, UniqueNumber};
+use crate::list::List;
 use crate::message::Progress;
 use crate::output::Maneuver;
-use crate::state::{Following, Leading, Phase, Requesting, Robot};
+use crate::state::{Following, Leading, Member, Offer, Phase, Requesting, Robot};
 
 pub(super) fn following(robot: &Robot) -> Option<&Following> {
     match robot.phase() {
@@ -55,4 +56,49 @@ pub(super) fn own_number(robot: &Robot) -> Option<(SessionId, UniqueNumber)> {
         Phase::Following(following) => following.offer.0,
     };
     robot.session().map(|session| (session, number))
+}
+
+/// Gives `law` each follower of `robot`, and the record of its station in `other`.
+pub(super) fn each_follower(
+    robot: &Robot,
+    other: &Robot,
+    law: impl FnMut(&Member, Option<&Member>),
+) {
+    if let Some(leads) = leading(robot) {
+        let others = leading(other).map(|other| &other.members);
+        each_beside(&leads.members, others, |it| it.station, law);
+    }
+}
+
+/// Gives `law` each offer that `robot` has heard, and that of its station in `other`.
+pub(super) fn each_offer(
+    robot: &Requesting,
+    other: &Requesting,
+    law: impl FnMut(&Offer, Option<&Offer>),
+) {
+    each_beside(&robot.offers, Some(&other.offers), |it| it.station, law);
+}
+
+/// Gives `law` each item, and the one of the same station among the others. Both loops count over slots: to a
+/// proof, an item that was found among four is one at any place, which is most of what it would be about.
+fn each_beside<T: Copy, const N: usize>(
+    items: &List<T, N>,
+    others: Option<&List<T, N>>,
+    station: impl Fn(&T) -> StationId,
+    mut law: impl FnMut(&T, Option<&T>),
+) {
+    for item in items.iter() {
+        let mut is_among_them = false;
+        if let Some(others) = others {
+            for other in others.iter() {
+                if station(other) == station(item) {
+                    is_among_them = true;
+                    law(item, Some(other));
+                }
+            }
+        }
+        if !is_among_them {
+            law(item, None);
+        }
+    }
 }

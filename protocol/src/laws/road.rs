@@ -13,7 +13,7 @@ use crate::task::{Availability, Place, Unavailability, Urgency};
 use crate::time::{Countdown, Millis};
 
 use super::arithmetic::beat_is_newer;
-use super::part::{executing, leading, requesting};
+use super::part::{each_follower, executing, leading, requesting};
 use super::taken::Taken;
 use super::watch::{Sort, is_open};
 
@@ -112,11 +112,9 @@ pub fn go_is_a_lease(step: &Taken) {
     if !is_open(&step.after) {
         return;
     }
-    let is_prolonged = leading(&step.before).is_none_or(|before| {
-        after.members.iter().any(|member| {
-            let known = before.member(member.station).map(lease_left);
-            known.is_none_or(|known| known < lease_left(member))
-        })
+    let mut is_prolonged = false;
+    each_follower(&step.after, &step.before, |member, known| {
+        is_prolonged |= known.is_none_or(|known| lease_left(known) < lease_left(member));
     });
     if is_prolonged || !is_open(&step.before) {
         assert!(step.said.shown.is_some());
@@ -155,13 +153,9 @@ pub fn guards_are_kept_on_the_road(config: &Config, step: &Taken) {
         return;
     }
     assert!(step.said.ended != Some(EndReason::Renewed));
-    let Some(after) = leading(&step.after) else {
-        return;
-    };
-    for member in after.members.iter() {
-        let known = before.member(member.station);
+    each_follower(&step.after, &step.before, |member, known| {
         let Some(order) = known.and_then(|known| known.order) else {
-            continue;
+            return;
         };
         let may_be_at_it = matches!(
             order.progress,
@@ -175,7 +169,7 @@ pub fn guards_are_kept_on_the_road(config: &Config, step: &Taken) {
         if may_be_at_it && guards && known.is_some_and(|known| known.outstanding.is_none()) {
             assert!(member.outstanding.is_none());
         }
-    }
+    });
 }
 
 /// How the input ends `session`, where it is a RAM of its leader that names it.

@@ -5,15 +5,15 @@
 
 use crate::MAX_OUTPUTS;
 use crate::config::Config;
-use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
+use crate::id::{OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Failure, Farewell, Progress, Ram, Rmcm, Verdict};
 use crate::output::{GoneReason, Maneuver};
 use crate::state::{Identity, Lease, Member, Phase, Robot, Role, State};
-use crate::time::Millis;
 
-use super::arithmetic::{age_ms, beat_is_newer, request_is_newer};
-use super::part::{executing, following, leading, own_number, runs};
+use super::arithmetic::{beat_is_newer, left_ms, request_is_newer};
+use super::lease::echo_heard;
+use super::part::{each_follower, executing, following, leading, own_number, runs};
 use super::taken::{Taken, is_listed};
 use super::watch::{Sort, is_open};
 use super::{
@@ -212,14 +212,13 @@ pub fn answers_count_only_when_outstanding(step: &Taken) {
 /// I6, I8: a leader counts a command as acknowledged only if it was outstanding and its follower
 /// answered or reported it, and takes over exactly the progress that the follower reported.
 pub fn reports_count_only_when_heard(step: &Taken) {
-    let (Some(before), Some(after)) = (leading(&step.before), leading(&step.after)) else {
+    if leading(&step.before).is_none() {
         return;
-    };
-    for member in after.members.iter() {
-        let known = before.member(member.station);
-        let (Some(known), Some(order)) = (known, member.order) else {
-            assert!(known.is_some());
-            continue;
+    }
+    each_follower(&step.after, &step.before, |member, known| {
+        let known = known.expect("a leader takes nobody on");
+        let Some(order) = member.order else {
+            return;
         };
         if known.order.map(|order| order.request) != Some(order.request) {
             assert!(known.outstanding.is_some_and(|outstanding| {
@@ -234,7 +233,7 @@ pub fn reports_count_only_when_heard(step: &Taken) {
         if order.progress != progress_before {
             assert!(order.progress == reported_by(step, member) || has_run_out(step, member));
         }
-    }
+    });
 }
 
 /// The newest command that a message of the follower speaks for.
@@ -405,48 +404,31 @@ pub fn tells_of_lock_and_corridor(step: &Taken) {
 /// I10, the leader's half: a lease is granted or prolonged only by an echo, and ends `t_lease` after
 /// the echoed heartbeat can have been sent at the earliest.
 pub fn leases_count_from_the_echoed_heartbeat(config: &Config, step: &Taken) {
-    let (Some(before), Some(after)) = (leading(&step.before), leading(&step.after)) else {
+    if leading(&step.before).is_none() {
         return;
-    };
-    for member in after.members.iter() {
-        let known = before.member(member.station).and_then(|known| known.echoed);
-        if member.echoed != known {
-            let echo = member
-                .echoed
-                .filter(|_| member.echoed == echoed_by(step, member));
-            let is_newer = |echo: Heartbeat| known.is_none_or(|known| beat_is_newer(echo, known));
-            assert!(echo.is_some_and(is_newer));
-        }
-        let Lease::Stands(left) = member.lease else {
-            continue;
-        };
-        let left = left.left().unwrap_or(Millis::ZERO);
-        let was_left = match before.member(member.station).map(|member| member.lease) {
-            Some(Lease::Stands(left)) => left.left().unwrap_or(Millis::ZERO),
-            _ => Millis::ZERO,
-        };
-        if left <= was_left {
-            continue;
-        }
-        let echo = echoed_by(step, member);
-        assert!(echo.is_some() && member.echoed == echo);
-        let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
-        let age = echo.map_or(0, |echo| age_ms(config, before.heartbeat, echo, next_ram));
-        assert!(age + u64::from(left.0) <= u64::from(config.settings().t_lease.0));
     }
+    let echo = echo_heard(config, step);
+    each_follower(&step.after, &step.before, |member, known| {
+        let echo = echo
+            .as_ref()
+            .filter(|echo| echo.station == member.station && member.echoed == Some(echo.heartbeat));
+        let echoed = known.and_then(|known| known.echoed);
+        if member.echoed != echoed {
+            assert!(echo.is_some_and(|echo| {
+                echoed.is_none_or(|known| beat_is_newer(echo.heartbeat, known))
+            }));
+        }
+        let (now, before) = (lease_left_ms(member), known.map_or(0, lease_left_ms));
+        if now > before {
+            let t_lease = u64::from(config.settings().t_lease.0);
+            assert!(echo.is_some_and(|echo| echo.age_ms + now <= t_lease));
+        }
+    });
 }
 
-/// The heartbeat that a RAM of the follower echoes.
-fn echoed_by(step: &Taken, member: &Member) -> Option<Heartbeat> {
-    let Input::Ram { ram, .. } = step.input else {
-        return None;
-    };
-    match ram.coordination {
-        Coordination::Follower { session, echo, .. }
-            if ram.station == member.station && step.before.session() == Some(session) =>
-        {
-            Some(echo)
-        }
-        _ => None,
+fn lease_left_ms(member: &Member) -> u64 {
+    match member.lease {
+        Lease::Stands(left) => left_ms(left),
+        Lease::Expired(_) => 0,
     }
 }

@@ -2,13 +2,14 @@
 //! state; here is that it begins with no less.
 
 use crate::config::Config;
-use crate::id::StationId;
 use crate::input::Input;
-use crate::state::{Contact, Identity, Leading, Lease, Member, Requesting};
+use crate::state::{Contact, Identity, Lease, Member, Offer};
 use crate::time::{Countdown, Millis};
 
 use super::arithmetic::{a_reservation_outlasts, age_ms};
-use super::part::{following, leading, requesting};
+use super::lease::{Echo, echo_heard};
+use super::offers::made;
+use super::part::{each_follower, each_offer, following, requesting};
 use super::taken::Taken;
 
 /// All laws of this module.
@@ -56,12 +57,6 @@ pub fn contact_is_lost_for_all_of_t_leave(config: &Config, step: &Taken) {
     }
 }
 
-fn standing_of(requesting: &Requesting, station: StationId) -> Option<Countdown> {
-    let mut offers = requesting.offers.iter();
-    let offer = offers.find(|offer| offer.station == station)?;
-    Some(offer.standing)
-}
-
 /// An offer stands as long as its helper is surely reserved, and is selected from `t_select` after the first.
 pub fn offers_stand_as_long_as_they_can(config: &Config, step: &Taken) {
     let (Some(before), Some(after)) = (requesting(&step.before), requesting(&step.after)) else {
@@ -70,16 +65,20 @@ pub fn offers_stand_as_long_as_they_can(config: &Config, step: &Taken) {
     if before.number != after.number {
         return;
     }
-    let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
-    for offer in after.offers.iter() {
-        if standing_of(before, offer.station) != Some(offer.standing) {
-            let age = age_ms(config, before.heartbeat, offer.echo, next_ram);
+    let age = made(step).map(|made| {
+        let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
+        age_ms(config, before.heartbeat, made.echo, next_ram)
+    });
+    each_offer(after, before, |offer, known| {
+        let what = |offer: &Offer| (offer.number, offer.echo, offer.standing);
+        if known.map(what) != Some(what(offer)) {
             let left = offer.standing.left().unwrap_or(Millis::ZERO);
-            let end = age + u64::from(left.0);
-            assert!(left > Millis::ZERO && a_reservation_outlasts(config, end));
-            assert!(!a_reservation_outlasts(config, end + 1));
+            let end = age.map(|age| age + u64::from(left.0));
+            assert!(left > Millis::ZERO);
+            assert!(end.is_some_and(|end| a_reservation_outlasts(config, end)));
+            assert!(end.is_some_and(|end| !a_reservation_outlasts(config, end + 1)));
         }
-    }
+    });
     if before.selection != after.selection {
         assert!(is_full(after.selection, config.settings().t_select));
     }
@@ -87,21 +86,16 @@ pub fn offers_stand_as_long_as_they_can(config: &Config, step: &Taken) {
 
 /// I10, L2: what a leader waits for from a follower it waits for with all its time.
 pub fn timers_of_followers_begin_in_full(config: &Config, step: &Taken) {
-    let Some(after) = leading(&step.after) else {
-        return;
-    };
-    let before = leading(&step.before);
-    for member in after.members.iter() {
-        let known = before.and_then(|before| before.member(member.station));
-        lease_begins_in_full(config, step, before, known, member);
+    let echo = echo_heard(config, step);
+    each_follower(&step.after, &step.before, |member, known| {
+        lease_begins_in_full(config, echo.as_ref(), known, member);
         command_begins_in_full(config, known, member);
-    }
+    });
 }
 
 fn lease_begins_in_full(
     config: &Config,
-    step: &Taken,
-    before: Option<&Leading>,
+    echo: Option<&Echo>,
     known: Option<&Member>,
     member: &Member,
 ) {
@@ -112,16 +106,15 @@ fn lease_begins_in_full(
         let lost = settings.t_safety.0 + settings.t_leave.0;
         assert!(is_full(left, Millis(lost)));
     }
-    let (Some(before), Some(known), Some(echo)) = (before, known, member.echoed) else {
+    let (Some(known), Some(echoed)) = (known, member.echoed) else {
         return;
     };
-    if known.echoed != Some(echo) {
-        let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
-        let age = age_ms(config, before.heartbeat, echo, next_ram);
+    if known.echoed != Some(echoed) {
+        let echo = echo.expect("what is echoed is in the input");
         let end = u64::from(settings.t_lease.0);
-        let ends = |left: Millis| age + u64::from(left.0) == end;
+        let ends = |left: Millis| echo.age_ms + u64::from(left.0) == end;
         let is_full = matches!(member.lease, Lease::Stands(left) if left.left().is_some_and(ends));
-        assert!(age >= end || is_full);
+        assert!(echo.age_ms >= end || is_full);
     }
 }
 

@@ -124,11 +124,11 @@ harnesses! {
     }
 
     /// All lists of followers.
-    #[unwind(6)]
+    #[unwind(18)]
     #[solver(cadical)]
     #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::never)]
     fn confirmed_followers_comes_back() {
-        values::<ConfirmedFollowers, { max_octets::<ConfirmedFollowers>() }>(|value| value.len() == 4);
+        values::<ConfirmedFollowers, { max_octets::<ConfirmedFollowers>() }>(|value| value.len() == 16);
     }
 
     /// All signals.

@@ -44,8 +44,8 @@ macro_rules! stays_inside {
 }
 
 stays_inside! {
-    rmcm_stays_inside(RMCM, 6)
-    leader_follower_container_stays_inside(RobotLeaderFollowerOperationContainer, 6)
+    rmcm_stays_inside(RMCM, 18)
+    leader_follower_container_stays_inside(RobotLeaderFollowerOperationContainer, 18)
     high_frequency_container_stays_inside(RobotHighFrequencyContainer, 6)
     #[random_only("Kani was stopped unfinished, after five minutes.")]
     low_frequency_container_stays_inside(RobotLowFrequencyContainer, 25)
