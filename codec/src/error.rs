@@ -5,7 +5,7 @@ use ::core::fmt;
 use crossguard_protocol::{MAX_FOLLOWERS, Millis, SessionId, StationId};
 use thiserror::Error;
 
-use crate::core::ram::HelpStatus;
+use crate::core::ram::{HelpStatus, RequestedFollowers};
 use crate::core::{self, Fault, Field, Uper};
 use crate::state::TaskProgression;
 
@@ -250,7 +250,7 @@ pub enum ViewError {
         expected: TaskProgression,
     },
     /// A number of followers that cannot be asked for.
-    #[error("{0} followers are asked for, and 1 to 16 can be")]
+    #[error("{0} followers are asked for, and 1 to {max} can be", max = RequestedFollowers::MAX)]
     FollowerCount(u8),
     /// A leader has more followers than this robot has room for.
     #[error("a leader names {0} followers, and there is room for {MAX_FOLLOWERS}")]

@@ -6,7 +6,7 @@ use crate::config::{Config, Inequality, Settings};
 use crate::id::{Heartbeat, StationId};
 use crate::input::{Input, Timer};
 use crate::message::Coordination;
-use crate::state::{Lease, Phase, Robot};
+use crate::state::{Lease, Member, Phase, Robot};
 use crate::time::Millis;
 
 use super::arithmetic::age_ms;
@@ -108,14 +108,29 @@ pub fn heartbeats_age_as_time_passes(
     }
 }
 
+/// How long a follower's lease stands still; no time where it does not.
+pub(super) fn lease_left(member: &Member) -> Millis {
+    match member.lease {
+        Lease::Stands(countdown) => countdown.left().unwrap_or(Millis::ZERO),
+        Lease::Expired(_) => Millis::ZERO,
+    }
+}
+
 /// The echo of a leader's heartbeat.
 pub(super) struct Echo {
     /// The follower.
-    pub(super) station: StationId,
+    station: StationId,
     /// What it echoes.
     pub(super) heartbeat: Heartbeat,
     /// How long ago the leader sent that, in ms.
     pub(super) age_ms: u64,
+}
+
+impl Echo {
+    /// Whether this is what the leader has last heard echoed by this follower.
+    pub(super) fn is_newest_of(&self, member: &Member) -> bool {
+        (self.station, Some(self.heartbeat)) == (member.station, member.echoed)
+    }
 }
 
 /// What the input echoes, where it is a RAM of a follower in this leader's session.
@@ -171,7 +186,7 @@ pub fn time_leaves_leases_covered(config: &Config, robot: &Robot, elapsed: Milli
     let stands = |robot: &Robot| {
         leading(robot).is_some_and(|leading| {
             let mut members = leading.members.iter();
-            members.any(|member| matches!(member.lease, Lease::Stands(left) if left.left() > Some(Millis::ZERO)))
+            members.any(|member| lease_left(member) > Millis::ZERO)
         })
     };
     stands(robot) && stands(&after)

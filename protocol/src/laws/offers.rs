@@ -36,19 +36,29 @@ fn offer_of(requesting: &Requesting, station: StationId) -> Option<&Offer> {
         .find(|offer| offer.station == station)
 }
 
-/// An offer to this robot's session, as a RAM makes it.
+/// An offer to this requester's session, as a RAM makes it.
 pub(super) struct Made {
     station: StationId,
     number: OfferNumber,
-    pub(super) echo: Heartbeat,
+    echo: Heartbeat,
     t_safety: Millis,
+    /// How long ago the requester sent what it echoes, in ms.
+    pub(super) age_ms: u64,
+}
+
+impl Made {
+    /// Whether this is what the requester knows of the helper.
+    pub(super) fn is(&self, offer: &Offer) -> bool {
+        (self.station, self.number, self.echo) == (offer.station, offer.number, offer.echo)
+    }
 }
 
 /// The offer that the input makes.
-pub(super) fn made(step: &Taken) -> Option<Made> {
-    let Input::Ram { ram, .. } = step.input else {
+pub(super) fn made(config: &Config, step: &Taken) -> Option<Made> {
+    let (Input::Ram { ram, .. }, Some(before)) = (step.input, requesting(&step.before)) else {
         return None;
     };
+    let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
     match ram.coordination {
         Coordination::OfferHelp {
             session,
@@ -61,6 +71,7 @@ pub(super) fn made(step: &Taken) -> Option<Made> {
             number: offer,
             echo,
             t_safety,
+            age_ms: age_ms(config, before.heartbeat, echo, next_ram),
         }),
         _ => None,
     }
@@ -83,9 +94,8 @@ pub fn an_older_offer_replaces_nothing(config: &Config, step: &Taken) {
         return;
     };
     // It echoes a heartbeat that was sent.
-    let made = made(step)
-        .filter(|made| is_echo_of(before, made.echo) && fits(config, made.t_safety))
-        .map(|made| (made.station, made.number, made.echo));
+    let made = made(config, step)
+        .filter(|made| is_echo_of(before, made.echo) && fits(config, made.t_safety));
     each_offer(after, before, |offer, known| {
         if let Some(known) = known
             && (known.number, known.echo) == (offer.number, offer.echo)
@@ -93,7 +103,7 @@ pub fn an_older_offer_replaces_nothing(config: &Config, step: &Taken) {
             assert!(offer.standing.left() <= known.standing.left());
             return;
         }
-        assert!(made == Some((offer.station, offer.number, offer.echo)));
+        assert!(made.as_ref().is_some_and(|made| made.is(offer)));
         assert!(known.is_none_or(|known| {
             leaves(step, known)
                 || offer.number > known.number
@@ -191,7 +201,7 @@ pub fn an_offer_that_is_news_is_taken(config: &Config, step: &Taken) {
     let (Input::Ram { ram, .. }, Some(before)) = (step.input, requesting(&step.before)) else {
         return;
     };
-    let Some(made) = made(step) else {
+    let Some(made) = made(config, step) else {
         return;
     };
     let Made { number, echo, .. } = made;
@@ -203,12 +213,9 @@ pub fn an_offer_that_is_news_is_taken(config: &Config, step: &Taken) {
     let is_news = offer_of(before, ram.station).is_none_or(|known| {
         number > known.number || (number == known.number && beat_is_newer(echo, known.echo))
     });
-    let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
-    let age = age_ms(config, before.heartbeat, echo, next_ram);
-    let stands = a_reservation_outlasts(config, age + 1);
+    let stands = a_reservation_outlasts(config, made.age_ms + 1);
     let known = requesting(&step.after).and_then(|after| offer_of(after, ram.station));
-    let is_taken = !step.is_ignored()
-        && known.is_some_and(|known| (known.number, known.echo) == (number, echo));
+    let is_taken = !step.is_ignored() && known.is_some_and(|known| made.is(known));
     assert!(
         is_taken == (is_news && is_echo_of(before, echo) && stands && fits(config, made.t_safety))
     );

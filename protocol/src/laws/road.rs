@@ -8,11 +8,12 @@ use crate::id::{Heartbeat, SessionId};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Ending, Failure, Farewell, Progress};
 use crate::output::{EndReason, ReleaseReason, StopReason};
-use crate::state::{Corridor, Duty, Identity, Lease, Member, Rival, Robot, Role};
+use crate::state::{Corridor, Duty, Identity, Member, Rival, Robot, Role};
 use crate::task::{Availability, Place, Unavailability, Urgency};
 use crate::time::{Countdown, Millis};
 
 use super::arithmetic::beat_is_newer;
+use super::lease::lease_left;
 use super::part::{each_follower, executing, leading, requesting};
 use super::taken::Taken;
 use super::watch::{Sort, is_open};
@@ -33,13 +34,6 @@ pub fn all(config: &Config, step: &Taken) {
 /// What a countdown has left, zero where it is off.
 fn left(countdown: Countdown) -> Millis {
     countdown.left().unwrap_or(Millis::ZERO)
-}
-
-fn lease_left(member: &Member) -> Millis {
-    match member.lease {
-        Lease::Stands(countdown) => left(countdown),
-        Lease::Expired(_) => Millis::ZERO,
-    }
 }
 
 /// Whether the records of a follower say that it guards: nothing is outstanding, its task guards, it was

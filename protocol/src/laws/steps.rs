@@ -9,10 +9,11 @@ use crate::id::{OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Failure, Farewell, Progress, Ram, Rmcm, Verdict};
 use crate::output::{GoneReason, Maneuver};
-use crate::state::{Identity, Lease, Member, Phase, Robot, Role, State};
+use crate::state::{Identity, Member, Phase, Robot, Role, State};
+use crate::time::Millis;
 
-use super::arithmetic::{beat_is_newer, left_ms, request_is_newer};
-use super::lease::echo_heard;
+use super::arithmetic::{beat_is_newer, request_is_newer};
+use super::lease::{echo_heard, lease_left};
 use super::part::{each_follower, executing, following, leading, own_number, runs};
 use super::taken::{Taken, is_listed};
 use super::watch::{Sort, is_open};
@@ -409,26 +410,17 @@ pub fn leases_count_from_the_echoed_heartbeat(config: &Config, step: &Taken) {
     }
     let echo = echo_heard(config, step);
     each_follower(&step.after, &step.before, |member, known| {
-        let echo = echo
-            .as_ref()
-            .filter(|echo| echo.station == member.station && member.echoed == Some(echo.heartbeat));
+        let echo = echo.as_ref().filter(|echo| echo.is_newest_of(member));
         let echoed = known.and_then(|known| known.echoed);
         if member.echoed != echoed {
             assert!(echo.is_some_and(|echo| {
                 echoed.is_none_or(|known| beat_is_newer(echo.heartbeat, known))
             }));
         }
-        let (now, before) = (lease_left_ms(member), known.map_or(0, lease_left_ms));
-        if now > before {
+        let left = lease_left(member);
+        if left > known.map_or(Millis::ZERO, lease_left) {
             let t_lease = u64::from(config.settings().t_lease.0);
-            assert!(echo.is_some_and(|echo| echo.age_ms + now <= t_lease));
+            assert!(echo.is_some_and(|echo| echo.age_ms + u64::from(left.0) <= t_lease));
         }
     });
-}
-
-fn lease_left_ms(member: &Member) -> u64 {
-    match member.lease {
-        Lease::Stands(left) => left_ms(left),
-        Lease::Expired(_) => 0,
-    }
 }

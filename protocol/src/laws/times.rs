@@ -6,7 +6,7 @@ use crate::input::Input;
 use crate::state::{Contact, Identity, Lease, Member, Offer};
 use crate::time::{Countdown, Millis};
 
-use super::arithmetic::{a_reservation_outlasts, age_ms};
+use super::arithmetic::a_reservation_outlasts;
 use super::lease::{Echo, echo_heard};
 use super::offers::made;
 use super::part::{each_follower, each_offer, following, requesting};
@@ -65,15 +65,13 @@ pub fn offers_stand_as_long_as_they_can(config: &Config, step: &Taken) {
     if before.number != after.number {
         return;
     }
-    let age = made(step).map(|made| {
-        let next_ram = step.before.next_ram().unwrap_or(Millis::ZERO);
-        age_ms(config, before.heartbeat, made.echo, next_ram)
-    });
+    let made = made(config, step);
     each_offer(after, before, |offer, known| {
         let what = |offer: &Offer| (offer.number, offer.echo, offer.standing);
         if known.map(what) != Some(what(offer)) {
             let left = offer.standing.left().unwrap_or(Millis::ZERO);
-            let end = age.map(|age| age + u64::from(left.0));
+            let made = made.as_ref().filter(|made| made.is(offer));
+            let end = made.map(|made| made.age_ms + u64::from(left.0));
             assert!(left > Millis::ZERO);
             assert!(end.is_some_and(|end| a_reservation_outlasts(config, end)));
             assert!(end.is_some_and(|end| !a_reservation_outlasts(config, end + 1)));
@@ -88,7 +86,8 @@ pub fn offers_stand_as_long_as_they_can(config: &Config, step: &Taken) {
 pub fn timers_of_followers_begin_in_full(config: &Config, step: &Taken) {
     let echo = echo_heard(config, step);
     each_follower(&step.after, &step.before, |member, known| {
-        lease_begins_in_full(config, echo.as_ref(), known, member);
+        let echo = echo.as_ref().filter(|echo| echo.is_newest_of(member));
+        lease_begins_in_full(config, echo, known, member);
         command_begins_in_full(config, known, member);
     });
 }
