@@ -18,9 +18,13 @@ The kit has not been assessed by anybody, and no part of it is certified. This p
 uses it. It says what can be relied on, and where.
 ";
 
+/// Where the day is on which all proofs were verified.
+const VERIFIED: &str = "proofs/verified.toml";
+
 /// The text of the page.
 pub(crate) fn of(case: &Case, repository: &Repository) -> String {
     let mut page = HEAD.to_owned();
+    page.push_str(&proved(repository));
     section(&mut page, "The goal", case.goal.trim());
     section(
         &mut page,
@@ -51,6 +55,19 @@ pub(crate) fn of(case: &Case, repository: &Repository) -> String {
     }
     section(&mut page, "From rules to hazards", &rules(case, repository));
     page.trim_end().to_owned() + "\n"
+}
+
+/// How old the proofs are.
+fn proved(repository: &Repository) -> String {
+    let text = repository.text(VERIFIED).unwrap_or_default();
+    let verified: toml::Table = text.parse().unwrap_or_default();
+    let date = verified.get("date").and_then(toml::Value::as_str);
+    let date = date.unwrap_or("a day that is not known");
+    format!(
+        "\nKani verified all proofs on {date}. `cargo run -p crossguard-proofs --example run -- --status` says whether a source has\n\
+         changed since, by the digests in {}.\n",
+        link(VERIFIED, VERIFIED)
+    )
 }
 
 fn section(page: &mut String, title: &str, text: &str) {

@@ -8,6 +8,8 @@ use crate::Entry;
 
 /// Harnesses for one call.
 pub(crate) struct Batch {
+    /// The command, `cargo-kani` or one that takes the same arguments.
+    pub(crate) program: String,
     pub(crate) entries: Vec<Entry>,
     /// How long each may take.
     pub(crate) limit: Duration,
@@ -45,9 +47,9 @@ impl Batch {
     /// # Errors
     /// Kani cannot be run, or ends before it has judged all, and why.
     pub(crate) fn run(&self, takes: &mut dyn FnMut(Outcome) -> bool) -> Result<(), String> {
-        let program = std::env::var("CARGO_KANI").unwrap_or_else(|_| "cargo-kani".to_owned());
+        let program = &self.program;
         let failed = |cause: &dyn std::fmt::Display| format!("{program}: {cause}");
-        let mut command = Command::new(&program);
+        let mut command = Command::new(program);
         command.args(["-p", "crossguard-proofs", "--exact"]);
         // Marks say what must be reachable. To ask that of each assertion as well takes a third of the time.
         command.arg("--no-assertion-reach-checks");

@@ -1,24 +1,22 @@
 //! Which harnesses were verified, in a file, as long as no source changes.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::hash::{DefaultHasher, Hasher};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use crate::kani::Outcome;
-
-/// The sources that proofs are about, from the root of the workspace.
-const SOURCES: [&str; 4] = ["protocol/src", "codec/src", "proofs/src", "Cargo.lock"];
+use crate::sources::Sources;
 
 /// Verified harnesses.
 pub(crate) struct Kept {
     file: File,
-    /// Of all sources, and of what is checked.
-    digest: u64,
-    names: BTreeSet<String>,
+    sources: Sources,
+    memory: bool,
+    /// How many seconds each took.
+    seconds: BTreeMap<String, f64>,
 }
 
 /// A line of the file.
@@ -26,7 +24,9 @@ pub(crate) struct Kept {
 struct Line {
     name: String,
     seconds: f64,
-    digest: u64,
+    /// Whether each access to memory was checked.
+    memory: bool,
+    sources: Sources,
 }
 
 impl Kept {
@@ -36,7 +36,7 @@ impl Kept {
     /// # Errors
     /// The file or a source cannot be read, and why.
     pub(crate) fn open(path: &Path, memory: bool) -> Result<Self, String> {
-        let digest = digest(memory).map_err(|cause| format!("sources: {cause}"))?;
+        let sources = Sources::here()?;
         let failed = |cause| format!("{}: {cause}", path.display());
         let mut options = OpenOptions::new();
         let file = options
@@ -49,16 +49,24 @@ impl Kept {
         let lines = text
             .lines()
             .filter_map(|line| serde_json::from_str(line).ok());
-        let same = lines.filter(|line: &Line| line.digest == digest);
+        let same = lines.filter(|line: &Line| line.sources == sources && line.memory == memory);
+        let seconds = same.map(|line| (line.name, line.seconds)).collect();
         Ok(Self {
             file,
-            digest,
-            names: same.map(|line| line.name).collect(),
+            sources,
+            memory,
+            seconds,
         })
     }
 
-    pub(crate) fn verified(&self, name: &str) -> bool {
-        self.names.contains(name)
+    /// What they were verified on.
+    pub(crate) const fn sources(&self) -> &Sources {
+        &self.sources
+    }
+
+    /// How many seconds it took to verify this harness, if it is verified.
+    pub(crate) fn seconds(&self, name: &str) -> Option<f64> {
+        self.seconds.get(name).copied()
     }
 
     /// Keeps the outcome if it is good.
@@ -69,36 +77,14 @@ impl Kept {
         if outcome.failure.is_some() {
             return Ok(());
         }
+        self.seconds.insert(outcome.name.clone(), outcome.seconds);
         let line = Line {
             name: outcome.name.clone(),
             seconds: outcome.seconds,
-            digest: self.digest,
+            memory: self.memory,
+            sources: self.sources.clone(),
         };
         let line = serde_json::to_string(&line).map_err(|cause| cause.to_string())?;
         writeln!(self.file, "\n{line}").map_err(|cause| cause.to_string())
     }
-}
-
-/// A number that is another one when a source is changed, or what is checked.
-fn digest(memory: bool) -> std::io::Result<u64> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut paths: Vec<_> = SOURCES.iter().map(|path| root.join(path)).collect();
-    let mut files: Vec<PathBuf> = Vec::new();
-    while let Some(path) = paths.pop() {
-        if path.is_dir() {
-            for entry in path.read_dir()? {
-                paths.push(entry?.path());
-            }
-        } else {
-            files.push(path);
-        }
-    }
-    files.sort();
-    let mut hasher = DefaultHasher::new();
-    for file in files {
-        hasher.write(file.to_string_lossy().as_bytes());
-        hasher.write(&std::fs::read(file)?);
-    }
-    hasher.write_u8(memory.into());
-    Ok(hasher.finish())
 }

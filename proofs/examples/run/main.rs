@@ -5,25 +5,28 @@
 
 mod kani;
 mod kept;
+mod progress;
+mod record;
+mod sources;
+#[cfg(test)]
+mod tests;
 
 use std::collections::VecDeque;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError, mpsc};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Parser;
-use nix::sys::resource::{UsageWho, getrusage};
 use serde::Deserialize;
 
-use kani::{Batch, Outcome};
+use kani::Batch;
 use kept::Kept;
+use progress::Progress;
+use sources::Sources;
 
 /// How many harnesses one call of Kani takes: each call builds anew, for half a minute.
 const BATCH: usize = 16;
-
-/// How long a harness is thought to take that was never measured, where none was, in seconds.
-const GUESS_S: f64 = 15.0;
 
 /// Proves the harnesses with Kani, those of `harnesses.toml`.
 #[derive(Parser)]
@@ -53,11 +56,20 @@ struct Arguments {
     /// Check each access to memory as well. The crates forbid unsafe code, so the compiler has done that.
     #[arg(long)]
     memory: bool,
+    /// Once all harnesses are verified, write their times to harnesses.toml, and to verified.toml of which sources they are.
+    #[arg(long)]
+    record: bool,
+    /// Say whether a source has changed since all harnesses were verified, and run nothing.
+    #[arg(long, exclusive = true)]
+    status: bool,
 }
 
 const AFTER_HELP: &str = "\
 A run that was stopped goes on with the harnesses that were not verified yet, unless a source has changed since.
-Exit codes: 0 all were verified, 1 some were not, 2 bad usage, or Kani cannot be run.";
+Exit codes: 0 all were verified, 1 some were not, or with --status a source has changed, 2 bad usage, or Kani cannot be run.";
+
+/// Where the lists are.
+const FOLDER: &str = env!("CARGO_MANIFEST_DIR");
 
 #[derive(Deserialize)]
 struct Committed {
@@ -88,18 +100,43 @@ fn part(text: &str) -> Result<(usize, usize), String> {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let chosen = choose(&arguments);
-    if chosen.is_empty() {
-        eprintln!("no harness is chosen: harnesses.toml has their names");
-        return ExitCode::from(2);
-    }
-    match run(&arguments, chosen) {
-        Ok(failed) => ExitCode::from(u8::from(failed > 0)),
+    let kani = std::env::var("CARGO_KANI").unwrap_or_else(|_| "cargo-kani".to_owned());
+    let is_good = if arguments.status {
+        status()
+    } else {
+        prove(&arguments, &kani, Path::new(FOLDER))
+    };
+    match is_good {
+        Ok(is_good) => ExitCode::from(u8::from(!is_good)),
         Err(cause) => {
             eprintln!("{cause}");
             ExitCode::from(2)
         }
     }
+}
+
+/// Says whether a source has changed since all harnesses were verified; false when one has.
+fn status() -> Result<bool, String> {
+    let (is_same, said) = record::status(Path::new(FOLDER), &Sources::here()?)?;
+    println!("{said}");
+    Ok(is_same)
+}
+
+/// Runs what the arguments ask for, and records it in this folder where they say so; whether all were verified.
+fn prove(arguments: &Arguments, kani: &str, folder: &Path) -> Result<bool, String> {
+    let chosen = choose(arguments);
+    if chosen.is_empty() {
+        return Err("no harness is chosen: harnesses.toml has their names".to_owned());
+    }
+    let mut kept = Kept::open(&arguments.keep, arguments.memory)?;
+    let failed = run(arguments, kani, chosen, &mut kept)?;
+    if failed > 0 {
+        return Ok(false);
+    }
+    if arguments.record {
+        record::record(folder, &kept)?;
+    }
+    Ok(true)
 }
 
 /// The harnesses that the arguments ask for.
@@ -120,9 +157,13 @@ fn choose(arguments: &Arguments) -> Vec<Entry> {
 }
 
 /// Runs the chosen harnesses; how many were not verified.
-fn run(arguments: &Arguments, chosen: Vec<Entry>) -> Result<usize, String> {
-    let mut kept = Kept::open(&arguments.keep, arguments.memory)?;
-    let known = |entry: &Entry| !arguments.again && kept.verified(&entry.name);
+fn run(
+    arguments: &Arguments,
+    kani: &str,
+    chosen: Vec<Entry>,
+    kept: &mut Kept,
+) -> Result<usize, String> {
+    let known = |entry: &Entry| !arguments.again && kept.seconds(&entry.name).is_some();
     let (known, mut wanted): (Vec<_>, Vec<_>) = chosen.into_iter().partition(known);
     // The longest first, so that no job is left with one at the end.
     let seconds = |entry: &Entry| entry.measured().unwrap_or(f64::INFINITY);
@@ -149,6 +190,7 @@ fn run(arguments: &Arguments, chosen: Vec<Entry>) -> Result<usize, String> {
                 };
                 while let Some(entries) = next() {
                     let batch = Batch {
+                        program: kani.to_owned(),
                         entries,
                         limit,
                         memory: arguments.memory,
@@ -179,67 +221,4 @@ fn run(arguments: &Arguments, chosen: Vec<Entry>) -> Result<usize, String> {
     })?;
     progress.end(known.len(), failed);
     Ok(failed)
-}
-
-/// How far it is.
-struct Progress {
-    weights: Vec<(String, f64)>,
-    weight: f64,
-    done: usize,
-    of: usize,
-    weight_done: f64,
-    start: Instant,
-}
-
-impl Progress {
-    fn of(wanted: &[Entry]) -> Self {
-        let measured: Vec<_> = wanted.iter().filter_map(Entry::measured).collect();
-        let count = u32::try_from(measured.len()).unwrap_or(u32::MAX);
-        let mean = measured.iter().sum::<f64>() / f64::from(count.max(1));
-        let guess = if measured.is_empty() { GUESS_S } else { mean };
-        let weigh = |entry: &Entry| (entry.name.clone(), entry.measured().unwrap_or(guess) + 1.0);
-        let weights: Vec<_> = wanted.iter().map(weigh).collect();
-        Self {
-            weight: weights.iter().map(|(_, weight)| weight).sum(),
-            weights,
-            done: 0,
-            of: wanted.len(),
-            weight_done: 0.0,
-            start: Instant::now(),
-        }
-    }
-
-    fn show(&mut self, outcome: &Outcome) {
-        self.done += 1;
-        let weight = self.weights.iter().find(|(name, _)| *name == outcome.name);
-        self.weight_done += weight.map_or(0.0, |(_, weight)| *weight);
-        let elapsed = self.start.elapsed().as_secs_f64();
-        let left = (self.weight - self.weight_done).max(0.0);
-        let minutes = left * elapsed / self.weight_done.max(1.0) / 60.0;
-        let verdict = outcome.failure.as_deref().unwrap_or("verified");
-        println!(
-            "{:3}/{}  {:6.1} s  {}  {verdict}; about {minutes:.0} min to go",
-            self.done, self.of, outcome.seconds, outcome.name
-        );
-    }
-
-    fn end(&self, known: usize, failed: usize) {
-        let minutes = self.start.elapsed().as_secs_f64() / 60.0;
-        let missing = self.of - self.done;
-        print!(
-            "{} of {} harnesses verified",
-            known + self.done - failed,
-            known + self.of
-        );
-        if missing > 0 {
-            print!(", {missing} of them not run");
-        }
-        print!("; this run: {} in {minutes:.1} min", self.done);
-        // In KiB on Linux.
-        if let Ok(usage) = getrusage(UsageWho::RUSAGE_CHILDREN) {
-            let mebibytes = usage.max_rss() / 1024;
-            print!(", {mebibytes} MiB at most for one process");
-        }
-        println!(".");
-    }
 }

@@ -8,7 +8,7 @@ use crate::exchange::{Exchange, Happening, Message, following, offer_of, session
 
 pub(super) const ALL: &[Statement] = &[
     Statement {
-        name: "follows-whom-it-was-confirmed-by",
+        name: "follows-the-leader-that-listed-it",
         rule: "R2",
         says: "A robot follows only after a leader has listed the offer that it made to that session.",
         judge: follows_only_confirmed,

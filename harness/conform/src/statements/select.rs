@@ -14,10 +14,10 @@ pub(super) const ALL: &[Statement] = &[
         judge: selects_in_time,
     },
     Statement {
-        name: "leads-whom-it-asked-for",
+        name: "leads-chosen-helpers-alone",
         rule: "R4",
         says: "A leader lists as many followers as it asked for, each by an offer that was made to its session, and adds nobody.",
-        judge: leads_whom_it_asked_for,
+        judge: leads_chosen_helpers_alone,
     },
     Statement {
         name: "the-nearer-is-chosen",
@@ -128,7 +128,7 @@ fn selects_in_time(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     all.into_iter().map(|(_, met)| met).collect()
 }
 
-fn leads_whom_it_asked_for(exchange: &Exchange, _: &Terms) -> Vec<Met> {
+fn leads_chosen_helpers_alone(exchange: &Exchange, _: &Terms) -> Vec<Met> {
     let judge = |(at, session, state, asked): (u64, SessionId, &RamSeen, Option<u8>)| {
         let listed = listed(state);
         let asked = usize::from(asked?);

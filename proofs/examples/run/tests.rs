@@ -1,0 +1,228 @@
+//! The runner with a stand-in for Kani, which says of each harness what a test wants.
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+
+use clap::Parser;
+use tempfile::TempDir;
+
+use crate::sources::Sources;
+use crate::{Arguments, Entry, choose, prove, record};
+
+/// The harnesses that are run here.
+const NAMED: &str = "protocol::numbers";
+
+const LATE: &str = "CBMC failed\nCBMC timed out.\n";
+const REFUTED: &str =
+    "SUMMARY:\nFailed Checks: a law\nVERIFICATION:- FAILED\nVerification Time: 1.5s\n";
+
+/// A folder with a stand-in for Kani that verifies all of [`NAMED`], and with the lists.
+struct Fake {
+    folder: TempDir,
+    entries: Vec<Entry>,
+}
+
+impl Fake {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let source = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let kani = source.join("examples/run/fake-kani");
+        symlink(kani, folder.path().join("kani")).unwrap();
+        let entries = choose(&Arguments::parse_from(["run", NAMED]));
+        assert!(entries.len() > 2, "some are run");
+        let fake = Self { folder, entries };
+        for entry in &fake.entries {
+            fake.says(entry, &verified(entry.covers, entry.covers));
+        }
+        let list = fake.entries.iter().map(|it| {
+            format!(
+                "[[harness]]\nname = \"{}\"\ntime = \"not measured\" # yet\n\n",
+                it.name
+            )
+        });
+        fs::write(fake.path("harnesses.toml"), list.collect::<String>()).unwrap();
+        fake
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// What Kani says of this harness from now on.
+    fn says(&self, entry: &Entry, text: &str) {
+        let text = format!("Checking harness {}...\n{text}", entry.name);
+        fs::write(self.path(&entry.name), text).unwrap();
+    }
+
+    /// Runs the harnesses with these arguments as well.
+    fn run(&self, more: &[&str]) -> Result<bool, String> {
+        let keep = self.path("kept.jsonl");
+        let usual = [
+            "run",
+            NAMED,
+            "--jobs",
+            "1",
+            "--keep",
+            keep.to_str().unwrap(),
+        ];
+        let arguments = Arguments::parse_from(usual.iter().chain(more));
+        prove(
+            &arguments,
+            self.path("kani").to_str().unwrap(),
+            self.folder.path(),
+        )
+    }
+
+    /// The names that a run has kept as verified.
+    fn kept(&self) -> Vec<String> {
+        let text = fs::read_to_string(self.path("kept.jsonl")).unwrap();
+        let names = self.entries.iter().map(|it| it.name.clone());
+        names
+            .filter(|name| text.contains(&format!("\"{name}\"")))
+            .collect()
+    }
+}
+
+fn verified(satisfied: usize, of: usize) -> String {
+    let time = "Verification Time: 2.5s";
+    format!(
+        " ** {satisfied} of {of} cover properties satisfied\nVERIFICATION:- SUCCESSFUL\n{time}\n"
+    )
+}
+
+#[test]
+fn verified_harnesses_are_kept_and_not_run_again_unless_that_is_asked_for() {
+    let fake = Fake::new();
+    assert_eq!(fake.run(&[]), Ok(true));
+    assert_eq!(fake.kept().len(), fake.entries.len());
+    for entry in &fake.entries {
+        fake.says(entry, REFUTED);
+    }
+    assert_eq!(fake.run(&[]), Ok(true), "nothing was run");
+    assert_eq!(
+        fake.run(&["--memory"]),
+        Ok(false),
+        "with other checks, nothing is known"
+    );
+    assert_eq!(fake.run(&["--again"]), Ok(false));
+}
+
+#[test]
+fn what_is_refuted_late_or_without_a_mark_fails_and_is_not_kept() {
+    let covers = |fake: &Fake| fake.entries[1].covers;
+    let without_a_mark = |fake: &Fake| verified(covers(fake) - 1, covers(fake));
+    let with_a_mark_too_many = |fake: &Fake| verified(covers(fake) + 1, covers(fake) + 1);
+    let says: [&dyn Fn(&Fake) -> String; 4] = [
+        &|_| REFUTED.to_owned(),
+        &|_| LATE.to_owned(),
+        &without_a_mark,
+        &with_a_mark_too_many,
+    ];
+    for says in says {
+        let fake = Fake::new();
+        fake.says(&fake.entries[1], &says(&fake));
+        assert_eq!(fake.run(&[]), Ok(false), "{}", says(&fake));
+        assert_eq!(fake.kept().len(), fake.entries.len() - 1);
+        assert!(!fake.kept().contains(&fake.entries[1].name));
+        fake.says(&fake.entries[1], &verified(covers(&fake), covers(&fake)));
+        assert_eq!(fake.run(&[]), Ok(true), "that one is run again");
+    }
+}
+
+#[test]
+fn one_that_is_late_at_the_end_is_judged() {
+    let fake = Fake::new();
+    for entry in &fake.entries {
+        fake.says(entry, LATE);
+    }
+    assert_eq!(fake.run(&[]), Ok(false));
+    assert!(fake.kept().is_empty());
+}
+
+#[test]
+fn a_kani_that_ends_early_or_is_not_there_is_an_error_with_its_words() {
+    let fake = Fake::new();
+    fs::remove_file(fake.path(&fake.entries[0].name)).unwrap();
+    let error = fake.run(&[]).unwrap_err();
+    assert!(error.contains("No such file"), "{error}");
+    fs::remove_file(fake.path("kani")).unwrap();
+    let error = fake.run(&["--again"]).unwrap_err();
+    assert!(error.contains("kani"), "{error}");
+}
+
+#[test]
+fn times_are_recorded_with_the_sources_once_all_are_verified() {
+    let fake = Fake::new();
+    let list = || fs::read_to_string(fake.path("harnesses.toml")).unwrap();
+    let before = list();
+    assert_eq!(fake.run(&[]), Ok(true));
+    assert_eq!(list(), before, "only --record writes");
+    fake.says(&fake.entries[1], REFUTED);
+    assert_eq!(fake.run(&["--again", "--record"]), Ok(false));
+    assert_eq!(list(), before, "one is refuted");
+
+    let fake = Fake::new();
+    let list = || fs::read_to_string(fake.path("harnesses.toml")).unwrap();
+    let one = &*fake.entries[1].name;
+    let keep = fake.path("kept.jsonl");
+    let run = ["run", one, "--record", "--keep", keep.to_str().unwrap()];
+    let kani = fake.path("kani");
+    let error = prove(
+        &Arguments::parse_from(run),
+        kani.to_str().unwrap(),
+        fake.folder.path(),
+    );
+    let error = error.unwrap_err();
+    let missing = format!("{} harnesses are not verified", fake.entries.len() - 1);
+    assert!(error.contains(&missing), "{error}");
+    assert_eq!(list(), before);
+    assert_eq!(fake.run(&["--record"]), Ok(true));
+    assert_eq!(
+        list(),
+        before.replace("not measured", "2.5 s"),
+        "comments stay"
+    );
+}
+
+#[test]
+fn a_changed_source_is_named() {
+    let fake = Fake::new();
+    assert_eq!(fake.run(&["--record"]), Ok(true));
+    let status = |sources: &Sources| record::status(fake.folder.path(), sources).unwrap();
+    let (is_same, said) = status(&Sources::here().unwrap());
+    assert!(
+        is_same && said.contains("on the sources as they are"),
+        "{said}"
+    );
+
+    let other = tempfile::tempdir().unwrap();
+    for part in ["protocol/src", "codec/src", "proofs/src"] {
+        fs::create_dir_all(other.path().join(part)).unwrap();
+        fs::write(other.path().join(part).join("lib.rs"), part).unwrap();
+    }
+    let then = Sources::of(other.path()).unwrap();
+    fs::write(other.path().join("codec/src/lib.rs"), "changed").unwrap();
+    let now = Sources::of(other.path()).unwrap();
+    assert_eq!(now.changed_since(&then), ["codec/src"]);
+    let moved = other.path().join("codec/src");
+    fs::rename(moved.join("lib.rs"), moved.join("other.rs")).unwrap();
+    let moved = Sources::of(other.path()).unwrap();
+    assert_eq!(moved.changed_since(&now), ["codec/src"], "names count");
+    let (is_same, said) = status(&then);
+    assert!(
+        !is_same && said.contains("codec/src, proofs/src, protocol/src"),
+        "{said}"
+    );
+    let error = Sources::of(&other.path().join("codec")).unwrap_err();
+    assert!(error.contains("protocol/src"), "{error}");
+}
+
+#[test]
+fn what_is_committed_says_when_all_were_verified() {
+    let (_, said) = record::status(Path::new(crate::FOLDER), &Sources::here().unwrap()).unwrap();
+    assert!(
+        said.starts_with("Kani verified all harnesses on 20"),
+        "{said}"
+    );
+}
