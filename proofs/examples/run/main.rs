@@ -47,21 +47,28 @@ struct Arguments {
     /// How many run at a time; each may take some GiB of memory.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..))]
     jobs: u8,
+    #[command(flatten)]
+    keeping: Keeping,
+    /// Check each access to memory as well. The crates forbid unsafe code, so the compiler has done that.
+    #[arg(long)]
+    memory: bool,
+    /// Say whether a source has changed since all harnesses were verified, and run nothing.
+    #[arg(long, exclusive = true)]
+    status: bool,
+}
+
+/// What is kept of a run.
+#[derive(clap::Args)]
+struct Keeping {
     /// Where verified harnesses are kept, so that a run that was stopped goes on from there.
     #[arg(long, value_name = "FILE", default_value = "target/proofs.jsonl")]
     keep: PathBuf,
     /// Run verified harnesses again.
     #[arg(long)]
     again: bool,
-    /// Check each access to memory as well. The crates forbid unsafe code, so the compiler has done that.
-    #[arg(long)]
-    memory: bool,
     /// Once all harnesses are verified, write their times to harnesses.toml, and to verified.toml of which sources they are.
     #[arg(long)]
     record: bool,
-    /// Say whether a source has changed since all harnesses were verified, and run nothing.
-    #[arg(long, exclusive = true)]
-    status: bool,
 }
 
 const AFTER_HELP: &str = "\
@@ -128,12 +135,12 @@ fn prove(arguments: &Arguments, kani: &str, folder: &Path) -> Result<bool, Strin
     if chosen.is_empty() {
         return Err("no harness is chosen: harnesses.toml has their names".to_owned());
     }
-    let mut kept = Kept::open(&arguments.keep, arguments.memory)?;
+    let mut kept = Kept::open(&arguments.keeping.keep, arguments.memory)?;
     let failed = run(arguments, kani, chosen, &mut kept)?;
     if failed > 0 {
         return Ok(false);
     }
-    if arguments.record {
+    if arguments.keeping.record {
         record::record(folder, &kept)?;
     }
     Ok(true)
@@ -163,7 +170,7 @@ fn run(
     chosen: Vec<Entry>,
     kept: &mut Kept,
 ) -> Result<usize, String> {
-    let known = |entry: &Entry| !arguments.again && kept.seconds(&entry.name).is_some();
+    let known = |entry: &Entry| !arguments.keeping.again && kept.seconds(&entry.name).is_some();
     let (known, mut wanted): (Vec<_>, Vec<_>) = chosen.into_iter().partition(known);
     // The longest first, so that no job is left with one at the end.
     let seconds = |entry: &Entry| entry.measured().unwrap_or(f64::INFINITY);
@@ -172,7 +179,7 @@ fn run(
         println!(
             "{} harnesses were verified before, {} has them; --again runs them again.",
             known.len(),
-            arguments.keep.display()
+            arguments.keeping.keep.display()
         );
     }
     let mut progress = Progress::of(&wanted);
