@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +13,8 @@ use crate::sources::Sources;
 /// Verified harnesses.
 pub(crate) struct Kept {
     file: File,
+    /// The folder of the workspace.
+    root: PathBuf,
     sources: Sources,
     memory: bool,
     /// How many seconds each took.
@@ -30,13 +32,13 @@ struct Line {
 }
 
 impl Kept {
-    /// Opens the file, which need not be there yet. Lines about other sources count for nothing, and about other checks:
+    /// Opens the file about the workspace in `root`; it need not be there yet. Lines about other sources count for nothing, and about other checks:
     /// with `memory`, each access to memory is checked.
     ///
     /// # Errors
     /// The file or a source cannot be read, and why.
-    pub(crate) fn open(path: &Path, memory: bool) -> Result<Self, String> {
-        let sources = Sources::here()?;
+    pub(crate) fn open(path: &Path, root: &Path, memory: bool) -> Result<Self, String> {
+        let sources = Sources::of(root)?;
         let failed = |cause| format!("{}: {cause}", path.display());
         let mut options = OpenOptions::new();
         let file = options
@@ -53,6 +55,7 @@ impl Kept {
         let seconds = same.map(|line| (line.name, line.seconds)).collect();
         Ok(Self {
             file,
+            root: root.to_owned(),
             sources,
             memory,
             seconds,
@@ -72,10 +75,15 @@ impl Kept {
     /// Keeps the outcome if it is good.
     ///
     /// # Errors
-    /// The file cannot be written, and why.
+    /// A source has changed since the run began, so nobody knows what was verified; or the file cannot be written, and why.
     pub(crate) fn keep(&mut self, outcome: &Outcome) -> Result<(), String> {
         if outcome.failure.is_some() {
             return Ok(());
+        }
+        if let [changed, ..] = Sources::of(&self.root)?.changed_since(&self.sources)[..] {
+            return Err(format!(
+                "{changed} has changed while harnesses ran: run again, what was verified before is kept for the sources of before"
+            ));
         }
         self.seconds.insert(outcome.name.clone(), outcome.seconds);
         let line = Line {

@@ -75,8 +75,11 @@ const AFTER_HELP: &str = "\
 A run that was stopped goes on with the harnesses that were not verified yet, unless a source has changed since.
 Exit codes: 0 all were verified, 1 some were not, or with --status a source has changed, 2 bad usage, or Kani cannot be run.";
 
-/// Where the lists are.
-const FOLDER: &str = env!("CARGO_MANIFEST_DIR");
+/// The folder of the workspace.
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+
+/// Where the lists are in it.
+const FOLDER: &str = "proofs";
 
 #[derive(Deserialize)]
 struct Committed {
@@ -111,7 +114,7 @@ fn main() -> ExitCode {
     let is_good = if arguments.status {
         status()
     } else {
-        prove(&arguments, &kani, Path::new(FOLDER))
+        prove(&arguments, &kani, Path::new(ROOT))
     };
     match is_good {
         Ok(is_good) => ExitCode::from(u8::from(!is_good)),
@@ -124,24 +127,26 @@ fn main() -> ExitCode {
 
 /// Says whether a source has changed since all harnesses were verified; false when one has.
 fn status() -> Result<bool, String> {
-    let (is_same, said) = record::status(Path::new(FOLDER), &Sources::here()?)?;
+    let root = Path::new(ROOT);
+    let (is_same, said) = record::status(&root.join(FOLDER), &Sources::of(root)?)?;
     println!("{said}");
     Ok(is_same)
 }
 
-/// Runs what the arguments ask for, and records it in this folder where they say so; whether all were verified.
-fn prove(arguments: &Arguments, kani: &str, folder: &Path) -> Result<bool, String> {
+/// Runs what the arguments ask for, of the workspace in `root`, and records it there where they say so; whether all were
+/// verified.
+fn prove(arguments: &Arguments, kani: &str, root: &Path) -> Result<bool, String> {
     let chosen = choose(arguments);
     if chosen.is_empty() {
         return Err("no harness is chosen: harnesses.toml has their names".to_owned());
     }
-    let mut kept = Kept::open(&arguments.keeping.keep, arguments.memory)?;
+    let mut kept = Kept::open(&arguments.keeping.keep, root, arguments.memory)?;
     let failed = run(arguments, kani, chosen, &mut kept)?;
     if failed > 0 {
         return Ok(false);
     }
     if arguments.keeping.record {
-        record::record(folder, &kept)?;
+        record::record(&root.join(FOLDER), &kept)?;
     }
     Ok(true)
 }

@@ -16,14 +16,6 @@ const PARTS: [&str; 3] = ["protocol/src", "codec/src", "proofs/src"];
 pub(crate) struct Sources(BTreeMap<String, String>);
 
 impl Sources {
-    /// Those of this workspace.
-    ///
-    /// # Errors
-    /// One cannot be read, and why.
-    pub(crate) fn here() -> Result<Self, String> {
-        Self::of(&Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
-    }
-
     /// Those of the workspace in this folder.
     ///
     /// # Errors

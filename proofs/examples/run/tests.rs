@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use tempfile::TempDir;
 
+use crate::kani::Outcome;
+use crate::kept::Kept;
 use crate::sources::Sources;
 use crate::{Arguments, Entry, choose, prove, record};
 
@@ -17,7 +19,7 @@ const LATE: &str = "CBMC failed\nCBMC timed out.\n";
 const REFUTED: &str =
     "SUMMARY:\nFailed Checks: a law\nVERIFICATION:- FAILED\nVerification Time: 1.5s\n";
 
-/// A folder with a stand-in for Kani that verifies all of [`NAMED`], and with the lists.
+/// The workspace of a stand-in for Kani that verifies all of [`NAMED`], with sources and lists.
 struct Fake {
     folder: TempDir,
     entries: Vec<Entry>,
@@ -26,6 +28,11 @@ struct Fake {
 impl Fake {
     fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
+        for part in ["protocol/src", "codec/src", "proofs/src"] {
+            let part = folder.path().join(part);
+            fs::create_dir_all(&part).unwrap();
+            fs::write(part.join("lib.rs"), "mod it;").unwrap();
+        }
         let source = Path::new(env!("CARGO_MANIFEST_DIR"));
         let kani = source.join("examples/run/fake-kani");
         symlink(kani, folder.path().join("kani")).unwrap();
@@ -41,7 +48,7 @@ impl Fake {
                 it.name
             )
         });
-        fs::write(fake.path("harnesses.toml"), list.collect::<String>()).unwrap();
+        fs::write(fake.path("proofs/harnesses.toml"), list.collect::<String>()).unwrap();
         fake
     }
 
@@ -154,7 +161,7 @@ fn a_kani_that_ends_early_or_is_not_there_is_an_error_with_its_words() {
 #[test]
 fn times_are_recorded_with_the_sources_once_all_are_verified() {
     let fake = Fake::new();
-    let list = || fs::read_to_string(fake.path("harnesses.toml")).unwrap();
+    let list = || fs::read_to_string(fake.path("proofs/harnesses.toml")).unwrap();
     let before = list();
     assert_eq!(fake.run(&[]), Ok(true));
     assert_eq!(list(), before, "only --record writes");
@@ -163,7 +170,7 @@ fn times_are_recorded_with_the_sources_once_all_are_verified() {
     assert_eq!(list(), before, "one is refuted");
 
     let fake = Fake::new();
-    let list = || fs::read_to_string(fake.path("harnesses.toml")).unwrap();
+    let list = || fs::read_to_string(fake.path("proofs/harnesses.toml")).unwrap();
     let one = &*fake.entries[1].name;
     let keep = fake.path("kept.jsonl");
     let run = ["run", one, "--record", "--keep", keep.to_str().unwrap()];
@@ -189,38 +196,54 @@ fn times_are_recorded_with_the_sources_once_all_are_verified() {
 fn a_changed_source_is_named() {
     let fake = Fake::new();
     assert_eq!(fake.run(&["--record"]), Ok(true));
-    let status = |sources: &Sources| record::status(fake.folder.path(), sources).unwrap();
-    let (is_same, said) = status(&Sources::here().unwrap());
+    let sources = || Sources::of(fake.folder.path()).unwrap();
+    let status = || record::status(&fake.path("proofs"), &sources()).unwrap();
+    let (is_same, said) = status();
     assert!(
         is_same && said.contains("on the sources as they are"),
         "{said}"
     );
-
-    let other = tempfile::tempdir().unwrap();
-    for part in ["protocol/src", "codec/src", "proofs/src"] {
-        fs::create_dir_all(other.path().join(part)).unwrap();
-        fs::write(other.path().join(part).join("lib.rs"), part).unwrap();
-    }
-    let then = Sources::of(other.path()).unwrap();
-    fs::write(other.path().join("codec/src/lib.rs"), "changed").unwrap();
-    let now = Sources::of(other.path()).unwrap();
+    let then = sources();
+    let source = fake.path("codec/src/lib.rs");
+    fs::write(&source, "mod other;").unwrap();
+    let now = sources();
     assert_eq!(now.changed_since(&then), ["codec/src"]);
-    let moved = other.path().join("codec/src");
-    fs::rename(moved.join("lib.rs"), moved.join("other.rs")).unwrap();
-    let moved = Sources::of(other.path()).unwrap();
-    assert_eq!(moved.changed_since(&now), ["codec/src"], "names count");
-    let (is_same, said) = status(&then);
+    fs::rename(&source, fake.path("codec/src/other.rs")).unwrap();
+    assert_eq!(sources().changed_since(&now), ["codec/src"], "names count");
+    let (is_same, said) = status();
     assert!(
-        !is_same && said.contains("codec/src, proofs/src, protocol/src"),
+        !is_same && said.contains("has changed: codec/src."),
         "{said}"
     );
-    let error = Sources::of(&other.path().join("codec")).unwrap_err();
+    fs::remove_dir_all(fake.path("protocol/src")).unwrap();
+    let error = Sources::of(fake.folder.path()).unwrap_err();
     assert!(error.contains("protocol/src"), "{error}");
 }
 
 #[test]
+fn nothing_is_kept_of_sources_that_change_while_harnesses_run() {
+    let fake = Fake::new();
+    let keep = fake.path("kept.jsonl");
+    let mut kept = Kept::open(&keep, fake.folder.path(), false).unwrap();
+    let outcome = || Outcome {
+        name: fake.entries[0].name.clone(),
+        seconds: 1.0,
+        failure: None,
+    };
+    fs::write(fake.path("protocol/src/lib.rs"), "mod other;").unwrap();
+    let error = kept.keep(&outcome()).unwrap_err();
+    assert!(error.contains("protocol/src has changed"), "{error}");
+    assert!(fake.kept().is_empty() && kept.seconds(&outcome().name).is_none());
+    fs::write(fake.path("protocol/src/lib.rs"), "mod it;").unwrap();
+    assert_eq!(kept.keep(&outcome()), Ok(()), "it is as it was");
+    assert_eq!(fake.kept().len(), 1);
+}
+
+#[test]
 fn what_is_committed_says_when_all_were_verified() {
-    let (_, said) = record::status(Path::new(crate::FOLDER), &Sources::here().unwrap()).unwrap();
+    let root = Path::new(crate::ROOT);
+    let sources = Sources::of(root).unwrap();
+    let (_, said) = record::status(&root.join(crate::FOLDER), &sources).unwrap();
     assert!(
         said.starts_with("Kani verified all harnesses on 20"),
         "{said}"
