@@ -31,7 +31,7 @@ struct Verified {
 /// Writes to both files in `folder` what `kept` has.
 ///
 /// # Errors
-/// A harness is not verified, or a file cannot be read or written: why, and then neither is changed.
+/// A harness is not verified, or the list cannot be read: why, and then neither file is changed. Or one cannot be written.
 pub(crate) fn record(folder: &Path, kept: &Kept) -> Result<(), String> {
     let path = folder.join(HARNESSES);
     let failed = |cause: &dyn std::fmt::Display| format!("{}: {cause}", path.display());

@@ -1,7 +1,6 @@
 //! The sources that proofs are about.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -64,9 +63,5 @@ fn digest(root: &Path, part: &str) -> Result<String, String> {
             hasher.update(octets);
         }
     }
-    let mut hex = String::new();
-    for octet in hasher.finalize() {
-        let _ = write!(hex, "{octet:02x}");
-    }
-    Ok(hex)
+    Ok(hex::encode(hasher.finalize()))
 }

@@ -64,21 +64,22 @@ impl Fake {
 
     /// Runs the harnesses with these arguments as well.
     fn run(&self, more: &[&str]) -> Result<bool, String> {
-        let keep = self.path("kept.jsonl");
+        self.run_of(NAMED, more)
+    }
+
+    /// Runs the harnesses of this name, with these arguments as well.
+    fn run_of(&self, named: &str, more: &[&str]) -> Result<bool, String> {
+        let (keep, kani) = (self.path("kept.jsonl"), self.path("kani"));
         let usual = [
             "run",
-            NAMED,
+            named,
             "--jobs",
             "1",
             "--keep",
             keep.to_str().unwrap(),
         ];
         let arguments = Arguments::parse_from(usual.iter().chain(more));
-        prove(
-            &arguments,
-            self.path("kani").to_str().unwrap(),
-            self.folder.path(),
-        )
+        prove(&arguments, kani.to_str().unwrap(), self.folder.path())
     }
 
     /// The names that a run has kept as verified.
@@ -171,16 +172,9 @@ fn times_are_recorded_with_the_sources_once_all_are_verified() {
 
     let fake = Fake::new();
     let list = || fs::read_to_string(fake.path("proofs/harnesses.toml")).unwrap();
-    let one = &*fake.entries[1].name;
-    let keep = fake.path("kept.jsonl");
-    let run = ["run", one, "--record", "--keep", keep.to_str().unwrap()];
-    let kani = fake.path("kani");
-    let error = prove(
-        &Arguments::parse_from(run),
-        kani.to_str().unwrap(),
-        fake.folder.path(),
-    );
-    let error = error.unwrap_err();
+    let error = fake
+        .run_of(&fake.entries[1].name, &["--record"])
+        .unwrap_err();
     let missing = format!("{} harnesses are not verified", fake.entries.len() - 1);
     assert!(error.contains(&missing), "{error}");
     assert_eq!(list(), before);
