@@ -5,9 +5,9 @@
 //! the robots of `crossguard-evaluation` call the same functions.
 //!
 //! ```text
-//!  perceived road users ──► clustering ──► containers ──► RAM ───────► vru (understands RAM)
+//!  perceived road users ──► clustering ──► containers ──► RAM ───────► device that understands RAM
 //!  robot's motion, events ─► generation ──────────────────┘  │
-//!                          │                  cluster VAM ◄──┘ ──────► vru (unmodified ETSI device)
+//!                          │                  cluster VAM ◄──┘ ──────► unmodified ETSI device
 //!                          └──► CAM ─────────────────────────────────► unmodified ETSI station
 //! ```
 //!
@@ -17,9 +17,8 @@
 //! - [`clustering`] makes clusters of the road users that a robot perceives, [`area`] is what bounds
 //!   them, [`containers`] writes them into a RAM and reads them from one. [`surroundings`] are these
 //!   of one robot, together.
-//! - [`vru`] is the station of a road user: when it sends a VAM, when it leaves that to a robot, and
-//!   when it takes it up again. [`vam`] makes the message, [`cam`] that of a robot for stations that do
-//!   not know RAM; [`etsi`] is what the two have in common.
+//! - [`vam`] makes the VAM of a cluster and [`cam`] the CAM of a robot, for stations that do not know RAM; [`etsi`] is
+//!   what the two have in common.
 
 #[cfg(feature = "std")]
 pub mod area;
@@ -38,5 +37,3 @@ pub mod motion;
 pub mod surroundings;
 #[cfg(feature = "std")]
 pub mod vam;
-#[cfg(feature = "std")]
-pub mod vru;

@@ -2,10 +2,10 @@
 
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
-use crossguard_endpoint::ras::vru::{Suppression, Understands, VamRule};
 use serde::{Deserialize, Serialize};
 
 use super::radio::Radio;
+use super::vru::{Suppression, Understands, VamRule};
 
 /// How the stations behave. The paper states the power of the radio, and none of the others.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]

@@ -10,6 +10,8 @@
 //! - [`grid`] is the street grid, [`stationing`] where robots are on it, [`sumo`] makes mobility on it, [`trace`]
 //!   keeps it, [`shipped`] are the traces that come along.
 //! - [`coverage`] is the observation coverage ratio, and the greedy placement of robots.
+//! - [`vru`] is the station of a road user: when it sends a VAM, when it leaves that to a robot, and when it takes it up
+//!   again.
 //! - [`simulation`] is a run on the air of stations with one [`behaviour`], with [`messages`] of real size, on the channel of [`radio`].
 //! - [`matrix`] are all cells of the evaluation, over seeds and cores; [`statistics`] their mean and
 //!   deviation, [`plot`] their pictures, [`paper`] what the paper states, [`statements`] whether a run meets it.
@@ -19,6 +21,7 @@
 pub mod behaviour;
 mod cam;
 pub mod coverage;
+mod device;
 pub mod grid;
 pub mod matrix;
 pub mod messages;
@@ -33,6 +36,7 @@ pub mod stationing;
 pub mod statistics;
 pub mod sumo;
 pub mod trace;
+pub mod vru;
 
 pub use cam::CamError;
 pub use robot::RobotError;

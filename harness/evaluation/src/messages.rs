@@ -6,11 +6,11 @@
 use crossguard_codec::{ConfidenceEllipse, Measurement, Position, RobotState};
 use crossguard_endpoint::ras::etsi::NotMade;
 use crossguard_endpoint::ras::generation::Trigger;
-use crossguard_endpoint::ras::vam::{Content, vam};
-use crossguard_endpoint::ras::vru::{DueVam, LeaveReason, Operation, VamTrigger};
 use serde::{Deserialize, Serialize};
 
 use super::cam::{CamError, cam_octets};
+use super::device::vam_octets;
+use super::vru::{DueVam, LeaveReason, Operation, VamTrigger};
 
 /// IEEE 802.11 `QoS` data header and frame check sequence, in octets.
 const MAC: usize = 26 + 4;
@@ -92,8 +92,7 @@ impl Sizes {
                 low_frequency,
                 operation,
             };
-            let vam = vam(1, &state_of_a_pedestrian(), 0, Content::Individual(due));
-            vam.map(|vam| vam.len())
+            vam_octets(1, &state_of_a_pedestrian(), 0, &due).map(|vam| vam.len())
         };
         let reason = LeaveReason::OutOfClusterBoundingBox;
         let join = Operation::Join { id: 1, at_ms: 0 };
@@ -172,8 +171,7 @@ mod tests {
         assert_eq!(frame_octets(59, Signed::WithCertificate), 390);
     }
 
-    /// The VAM of which sizes are taken have the containers of the golden vectors, whose octets
-    /// [`vam`](crossguard_endpoint::ras::vam) makes.
+    /// The VAM of which sizes are taken have the containers of the golden vectors, whose octets [`vam_octets`] makes.
     #[test]
     fn a_vam_has_the_size_of_the_golden_vectors() {
         let octets = |name| golden::vector(golden::VAM, name).len() / 2;

@@ -14,11 +14,11 @@ use crossguard_endpoint::ras::etsi::NotMade;
 use crossguard_endpoint::ras::generation::{Generation, Limits, Status, Trigger};
 use crossguard_endpoint::ras::motion::{Plane, Point, distance_m};
 use crossguard_endpoint::ras::surroundings::{Awareness, Surroundings, Told, Unplaced};
-use crossguard_endpoint::ras::vru::{AnnouncedCluster, Announcement, Understands};
 use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
 
 use super::behaviour::Behaviour;
 use super::trace::{Run, Track};
+use super::vru::{AnnouncedCluster, Announcement, Understands};
 
 /// Where the grid's origin is, in degrees.
 const ORIGIN: [f64; 2] = [49.01, 8.41];

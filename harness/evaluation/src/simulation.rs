@@ -12,7 +12,6 @@ use std::collections::{BinaryHeap, VecDeque};
 
 use crossguard_endpoint::ras::generation::{Cadence, LOW_FREQUENCY_INTERVAL_MS, Limits};
 use crossguard_endpoint::ras::motion::{Change, Motion};
-use crossguard_endpoint::ras::vru::VruStation;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
@@ -22,6 +21,7 @@ use super::messages::{CERTIFICATE_INTERVAL_MS, Signed, Sizes, air_time_us, frame
 use super::radio::{Channel, Transmission, WINDOW_US};
 use super::robot::{Announced, Robot, RobotError};
 use super::trace::{Run, Track};
+use super::vru::VruStation;
 
 /// How often a generation rule is checked, in ms (`T_CheckVamGen`): what is sent at an interval is sent at a
 /// multiple of it.

@@ -3,7 +3,6 @@
 
 use crossguard_endpoint::ras::clustering::Settings;
 use crossguard_endpoint::ras::motion::Point;
-use crossguard_endpoint::ras::vru::{Suppression, Understands, VamRule};
 use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::coverage::coverage;
 use crossguard_evaluation::matrix::{predicted_reduction, vam_share};
@@ -11,6 +10,7 @@ use crossguard_evaluation::messages::Sizes;
 use crossguard_evaluation::radio::Radio;
 use crossguard_evaluation::simulation::{Measured, simulate};
 use crossguard_evaluation::trace::{Run, Track};
+use crossguard_evaluation::vru::{Suppression, Understands, VamRule};
 use proptest::prelude::*;
 
 const SECONDS: u64 = 40;

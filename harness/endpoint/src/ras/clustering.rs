@@ -30,12 +30,13 @@ use serde::{Deserialize, Serialize};
 
 use super::area::Area;
 use super::motion::{MATCH, Point, distance_m};
-use super::vru::CONTINUITY_MS;
 
 mod grouping;
 #[cfg(test)]
 mod tests;
 
+/// After how long without a message from its head a cluster is lost, in ms (`timeClusterContinuity`).
+pub const CONTINUITY_MS: u64 = 2_000;
 /// How long an id is not used again, in ms (`timeClusterUniquenessThreshold`).
 pub const UNIQUENESS_MS: u64 = 30_000;
 /// Clusters of other robots that are remembered.

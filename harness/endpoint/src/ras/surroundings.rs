@@ -17,13 +17,12 @@ use std::collections::{BTreeMap, VecDeque};
 
 use crossguard_codec::{Identifiers, Position};
 
-use super::clustering::{Cluster, Clustering, Ended, PerceivedVru, Settings};
+use super::clustering::{CONTINUITY_MS, Cluster, Clustering, Ended, PerceivedVru, Settings};
 use super::containers::Announced;
 use super::etsi::NotMade;
 use super::generation::{INTERVAL_MAX_MS, INTERVAL_MIN_MS};
 use super::motion::{Plane, distance_m};
 use super::vam::{breakup_vam, cluster_vam};
-use super::vru::CONTINUITY_MS;
 
 /// How far a robot goes before its plane follows it, in metres: so far it is exact.
 const PLANE_M: f64 = 1_000.0;

@@ -1,15 +1,12 @@
-//! The VAM of a road user's device, and the cluster VAM by which a robot speaks to devices that do not
-//! know RAM.
+//! The VAM by which a robot speaks to devices that do not know RAM: of clusters that it leads, and that they are over.
 //!
 //! A VAM shares its basic container, motion and cluster containers with RAM bit by bit, so they are
 //! made as those of a RAM are.
 
 use crossguard_codec::asn1::cdd::{
-    AccelerationComponent, ClusterBreakupInfo, ClusterBreakupReason, ClusterJoinInfo,
-    ClusterLeaveInfo, ClusterLeaveReason, DeltaTimeQuarterSecond, ExteriorLights, Identifier1B,
+    AccelerationComponent, ClusterBreakupInfo, ClusterBreakupReason, DeltaTimeQuarterSecond,
     LongitudinalAcceleration, LongitudinalAccelerationValue, PathDeltaTimeChoice,
-    PathPointPredicted, TrafficParticipantType, VruExteriorLights, VruProfileAndSubprofile,
-    VruSizeClass, VruSpecificExteriorLights, VruSubProfilePedestrian,
+    PathPointPredicted, TrafficParticipantType,
 };
 use crossguard_codec::asn1::cdd211::{
     ClusterBreakupInfo211, ClusterBreakupReason211, PathPointPredicted211, PathPredicted211,
@@ -19,26 +16,14 @@ use crossguard_codec::asn1::cdd211::{
 use crossguard_codec::asn1::ram::RobotAwareness;
 use crossguard_codec::asn1::vam::{
     VAM, VamParameters, VruAwareness, VruClusterOperationContainer, VruHighFrequencyContainer,
-    VruLowFrequencyContainer,
 };
+use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{Dictionary, Identifiers, Position, RobotState, encode};
 
 use super::clustering::{BreakupReason, Cluster, Ended};
 use super::containers;
 use super::etsi::{NotMade, awareness, header};
 use super::motion::Plane;
-use super::vru::{DueVam, Operation};
-
-/// What a VAM says besides its motion.
-#[derive(Clone, Copy, Debug)]
-pub enum Content<'a> {
-    /// A pedestrian's own VAM.
-    Individual(DueVam),
-    /// A robot's VAM for a cluster that it leads.
-    Cluster(&'a Cluster, &'a Plane),
-    /// A robot's VAM for a cluster that it no longer leads.
-    Breakup(Ended),
-}
 
 /// `stationType` of a pedestrian.
 const PEDESTRIAN: u8 = 1;
@@ -89,8 +74,9 @@ pub fn cluster_vam(
         speed: Some(east.hypot(north).into()),
         ..RobotState::default()
     };
-    let content = Content::Cluster(cluster, plane);
-    of_dictionary(ids, station, &state, now_ms, content)
+    of_dictionary(ids, station, &state, now_ms, None, |ram| {
+        containers::write(ram, plane, Some(cluster));
+    })
 }
 
 /// The octets of the VAM by which `station`, a robot at `position`, says that a cluster is over, on the dictionary
@@ -110,24 +96,31 @@ pub fn breakup_vam(
         position: *position,
         ..RobotState::default()
     };
-    of_dictionary(ids, station, &state, now_ms, Content::Breakup(ended))
+    of_dictionary(ids, station, &state, now_ms, Some(ended), |ram| {
+        containers::write_ended(ram, ended);
+    })
 }
 
+/// The octets of a VAM that says that a cluster is over, or where one is. ETSI sends the low-frequency container along
+/// with every operation; it would say that the robot is a pedestrian.
 fn of_dictionary(
     ids: &Identifiers,
     station: u32,
     state: &RobotState,
     now_ms: u64,
-    content: Content<'_>,
+    ended: Option<Ended>,
+    complete: impl FnOnce(&mut RAM),
 ) -> Result<Vec<u8>, NotMade> {
     match ids.dictionary {
-        Dictionary::V2_4_1 => vam(station, state, now_ms, content),
+        Dictionary::V2_4_1 => {
+            let mut vam = vam(station, state, now_ms, complete)?;
+            let operation = ended.map(|ended| breakup(ended, now_ms));
+            vam.vam.vam_parameters.vru_cluster_operation_container = operation;
+            Ok(encode(ids, &vam)?)
+        }
         Dictionary::V2_1_1 => {
-            let shared = shared(station, state, now_ms, content)?;
-            let operation = match content {
-                Content::Breakup(ended) => Some(breakup_211(ended, now_ms)),
-                Content::Individual(_) | Content::Cluster(..) => None,
-            };
+            let shared = shared(station, state, now_ms, complete)?;
+            let operation = ended.map(|ended| breakup_211(ended, now_ms));
             let vam = VAM211::new(
                 header::<VAM>(&Identifiers::default(), station),
                 awareness_211(shared, operation),
@@ -137,43 +130,31 @@ fn of_dictionary(
     }
 }
 
-/// The octets of a VAM from `station` on the dictionary v2.4.1, which is where and moves as `state` says.
-/// `now_ms` is the time of its position in `TimestampIts`.
+/// The VAM of a pedestrian with this `station` id on the dictionary v2.4.1, who is where and moves as `state` says.
+/// `now_ms` is the time of the position in `TimestampIts`; `complete` adds the containers that a RAM has as well.
 ///
 /// # Errors
-/// When the message cannot be encoded.
+/// When the message cannot be made.
 pub fn vam(
     station: u32,
     state: &RobotState,
     now_ms: u64,
-    content: Content<'_>,
-) -> Result<Vec<u8>, NotMade> {
-    let shared = shared(station, state, now_ms, content)?;
+    complete: impl FnOnce(&mut RAM),
+) -> Result<VAM, NotMade> {
+    let shared = shared(station, state, now_ms, complete)?;
     let motion = shared.ram_parameters.robot_high_frequency_container;
-    let high_frequency = high_frequency!(VruHighFrequencyContainer, motion);
-    let (low_frequency, operation) = match content {
-        Content::Individual(due) => {
-            let operation = due.operation.map(operation_container);
-            (due.low_frequency.then(low_frequency), operation)
-        }
-        Content::Cluster(..) => (None, None),
-        // ETSI sends the low-frequency container along with every operation; it would say that the robot is a
-        // pedestrian.
-        Content::Breakup(ended) => (None, Some(breakup(ended, now_ms))),
-    };
     let parameters = VamParameters::new(
         shared.ram_parameters.basic_container,
-        high_frequency,
-        low_frequency,
+        high_frequency!(VruHighFrequencyContainer, motion),
+        None,
         shared.ram_parameters.vru_cluster_information_container,
-        operation,
+        None,
         shared.ram_parameters.vru_motion_prediction_container,
     );
-    let vam = VAM::new(
+    Ok(VAM::new(
         header::<VAM>(&Identifiers::default(), station),
         VruAwareness::new(shared.generation_delta_time, parameters),
-    );
-    Ok(encode(&Identifiers::default(), &vam)?)
+    ))
 }
 
 /// What a VAM shares with a RAM.
@@ -181,14 +162,10 @@ fn shared(
     station: u32,
     state: &RobotState,
     now_ms: u64,
-    content: Content<'_>,
+    complete: impl FnOnce(&mut RAM),
 ) -> Result<RobotAwareness, NotMade> {
     let ids = Identifiers::default();
-    let mut shared = awareness(&ids, station, state, now_ms, false, |ram| match content {
-        Content::Individual(_) => {}
-        Content::Cluster(cluster, plane) => containers::write(ram, plane, Some(cluster)),
-        Content::Breakup(ended) => containers::write_ended(ram, ended),
-    })?;
+    let mut shared = awareness(&ids, station, state, now_ms, false, complete)?;
     shared.ram_parameters.basic_container.station_type = TrafficParticipantType(PEDESTRIAN);
     Ok(shared)
 }
@@ -239,36 +216,6 @@ fn point_211(point: PathPointPredicted) -> Option<PathPointPredicted211> {
     ))
 }
 
-/// An ordinary pedestrian of medium size with a light at the helmet, as in the golden vectors.
-#[expect(
-    clippy::default_trait_access,
-    reason = "bits without a name in this crate"
-)]
-fn low_frequency() -> VruLowFrequencyContainer {
-    let profile = VruProfileAndSubprofile::pedestrian(VruSubProfilePedestrian(1));
-    let mut helmet = VruSpecificExteriorLights(Default::default());
-    helmet.0.set(2, true);
-    let lights = VruExteriorLights::new(ExteriorLights(Default::default()), helmet);
-    VruLowFrequencyContainer::new(profile, Some(VruSizeClass(2)), Some(lights))
-}
-
-fn operation_container(operation: Operation) -> VruClusterOperationContainer {
-    let (join, leave) = match operation {
-        Operation::Join { id, at_ms } => {
-            let join_time = DeltaTimeQuarterSecond(quarter_second(at_ms));
-            (
-                Some(ClusterJoinInfo::new(Identifier1B(id), join_time)),
-                None,
-            )
-        }
-        Operation::Leave { id, reason } => {
-            let reason = ClusterLeaveReason(reason as u8);
-            (None, Some(ClusterLeaveInfo::new(Identifier1B(id), reason)))
-        }
-    };
-    VruClusterOperationContainer::new(join, leave, None, None)
-}
-
 fn breakup(ended: Ended, now_ms: u64) -> VruClusterOperationContainer {
     let reason = ClusterBreakupReason(ended.reason as u8);
     let time = DeltaTimeQuarterSecond(quarter_second(now_ms));
@@ -290,7 +237,8 @@ fn breakup_211(ended: Ended, now_ms: u64) -> VruClusterOperationContainer211 {
 
 /// `DeltaTimeQuarterSecond`: the upper octet of the generation delta time of a moment, 1..254. That of
 /// 0 cannot be said, and 255 is unavailable; both become their neighbour.
-fn quarter_second(at_ms: u64) -> u8 {
+#[must_use]
+pub fn quarter_second(at_ms: u64) -> u8 {
     let [upper, _] = crossguard_codec::si::generation_delta_time(at_ms).to_be_bytes();
     upper.clamp(1, 254)
 }
@@ -303,11 +251,6 @@ mod tests {
     use super::super::area::Area;
     use super::super::clustering::VruClass;
     use super::super::etsi::golden_position;
-    use super::super::motion::Motion;
-    use super::super::vru::{
-        AnnouncedCluster, Announcement, LeaveReason, Reaction, Understands, VamRule, VamTrigger,
-        VruStation,
-    };
     use super::*;
 
     /// What the golden vectors of VAM have in common (`codec/tests/golden/vam.txt`).
@@ -326,63 +269,16 @@ mod tests {
         }
     }
 
-    fn golden(content: Content<'_>) -> String {
-        hex::encode(vam(123_456_789, &golden_state(), 12_345, content).unwrap())
-    }
-
-    fn vector(name: &str) -> &'static str {
-        golden::vector(golden::VAM, name)
-    }
-
-    /// A device from being switched on until it has left a cluster: every VAM that it sends is one of
-    /// the golden vectors, octet by octet.
-    #[test]
-    fn what_a_device_sends_is_what_the_golden_vectors_say() {
-        let mut device = VruStation::new(VamRule::Periodic(100), Understands::ClusterVam);
-        let standing = Motion::default();
-        let area = Area::around(&[[0.0, 0.0]], 5.0).unwrap();
-        let announced = Announcement {
-            head: 9,
-            by: Understands::ClusterVam,
-            cluster: Some(AnnouncedCluster {
-                id: Some(7),
-                area: &area,
-                cardinality: 5,
-                velocity_mps: Some([0.0, 0.0]),
-            }),
-            ended: None,
-        };
-        let mut sent = |now_ms, heard: Option<&Announcement<'_>>, motion: &Motion| {
-            let reaction = heard.map(|heard| device.hear(now_ms, motion, heard));
-            let due = device.poll(now_ms, motion, 0);
-            (
-                reaction,
-                due.map(|due| golden(Content::Individual(due)))
-                    .unwrap_or_default(),
-            )
-        };
-        assert_eq!(sent(0, None, &standing).1, vector("V2"));
-        assert_eq!(sent(100, None, &standing).1, vector("V1"));
-        // It joins at 12 * 256 ms, by the quarter seconds of generationDeltaTime.
-        let (reaction, join) = sent(200, Some(&announced), &standing);
-        assert_eq!(
-            (reaction, join.as_str()),
-            (Some(Reaction::Joins), vector("V4"))
-        );
-    }
-
-    #[test]
-    fn leaving_and_clusters_have_the_octets_of_the_golden_vectors() {
-        let leave = DueVam {
-            trigger: VamTrigger::Leave,
-            low_frequency: false,
-            operation: Some(Operation::Leave {
-                id: 7,
-                reason: LeaveReason::OutOfClusterBoundingBox,
-            }),
-        };
-        assert_eq!(golden(Content::Individual(leave)), vector("V5"));
+    fn golden(cluster: &Cluster) -> String {
         let plane = Plane::at(48.765_432_1, 9.123_456_7);
+        let vam = vam(123_456_789, &golden_state(), 12_345, |ram| {
+            containers::write(ram, &plane, Some(cluster));
+        });
+        hex::encode(encode(&Identifiers::default(), &vam.unwrap()).unwrap())
+    }
+
+    #[test]
+    fn clusters_have_the_octets_of_the_golden_vectors() {
         let mut cluster = Cluster {
             id: 7,
             area: Area::Circle {
@@ -394,14 +290,14 @@ mod tests {
             center: [0.0, 0.0],
             velocity_mps: [0.0, 0.0],
         };
-        assert_eq!(golden(Content::Cluster(&cluster, &plane)), vector("V3"));
+        assert_eq!(golden(&cluster), golden::vector(golden::VAM, "V3"));
         cluster.profiles = 0;
         cluster.area = Area::Rectangle {
             center: [0.1, -0.2],
             half_m: [4.94, 2.94],
             direction_rad: 45_f64.to_radians(),
         };
-        assert_eq!(golden(Content::Cluster(&cluster, &plane)), vector("V8"));
+        assert_eq!(golden(&cluster), golden::vector(golden::VAM, "V8"));
     }
 
     #[test]
@@ -468,7 +364,7 @@ mod tests {
         let parameters = &vam.vam.vam_parameters;
         let cluster = parameters.vru_cluster_information_container.as_ref();
         let cluster = &cluster.unwrap().vru_cluster_information;
-        assert_eq!(cluster.cluster_id, Some(Identifier1B(7)));
+        assert_eq!(cluster.cluster_id.as_ref().map(|id| id.0), Some(7));
         assert_eq!(cluster.cluster_bounding_box_shape, None);
         let operation = parameters.vru_cluster_operation_container.as_ref();
         let breakup = operation.unwrap().cluster_breakup_info.as_ref().unwrap();

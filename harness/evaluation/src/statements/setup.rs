@@ -1,10 +1,9 @@
 //! What the paper states of the set-up: streets, people, robots and the channel.
 
-use crossguard_endpoint::ras::vru::Understands;
-
 use super::super::behaviour::Behaviour;
 use super::super::messages::{DATA_RATE_MBPS, SYMBOL_US};
 use super::super::paper::PAPER;
+use super::super::vru::Understands;
 use super::text::numbers;
 use super::{Comparison, Outcome, Setting, Statement, compare, outcome, same};
 

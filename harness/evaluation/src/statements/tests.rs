@@ -1,11 +1,10 @@
 //! Every verdict can go both ways.
 
-use crossguard_endpoint::ras::vru::Understands;
-
 use super::*;
 use crate::grid::{Preset, Site};
 use crate::matrix::{CbrCell, ObsCell};
 use crate::stationing::Stationing;
+use crate::vru::Understands;
 
 fn streets() -> Grid {
     Grid {

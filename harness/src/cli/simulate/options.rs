@@ -5,7 +5,6 @@ use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use crossguard_endpoint::ras::vru::{Suppression, Understands, VamRule};
 use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::grid::{Grid, Preset, Site};
 use crossguard_evaluation::matrix::Axes;
@@ -16,6 +15,7 @@ use crossguard_evaluation::statements::Setting;
 use crossguard_evaluation::stationing::Stationing;
 use crossguard_evaluation::sumo::{Plan, Sumo};
 use crossguard_evaluation::trace::Traces;
+use crossguard_evaluation::vru::{Suppression, Understands, VamRule};
 use serde::Serialize;
 
 use super::Failure;

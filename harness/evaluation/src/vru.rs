@@ -14,7 +14,7 @@
 //! A device that [understands RAM](Understands::Ram) is passive as soon as it finds itself in a RAM: the robot
 //! has seen it, so there is nothing to join. By the [strict](Suppression::Strict) rule it finds itself in a
 //! cluster if it is inside of the bounding shape and moves as the cluster does; a robot's clusters are close and
-//! of one [motion](super::motion::MATCH), so it was perceived then. The shape moves with the cluster between
+//! of one [motion](MATCH), so it was perceived then. The shape moves with the cluster between
 //! two announcements. A device that no longer finds itself there resumes at once. By the
 //! [loose](Suppression::Loose) rule the bounding shape alone counts, and 3 m around it. An [unmodified](Understands::ClusterVam) one knows cluster
 //! VAMs only, and joins by their rules; being inside of the bounding shape after it fell silent stands for
@@ -28,11 +28,11 @@
 //! Not here: redundancy mitigation, zero-risk areas, the trajectory interception trigger, clusters that
 //! change their id or combine, and leading a cluster, which a robot does.
 
+use crossguard_endpoint::ras::area::Area;
+use crossguard_endpoint::ras::clustering::CONTINUITY_MS;
+use crossguard_endpoint::ras::generation::Trigger;
+use crossguard_endpoint::ras::motion::{Change, MATCH, Motion, STANDING_MPS, distance_m};
 use serde::{Deserialize, Serialize};
-
-use super::area::Area;
-use super::generation::Trigger;
-use super::motion::{Change, MATCH, Motion, STANDING_MPS, distance_m};
 
 /// Shortest interval between two VAM, in ms (`T_GenVamMin`).
 pub const INTERVAL_MIN_MS: u64 = 100;
@@ -44,8 +44,6 @@ pub const LOW_FREQUENCY_INTERVAL_MS: u64 = 2_000;
 pub const JOIN_NOTIFICATION_MS: u64 = 3_000;
 /// Until when the head has to confirm a join, in ms (`timeClusterJoinSuccess`).
 pub const JOIN_SUCCESS_MS: u64 = 500;
-/// After how long without a message from its head a cluster is lost, in ms (`timeClusterContinuity`).
-pub const CONTINUITY_MS: u64 = 2_000;
 /// How long leaving is announced, in ms (`timeClusterLeaveNotification`).
 pub const LEAVE_NOTIFICATION_MS: u64 = 1_000;
 /// Who is further outside of the bounding shape is out of the cluster, in metres (`maxClusterDistance`,

@@ -8,10 +8,10 @@ use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::ras::containers::{self, Announced};
 use crossguard_endpoint::ras::motion::{Motion, Plane, Point};
 use crossguard_endpoint::ras::surroundings::Awareness;
-use crossguard_endpoint::ras::vru::{
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_evaluation::vru::{
     AnnouncedCluster, Announcement, Reaction, Understands, VamRule, VruStation,
 };
-use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, StationId};
 
 const HEAD: u32 = 7;
