@@ -1,19 +1,13 @@
-//! One-line texts for logs and sequence charts.
+//! One-line texts for logs and sequence charts, of what is no enumeration of [words](crate::words).
 
 use core::fmt::{self, Display, Formatter, Write};
 
-use crate::input::{Decimetres, Event, Input, Timer};
-use crate::message::{
-    Answer, Command, Coordination, Farewell, Progress, Ram, Report, Rmcm, Verdict,
-};
-use crate::output::{
-    CorridorClosure, Disengagement, EndReason, GoneReason, Ignored, Maneuver, Notice, Output,
-    ReleaseReason, StopReason,
-};
+use crate::id::UniqueNumber;
+use crate::input::{Decimetres, Input};
+use crate::message::{Answer, Command, Coordination, Farewell, Ram, Report, Rmcm, Verdict};
+use crate::output::Maneuver;
 use crate::state::{Duty, Robot};
-use crate::task::{
-    Availability, FallbackPolicy, HelpRequest, Place, TaskSet, Unavailability, Urgency,
-};
+use crate::task::{Availability, HelpRequest, Place, TaskSet};
 use crate::time::Millis;
 
 impl Display for Robot {
@@ -24,101 +18,6 @@ impl Display for Robot {
             write!(f, ", session {session}")?;
         }
         write!(f, "; says: {}", self.ram())
-    }
-}
-
-/// Writes the name of an enum's variant as words: `LowBattery` as `low battery`.
-struct Words<T>(T);
-
-impl<T: fmt::Debug> Display for Words<T> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(
-            WordSplitter {
-                to: f,
-                inside: false
-            },
-            "{:?}",
-            self.0
-        )
-    }
-}
-
-struct WordSplitter<'a, 'b> {
-    to: &'a mut Formatter<'b>,
-    /// Whether the last character belongs to a word, so that a capital starts the next one.
-    inside: bool,
-}
-
-impl Write for WordSplitter<'_, '_> {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        for c in text.chars() {
-            if c.is_ascii_uppercase() && self.inside {
-                self.to.write_char(' ')?;
-            }
-            self.to.write_char(c.to_ascii_lowercase())?;
-            self.inside = c.is_alphanumeric();
-        }
-        Ok(())
-    }
-}
-
-macro_rules! display_as_words {
-    ($($type:ty),* $(,)?) => {$(
-        impl Display for $type {
-            fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-                Words(self).fmt(f)
-            }
-        }
-    )*};
-}
-
-display_as_words!(
-    crate::Ending,
-    EndReason,
-    FallbackPolicy,
-    GoneReason,
-    Progress,
-    ReleaseReason,
-    StopReason,
-    Timer,
-    Unavailability,
-    Urgency,
-    crate::Failure,
-    crate::Rejection,
-    crate::Role,
-);
-
-impl Display for CorridorClosure {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotEngaged(station, why) => write!(f, "station {station} is {why}"),
-            other => Words(other).fmt(f),
-        }
-    }
-}
-
-impl Display for Ignored {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotEngaged(station, why) => write!(f, "station {station} is {why}"),
-            Self::Unavailable(why) => write!(f, "unavailable, {why}"),
-            other => Words(other).fmt(f),
-        }
-    }
-}
-
-impl Display for Disengagement {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::NoLease => "out of contact",
-            Self::CommandOutstanding => "yet to acknowledge a command",
-            Self::NotExecuting => "not executing anything",
-            Self::NotGuarding => "not guarding anybody",
-            Self::NotInPosition => "not in position",
-            Self::Completed => "done with its task",
-            Self::Failed(why) => return write!(f, "unable to do its task: {why}"),
-            Self::SafeIdle => "idle in safety",
-        })
     }
 }
 
@@ -269,26 +168,14 @@ impl Display for Rmcm {
     }
 }
 
-impl Display for Event {
+/// The number from which a robot with a new pseudonym counts, where one is given.
+pub(crate) struct NumbersFrom(pub(crate) Option<UniqueNumber>);
+
+impl Display for NumbersFrom {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::PedestrianDetected(request) => write!(f, "pedestrian detected ({request})"),
-            Self::CommandManeuver { follower, task } => write!(f, "command {follower} {task}"),
-            Self::InPosition(id) => write!(f, "maneuver {id} in position"),
-            Self::ManeuverCompleted(id) => write!(f, "maneuver {id} completed"),
-            Self::ManeuverFailed(id) => write!(f, "maneuver {id} failed"),
-            Self::TaskCompleted => f.write_str("task completed"),
-            Self::RoadClear => f.write_str("road clear"),
-            Self::AllAnswered => f.write_str("all have answered"),
-            Self::LeaveRequested => f.write_str("leave requested"),
-            Self::AvailabilityChanged(availability) => write!(f, "now {availability}"),
-            Self::OpenCorridor => f.write_str("open corridor"),
-            Self::CloseCorridor => f.write_str("close corridor"),
-            Self::IdentityChanged(station, None) => write!(f, "identity changed to {station}"),
-            Self::IdentityChanged(station, Some(next)) => {
-                write!(f, "identity changed to {station}, numbers from {next}")
-            }
-            Self::EpochRenewed(boot) => write!(f, "boot counter renewed to {boot}"),
+        match self.0 {
+            None => Ok(()),
+            Some(next) => write!(f, ", numbers from {next}"),
         }
     }
 }
@@ -311,90 +198,11 @@ impl Display for Maneuver {
     }
 }
 
-impl Display for Notice {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::RolesEstablished(session) => write!(f, "roles established in {session}"),
-            Self::FollowerJoined(station) => write!(f, "{station} joined"),
-            Self::FollowerGone(station, why) => write!(f, "{station} gone: {why}"),
-            Self::LeaseGranted(station) => write!(f, "lease on {station} granted"),
-            Self::LeaseExpired(station) => write!(f, "lease on {station} expired"),
-            Self::CommandAcknowledged(station, id) => write!(f, "{station} acknowledged {id}"),
-            Self::CommandRejected(station, id, why) => write!(f, "{station} rejected {id}: {why}"),
-            Self::ManeuverReported(station, id) => write!(f, "{station} executes {id}"),
-            Self::ManeuverInPosition(station, id) => write!(f, "{station} in position for {id}"),
-            Self::ManeuverCompleted(station, id) => write!(f, "{station} completed {id}"),
-            Self::ManeuverFailed(station, id, why) => write!(f, "{station} failed {id}: {why}"),
-            Self::FollowerSafeIdle(station, id) => write!(f, "{station} fell back from {id}"),
-            Self::OfferLapsed(station) => write!(f, "the offer of {station} has lapsed"),
-            Self::Yielded(station) => write!(f, "place yielded to {station}"),
-            Self::SessionEnded(session, why) => write!(f, "{session} ended: {why}"),
-            Self::Offering(session) => write!(f, "offering to {session}"),
-            Self::Joined(session) => write!(f, "joined {session}"),
-            Self::Released(session, why) => write!(f, "released from {session}: {why}"),
-            Self::ContactLost(session) => write!(f, "contact lost in {session}"),
-            Self::ContactRegained(session) => write!(f, "contact regained in {session}"),
-        }
-    }
-}
-
-impl Display for Output {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::SendRam => f.write_str("send RAM"),
-            Self::SendRmcm(rmcm) => write!(f, "send {rmcm}"),
-            Self::StartManeuver(maneuver) => write!(f, "start {maneuver}"),
-            Self::StopManeuver(maneuver, why) => write!(f, "stop {maneuver}: {why}"),
-            Self::FallBack(maneuver, policy) => write!(f, "fall back from {maneuver}: {policy}"),
-            Self::CorridorOpened(left) => write!(f, "corridor opened for {left}"),
-            Self::CorridorExtended(left) => write!(f, "corridor open for another {left}"),
-            Self::CorridorClosed(why) => write!(f, "corridor closed: {why}"),
-            Self::LockIdentity => f.write_str("lock identity"),
-            Self::UnlockIdentity => f.write_str("unlock identity"),
-            Self::RenewEpoch => f.write_str("renew the boot counter"),
-            Self::Notify(notice) => notice.fmt(f),
-            Self::Ignored(reason) => write!(f, "ignored: {reason}"),
-        }
-    }
-}
-
 impl Display for Duty {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::FallingBack(maneuver) => write!(f, "falls back from {maneuver}"),
             Self::Crossing(session) => write!(f, "people of {session} may be on the road"),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::string::ToString;
-
-    use crate::{
-        CorridorClosure, Disengagement, Ignored, Rejection, StationId, TaskSet, TaskType,
-        Unavailability,
-    };
-
-    #[test]
-    fn reasons_read_as_words() {
-        assert_eq!(Ignored::OldHeartbeat.to_string(), "old heartbeat");
-        assert_eq!(
-            Rejection::Unavailable(Unavailability::LowBattery).to_string(),
-            "unavailable(low battery)"
-        );
-        assert_eq!(
-            CorridorClosure::NotEngaged(StationId(2), Disengagement::NoLease).to_string(),
-            "station 2 is out of contact"
-        );
-    }
-
-    #[test]
-    fn tasks_read_by_their_names() {
-        let other = TaskType::new(9).unwrap();
-        assert_eq!(
-            TaskSet::of(&[TaskType::MOVE, other]).to_string(),
-            "move+task9"
-        );
     }
 }

@@ -1,9 +1,11 @@
 //! What the transition function takes in.
 
+use crate::display::NumbersFrom;
 use crate::id::{ManeuverId, StationId, UniqueNumber};
 use crate::message::{Ram, Rmcm};
 use crate::task::{Availability, HelpRequest, TaskType};
 use crate::time::Millis;
+use crate::words::words;
 
 /// One input of the transition function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -49,79 +51,77 @@ impl Decimetres {
     pub const UNKNOWN: Self = Self(u16::MAX);
 }
 
-/// An event of the robot's own application.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-#[repr(u8)]
-pub enum Event {
-    /// A pedestrian needs help that takes more robots than this one.
-    PedestrianDetected(HelpRequest),
-    /// The leader's application wants a follower to do a maneuver.
-    CommandManeuver {
-        /// The follower.
-        follower: StationId,
-        /// The maneuver.
-        task: TaskType,
-    },
-    /// The body holds the place from which the maneuver that was started guards.
-    InPosition(ManeuverId),
-    /// The maneuver that was started has been finished.
-    ManeuverCompleted(ManeuverId),
-    /// The maneuver that was started cannot be finished.
-    ManeuverFailed(ManeuverId),
-    /// The pedestrian has crossed and nobody is on the road; the session may end.
-    TaskCompleted,
-    /// The people that this robot guarded are off the road, and its body has finished its fallback.
-    RoadClear,
-    /// The requester knows of no robot nearby that has not answered its request.
-    AllAnswered,
-    /// The robot wants to leave whatever session it is in.
-    LeaveRequested,
-    /// The robot became available or unavailable.
-    AvailabilityChanged(Availability),
-    /// The leader's application wants to let the pedestrian cross.
-    OpenCorridor,
-    /// The leader's application wants to hold the pedestrian back again.
-    CloseCorridor,
-    /// The robot has changed its pseudonym; only possible while the identity is not locked.
-    ///
-    /// Where a number is given, those of its sessions and offers begin anew there, so that they do not tell that the
-    /// two pseudonyms are one robot. Under this station id, no number from there on may have been given out before.
-    IdentityChanged(StationId, Option<UniqueNumber>),
-    /// A larger boot counter has been persisted, as [`Output::RenewEpoch`](crate::Output::RenewEpoch) asked.
-    EpochRenewed(u16),
+words! {
+    /// An event of the robot's own application.
+    pub enum Event as EventKind #[repr(u8)] {
+        /// A pedestrian needs help that takes more robots than this one.
+        PedestrianDetected(request: HelpRequest) = 0, "pedestrian detected ({request})";
+        /// The leader's application wants a follower to do a maneuver.
+        CommandManeuver {
+            /// The follower.
+            follower: StationId,
+            /// The maneuver.
+            task: TaskType
+        } = 1, "command {follower} {task}";
+        /// The body holds the place from which the maneuver that was started guards.
+        InPosition(id: ManeuverId) = 2, "maneuver {id} in position";
+        /// The maneuver that was started has been finished.
+        ManeuverCompleted(id: ManeuverId) = 3, "maneuver {id} completed";
+        /// The maneuver that was started cannot be finished.
+        ManeuverFailed(id: ManeuverId) = 4, "maneuver {id} failed";
+        /// The pedestrian has crossed and nobody is on the road; the session may end.
+        TaskCompleted = 5;
+        /// The people that this robot guarded are off the road, and its body has finished its fallback.
+        RoadClear = 6;
+        /// The requester knows of no robot nearby that has not answered its request.
+        AllAnswered = 7, "all have answered";
+        /// The robot wants to leave whatever session it is in.
+        LeaveRequested = 8;
+        /// The robot became available or unavailable.
+        AvailabilityChanged(availability: Availability) = 9, "now {availability}";
+        /// The leader's application wants to let the pedestrian cross.
+        OpenCorridor = 10;
+        /// The leader's application wants to hold the pedestrian back again.
+        CloseCorridor = 11;
+        /// The robot has changed its pseudonym; only possible while the identity is not locked.
+        ///
+        /// Where a number is given, those of its sessions and offers begin anew there, so that they do not tell that the
+        /// two pseudonyms are one robot. Under this station id, no number from there on may have been given out before.
+        IdentityChanged(station: StationId, next: Option<UniqueNumber>) = 12,
+            "identity changed to {station}{}", NumbersFrom(*next);
+        /// A larger boot counter has been persisted, as the output `RenewEpoch` asked.
+        EpochRenewed(boot: u16) = 13, "boot counter renewed to {boot}";
+    }
 }
 
-/// The timers of a robot. A timer exists only in the state that needs it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Timer {
-    /// Follower: `T_safety`, since the newest heartbeat or command.
-    Safety,
-    /// Follower: `T_leave`, since contact was lost.
-    Leave,
-    /// Leader: the lease on this follower.
-    Lease(StationId),
-    /// Leader: how long this follower is kept without a lease.
-    Lost(StationId),
-    /// Leader: `T_exec` of this follower's command.
-    Execution(StationId),
-    /// Leader: `T_ack` of this follower's outstanding command.
-    Acknowledgement(StationId),
-    /// Requester: `T_help`.
-    Help,
-    /// Requester: how long the offer of this helper stands without a newer echo.
-    Offer(StationId),
-    /// Requester: the time to gather offers.
-    Selection,
-    /// Helper: `T_offer`.
-    Reservation,
-    /// The longest time for which the identity may stay locked.
-    IdentityLock,
-    /// How long an ended or left session is announced.
-    Farewell,
-    /// The next periodic RAM.
-    Ram,
+words! {
+    /// The timers of a robot. A timer exists only in the state that needs it.
+    pub enum Timer as TimerKind #[derive(PartialOrd, Ord)] {
+        /// Follower: `T_safety`, since the newest heartbeat or command.
+        Safety = 0;
+        /// Follower: `T_leave`, since contact was lost.
+        Leave = 1;
+        /// Leader: the lease on this follower.
+        Lease(follower: StationId) = 2, "lease of {follower}";
+        /// Leader: how long this follower is kept without a lease.
+        Lost(follower: StationId) = 3, "lost {follower}";
+        /// Leader: `T_exec` of this follower's command.
+        Execution(follower: StationId) = 4, "execution of {follower}";
+        /// Leader: `T_ack` of this follower's outstanding command.
+        Acknowledgement(follower: StationId) = 5, "acknowledgement of {follower}";
+        /// Requester: `T_help`.
+        Help = 6;
+        /// Requester: how long the offer of this helper stands without a newer echo.
+        Offer(helper: StationId) = 7, "offer of {helper}";
+        /// Requester: the time to gather offers.
+        Selection = 8;
+        /// Helper: `T_offer`.
+        Reservation = 9;
+        /// The longest time for which the identity may stay locked.
+        IdentityLock = 10;
+        /// How long an ended or left session is announced.
+        Farewell = 11;
+        /// The next periodic RAM.
+        Ram = 12;
+    }
 }

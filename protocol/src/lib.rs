@@ -44,6 +44,7 @@
 //! | what comes out | [`Output`], in order; [`Notice`] tells the application, [`Ignored`] why nothing came of an input |
 //! | its settings, and what must hold between them | [`Config`], [`Settings`], [`Inequality`] |
 //! | names and numbers | [`StationId`], [`SessionId`], [`RequestId`], [`Heartbeat`], [`OfferNumber`] |
+//! | what there is to say, as tables: events, outputs, notices, reasons | [`words`], and `ALL`, `kind`, `name` and `code` of each |
 //! | what is asked for and done | [`HelpRequest`], [`TaskType`], [`FallbackPolicy`], [`Availability`] |
 //!
 //! The enums that tell stages, inputs and outputs apart are `repr(u8)`: their tag is a byte of its own
@@ -86,21 +87,23 @@ mod termination;
 mod time;
 mod timers;
 mod valid;
+pub mod words;
 
 pub use config::{BrokenInequality, Config, Inequality, Settings};
 pub use id::{
     Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, SessionNumber, StationId,
     UniqueNumber,
 };
-pub use input::{Decimetres, Event, Input, Timer};
+pub use input::{Decimetres, Event, EventKind, Input, Timer, TimerKind};
 pub use list::{Full, List};
 pub use message::{
-    Answer, Command, Confirmation, Coordination, Ending, Failure, Farewell, Followers, Progress,
-    Ram, Rejection, Report, Rmcm, Verdict,
+    Answer, Command, Confirmation, Coordination, Ending, Failure, FailureKind, Farewell, Followers,
+    Progress, ProgressKind, Ram, Rejection, RejectionKind, Report, Rmcm, Verdict,
 };
 pub use output::{
-    CorridorClosure, Disengagement, EndReason, GoneReason, Ignored, Maneuver, Notice, Output,
-    Outputs, ReleaseReason, StopReason,
+    CorridorClosure, CorridorClosureKind, Disengagement, DisengagementKind, EndReason,
+    EndReasonKind, GoneReason, Ignored, IgnoredKind, Maneuver, Notice, NoticeKind, Output,
+    OutputKind, Outputs, ReleaseReason, ReleaseReasonKind, StopReason, StopReasonKind,
 };
 pub use rename::Renaming;
 pub use robot::StateMachine;

@@ -8,6 +8,7 @@ use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, SessionNumber, Sta
 use crate::list::List;
 use crate::task::{HelpRequest, Place, TaskSet, TaskType, Unavailability, Urgency};
 use crate::time::Millis;
+use crate::words::words;
 
 /// What a Robot Awareness Message says about coordination.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -102,21 +103,20 @@ pub struct Report {
     pub progress: Progress,
 }
 
-/// Progress of an accepted command.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Progress {
-    /// The maneuver runs, and the body is under way.
-    Executing,
-    /// The maneuver runs, and the body holds the place from which it guards.
-    InPosition,
-    /// It was finished.
-    Completed,
-    /// It ended without success.
-    Failed(Failure),
-    /// It was stopped by the fallback policy because contact with the leader was lost.
-    SafeIdle,
+words! {
+    /// Progress of an accepted command.
+    pub enum Progress as ProgressKind {
+        /// The maneuver runs, and the body is under way.
+        Executing = 2;
+        /// The maneuver runs, and the body holds the place from which it guards.
+        InPosition = 3;
+        /// It was finished.
+        Completed = 4;
+        /// It ended without success.
+        Failed(why: Failure) = 5, "failed({why})";
+        /// It was stopped by the fallback policy because contact with the leader was lost.
+        SafeIdle = 6;
+    }
 }
 
 impl Progress {
@@ -137,17 +137,16 @@ impl Progress {
     }
 }
 
-/// Why a maneuver ended without success.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Failure {
-    /// The robot could not do it.
-    Maneuver,
-    /// The robot became unavailable while it ran.
-    Unavailable(Unavailability),
-    /// The leader's execution limit `T_exec` ran out. Never in a RAM.
-    ExecutionLimit,
+words! {
+    /// Why a maneuver ended without success.
+    pub enum Failure as FailureKind #[derive(PartialOrd, Ord)] {
+        /// The robot could not do it.
+        Maneuver = 27;
+        /// The robot became unavailable while it ran.
+        Unavailable(why: Unavailability) = 7, "unavailable({why})";
+        /// The leader's execution limit `T_exec` ran out. Never in a RAM.
+        ExecutionLimit = 28;
+    }
 }
 
 /// A session that a RAM names as over. A bare `helpStatus = none` ends nothing.
@@ -168,15 +167,14 @@ impl Farewell {
     }
 }
 
-/// How a session ended.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Ending {
-    /// The crossing is completed and the road is clear: followers are free.
-    Completed,
-    /// Any other end: somebody may be on the road, so followers fall back by their tasks' policies.
-    Aborted,
+words! {
+    /// How a session ended.
+    pub enum Ending #[derive(PartialOrd, Ord)] {
+        /// The crossing is completed and the road is clear: followers are free.
+        Completed = 0;
+        /// Any other end: somebody may be on the road, so followers fall back by their tasks' policies.
+        Aborted = 1;
+    }
 }
 
 /// What a Robot Maneuver Coordination Message says.
@@ -230,15 +228,14 @@ pub enum Verdict {
     Rejected(Rejection),
 }
 
-/// Why a follower rejects a command.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Rejection {
-    /// It cannot do such a task.
-    UnsupportedTask,
-    /// It is unavailable.
-    Unavailable(Unavailability),
-    /// It has a duty on the road, of which its application has not said that it is over.
-    OnDuty,
+words! {
+    /// Why a follower rejects a command.
+    pub enum Rejection as RejectionKind #[derive(PartialOrd, Ord)] {
+        /// It cannot do such a task.
+        UnsupportedTask = 17;
+        /// It is unavailable.
+        Unavailable(why: Unavailability) = 7, "unavailable({why})";
+        /// It has a duty on the road, of which its application has not said that it is over.
+        OnDuty = 48;
+    }
 }

@@ -6,42 +6,41 @@ use crate::list::List;
 use crate::message::{Failure, Rejection, Rmcm};
 use crate::task::{FallbackPolicy, TaskType, Unavailability};
 use crate::time::Millis;
+use crate::words::words;
 
-/// One output of the transition function.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-#[repr(u8)]
-pub enum Output {
-    /// Send a RAM now, with [`Robot::ram`](crate::Robot::ram) of the state after this step.
-    SendRam,
-    /// Send this RMCM now.
-    SendRmcm(Rmcm),
-    /// Start this maneuver. The acknowledgement stands before it in the list.
-    StartManeuver(Maneuver),
-    /// Stop this maneuver.
-    StopManeuver(Maneuver, StopReason),
-    /// End this maneuver by the task's policy. The robot is on duty until the application says
-    /// [`Event::RoadClear`](crate::Event::RoadClear).
-    FallBack(Maneuver, FallbackPolicy),
-    /// The pedestrian may cross from now on, for this long. What shows it must end by itself then, without
-    /// this robot's help.
-    CorridorOpened(Millis),
-    /// The pedestrian may go on crossing, for this long from now.
-    CorridorExtended(Millis),
-    /// The pedestrian may not cross from now on.
-    CorridorClosed(CorridorClosure),
-    /// Keep station id, certificate and link address from now on.
-    LockIdentity,
-    /// Station id, certificate and link address may change again.
-    UnlockIdentity,
-    /// Half of this boot counter's numbers are given out: persist a larger one, and then tell
-    /// [`Event::EpochRenewed`](crate::Event::EpochRenewed).
-    RenewEpoch,
-    /// Tell the application.
-    Notify(Notice),
-    /// The input changed nothing, for this reason.
-    Ignored(Ignored),
+words! {
+    /// One output of the transition function.
+    pub enum Output as OutputKind #[repr(u8)] {
+        /// Send a RAM now, with `Robot::ram` of the state after this step.
+        SendRam = 0, "send RAM";
+        /// Send this RMCM now.
+        SendRmcm(rmcm: Rmcm) = 12, "send {rmcm}";
+        /// Start this maneuver. The acknowledgement stands before it in the list.
+        StartManeuver(maneuver: Maneuver) = 1, "start {maneuver}";
+        /// Stop this maneuver.
+        StopManeuver(maneuver: Maneuver, why: StopReason) = 2, "stop {maneuver}: {why}";
+        /// End this maneuver by the task's policy. The robot is on duty until the application says
+        /// `RoadClear`.
+        FallBack(maneuver: Maneuver, policy: FallbackPolicy) = 3, "fall back from {maneuver}: {policy}";
+        /// The pedestrian may cross from now on, for this long. What shows it must end by itself then, without
+        /// this robot's help.
+        CorridorOpened(left: Millis) = 4, "corridor opened for {left}";
+        /// The pedestrian may go on crossing, for this long from now.
+        CorridorExtended(left: Millis) = 5, "corridor open for another {left}";
+        /// The pedestrian may not cross from now on.
+        CorridorClosed(why: CorridorClosure) = 6, "corridor closed: {why}";
+        /// Keep station id, certificate and link address from now on.
+        LockIdentity = 7;
+        /// Station id, certificate and link address may change again.
+        UnlockIdentity = 8;
+        /// Half of this boot counter's numbers are given out: persist a larger one, and then tell
+        /// `EpochRenewed`.
+        RenewEpoch = 9, "renew the boot counter";
+        /// Tell the application.
+        Notify(notice: Notice) = 10, "{notice}";
+        /// The input changed nothing, for this reason.
+        Ignored(why: Ignored) = 11, "ignored: {why}";
+    }
 }
 
 /// A maneuver of this robot.
@@ -54,249 +53,241 @@ pub struct Maneuver {
     pub task: TaskType,
 }
 
-/// Why a maneuver is stopped.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum StopReason {
-    /// A newer command takes its place.
-    Superseded,
-    /// The follower has no part in the session any more.
-    Released(ReleaseReason),
-    /// The robot became unavailable.
-    Unavailable(Unavailability),
+words! {
+    /// Why a maneuver is stopped.
+    pub enum StopReason as StopReasonKind #[derive(PartialOrd, Ord)] {
+        /// A newer command takes its place.
+        Superseded = 1;
+        /// The follower has no part in the session any more.
+        Released(why: ReleaseReason) = 0, "released({why})";
+        /// The robot became unavailable.
+        Unavailable(why: Unavailability) = 7, "unavailable({why})";
+    }
 }
 
-/// Why the corridor closed.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum CorridorClosure {
-    /// A follower is not engaged any more.
-    NotEngaged(StationId, Disengagement),
-    /// Fewer followers are left than the task requires.
-    FollowerMissing,
-    /// The session ended.
-    SessionEnded,
-    /// The place is yielded to this leader.
-    Yielded(StationId),
-    /// The application asked for it.
-    Application,
+words! {
+    /// Why the corridor closed.
+    pub enum CorridorClosure as CorridorClosureKind #[derive(PartialOrd, Ord)] {
+        /// A follower is not engaged any more.
+        NotEngaged(station: StationId, why: Disengagement) = 0, "station {station} is {why}";
+        /// Fewer followers are left than the task requires.
+        FollowerMissing = 18;
+        /// The session ended.
+        SessionEnded = 2;
+        /// The place is yielded to this leader.
+        Yielded(station: StationId) = 19, "yielded to {station}";
+        /// The application asked for it.
+        Application = 20;
+    }
 }
 
-/// Why a follower does not hold the corridor.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Disengagement {
-    /// The leader has no lease on it.
-    NoLease,
-    /// It has a command that it has not acknowledged.
-    CommandOutstanding,
-    /// It has no acknowledged command, or has not reported progress on it yet.
-    NotExecuting,
-    /// Its task does not guard a pedestrian.
-    NotGuarding,
-    /// Its task guards from a place, and it has not reported that it is there.
-    NotInPosition,
-    /// It finished its task.
-    Completed,
-    /// Its task failed.
-    Failed(Failure),
-    /// It fell back for lack of contact.
-    SafeIdle,
+words! {
+    /// Why a follower does not hold the corridor.
+    pub enum Disengagement as DisengagementKind #[derive(PartialOrd, Ord)] {
+        /// The leader has no lease on it.
+        NoLease = 21, "out of contact";
+        /// It has a command that it has not acknowledged.
+        CommandOutstanding = 22, "yet to acknowledge a command";
+        /// It has no acknowledged command, or has not reported progress on it yet.
+        NotExecuting = 23, "not executing anything";
+        /// Its task does not guard a pedestrian.
+        NotGuarding = 24, "not guarding anybody";
+        /// Its task guards from a place, and it has not reported that it is there.
+        NotInPosition = 25, "not in position";
+        /// It finished its task.
+        Completed = 26, "done with its task";
+        /// Its task failed.
+        Failed(why: Failure) = 0, "unable to do its task: {why}";
+        /// It fell back for lack of contact.
+        SafeIdle = 29, "idle in safety";
+    }
 }
 
-/// News for the application.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Notice {
-    /// Leader: the followers are confirmed; the session has its roles.
-    RolesEstablished(SessionId),
-    /// Leader: this follower has taken its role.
-    FollowerJoined(StationId),
-    /// Leader: this follower has no part in the session any more.
-    FollowerGone(StationId, GoneReason),
-    /// Leader: this follower's lease stands.
-    LeaseGranted(StationId),
-    /// Leader: this follower's lease has run out.
-    LeaseExpired(StationId),
-    /// Leader: this follower acknowledged this command.
-    CommandAcknowledged(StationId, ManeuverId),
-    /// Leader: this follower rejected this command.
-    CommandRejected(StationId, ManeuverId, Rejection),
-    /// Leader: this follower reports that it executes this command.
-    ManeuverReported(StationId, ManeuverId),
-    /// Leader: this follower reports that it guards from its place.
-    ManeuverInPosition(StationId, ManeuverId),
-    /// Leader: this follower finished this command.
-    ManeuverCompleted(StationId, ManeuverId),
-    /// Leader: this command failed.
-    ManeuverFailed(StationId, ManeuverId, Failure),
-    /// Leader: this follower fell back; it is idle in safety.
-    FollowerSafeIdle(StationId, ManeuverId),
-    /// Requester: the offer of this helper has lapsed.
-    OfferLapsed(StationId),
-    /// Leader: yields the place to this leader. The session ends once the road is clear.
-    Yielded(StationId),
-    /// Requester or leader: the session is over.
-    SessionEnded(SessionId, EndReason),
-    /// Helper: offers to take part in this session.
-    Offering(SessionId),
-    /// Follower: takes part in this session.
-    Joined(SessionId),
-    /// Helper or follower: has no part in this session any more.
-    Released(SessionId, ReleaseReason),
-    /// Follower: contact with the leader is lost.
-    ContactLost(SessionId),
-    /// Follower: contact with the leader is back.
-    ContactRegained(SessionId),
+words! {
+    /// News for the application.
+    pub enum Notice as NoticeKind {
+        /// Leader: the followers are confirmed; the session has its roles.
+        RolesEstablished(session: SessionId) = 1, "roles established in {session}";
+        /// Leader: this follower has taken its role.
+        FollowerJoined(station: StationId) = 2, "{station} joined";
+        /// Leader: this follower has no part in the session any more.
+        FollowerGone(station: StationId, why: GoneReason) = 3, "{station} gone: {why}";
+        /// Leader: this follower's lease stands.
+        LeaseGranted(station: StationId) = 4, "lease on {station} granted";
+        /// Leader: this follower's lease has run out.
+        LeaseExpired(station: StationId) = 5, "lease on {station} expired";
+        /// Leader: this follower acknowledged this command.
+        CommandAcknowledged(station: StationId, id: ManeuverId) = 6, "{station} acknowledged {id}";
+        /// Leader: this follower rejected this command.
+        CommandRejected(station: StationId, id: ManeuverId, why: Rejection) = 7, "{station} rejected {id}: {why}";
+        /// Leader: this follower reports that it executes this command.
+        ManeuverReported(station: StationId, id: ManeuverId) = 8, "{station} executes {id}";
+        /// Leader: this follower reports that it guards from its place.
+        ManeuverInPosition(station: StationId, id: ManeuverId) = 9, "{station} in position for {id}";
+        /// Leader: this follower finished this command.
+        ManeuverCompleted(station: StationId, id: ManeuverId) = 10, "{station} completed {id}";
+        /// Leader: this command failed.
+        ManeuverFailed(station: StationId, id: ManeuverId, why: Failure) = 11, "{station} failed {id}: {why}";
+        /// Leader: this follower fell back; it is idle in safety.
+        FollowerSafeIdle(station: StationId, id: ManeuverId) = 12, "{station} fell back from {id}";
+        /// Requester: the offer of this helper has lapsed.
+        OfferLapsed(station: StationId) = 13, "the offer of {station} has lapsed";
+        /// Leader: yields the place to this leader. The session ends once the road is clear.
+        Yielded(station: StationId) = 14, "place yielded to {station}";
+        /// Requester or leader: the session is over.
+        SessionEnded(session: SessionId, why: EndReason) = 15, "{session} ended: {why}";
+        /// Helper: offers to take part in this session.
+        Offering(session: SessionId) = 16, "offering to {session}";
+        /// Follower: takes part in this session.
+        Joined(session: SessionId) = 17, "joined {session}";
+        /// Helper or follower: has no part in this session any more.
+        Released(session: SessionId, why: ReleaseReason) = 18, "released from {session}: {why}";
+        /// Follower: contact with the leader is lost.
+        ContactLost(session: SessionId) = 19, "contact lost in {session}";
+        /// Follower: contact with the leader is back.
+        ContactRegained(session: SessionId) = 20, "contact regained in {session}";
+    }
 }
 
-/// Why a session ended.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum EndReason {
-    /// The application said that the task is done.
-    TaskCompleted,
-    /// `T_help` ran out before enough helpers were found.
-    NoHelp,
-    /// The request of this station at the same place goes before, or it leads there already.
-    Withdrawn(StationId),
-    /// No follower is left.
-    NoFollowers,
-    /// The application asked to leave.
-    LeaveRequested,
-    /// The leader became unavailable.
-    Unavailable(Unavailability),
-    /// The identity must be unlocked.
-    IdentityLockLimit,
-    /// The request numbers are used up; a new session follows at once.
-    Renewed,
+words! {
+    /// Why a session ended.
+    pub enum EndReason as EndReasonKind #[derive(PartialOrd, Ord)] {
+        /// The application said that the task is done.
+        TaskCompleted = 9;
+        /// `T_help` ran out before enough helpers were found.
+        NoHelp = 10;
+        /// The request of this station at the same place goes before, or it leads there already.
+        Withdrawn(station: StationId) = 11, "withdrawn for {station}";
+        /// No follower is left.
+        NoFollowers = 12;
+        /// The application asked to leave.
+        LeaveRequested = 6;
+        /// The leader became unavailable.
+        Unavailable(why: Unavailability) = 7, "unavailable({why})";
+        /// The identity must be unlocked.
+        IdentityLockLimit = 8;
+        /// The request numbers are used up; a new session follows at once.
+        Renewed = 13;
+    }
 }
 
-/// Why a helper or follower has no part in a session any more.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum ReleaseReason {
-    /// The leader named the session as ended: the crossing is completed.
-    TaskCompleted,
-    /// The leader named the session as ended otherwise.
-    SessionEnded,
-    /// The leader does not list this robot.
-    NotListed,
-    /// `T_offer` ran out.
-    ReservationExpired,
-    /// `T_leave` ran out without contact.
-    ContactLost,
-    /// The application asked to leave.
-    LeaveRequested,
-    /// The robot became unavailable.
-    Unavailable(Unavailability),
-    /// The identity must be unlocked.
-    IdentityLockLimit,
+words! {
+    /// Why a helper or follower has no part in a session any more.
+    pub enum ReleaseReason as ReleaseReasonKind #[derive(PartialOrd, Ord)] {
+        /// The leader named the session as ended: the crossing is completed.
+        TaskCompleted = 9;
+        /// The leader named the session as ended otherwise.
+        SessionEnded = 2;
+        /// The leader does not list this robot.
+        NotListed = 3;
+        /// `T_offer` ran out.
+        ReservationExpired = 4;
+        /// `T_leave` ran out without contact.
+        ContactLost = 5;
+        /// The application asked to leave.
+        LeaveRequested = 6;
+        /// The robot became unavailable.
+        Unavailable(why: Unavailability) = 7, "unavailable({why})";
+        /// The identity must be unlocked.
+        IdentityLockLimit = 8;
+    }
 }
 
-/// Why a leader has dropped a follower.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum GoneReason {
-    /// It named the session as left.
-    Left,
-    /// It did not acknowledge a command, however often it was repeated.
-    NoAcknowledgement,
-    /// It was without a lease for too long.
-    NoContact,
+words! {
+    /// Why a leader has dropped a follower.
+    pub enum GoneReason #[derive(PartialOrd, Ord)] {
+        /// It named the session as left.
+        Left = 14;
+        /// It did not acknowledge a command, however often it was repeated.
+        NoAcknowledgement = 15;
+        /// It was without a lease for too long.
+        NoContact = 16;
+    }
 }
 
-/// Why an input changed nothing.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Ignored {
-    /// The message carries this robot's own station id.
-    OwnStation,
-    /// The message is meant for another station.
-    NotAddressed,
-    /// The message names a session that this robot has no part in.
-    OtherSession,
-    /// The message repeats what is known.
-    NothingNew,
-    /// The session is over, and this robot is naming another one as over or left.
-    AnsweringAnother,
-    /// The heartbeat is not newer than the newest one heard.
-    OldHeartbeat,
-    /// The echo names a heartbeat that was never sent.
-    EchoFromFuture,
-    /// The command is older than the newest one of the session.
-    OldCommand,
-    /// The sender is not a follower in this session.
-    NotAFollower,
-    /// The followers are already confirmed.
-    RolesAlreadyAssigned,
-    /// The answer is not for the outstanding command.
-    NotOutstanding,
-    /// The request or leader does not go before this robot's own.
-    LowerPrecedence,
-    /// The request or leader goes before, but does not count yet: it was not heard before with an older
-    /// heartbeat, or another one was noted less than a period ago.
-    FirstHeard,
-    /// The request or leader is of another place.
-    OtherPlace,
-    /// The leader has yielded already.
-    Yielding,
-    /// The offer is older than the one that stands, or the same RAM takes it back.
-    OldOffer,
-    /// The farewell names an older offer than the one that was confirmed.
-    OtherOffer,
-    /// The list names an offer that this robot never made.
-    NeverOffered,
-    /// The helper's `t_safety` is too short for this robot's lease.
-    TimersDoNotFit,
-    /// The robot has a duty on the road, of which its application has not said that it is over.
-    OnDuty,
-    /// People may be on the road, so no guard is taken off it and no session is renewed.
-    RoadOccupied,
-    /// The identity lock or an execution limit leaves less time than `t_cross`.
-    NotEnoughTime,
-    /// The robot has a part in a session already.
-    InSession,
-    /// The robot leads no session.
-    NotLeading,
-    /// The robot has no part in a session.
-    NotInSession,
-    /// The robot executes no such maneuver.
-    NotExecuting,
-    /// The robot is unavailable.
-    Unavailable(Unavailability),
-    /// The robot can do none of the tasks that are asked for.
-    UnsupportedTask,
-    /// The number of followers is zero or above the limit, or no task is asked for.
-    ImpossibleRequest,
-    /// The follower has not taken its role yet.
-    NotJoined,
-    /// The follower has not acknowledged the command before.
-    CommandOutstanding,
-    /// The corridor is open already.
-    CorridorOpen,
-    /// The corridor is closed already.
-    CorridorClosed,
-    /// The corridor cannot open because this follower is not engaged.
-    NotEngaged(StationId, Disengagement),
-    /// The corridor cannot open because fewer followers are left than the task requires.
-    FollowerMissing,
-    /// The identity is locked.
-    IdentityLocked,
-    /// The identity has been locked for too long; it must be unlocked before the next session.
-    IdentityLockLimit,
-    /// This boot counter's numbers are used up; persist a larger one.
-    NumbersExhausted,
-    /// No such timer is armed.
-    TimerNotArmed,
+words! {
+    /// Why an input changed nothing.
+    pub enum Ignored as IgnoredKind #[derive(PartialOrd, Ord)] {
+        /// The message carries this robot's own station id.
+        OwnStation = 30;
+        /// The message is meant for another station.
+        NotAddressed = 31;
+        /// The message names a session that this robot has no part in.
+        OtherSession = 32;
+        /// The message repeats what is known.
+        NothingNew = 33;
+        /// The session is over, and this robot is naming another one as over or left.
+        AnsweringAnother = 61;
+        /// The heartbeat is not newer than the newest one heard.
+        OldHeartbeat = 34;
+        /// The echo names a heartbeat that was never sent.
+        EchoFromFuture = 35;
+        /// The command is older than the newest one of the session.
+        OldCommand = 36;
+        /// The sender is not a follower in this session.
+        NotAFollower = 37;
+        /// The followers are already confirmed.
+        RolesAlreadyAssigned = 38;
+        /// The answer is not for the outstanding command.
+        NotOutstanding = 39;
+        /// The request or leader does not go before this robot's own.
+        LowerPrecedence = 40;
+        /// The request or leader goes before, but does not count yet: it was not heard before with an older
+        /// heartbeat, or another one was noted less than a period ago.
+        FirstHeard = 41;
+        /// The request or leader is of another place.
+        OtherPlace = 42;
+        /// The leader has yielded already.
+        Yielding = 43;
+        /// The offer is older than the one that stands, or the same RAM takes it back.
+        OldOffer = 44;
+        /// The farewell names an older offer than the one that was confirmed.
+        OtherOffer = 45;
+        /// The list names an offer that this robot never made.
+        NeverOffered = 46;
+        /// The helper's `t_safety` is too short for this robot's lease.
+        TimersDoNotFit = 47;
+        /// The robot has a duty on the road, of which its application has not said that it is over.
+        OnDuty = 48;
+        /// People may be on the road, so no guard is taken off it and no session is renewed.
+        RoadOccupied = 49;
+        /// The identity lock or an execution limit leaves less time than `t_cross`.
+        NotEnoughTime = 50;
+        /// The robot has a part in a session already.
+        InSession = 51;
+        /// The robot leads no session.
+        NotLeading = 52;
+        /// The robot has no part in a session.
+        NotInSession = 53;
+        /// The robot executes no such maneuver.
+        NotExecuting = 23;
+        /// The robot is unavailable.
+        Unavailable(why: Unavailability) = 7, "unavailable, {why}";
+        /// The robot can do none of the tasks that are asked for.
+        UnsupportedTask = 17;
+        /// The number of followers is zero or above the limit, or no task is asked for.
+        ImpossibleRequest = 54;
+        /// The follower has not taken its role yet.
+        NotJoined = 55;
+        /// The follower has not acknowledged the command before.
+        CommandOutstanding = 22;
+        /// The corridor is open already.
+        CorridorOpen = 56;
+        /// The corridor is closed already.
+        CorridorClosed = 57;
+        /// The corridor cannot open because this follower is not engaged.
+        NotEngaged(station: StationId, why: Disengagement) = 0, "station {station} is {why}";
+        /// The corridor cannot open because fewer followers are left than the task requires.
+        FollowerMissing = 18;
+        /// The identity is locked.
+        IdentityLocked = 58;
+        /// The identity has been locked for too long; it must be unlocked before the next session.
+        IdentityLockLimit = 8;
+        /// This boot counter's numbers are used up; persist a larger one.
+        NumbersExhausted = 59;
+        /// No such timer is armed.
+        TimerNotArmed = 60;
+    }
 }
 
 /// The outputs of one step, in the order in which they must be carried out.

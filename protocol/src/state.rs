@@ -27,6 +27,7 @@ use crate::message::{Farewell, Progress, Rejection};
 use crate::output::Maneuver;
 use crate::task::{Availability, HelpRequest, TaskSet, TaskType};
 use crate::time::{Countdown, Millis};
+use crate::words::words;
 
 /// The state of one robot; the transition function is [`Robot::step`].
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -68,35 +69,34 @@ pub enum Phase {
     Following(Following),
 }
 
-/// The state of the paper's finite-state model.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum State {
-    /// Stages 1 and 5: no part in a session.
-    Idle,
-    /// Stage 2: asks for help, or offers it.
-    HelpRequested,
-    /// Stage 3: has a role; nothing is executed.
-    RoleEstablished,
-    /// Stage 4: a maneuver is executed.
-    ManeuverExecuting,
+words! {
+    /// The state of the paper's finite-state model.
+    pub enum State in "PascalCase" #[derive(PartialOrd, Ord)] {
+        /// Stages 1 and 5: no part in a session.
+        Idle = 0;
+        /// Stage 2: asks for help, or offers it.
+        HelpRequested = 1;
+        /// Stage 3: has a role; nothing is executed.
+        RoleEstablished = 2;
+        /// Stage 4: a maneuver is executed.
+        ManeuverExecuting = 3;
+    }
 }
 
-/// A robot's role in a session.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Role {
-    /// No part in a session.
-    None,
-    /// Asks for help.
-    Requester,
-    /// Offers help.
-    Helper,
-    /// Leads.
-    Leader,
-    /// Follows.
-    Follower,
+words! {
+    /// A robot's role in a session.
+    pub enum Role #[derive(PartialOrd, Ord)] {
+        /// No part in a session.
+        None = 0;
+        /// Asks for help.
+        Requester = 1;
+        /// Offers help.
+        Helper = 2;
+        /// Leads.
+        Leader = 3;
+        /// Follows.
+        Follower = 4;
+    }
 }
 
 /// Whether the pseudonym may change.
@@ -238,17 +238,16 @@ pub struct Leading {
     pub yields_to: Option<StationId>,
 }
 
-/// The corridor of a leader.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Corridor {
-    /// Nobody may cross, and nobody is on the road.
-    Clear,
-    /// The pedestrian may cross.
-    Open,
-    /// Nobody may cross any more, and people may still be on the road.
-    Clearing,
+words! {
+    /// The corridor of a leader.
+    pub enum Corridor #[derive(PartialOrd, Ord)] {
+        /// Nobody may cross, and nobody is on the road.
+        Clear = 0;
+        /// The pedestrian may cross.
+        Open = 1;
+        /// Nobody may cross any more, and people may still be on the road.
+        Clearing = 2;
+    }
 }
 
 /// A leader's record of one follower.

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::words::words;
+
 /// The kind of a maneuver, `taskType` of the paper (0..15 on the wire).
 ///
 /// Some kinds have names, [`TaskType::NAMED`]; a robot may give meaning to the others in its
@@ -175,20 +177,24 @@ impl TaskSet {
     }
 }
 
-/// How urgent a request for help is, lowest first.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Urgency {
-    /// Nobody waits at the kerb yet.
-    Low,
-    /// A pedestrian waits.
-    #[default]
-    Medium,
-    /// A pedestrian who needs more help than others waits.
-    High,
-    /// A pedestrian is on the road.
-    Emergency,
+words! {
+    /// How urgent a request for help is, lowest first.
+    pub enum Urgency #[derive(PartialOrd, Ord)] {
+        /// Nobody waits at the kerb yet.
+        Low = 0;
+        /// A pedestrian waits.
+        Medium = 1;
+        /// A pedestrian who needs more help than others waits.
+        High = 2;
+        /// A pedestrian is on the road.
+        Emergency = 3;
+    }
+}
+
+impl Default for Urgency {
+    fn default() -> Self {
+        Self::Medium
+    }
 }
 
 /// What a leader asks for when it has detected a pedestrian.
@@ -245,21 +251,20 @@ pub enum Availability {
     Unavailable(Unavailability),
 }
 
-/// Why a robot takes no part in coordination.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum Unavailability {
-    /// The battery is below the robot's limit.
-    LowBattery,
-    /// A person steers the robot.
-    Teleoperated,
-    /// The emergency stop is engaged.
-    EmergencyStop,
-    /// A fault of the robot.
-    LocalFault,
-    /// The application holds it unsafe to act.
-    NotSafe,
+words! {
+    /// Why a robot takes no part in coordination.
+    pub enum Unavailability #[derive(PartialOrd, Ord)] {
+        /// The battery is below the robot's limit.
+        LowBattery = 1;
+        /// A person steers the robot.
+        Teleoperated = 2;
+        /// The emergency stop is engaged.
+        EmergencyStop = 3;
+        /// A fault of the robot.
+        LocalFault = 4;
+        /// The application holds it unsafe to act.
+        NotSafe = 5;
+    }
 }
 
 impl Unavailability {
@@ -271,20 +276,19 @@ impl Unavailability {
     }
 }
 
-/// What a follower does with a running maneuver at every end but a completed crossing: contact lost,
-/// session aborted, left, or not listed any more.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
-pub enum FallbackPolicy {
-    /// Stop where it stands.
-    StopInPlace,
-    /// Leave the carriageway for the safe position that the application knows.
-    GoToSafePosition,
-    /// Stay at the side of the escorted person to the nearer kerb, then stop.
-    EscortToKerb,
-    /// Hold the position and the traffic until the carriageway is clear, then stop.
-    HoldUntilClear,
+words! {
+    /// What a follower does with a running maneuver at every end but a completed crossing: contact lost,
+    /// session aborted, left, or not listed any more.
+    pub enum FallbackPolicy {
+        /// Stop where it stands.
+        StopInPlace = 0;
+        /// Leave the carriageway for the safe position that the application knows.
+        GoToSafePosition = 1;
+        /// Stay at the side of the escorted person to the nearer kerb, then stop.
+        EscortToKerb = 2;
+        /// Hold the position and the traffic until the carriageway is clear, then stop.
+        HoldUntilClear = 3;
+    }
 }
 
 #[cfg(test)]

@@ -1,200 +1,204 @@
-//! What states, messages, inputs and outputs are called in logs and charts.
+//! What robots, messages, inputs and outputs are called in logs, charts and JSON: the page `words.md`.
 
+use std::collections::BTreeMap;
+use std::fmt::{Display, Write as _};
+
+use crossguard_protocol::words::{REASONS, Said, TABLE, Words};
 use crossguard_protocol::*;
 
-const ARI: StationId = StationId(1);
-const GO2: StationId = StationId(2);
+const HEAD: &str = "\
+# Words
 
-const NUMBER: UniqueNumber = UniqueNumber { boot: 3, count: 4 };
-const SESSION: SessionId = SessionId {
-    leader: ARI,
-    number: SessionNumber(NUMBER),
-};
-const MANEUVER: ManeuverId = ManeuverId {
-    session: SESSION,
-    request: RequestId(7),
-};
+The words of the protocol: what happens to a robot, what it does, and why. `cargo xtask bless words` writes this page
+from the rows of `words!` in `src`; C, C++, Python and ROS 2 have the same words.
 
-fn request() -> HelpRequest {
-    HelpRequest {
-        urgency: Urgency::High,
-        followers: 2,
-        tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]),
-        place: Place(0x0005_0007),
-    }
-}
+A code is what interfaces without names use. Those of reasons are one space of numbers: a code has one name, and a word
+that only carries another reason has code 0. JSON spells a word without content as its name, and any other as an object
+with its name and content: one thing is as it is, several are a list, unless the words name them.
+";
 
-fn ram(coordination: Coordination, farewell: Option<Farewell>) -> Ram {
-    Ram {
-        station: ARI,
-        coordination,
-        farewell,
-        on_duty: false,
-    }
-}
-
-/// Asserts that each value reads so.
-macro_rules! assert_reads {
-    ($($value:expr => $text:literal),* $(,)?) => {
-        $(assert_eq!($value.to_string(), $text);)*
+/// Calls a macro with all enumerations of words.
+macro_rules! for_each_enumeration {
+    ($call:ident) => {
+        $call! {
+            Event Output Notice Ignored Timer State Role Corridor Urgency Ending Progress Unavailability FallbackPolicy
+            StopReason ReleaseReason EndReason GoneReason CorridorClosure Disengagement Failure Rejection Inequality
+        }
     };
 }
 
 #[test]
-fn numbers_and_quantities() {
-    assert_reads!(
-        NUMBER => "3.4",
-        ARI => "1",
-        SESSION => "1#3.4",
-        RequestId(7) => "7",
-        Heartbeat(9) => "9",
-        MANEUVER => "1#3.4/7",
-        Millis(250) => "250 ms",
-        Decimetres(42) => "4.2 m",
-        Decimetres::UNKNOWN => "unknown distance",
-        request() => "2 x initialPos+move, high urgency, at 5:7",
-        HelpRequest { place: Place::UNKNOWN, ..request() } => "2 x initialPos+move, high urgency",
-        Place::UNKNOWN => "an unknown place",
-        Availability::Available => "available",
-        Availability::Unavailable(Unavailability::LowBattery) => "low battery",
-    );
+fn a_code_of_a_reason_has_one_name() {
+    let mut names = BTreeMap::new();
+    for word in REASONS.iter().flat_map(|words| words.words) {
+        let is_reason = |name| REASONS.iter().any(|words| words.name == name);
+        let carries_another = word.fields.iter().any(|field| is_reason(field.of));
+        assert_eq!(word.code == 0, carries_another, "{word:?}");
+        if word.code != 0 {
+            assert_eq!(*names.entry(word.code).or_insert(word.name), word.name);
+        }
+    }
+    let codes = u8::try_from(names.len()).unwrap();
+    assert!(names.into_keys().eq(1..=codes), "no code is left out");
 }
 
+#[cfg(feature = "serde")]
 #[test]
-fn messages() {
-    let [session, number] = [SESSION, SESSION].map(|session| session);
-    let number = number.number;
-    let heartbeat = Heartbeat(9);
-    let followers = [GO2, StationId(3)].map(|station| Confirmation {
-        station,
-        offer: OfferNumber(NUMBER),
-    });
-    let leader = |yields| Coordination::Leader {
-        number,
-        heartbeat,
-        followers: followers.into_iter().collect(),
-        urgency: Urgency::High,
-        place: Place::UNKNOWN,
-        yields,
+fn json_has_the_names_of_the_table() {
+    macro_rules! check {
+        ($($name:ident)+) => {$(for (word, sample) in $name::WORDS.words.iter().zip($name::SAMPLES) {
+            let json = serde_json::to_value(sample).unwrap();
+            let tag = json.as_object().and_then(|it| it.keys().next()).cloned();
+            assert_eq!(tag.as_deref().or(json.as_str()), Some(word.name));
+            assert_eq!(serde_json::to_value(sample.kind()).unwrap(), word.name);
+            assert_eq!(serde_json::from_value::<$name>(json).unwrap(), *sample);
+        })+};
+    }
+    for_each_enumeration!(check);
+}
+
+/// A table of one enumeration, and a text of each of its words.
+fn table(page: &mut String, words: &Words, samples: &[&dyn Display]) {
+    let Words { name, meaning, .. } = words;
+    writeln!(page, "\n## {name}\n\n{meaning}\n").unwrap();
+    writeln!(page, "| code | name | comes with | for example | meaning |").unwrap();
+    writeln!(page, "|--:|---|---|---|---|").unwrap();
+    for (word, sample) in words.words.iter().zip(samples) {
+        let fields = word
+            .fields
+            .iter()
+            .map(|it| format!("{}: `{}`", it.name, it.of));
+        let fields = fields.collect::<Vec<_>>().join(", ");
+        let (code, name, meaning) = (word.code, word.name, word.meaning);
+        writeln!(
+            page,
+            "| {code} | `{name}` | {fields} | {sample} | {meaning} |"
+        )
+        .unwrap();
+    }
+}
+
+/// The outputs as plain records.
+fn records(page: &mut String) {
+    fn or_nothing<T: Display>(value: Option<T>) -> String {
+        value.map_or_else(String::new, |value| value.to_string())
+    }
+    writeln!(page, "\n## Outputs as plain records\n").unwrap();
+    writeln!(page, "| output | kind | notice | reason | unavailability | policy | task | request | station | session | open |").unwrap();
+    writeln!(page, "|---|---|---|---|---|---|---|--:|--:|---|---|").unwrap();
+    let notices = Notice::SAMPLES.iter().map(|it| Output::Notify(*it));
+    let closures = CorridorClosure::SAMPLES.iter();
+    let closures = closures.map(|it| Output::CorridorClosed(*it));
+    let failed = Failure::Unavailable(Unavailability::LowBattery);
+    let failed = CorridorClosure::NotEngaged(StationId(9), Disengagement::Failed(failed));
+    let outputs = Output::SAMPLES
+        .iter()
+        .copied()
+        .chain(notices)
+        .chain(closures);
+    for output in outputs.chain([Output::CorridorClosed(failed)]) {
+        let it = Said::by(&output);
+        let cells = [
+            output.to_string(),
+            it.kind.name().to_owned(),
+            or_nothing(it.notice.map(NoticeKind::name)),
+            or_nothing(it.reason.map(|word| word.name)),
+            or_nothing(it.unavailability.map(Unavailability::name)),
+            or_nothing(it.policy.map(FallbackPolicy::name)),
+            or_nothing(it.task),
+            or_nothing(it.request),
+            or_nothing(it.station),
+            or_nothing(it.session),
+            or_nothing(it.open),
+        ];
+        writeln!(page, "| {} |", cells.join(" | ")).unwrap();
+    }
+}
+
+/// What a robot of the story hears or is told next.
+enum Next {
+    /// The RAM of the other one.
+    Ram,
+    /// The newest RMCM.
+    Rmcm,
+    Tell(Event),
+    Fires(Timer),
+}
+
+/// Two robots, a pedestrian and a follower that loses its leader: every input, output and state as text.
+fn story() -> String {
+    use Next::{Fires, Ram, Rmcm, Tell};
+    let Event::PedestrianDetected(request) = Event::SAMPLES[0] else {
+        panic!("the first event is a pedestrian");
     };
-    let last = Report {
-        request: RequestId(7),
-        progress: Progress::SafeIdle,
+    let request = HelpRequest {
+        followers: 1,
+        ..request
     };
-    let answer = |verdict| {
-        Rmcm::Answer(Answer {
-            from: GO2,
-            session,
-            request: RequestId(7),
-            verdict,
-        })
-    };
-    let (to, request_id, task) = (GO2, RequestId(7), TaskType::MOVE);
-    assert_reads!(
-        last => "request 7 safe idle",
-        ram(Coordination::None, None) => "RAM none",
-        ram(Coordination::None, Some(Farewell::Ended(number, Ending::Completed)))
-            => "RAM none, ended 1#3.4, completed",
-        ram(Coordination::None, Some(Farewell::Ended(number, Ending::Aborted)))
-            => "RAM none, ended 1#3.4, aborted",
-        ram(Coordination::None, Some(Farewell::Left(session, OfferNumber(NUMBER))))
-            => "RAM none, left 1#3.4 by offer 3.4",
-        Ram { on_duty: true, ..ram(Coordination::None, None) } => "RAM none, on duty",
-        ram(Coordination::NeedHelp { number, heartbeat, request: request() }, None)
-            => "RAM needHelp 1#3.4 (2 x initialPos+move, high urgency, at 5:7), heartbeat 9",
-        ram(
-            Coordination::OfferHelp {
-                session,
-                offer: OfferNumber(NUMBER),
-                capabilities: TaskSet::of(&[TaskType::BLOCK]),
-                echo: heartbeat,
-                t_safety: Millis(2_000),
+    let (follower, task) = (StationId(2), TaskType::MOVE);
+    let steps = [
+        (0, Tell(Event::PedestrianDetected(request))),
+        (1, Ram),
+        (0, Ram),
+        (0, Tell(Event::AllAnswered)),
+        (1, Ram),
+        (0, Ram),
+        (0, Tell(Event::CommandManeuver { follower, task })),
+        (1, Rmcm),
+        (0, Rmcm),
+        (0, Ram),
+        (0, Tell(Event::OpenCorridor)),
+        (1, Fires(Timer::Safety)),
+        (0, Ram),
+        (1, Tell(Event::LeaveRequested)),
+        (0, Tell(Event::LeaveRequested)),
+        (1, Ram),
+    ];
+    let mut robots = [1, 2].map(|station| Robot::new(StationId(station), 3));
+    let (mut text, mut rmcm) = (String::new(), Input::Elapsed(Millis(5)));
+    for (who, next) in steps {
+        let input = match next {
+            Ram => Input::Ram {
+                ram: robots[1 - who].ram(),
+                distance: Decimetres(42),
             },
-            None,
-        ) => "RAM offerHelp 1#3.4 (block), echo 9",
-        ram(leader(false), None) => "RAM leader 1#3.4 of 2 3, heartbeat 9",
-        ram(leader(true), None) => "RAM leader 1#3.4 of 2 3, heartbeat 9, yields the place",
-        ram(Coordination::Follower { session, echo: heartbeat, last: None }, None)
-            => "RAM follower 1#3.4, echo 9",
-        ram(Coordination::Follower { session, echo: heartbeat, last: Some(last) }, None)
-            => "RAM follower 1#3.4, echo 9, request 7 safe idle",
-        Rmcm::Command(Command { session, to, request: request_id, task })
-            => "RMCM command 1#3.4/7 move to 2",
-        answer(Verdict::Accepted) => "RMCM ack 1#3.4/7",
-        answer(Verdict::Rejected(Rejection::UnsupportedTask))
-            => "RMCM reject 1#3.4/7: unsupported task",
-    );
+            Rmcm => rmcm,
+            Tell(event) => Input::Local(event),
+            Fires(timer) => Input::Expired(timer),
+        };
+        writeln!(text, "{}: {input}", who + 1).unwrap();
+        for output in robots[who].step(&Config::default(), input).iter() {
+            writeln!(text, "   {output}").unwrap();
+            if let Output::SendRmcm(sent) = output {
+                rmcm = Input::Rmcm(*sent);
+            }
+        }
+        writeln!(text, "   = {}", robots[who]).unwrap();
+    }
+    text
 }
 
 #[test]
-fn inputs() {
-    let (follower, task) = (GO2, TaskType::MOVE);
-    let tells = Input::Local;
-    let distance = Decimetres(42);
-    assert_reads!(
-        tells(Event::PedestrianDetected(request()))
-            => "pedestrian detected (2 x initialPos+move, high urgency, at 5:7)",
-        tells(Event::InPosition(MANEUVER)) => "maneuver 1#3.4/7 in position",
-        tells(Event::RoadClear) => "road clear",
-        tells(Event::AllAnswered) => "all have answered",
-        tells(Event::EpochRenewed(4)) => "boot counter renewed to 4",
-        tells(Event::CommandManeuver { follower, task }) => "command 2 move",
-        tells(Event::ManeuverCompleted(MANEUVER)) => "maneuver 1#3.4/7 completed",
-        tells(Event::ManeuverFailed(MANEUVER)) => "maneuver 1#3.4/7 failed",
-        tells(Event::TaskCompleted) => "task completed",
-        tells(Event::LeaveRequested) => "leave requested",
-        tells(Event::AvailabilityChanged(Availability::Available)) => "now available",
-        tells(Event::OpenCorridor) => "open corridor",
-        tells(Event::CloseCorridor) => "close corridor",
-        tells(Event::IdentityChanged(GO2, None)) => "identity changed to 2",
-        tells(Event::IdentityChanged(GO2, Some(UniqueNumber { boot: 7, count: 0 }))) =>
-            "identity changed to 2, numbers from 7.0",
-        Input::Ram { ram: ram(Coordination::None, None), distance } => "RAM none from 1",
-        Input::Elapsed(Millis(5)) => "5 ms elapsed",
-        Input::Expired(Timer::Selection) => "timer selection expired",
-    );
-}
-
-#[test]
-fn outputs() {
-    let maneuver = Maneuver {
-        id: MANEUVER,
-        task: TaskType::MOVE,
-    };
-    let engaged = CorridorClosure::NotEngaged(GO2, Disengagement::Failed(Failure::ExecutionLimit));
-    assert_reads!(
-        maneuver => "move 1#3.4/7",
-        Output::SendRam => "send RAM",
-        Output::StartManeuver(maneuver) => "start move 1#3.4/7",
-        Output::FallBack(maneuver, FallbackPolicy::GoToSafePosition)
-            => "fall back from move 1#3.4/7: go to safe position",
-        Output::CorridorOpened(Millis(1_900)) => "corridor opened for 1900 ms",
-        Output::CorridorExtended(Millis(1_800)) => "corridor open for another 1800 ms",
-        Output::RenewEpoch => "renew the boot counter",
-        Output::CorridorClosed(engaged)
-            => "corridor closed: station 2 is unable to do its task: execution limit",
-        Output::LockIdentity => "lock identity",
-        Output::UnlockIdentity => "unlock identity",
-        Output::Notify(Notice::Joined(SESSION)) => "joined 1#3.4",
-        Output::Ignored(Ignored::Unavailable(Unavailability::NotSafe))
-            => "ignored: unavailable, not safe",
-        Notice::CommandAcknowledged(GO2, MANEUVER) => "2 acknowledged 1#3.4/7",
-        Notice::ManeuverInPosition(GO2, MANEUVER) => "2 in position for 1#3.4/7",
-        Notice::OfferLapsed(GO2) => "the offer of 2 has lapsed",
-        Notice::Yielded(GO2) => "place yielded to 2",
-        Notice::FollowerSafeIdle(GO2, MANEUVER) => "2 fell back from 1#3.4/7",
-    );
-}
-
-#[test]
-fn a_robot_tells_its_state_and_what_it_says() {
-    let mut robot = Robot::new(ARI, 3);
-    assert_eq!(robot.to_string(), "Idle, none, available; says: RAM none");
-    let detected = Event::PedestrianDetected(request());
-    robot.step(&Config::default(), Input::Local(detected));
-    assert_eq!(
-        robot.to_string(),
-        "HelpRequested, requester, available, session 1#3.0; says: RAM needHelp 1#3.0 \
-         (2 x initialPos+move, high urgency, at 5:7), heartbeat 0"
-    );
+fn the_page_has_all_words_and_their_texts() {
+    let mut page = HEAD.to_owned();
+    let mut tables = 0;
+    macro_rules! write_all {
+        ($($name:ident)+) => {$(
+            let samples: Vec<_> = $name::SAMPLES.iter().map(|it| it as &dyn Display).collect();
+            table(&mut page, &$name::WORDS, &samples);
+            tables += 1;
+        )+};
+    }
+    for_each_enumeration!(write_all);
+    assert_eq!(tables, TABLE.len());
+    records(&mut page);
+    let head = "\n## A story\n\nOutputs are indented; behind `=` is the robot afterwards.\n";
+    write!(page, "{head}\n```text\n{}```\n", story()).unwrap();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/words.md");
+    if std::env::var_os("CROSSGUARD_BLESS").is_some() {
+        std::fs::write(path, page).unwrap();
+    } else {
+        let committed = std::fs::read_to_string(path).unwrap();
+        assert!(committed == page, "words.md; run: cargo xtask bless words");
+    }
 }

@@ -13,5 +13,9 @@ import_exception!(crossguard.errors, UnreadableLog);
 /// Settings break an inequality.
 pub(crate) fn broken(broken: Broken) -> PyErr {
     let Broken(inequality) = broken;
-    BrokenInequality::new_err((broken.to_string(), inequality.name(), inequality.formula()))
+    BrokenInequality::new_err((
+        broken.to_string(),
+        inequality.name(),
+        inequality.to_string(),
+    ))
 }

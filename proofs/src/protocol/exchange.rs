@@ -4,11 +4,13 @@
 //! with both, and any input of a kind that such a history allows.
 
 use crossguard_protocol::laws::Source;
-use crossguard_protocol::laws::arbitrary::{self, Happening, Kind, Part, Stage, TimerKind};
+use crossguard_protocol::laws::arbitrary::{self, AnyWord, Kind, Part};
 use crossguard_protocol::laws::exchange::steps::Laws;
 use crossguard_protocol::laws::exchange::{Exchange, History, messages, robots, steps};
 use crossguard_protocol::laws::timers;
-use crossguard_protocol::{Config, Input, Millis, Phase, Robot, StationId};
+use crossguard_protocol::{
+    Config, EventKind, Input, Millis, Phase, Robot, Role, StationId, Timer, TimerKind,
+};
 
 use super::stage::{self, any_valid};
 use super::timers::any_within_a_step;
@@ -32,12 +34,12 @@ struct Kept {
     after: Robot,
 }
 
-fn any_watched(part: Part, stage: Stage) -> Watched {
+fn any_watched(part: Part, stage: Role) -> Watched {
     let config = stage::config();
     let peers = match stage {
-        Stage::Requesting => (0, 2),
-        Stage::Leading => (1, 2),
-        Stage::Idle | Stage::Offering | Stage::Following => (0, 0),
+        Role::Requester => (0, 2),
+        Role::Leader => (1, 2),
+        Role::None | Role::Helper | Role::Follower => (0, 0),
     };
     let robot = any_valid(&config, stage, peers);
     of(part, config, robot)
@@ -58,7 +60,7 @@ fn of(part: Part, config: Config, robot: Robot) -> Watched {
     }
 }
 
-fn any_step(part: Part, stage: Stage, kind: Kind, laws: Laws) -> Kept {
+fn any_step(part: Part, stage: Role, kind: Kind, laws: Laws) -> Kept {
     let Watched {
         config,
         exchange,
@@ -81,9 +83,9 @@ fn any_step(part: Part, stage: Stage, kind: Kind, laws: Laws) -> Kept {
 }
 
 /// A due timer, in any state that can occur within a step.
-fn any_firing(part: Part, stage: Stage, countdown: TimerKind, laws: Laws) -> Kept {
+fn any_firing(part: Part, stage: Role, countdown: TimerKind, laws: Laws) -> Kept {
     let config = stage::config();
-    let timer = countdown.timer(&mut Symbolic);
+    let timer = Timer::any_of(countdown, &mut Symbolic);
     let robot = timers::with_due(any_within_a_step(&config, stage), timer);
     kani::assume(timers::is_due(&robot, timer) && timers::is_consistent(&robot, &config));
     let Watched {
@@ -124,8 +126,8 @@ macro_rules! steps {
             fn $name() {
                 let laws = stage::laws_of!(Laws::All $(, Laws::$laws)?);
                 let $kept = &match $kind {
-                    Kind::Fires(timer) => any_firing(Part::$part, Stage::$stage, timer, laws),
-                    kind => any_step(Part::$part, Stage::$stage, kind, laws),
+                    Kind::Fires(timer) => any_firing(Part::$part, Role::$stage, timer, laws),
+                    kind => any_step(Part::$part, Role::$stage, kind, laws),
                 };
                 $(
                     let came: bool = $came;

@@ -1,13 +1,12 @@
 //! Stages 3 and 4: a follower.
 
-use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, all_but_validity, keeps_the_state_valid};
-use crossguard_protocol::laws::watch::Sort;
+use crossguard_protocol::{EventKind, OutputKind, Role};
 
 use super::stage::{From, becomes, steps};
 
-const FROM: From = From::stage(Stage::Following);
+const FROM: From = From::stage(Role::Follower);
 
 steps! { FROM, all;
     /// A RAM of a leader: the state stays valid.
@@ -19,47 +18,47 @@ steps! { FROM, all;
     /// A RAM of a leader: all other laws.
     hears_a_leader(Kind::RamLeader, all_but_validity) |step| {
         "is not listed any more": becomes(step, Role::None),
-        "falls back": step.said.has(Sort::FallBack),
+        "falls back": step.said.has(OutputKind::FallBack),
         "hears a newer heartbeat": !step.is_ignored() && step.said.is_empty(),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a robot without a part in a session.
     hears_a_farewell(Kind::RamNone) |step| {
-        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
-        "falls back as the session is aborted": step.said.has(Sort::FallBack),
+        "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
+        "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM that asks for help.
     hears_a_request(Kind::RamNeedHelp) |step| {
-        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
-        "falls back as the session is aborted": step.said.has(Sort::FallBack),
+        "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
+        "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM that offers help.
     hears_an_offer(Kind::RamOfferHelp) |step| {
-        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
-        "falls back as the session is aborted": step.said.has(Sort::FallBack),
-        "names a session as over": step.said.has(Sort::SendRam),
+        "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
+        "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
-        "stops as the crossing is completed": step.said.has(Sort::StopManeuver),
-        "falls back as the session is aborted": step.said.has(Sort::FallBack),
-        "names a session as over": step.said.has(Sort::SendRam),
+        "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
+        "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A command.
     hears_a_command(Kind::Command) |step| {
-        "supersedes": step.said.has(Sort::StartManeuver) && step.said.has(Sort::StopManeuver),
-        "accepts": step.said.has(Sort::StartManeuver),
-        "answers again": step.said.has(Sort::Answer) && step.before == step.after,
-        "rejects": step.said.has(Sort::Answer) && !step.said.has(Sort::StartManeuver) && step.before != step.after,
+        "supersedes": step.said.has(OutputKind::StartManeuver) && step.said.has(OutputKind::StopManeuver),
+        "accepts": step.said.has(OutputKind::StartManeuver),
+        "answers again": step.said.answered.is_some() && step.before == step.after,
+        "rejects": step.said.answered.is_some() && !step.said.has(OutputKind::StartManeuver) && step.before != step.after,
         "ignored": step.is_ignored(),
     }
 
@@ -69,87 +68,87 @@ steps! { FROM, all;
     }
 
     /// A pedestrian.
-    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+    detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application commands a maneuver.
-    commands(Kind::Local(Happening::CommandManeuver)) |step| {
+    commands(Kind::Local(EventKind::CommandManeuver)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| {
+    opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| {
+    closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has completed a maneuver.
-    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| {
+    completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted)) |step| {
         "reports": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 
     /// The body has failed at a maneuver.
-    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| {
+    fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed)) |step| {
         "reports": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 
     /// The task is completed.
-    completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| {
+    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The robot is to leave.
-    leaves(Kind::Local(Happening::LeaveRequested)) |step| {
+    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
         "leaves": becomes(step, Role::None),
-        "falls back": step.said.has(Sort::FallBack),
+        "falls back": step.said.has(OutputKind::FallBack),
     }
 
     /// The robot becomes available or unavailable.
-    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+    changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "leaves": becomes(step, Role::None),
-        "stops and stays": step.said.has(Sort::StopManeuver) && becomes(step, Role::Follower),
-        "falls back and stays": step.said.has(Sort::FallBack) && becomes(step, Role::Follower),
+        "stops and stays": step.said.has(OutputKind::StopManeuver) && becomes(step, Role::Follower),
+        "falls back and stays": step.said.has(OutputKind::FallBack) && becomes(step, Role::Follower),
         "ignored": step.is_ignored(),
     }
 
     /// The robot has another pseudonym.
-    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+    changes_its_identity(Kind::Local(EventKind::IdentityChanged)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The expiry of any timer.
     fires_a_timer(Kind::Expired) |step| {
-        "falls back": step.said.has(Sort::FallBack),
+        "falls back": step.said.has(OutputKind::FallBack),
         "leaves": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
 
     /// The body holds its place.
-    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+    reaches_its_position(Kind::Local(EventKind::InPosition)) |step| {
         "reports": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 
     /// The road is clear.
-    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+    clears_the_road(Kind::Local(EventKind::RoadClear)) |step| {
         "ends a duty": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 
     /// All robots nearby have answered.
-    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+    hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// A larger boot counter has been persisted.
-    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+    renews_its_epoch(Kind::Local(EventKind::EpochRenewed)) |step| {
         "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }

@@ -1,13 +1,12 @@
 //! Stage 1: a robot without a part in a session.
 
-use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::all;
-use crossguard_protocol::laws::watch::Sort;
+use crossguard_protocol::{EventKind, OutputKind, Role};
 
 use super::stage::{From, becomes, steps};
 
-const FROM: From = From::stage(Stage::Idle);
+const FROM: From = From::stage(Role::None);
 
 steps! { FROM, all;
     /// A RAM that asks for help.
@@ -23,19 +22,19 @@ steps! { FROM, all;
 
     /// A RAM that offers help.
     hears_an_offer(Kind::RamOfferHelp) |step| {
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
@@ -50,83 +49,83 @@ steps! { FROM, all;
     }
 
     /// A pedestrian.
-    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+    detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected)) |step| {
         "requests": becomes(step, Role::Requester),
         "ignored": step.is_ignored(),
     }
 
     /// The application commands a maneuver.
-    commands(Kind::Local(Happening::CommandManeuver)) |step| {
+    commands(Kind::Local(EventKind::CommandManeuver)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| {
+    opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| {
+    closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has completed a maneuver.
-    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| {
+    completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has failed at a maneuver.
-    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| {
+    fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The task is completed.
-    completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| {
+    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The robot is to leave.
-    leaves(Kind::Local(Happening::LeaveRequested)) |step| {
+    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The robot becomes available or unavailable.
-    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+    changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "changes": step.before != step.after,
         "ignored": step.is_ignored(),
     }
 
     /// The robot has another pseudonym.
-    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+    changes_its_identity(Kind::Local(EventKind::IdentityChanged)) |step| {
         "changes": step.before.station() != step.after.station(),
         "ignored": step.is_ignored(),
     }
 
     /// The expiry of any timer.
     fires_a_timer(Kind::Expired) |step| {
-        "unlocks": step.said.has(Sort::UnlockIdentity),
-        "repeats its farewell": step.said.has(Sort::SendRam),
+        "unlocks": step.said.has(OutputKind::UnlockIdentity),
+        "repeats its farewell": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// The body holds its place.
-    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+    reaches_its_position(Kind::Local(EventKind::InPosition)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The road is clear.
-    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+    clears_the_road(Kind::Local(EventKind::RoadClear)) |step| {
         "ends a duty": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 
     /// All robots nearby have answered.
-    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+    hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// A larger boot counter has been persisted.
-    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+    renews_its_epoch(Kind::Local(EventKind::EpochRenewed)) |step| {
         "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }

@@ -1,7 +1,8 @@
 //! Stages 3 and 4: a leader, with one or two followers. The laws of its steps are proved in four parts, each of
 //! which takes less than its share of all.
 
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::Kind;
+use crossguard_protocol::{EventKind, Role};
 
 use super::stage::From;
 
@@ -12,19 +13,19 @@ const FOLLOWERS: usize = 2;
 pub(super) const FROM: From = From {
     peers: (1, FOLLOWERS),
     farewells: false,
-    ..From::stage(Stage::Leading)
+    ..From::stage(Role::Leader)
 };
 
 /// Inputs that a leader always ignores. [`ignored`](super::ignored) proves the other laws of such a step.
 pub(super) const IGNORED: [Kind; 8] = [
     Kind::RamNeedHelp,
     Kind::Command,
-    Kind::Local(Happening::PedestrianDetected),
-    Kind::Local(Happening::ManeuverCompleted),
-    Kind::Local(Happening::ManeuverFailed),
-    Kind::Local(Happening::IdentityChanged),
-    Kind::Local(Happening::InPosition),
-    Kind::Local(Happening::AllAnswered),
+    Kind::Local(EventKind::PedestrianDetected),
+    Kind::Local(EventKind::ManeuverCompleted),
+    Kind::Local(EventKind::ManeuverFailed),
+    Kind::Local(EventKind::IdentityChanged),
+    Kind::Local(EventKind::InPosition),
+    Kind::Local(EventKind::AllAnswered),
 ];
 
 /// Declares one harness of these laws for each message and event that a leader can act on, and for the timers that
@@ -48,28 +49,28 @@ macro_rules! of_each_input {
             hears_an_answer(Kind::Answer) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The application commands a maneuver.
-            commands(Kind::Local(Happening::CommandManeuver)) |step| { "a step": step.before.role() == Role::Leader }
+            commands(Kind::Local(EventKind::CommandManeuver)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The application opens the corridor.
-            opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| { "a step": step.before.role() == Role::Leader }
+            opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The application closes the corridor.
-            closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| { "a step": step.before.role() == Role::Leader }
+            closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The task is completed.
-            completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| { "a step": step.before.role() == Role::Leader }
+            completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The robot is to leave.
-            leaves(Kind::Local(Happening::LeaveRequested)) |step| { "a step": step.before.role() == Role::Leader }
+            leaves(Kind::Local(EventKind::LeaveRequested)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The robot becomes available or unavailable.
-            changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| { "a step": step.before.role() == Role::Leader }
+            changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// The road is clear.
-            clears_the_road(Kind::Local(Happening::RoadClear)) |step| { "a step": step.before.role() == Role::Leader }
+            clears_the_road(Kind::Local(EventKind::RoadClear)) |step| { "a step": step.before.role() == Role::Leader }
 
             /// A larger boot counter has been persisted.
-            renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| { "a step": step.before.role() == Role::Leader }
+            renews_its_epoch(Kind::Local(EventKind::EpochRenewed)) |step| { "a step": step.before.role() == Role::Leader }
 
             $($($timers)+)?
         }

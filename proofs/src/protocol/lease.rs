@@ -1,8 +1,7 @@
 //! The arithmetic of leases.
 
-use crossguard_protocol::laws::arbitrary::Stage;
 use crossguard_protocol::laws::lease::{self as laws, Clocks};
-use crossguard_protocol::{Config, Heartbeat, Millis, Settings};
+use crossguard_protocol::{Config, Heartbeat, Millis, Role, Settings};
 
 use super::stage::any_valid;
 use crate::harness::harnesses;
@@ -59,7 +58,7 @@ harnesses! {
     #[solver(cadical)]
     fn heartbeats_age_as_time_passes() {
         let config = Config::default();
-        let robot = any_valid(&config, Stage::Leading, (1, 1));
+        let robot = any_valid(&config, Role::Leader, (1, 1));
         let (heartbeat, elapsed) = (Heartbeat(kani::any()), Millis(any_time() & PASSAGE));
         laws::heartbeats_age_as_time_passes(&config, &robot, heartbeat, elapsed);
         kani::cover!(robot.next_ram().is_some_and(|left| left < elapsed), "late");
@@ -72,7 +71,7 @@ harnesses! {
     #[solver(cadical)]
     fn time_leaves_leases_covered() {
         let config = Config::default();
-        let robot = any_valid(&config, Stage::Leading, (1, 1));
+        let robot = any_valid(&config, Role::Leader, (1, 1));
         let elapsed = Millis(any_time() & PASSAGE);
         let stand = laws::time_leaves_leases_covered(&config, &robot, elapsed);
         kani::cover!(stand, "a lease stands before and after");

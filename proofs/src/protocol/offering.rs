@@ -1,13 +1,12 @@
 //! Stage 2: a robot that offers help.
 
-use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::all;
-use crossguard_protocol::laws::watch::Sort;
+use crossguard_protocol::{EventKind, OutputKind, Role};
 
 use super::stage::{From, becomes, steps};
 
-const FROM: From = From::stage(Stage::Offering);
+const FROM: From = From::stage(Role::Helper);
 
 steps! { FROM, all;
     /// A RAM of a leader.
@@ -33,14 +32,14 @@ steps! { FROM, all;
     /// A RAM that offers help.
     hears_an_offer(Kind::RamOfferHelp) |step| {
         "the session ended": becomes(step, Role::None),
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
         "the session ended": becomes(step, Role::None),
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
@@ -55,53 +54,53 @@ steps! { FROM, all;
     }
 
     /// A pedestrian.
-    detects_a_pedestrian(Kind::Local(Happening::PedestrianDetected)) |step| {
+    detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application commands a maneuver.
-    commands(Kind::Local(Happening::CommandManeuver)) |step| {
+    commands(Kind::Local(EventKind::CommandManeuver)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| {
+    opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| {
+    closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has completed a maneuver.
-    completes_a_maneuver(Kind::Local(Happening::ManeuverCompleted)) |step| {
+    completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The body has failed at a maneuver.
-    fails_a_maneuver(Kind::Local(Happening::ManeuverFailed)) |step| {
+    fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The task is completed.
-    completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| {
+    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The robot is to leave.
-    leaves(Kind::Local(Happening::LeaveRequested)) |step| {
+    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
         "leaves": becomes(step, Role::None),
     }
 
     /// The robot becomes available or unavailable.
-    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+    changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "withdraws": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
 
     /// The robot has another pseudonym.
-    changes_its_identity(Kind::Local(Happening::IdentityChanged)) |step| {
+    changes_its_identity(Kind::Local(EventKind::IdentityChanged)) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -112,22 +111,22 @@ steps! { FROM, all;
     }
 
     /// The body holds its place.
-    reaches_its_position(Kind::Local(Happening::InPosition)) |step| {
+    reaches_its_position(Kind::Local(EventKind::InPosition)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// The road is clear.
-    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+    clears_the_road(Kind::Local(EventKind::RoadClear)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// All robots nearby have answered.
-    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+    hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered)) |step| {
         "ignored": step.is_ignored(),
     }
 
     /// A larger boot counter has been persisted.
-    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+    renews_its_epoch(Kind::Local(EventKind::EpochRenewed)) |step| {
         "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }

@@ -1,9 +1,8 @@
 //! Stage 2: a robot that asks for help, with at most two offers.
 
-use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, Stage, TimerKind};
+use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, ignores};
-use crossguard_protocol::laws::watch::Sort;
+use crossguard_protocol::{EndReason, EventKind, NoticeKind, OutputKind, Role, TimerKind};
 
 use super::stage::{From, becomes, steps};
 
@@ -13,22 +12,22 @@ const OFFERS: usize = 2;
 
 pub(super) const FROM: From = From {
     peers: (0, OFFERS),
-    ..From::stage(Stage::Requesting)
+    ..From::stage(Role::Requester)
 };
 
 /// Inputs that a requester always ignores. [`ignored`](super::ignored) proves the other laws of such a step.
 pub(super) const IGNORED: [Kind; 11] = [
     Kind::Command,
     Kind::Answer,
-    Kind::Local(Happening::PedestrianDetected),
-    Kind::Local(Happening::CommandManeuver),
-    Kind::Local(Happening::OpenCorridor),
-    Kind::Local(Happening::CloseCorridor),
-    Kind::Local(Happening::ManeuverCompleted),
-    Kind::Local(Happening::ManeuverFailed),
-    Kind::Local(Happening::IdentityChanged),
-    Kind::Local(Happening::InPosition),
-    Kind::Local(Happening::RoadClear),
+    Kind::Local(EventKind::PedestrianDetected),
+    Kind::Local(EventKind::CommandManeuver),
+    Kind::Local(EventKind::OpenCorridor),
+    Kind::Local(EventKind::CloseCorridor),
+    Kind::Local(EventKind::ManeuverCompleted),
+    Kind::Local(EventKind::ManeuverFailed),
+    Kind::Local(EventKind::IdentityChanged),
+    Kind::Local(EventKind::InPosition),
+    Kind::Local(EventKind::RoadClear),
 ];
 
 steps! { FROM, all;
@@ -49,21 +48,21 @@ steps! { FROM, all;
     /// A RAM that offers help.
     hears_an_offer(Kind::RamOfferHelp) |step| {
         "takes it": !step.is_ignored() && step.said.is_empty(),
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
-        "withdraws": step.said.has(Sort::Withdrawn),
+        "withdraws": matches!(step.said.ended, Some(EndReason::Withdrawn(_))),
         "notes a rival": !step.is_ignored() && step.said.is_empty(),
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
@@ -108,17 +107,17 @@ steps! { FROM, all;
     }
 
     /// The task is completed.
-    completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| {
+    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
     /// The robot is to leave.
-    leaves(Kind::Local(Happening::LeaveRequested)) |step| {
+    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
     /// The robot becomes available or unavailable.
-    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+    changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "ends its session": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
@@ -146,7 +145,7 @@ steps! { FROM, all;
 
     /// The next RAM.
     repeats_itself(Kind::Fires(TimerKind::Ram)) |step| {
-        "sends": step.said.has(Sort::SendRam),
+        "sends": step.said.has(OutputKind::SendRam),
     }
 
     /// The end of a farewell.
@@ -166,20 +165,20 @@ steps! { FROM, all;
     }
 
     /// All robots nearby have answered.
-    hears_that_all_have_answered(Kind::Local(Happening::AllAnswered)) |step| {
+    hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered)) |step| {
         "establishes the roles": becomes(step, Role::Leader),
         "ignored": step.is_ignored(),
     }
 
     /// A larger boot counter has been persisted.
-    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+    renews_its_epoch(Kind::Local(EventKind::EpochRenewed)) |step| {
         "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 
     /// The end of an offer.
     forgets_an_offer(Kind::Fires(TimerKind::Offer)) |step| {
-        "it lapses": step.said.has(Sort::OfferLapsed),
+        "it lapses": step.said.tells(NoticeKind::OfferLapsed),
         "ignored": step.is_ignored(),
     }
 }

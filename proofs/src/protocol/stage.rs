@@ -1,7 +1,7 @@
 //! What the harnesses of all stages have in common: one step from any valid state.
 
 use crossguard_protocol::laws::Source;
-use crossguard_protocol::laws::arbitrary::{self, Kind, Stage};
+use crossguard_protocol::laws::arbitrary::{self, Kind};
 use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::{Config, Robot, Role};
 
@@ -24,7 +24,7 @@ pub(super) fn config() -> Config {
 }
 
 /// Any valid state in `stage`, with this many offers or followers.
-pub(super) fn any_valid(config: &Config, stage: Stage, peers: (usize, usize)) -> Robot {
+pub(super) fn any_valid(config: &Config, stage: Role, peers: (usize, usize)) -> Robot {
     let robot = arbitrary::valid_robot(&mut Symbolic, config, stage, peers);
     kani::assume(robot.is_valid(config));
     robot
@@ -34,7 +34,7 @@ pub(super) fn any_valid(config: &Config, stage: Stage, peers: (usize, usize)) ->
 #[derive(Clone, Copy)]
 pub(super) struct From {
     /// The stage.
-    pub(super) stage: Stage,
+    pub(super) stage: Role,
     /// How many offers or followers there are, at least and at most.
     pub(super) peers: (usize, usize),
     /// Whether a RAM that tells a part in a session may name another one as over. One that tells none
@@ -44,7 +44,7 @@ pub(super) struct From {
 
 impl From {
     /// From any valid state of the stage, without peers.
-    pub(super) const fn stage(stage: Stage) -> Self {
+    pub(super) const fn stage(stage: Role) -> Self {
         Self {
             stage,
             peers: (0, 0),

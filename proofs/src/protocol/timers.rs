@@ -4,8 +4,8 @@
 //! Each harness starts from any state that can occur within a step: consistent, with any timers due,
 //! and at most two offers or one or two followers.
 
-use crossguard_protocol::laws::arbitrary::{self, Stage};
-use crossguard_protocol::{Config, Robot};
+use crossguard_protocol::laws::arbitrary;
+use crossguard_protocol::{Config, Robot, Role};
 
 use crate::Symbolic;
 
@@ -15,15 +15,15 @@ pub mod settling;
 
 /// How many offers or followers there are, at least and at most: one that a timer is about, and
 /// another.
-const fn peers(stage: Stage) -> (usize, usize) {
+const fn peers(stage: Role) -> (usize, usize) {
     match stage {
-        Stage::Requesting => (0, 2),
-        Stage::Leading => (1, 2),
+        Role::Requester => (0, 2),
+        Role::Leader => (1, 2),
         _ => (0, 0),
     }
 }
 
 /// A state that can occur within a step.
-pub(super) fn any_within_a_step(config: &Config, stage: Stage) -> Robot {
+pub(super) fn any_within_a_step(config: &Config, stage: Role) -> Robot {
     arbitrary::robot(&mut Symbolic, config, stage, peers(stage))
 }

@@ -15,15 +15,17 @@ use crate::id::{
     UniqueNumber,
 };
 use crate::list::List;
+use crate::message::Rmcm;
+use crate::output::Maneuver;
 use crate::task::{
     Availability, FallbackPolicy, HelpRequest, Place, TaskSet, TaskType, Unavailability, Urgency,
 };
 use crate::time::Millis;
 
 pub use exchange::{Part, exchange, history};
-pub use input::{Happening, Kind, TimerKind, event, input, timer};
+pub use input::{Kind, event, input};
 pub use message::{answer, command, ram};
-pub use state::{Peers, Stage, robot, valid_robot};
+pub use state::{Peers, robot, valid_robot};
 
 /// The station id that hints give the robot.
 pub const ME: u32 = 1;
@@ -39,6 +41,70 @@ const EARLIER: u16 = HEARTBEAT - 1;
 const PLACE: u32 = 7;
 /// The request number that hints give.
 const REQUEST: u8 = 1;
+
+/// A type of which there is any value.
+pub trait Any: Sized {
+    /// Any value.
+    fn any(source: &mut impl Source) -> Self;
+}
+
+/// An enumeration of [words](crate::words): any word, with anything that comes with it.
+pub trait AnyWord: Sized {
+    /// Its words alone.
+    type Kind;
+    /// How many there are.
+    const COUNT: usize;
+
+    /// Any value of this word.
+    fn any_of(kind: Self::Kind, source: &mut impl Source) -> Self;
+
+    /// Any value of the word of this index. It compares rather than indexes: to a proof, an index that is not
+    /// known is all of the table.
+    fn nth(index: u32, source: &mut impl Source) -> Self;
+
+    /// Any value; of the word of the index `hint` where that is more interesting.
+    fn any_like(source: &mut impl Source, hint: u32) -> Self {
+        let last = u32::try_from(Self::COUNT - 1).unwrap_or(0);
+        let index = source.number(last, hint);
+        Self::nth(index, source)
+    }
+}
+
+impl<T: AnyWord> Any for T {
+    fn any(source: &mut impl Source) -> Self {
+        Self::any_like(source, u32::MAX)
+    }
+}
+
+/// Says what any value is of what comes with words; hints are those for a message or event.
+macro_rules! any {
+    ($($type:ty = |$source:ident| $any:expr;)+) => {$(
+        impl Any for $type {
+            fn any($source: &mut impl Source) -> Self {
+                $any
+            }
+        }
+    )+};
+}
+
+any! {
+    // A boot counter.
+    u16 = |source| source.u16(BOOT + 1);
+    StationId = |source| station(source, PEER);
+    SessionId = |source| session(source, PEER);
+    ManeuverId = |source| maneuver_id(source);
+    Option<UniqueNumber> = |source| option(source, number);
+    TaskType = |source| task(source);
+    HelpRequest = |source| help_request(source);
+    Availability = |source| availability(source);
+    Millis = |source| Self(source.number(u32::MAX, 100));
+    Maneuver = |source| Self { id: maneuver_id(source), task: task(source) };
+    Rmcm = |source| if source.flag() {
+        Self::Command(command(source))
+    } else {
+        Self::Answer(answer(source))
+    };
+}
 
 /// A configuration in which every timer is within its range, so are the repeats and the drift, and a
 /// farewell fits under the identity lock. The other inequalities may be broken: a law that holds here holds for every [`Config`].
@@ -67,7 +133,7 @@ pub fn config(source: &mut impl Source) -> Option<Config> {
         capabilities: task_set(source),
         guarding: task_set(source),
         holding: task_set(source),
-        fallback: of_each_task(|_| fallback_policy(source)),
+        fallback: of_each_task(|_| FallbackPolicy::any(source)),
         first_request: RequestId(source.u8(REQUEST)),
         first_heartbeat: Heartbeat(source.u16(0)),
     };
@@ -212,19 +278,10 @@ fn task_set(source: &mut impl Source) -> TaskSet {
 
 fn help_request(source: &mut impl Source) -> HelpRequest {
     HelpRequest {
-        urgency: urgency(source),
+        urgency: Urgency::any(source),
         followers: source.u8(3),
         tasks: task_set(source),
         place: place(source),
-    }
-}
-
-fn urgency(source: &mut impl Source) -> Urgency {
-    match choice(source, 4) {
-        0 => Urgency::Low,
-        1 => Urgency::Medium,
-        2 => Urgency::High,
-        _ => Urgency::Emergency,
     }
 }
 
@@ -232,29 +289,10 @@ fn place(source: &mut impl Source) -> Place {
     Place(source.number(u32::MAX, PLACE))
 }
 
-fn unavailability(source: &mut impl Source) -> Unavailability {
-    match choice(source, 5) {
-        0 => Unavailability::LowBattery,
-        1 => Unavailability::Teleoperated,
-        2 => Unavailability::EmergencyStop,
-        3 => Unavailability::LocalFault,
-        _ => Unavailability::NotSafe,
-    }
-}
-
 /// Any availability.
 pub fn availability(source: &mut impl Source) -> Availability {
     match source.number(1, 0) {
         0 => Availability::Available,
-        _ => Availability::Unavailable(unavailability(source)),
-    }
-}
-
-fn fallback_policy(source: &mut impl Source) -> FallbackPolicy {
-    match choice(source, 4) {
-        0 => FallbackPolicy::StopInPlace,
-        1 => FallbackPolicy::GoToSafePosition,
-        2 => FallbackPolicy::EscortToKerb,
-        _ => FallbackPolicy::HoldUntilClear,
+        _ => Availability::Unavailable(Unavailability::any(source)),
     }
 }

@@ -4,14 +4,13 @@ use crate::config::Config;
 use crate::id::RequestId;
 use crate::input::{Event, Input};
 use crate::message::{Failure, Progress, Rejection, Rmcm, Verdict};
-use crate::output::EndReason;
+use crate::output::{EndReason, OutputKind};
 use crate::state::{Corridor, Leading, Member, Robot};
 use crate::task::{Availability, TaskType};
 
 use super::arithmetic::request_is_newer;
 use super::part::{executing, following, leading, requesting};
 use super::taken::Taken;
-use super::watch::Sort;
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {
@@ -65,7 +64,7 @@ pub fn commands_are_given_where_they_may_be(config: &Config, step: &Taken) {
         assert!(step.is_ignored() == is_out_of_numbers);
         assert!((step.said.ended == Some(EndReason::Renewed)) != is_out_of_numbers);
     } else {
-        assert!(step.said.has(Sort::Command));
+        assert!(step.said.commanded);
         let after = leading(&step.after).and_then(|after| after.member(follower));
         assert!(after.is_some_and(|after| {
             after.outstanding.is_some_and(|outstanding| {
@@ -157,7 +156,7 @@ pub fn each_command_is_answered(config: &Config, step: &Taken) {
         assert!(after.is_some_and(|after| after.job == before.job));
     } else {
         assert!(answered == Some((command.request, Verdict::Accepted)));
-        assert!(step.said.has(Sort::StartManeuver));
+        assert!(step.said.has(OutputKind::StartManeuver));
         assert!(after.is_some_and(|after| {
             after.refused.is_none()
                 && after.job.is_some_and(|job| {

@@ -12,11 +12,11 @@
 //! | a leader | command the robots that joined it, as long as its heartbeats come | command any other robot; end a duty on the road |
 
 use crate::id::StationId;
+use crate::output::OutputKind;
 use crate::state::{Corridor, Leading, Phase};
 
 use super::part::{following, leading, requesting};
 use super::taken::Taken;
-use super::watch::Sort;
 
 /// All laws of this module.
 pub fn all(step: &Taken) {
@@ -36,15 +36,15 @@ pub fn a_stranger_does_not_move_a_follower(step: &Taken, liar: StationId) {
     let follows_another = following(&step.before).is_some_and(|it| it.session.leader != liar);
     if follows_another {
         assert!(step.after.phase() == step.before.phase());
-        assert!(!step.said.has(Sort::StartManeuver));
-        assert!(!step.said.has(Sort::StopManeuver));
-        assert!(!step.said.has(Sort::FallBack));
+        assert!(!step.said.has(OutputKind::StartManeuver));
+        assert!(!step.said.has(OutputKind::StopManeuver));
+        assert!(!step.said.has(OutputKind::FallBack));
     }
 }
 
 /// I3: what starts a maneuver is said by the leader that the robot follows.
 pub fn a_maneuver_is_started_by_its_leader(step: &Taken, liar: StationId) {
-    if step.said.has(Sort::StartManeuver) {
+    if step.said.has(OutputKind::StartManeuver) {
         assert!(following(&step.before).is_some_and(|it| it.session.leader == liar));
     }
 }
@@ -60,7 +60,7 @@ pub fn a_role_comes_from_the_leader_that_has_the_offer(step: &Taken, liar: Stati
 
 /// I11: only the leader's own application opens a corridor.
 pub fn no_message_opens_a_corridor(step: &Taken) {
-    assert!(!step.said.has(Sort::CorridorOpened));
+    assert!(!step.said.has(OutputKind::CorridorOpened));
 }
 
 fn is_member(leading: &Leading, station: StationId) -> bool {
@@ -88,7 +88,7 @@ pub fn a_follower_speaks_for_itself_alone(step: &Taken, liar: StationId) {
         // It gives way to a session at the same place that goes before, while nobody is on the road.
         None => assert!(is_own_member || before.corridor == Corridor::Clear),
     }
-    if step.said.has(Sort::CorridorExtended) {
+    if step.said.has(OutputKind::CorridorExtended) {
         assert!(is_own_member);
     }
 }

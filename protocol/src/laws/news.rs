@@ -3,13 +3,12 @@
 use crate::id::{Heartbeat, RequestId};
 use crate::input::Input;
 use crate::message::{Coordination, Progress};
-use crate::output::EndReason;
+use crate::output::{EndReason, NoticeKind, OutputKind};
 use crate::state::{Contact, Member, Robot, Role};
 
 use super::part::{each_follower, following, leading, own_number, requesting};
 use super::road::ending_told;
 use super::taken::Taken;
-use super::watch::Sort;
 
 /// All laws of this module.
 pub fn all(step: &Taken) {
@@ -21,10 +20,10 @@ pub fn all(step: &Taken) {
     what_the_ram_says_is_sent_at_once(step);
 }
 
-/// That of one sort it is told exactly if `happened`. When several timers fire in one step, more can have
+/// That of one kind it is told exactly if `happened`. When several timers fire in one step, more can have
 /// happened than the state shows.
-fn is_told(step: &Taken, sort: Sort, happened: bool) {
-    let told = step.said.has(sort);
+fn is_told(step: &Taken, notice: NoticeKind, happened: bool) {
+    let told = step.said.tells(notice);
     if matches!(step.input, Input::Elapsed(_)) {
         assert!(told || !happened);
     } else {
@@ -41,11 +40,15 @@ pub fn a_new_part_is_told(step: &Taken) {
     let is_over = session.is_some_and(|session| ending_told(step, session).is_some());
     let is_other = is_over || own_number(&step.before) != own_number(&step.after);
     let joins = after == Role::Follower && before != Role::Follower;
-    is_told(step, Sort::Joined, joins);
-    is_told(step, Sort::Offering, after == Role::Helper && is_other);
-    is_told(step, Sort::Released, was_helping && is_other);
+    is_told(step, NoticeKind::Joined, joins);
+    is_told(
+        step,
+        NoticeKind::Offering,
+        after == Role::Helper && is_other,
+    );
+    is_told(step, NoticeKind::Released, was_helping && is_other);
     let gets_to_lead = before == Role::Requester && after == Role::Leader;
-    is_told(step, Sort::RolesEstablished, gets_to_lead);
+    is_told(step, NoticeKind::RolesEstablished, gets_to_lead);
     let was_asking = matches!(before, Role::Requester | Role::Leader);
     assert!(step.said.ended.is_some() == (was_asking && is_other));
 }
@@ -57,8 +60,8 @@ pub fn contact_is_told(step: &Taken) {
     };
     let was_lost = matches!(before.contact, Contact::Lost(_));
     let is_lost = matches!(after.contact, Contact::Lost(_));
-    is_told(step, Sort::ContactLost, is_lost && !was_lost);
-    is_told(step, Sort::ContactRegained, was_lost && !is_lost);
+    is_told(step, NoticeKind::ContactLost, is_lost && !was_lost);
+    is_told(step, NoticeKind::ContactRegained, was_lost && !is_lost);
 }
 
 /// A requester's application is told when an offer has lapsed.
@@ -68,7 +71,7 @@ pub fn lapsed_offers_are_told(step: &Taken) {
     };
     let by_time = matches!(step.input, Input::Elapsed(_) | Input::Expired(_));
     let has_lapsed = by_time && after.offers.len() < before.offers.len();
-    is_told(step, Sort::OfferLapsed, has_lapsed);
+    is_told(step, NoticeKind::OfferLapsed, has_lapsed);
 }
 
 /// W6: a leader's application is told of each follower that joins, gets or loses its lease, answers or goes.
@@ -80,9 +83,9 @@ pub fn followers_are_told_of(step: &Taken) {
         return;
     };
     let is_gone = after.members.len() < before.members.len();
-    is_told(step, Sort::FollowerGone, is_gone);
+    is_told(step, NoticeKind::FollowerGone, is_gone);
     let yields = before.yields_to.is_none() && after.yields_to.is_some();
-    is_told(step, Sort::Yielded, yields);
+    is_told(step, NoticeKind::Yielded, yields);
     let (mut joined, mut granted, mut expired) = (false, false, false);
     let (mut acknowledged, mut rejected) = (false, false);
     each_follower(&step.after, &step.before, |member, known| {
@@ -100,11 +103,11 @@ pub fn followers_are_told_of(step: &Taken) {
             rejected |= !is_accepted;
         }
     });
-    is_told(step, Sort::FollowerJoined, joined);
-    is_told(step, Sort::LeaseGranted, granted);
-    is_told(step, Sort::LeaseExpired, expired);
-    is_told(step, Sort::CommandAcknowledged, acknowledged);
-    is_told(step, Sort::CommandRejected, rejected);
+    is_told(step, NoticeKind::FollowerJoined, joined);
+    is_told(step, NoticeKind::LeaseGranted, granted);
+    is_told(step, NoticeKind::LeaseExpired, expired);
+    is_told(step, NoticeKind::CommandAcknowledged, acknowledged);
+    is_told(step, NoticeKind::CommandRejected, rejected);
 }
 
 /// I8, W6: a leader's application is told of all progress that counts.
@@ -117,20 +120,14 @@ pub fn progress_is_told(step: &Taken) {
         if known.is_some_and(|known| progress_of(known) != progress_of(member))
             && let Some((_, Some(progress))) = progress_of(member)
         {
-            told[match progress {
-                Progress::Executing => 0,
-                Progress::InPosition => 1,
-                Progress::Completed => 2,
-                Progress::Failed(_) => 3,
-                Progress::SafeIdle => 4,
-            }] = true;
+            told[progress.kind() as usize] = true;
         }
     });
-    is_told(step, Sort::ManeuverReported, told[0]);
-    is_told(step, Sort::ManeuverInPosition, told[1]);
-    is_told(step, Sort::ManeuverCompleted, told[2]);
-    is_told(step, Sort::ManeuverFailed, told[3]);
-    is_told(step, Sort::FollowerSafeIdle, told[4]);
+    is_told(step, NoticeKind::ManeuverReported, told[0]);
+    is_told(step, NoticeKind::ManeuverInPosition, told[1]);
+    is_told(step, NoticeKind::ManeuverCompleted, told[2]);
+    is_told(step, NoticeKind::ManeuverFailed, told[3]);
+    is_told(step, NoticeKind::FollowerSafeIdle, told[4]);
 }
 
 fn progress_of(member: &Member) -> Option<(RequestId, Option<Progress>)> {
@@ -147,7 +144,7 @@ pub fn what_the_ram_says_is_sent_at_once(step: &Taken) {
     // The status container tells it.
     let status = before.availability() != after.availability();
     if parts || farewell || duty || status {
-        assert!(step.said.has(Sort::SendRam));
+        assert!(step.said.has(OutputKind::SendRam));
     }
 }
 

@@ -3,12 +3,12 @@
 use crate::MAX_FOLLOWERS;
 use crate::config::Config;
 use crate::input::{Event, Input};
+use crate::output::OutputKind;
 use crate::state::{Identity, Phase, Robot, Role};
 use crate::task::Availability;
 
 use super::part::requesting;
 use super::taken::Taken;
-use super::watch::Sort;
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {
@@ -49,6 +49,6 @@ pub fn a_request_begins_with_all_its_time(config: &Config, step: &Taken) {
         assert!(after.help.left() == Some(settings.t_help) && !after.selection.is_armed());
         assert!(after.offers.is_empty() && after.rival.is_none());
         assert!(after.heartbeat == settings.first_heartbeat);
-        assert!(step.said.has(Sort::SendRam));
+        assert!(step.said.has(OutputKind::SendRam));
     }
 }

@@ -7,7 +7,7 @@ use crate::config::Config;
 use crate::id::{Heartbeat, SessionId};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Ending, Failure, Farewell, Progress};
-use crate::output::{EndReason, ReleaseReason, StopReason};
+use crate::output::{EndReason, OutputKind, ReleaseReason, StopReason};
 use crate::state::{Corridor, Duty, Identity, Member, Rival, Robot, Role};
 use crate::task::{Availability, Place, Unavailability, Urgency};
 use crate::time::{Countdown, Millis};
@@ -16,7 +16,7 @@ use super::arithmetic::beat_is_newer;
 use super::lease::lease_left;
 use super::part::{each_follower, executing, leading, requesting};
 use super::taken::Taken;
-use super::watch::{Sort, is_open};
+use super::watch::is_open;
 
 /// All laws of this module.
 pub fn all(config: &Config, step: &Taken) {
@@ -198,7 +198,7 @@ pub fn ends_follow_the_policy(config: &Config, step: &Taken) {
         return;
     };
     assert!(match why {
-        StopReason::Superseded => step.said.has(Sort::StartManeuver),
+        StopReason::Superseded => step.said.has(OutputKind::StartManeuver),
         StopReason::Released(why) => {
             why == ReleaseReason::TaskCompleted
                 && ending_told(step, maneuver.id.session) == Some(Ending::Completed)
@@ -241,7 +241,7 @@ pub fn a_duty_lasts_until_the_road_is_clear(step: &Taken) {
             return;
         }
         assert!(after.duty() == Some(duty));
-        assert!(!step.said.has(Sort::StartManeuver));
+        assert!(!step.said.has(OutputKind::StartManeuver));
         assert!(match after.role() {
             Role::None => true,
             Role::Follower => after.session() == before.session(),
@@ -253,7 +253,7 @@ pub fn a_duty_lasts_until_the_road_is_clear(step: &Taken) {
         None => {}
         Some(Duty::FallingBack(maneuver)) => {
             assert!(executing(before) == Some(maneuver));
-            assert!(step.said.has(Sort::FallBack));
+            assert!(step.said.has(OutputKind::FallBack));
         }
         Some(Duty::Crossing(session)) => {
             assert!(before.session() == Some(session) && step.said.ended.is_some());

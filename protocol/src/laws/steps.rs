@@ -8,7 +8,7 @@ use crate::config::Config;
 use crate::id::{OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Failure, Farewell, Progress, Ram, Rmcm, Verdict};
-use crate::output::{GoneReason, Maneuver};
+use crate::output::{GoneReason, Maneuver, OutputKind};
 use crate::state::{Identity, Member, Phase, Robot, Role, State};
 use crate::time::Millis;
 
@@ -16,7 +16,7 @@ use super::arithmetic::{beat_is_newer, request_is_newer};
 use super::lease::{echo_heard, lease_left};
 use super::part::{each_follower, executing, following, leading, own_number, runs};
 use super::taken::{Taken, is_listed};
-use super::watch::{Sort, is_open};
+use super::watch::is_open;
 use super::{
     budgets, causes, commands, contact, farewells, lease, liars, news, offers, requests, road,
     times,
@@ -329,7 +329,7 @@ pub fn keeps_its_numbers(step: &Taken) {
         assert!(after.station() == station);
         assert!(before.identity() == Identity::Unlocked && before.session().is_none());
         assert!(after.next_number() == next.unwrap_or(before.next_number()));
-        assert!(!step.said.has(Sort::RenewEpoch));
+        assert!(!step.said.has(OutputKind::RenewEpoch));
         return;
     }
     assert!(after.boot() == before.boot());
@@ -342,7 +342,7 @@ pub fn keeps_its_numbers(step: &Taken) {
     }
     // A number that was given out is of the state after, or was given out and lost in one step.
     let is_late = next > free.count && next > u16::MAX / 2;
-    assert!(step.said.has(Sort::RenewEpoch) == is_late);
+    assert!(step.said.has(OutputKind::RenewEpoch) == is_late);
 }
 
 /// The number of an offer of this boot that nobody has confirmed, where the input says that its request is

@@ -4,10 +4,10 @@ use crate::config::Config;
 use crate::id::{OfferNumber, SessionId, StationId};
 use crate::input::Input;
 use crate::message::{Coordination, Rmcm};
-use crate::output::{Ignored, Output, Sink};
+use crate::output::{Ignored, Output, OutputKind, Sink};
 use crate::state::Robot;
 
-use super::watch::{Sort, Watch};
+use super::watch::Watch;
 
 /// One step: the state before, the input, and what came of it.
 #[derive(Clone, Debug)]
@@ -63,7 +63,7 @@ impl Taken {
     /// Whether the input was ignored.
     #[must_use]
     pub fn is_ignored(&self) -> bool {
-        self.said.has(Sort::Ignored)
+        self.said.has(OutputKind::Ignored)
     }
 }
 

@@ -13,13 +13,14 @@
 
 use crate::config::Config;
 use crate::input::{Input, Timer};
+use crate::output::OutputKind;
 use crate::robot::Step;
 use crate::state::{Contact, Phase, Robot};
 use crate::time::Millis;
 use crate::{MAX_FOLLOWERS, MAX_OUTPUTS, MAX_TIMERS};
 
 use super::taken::Taken;
-use super::watch::{Sort, Watch};
+use super::watch::Watch;
 
 /// 1: all countdowns run, and what is left of them is less.
 pub fn running_keeps_the_state_consistent(config: &Config, robot: &Robot, elapsed: Millis) {
@@ -60,7 +61,7 @@ pub fn firing_keeps_the_state_consistent(config: &Config, fired: &Taken) {
 
 /// 2: the outputs of one round take nothing from those to come.
 pub fn firing_keeps_within_the_outputs(fired: &Taken) {
-    let said = fired.said.len() - usize::from(fired.said.has(Sort::SendRam));
+    let said = fired.said.len() - usize::from(fired.said.has(OutputKind::SendRam));
     assert!(said + outputs_to_come(&fired.after) <= outputs_to_come(&fired.before));
 }
 

@@ -6,136 +6,15 @@
 use crate::id::{RequestId, SessionId, StationId};
 use crate::input::{Event, Input};
 use crate::message::{Rmcm, Verdict};
-use crate::output::{EndReason, GoneReason, Ignored, Maneuver, Notice, Output, Sink, StopReason};
+use crate::output::{
+    EndReason, GoneReason, Ignored, Maneuver, Notice, NoticeKind, Output, OutputKind, Sink,
+    StopReason,
+};
 use crate::state::{Corridor, Identity, Phase, Robot};
 use crate::task::FallbackPolicy;
 use crate::time::Millis;
 
 use super::part::executing;
-
-/// The sorts of outputs that somebody asks for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum Sort {
-    /// [`Output::SendRam`].
-    SendRam,
-    /// [`Output::SendRmcm`] with a command.
-    Command,
-    /// [`Output::SendRmcm`] with an answer.
-    Answer,
-    /// [`Output::StartManeuver`].
-    StartManeuver,
-    /// [`Output::StopManeuver`].
-    StopManeuver,
-    /// [`Output::FallBack`].
-    FallBack,
-    /// [`Output::CorridorOpened`].
-    CorridorOpened,
-    /// [`Output::CorridorExtended`].
-    CorridorExtended,
-    /// [`Output::CorridorClosed`].
-    CorridorClosed,
-    /// [`Output::LockIdentity`].
-    LockIdentity,
-    /// [`Output::UnlockIdentity`].
-    UnlockIdentity,
-    /// [`Output::RenewEpoch`].
-    RenewEpoch,
-    /// [`Output::Ignored`].
-    Ignored,
-    /// [`Notice::FollowerJoined`].
-    FollowerJoined,
-    /// [`Notice::FollowerGone`].
-    FollowerGone,
-    /// [`Notice::LeaseGranted`].
-    LeaseGranted,
-    /// [`Notice::LeaseExpired`].
-    LeaseExpired,
-    /// [`Notice::CommandAcknowledged`].
-    CommandAcknowledged,
-    /// [`Notice::CommandRejected`].
-    CommandRejected,
-    /// [`Notice::ManeuverInPosition`].
-    ManeuverInPosition,
-    /// [`Notice::ManeuverCompleted`].
-    ManeuverCompleted,
-    /// [`Notice::ManeuverFailed`].
-    ManeuverFailed,
-    /// [`Notice::OfferLapsed`].
-    OfferLapsed,
-    /// [`Notice::Yielded`].
-    Yielded,
-    /// [`Notice::ManeuverReported`].
-    ManeuverReported,
-    /// [`Notice::FollowerSafeIdle`].
-    FollowerSafeIdle,
-    /// [`Notice::RolesEstablished`].
-    RolesEstablished,
-    /// [`Notice::Offering`].
-    Offering,
-    /// [`Notice::Joined`].
-    Joined,
-    /// [`Notice::Released`].
-    Released,
-    /// [`Notice::ContactLost`].
-    ContactLost,
-    /// [`Notice::ContactRegained`].
-    ContactRegained,
-    /// [`Notice::SessionEnded`] for [`EndReason::Renewed`].
-    Renewed,
-    /// [`Notice::SessionEnded`] for [`EndReason::Withdrawn`].
-    Withdrawn,
-    /// [`Notice::SessionEnded`] for any other reason.
-    Ended,
-}
-
-impl Sort {
-    fn of(output: &Output) -> Self {
-        match output {
-            Output::SendRam => Self::SendRam,
-            Output::SendRmcm(Rmcm::Command(_)) => Self::Command,
-            Output::SendRmcm(Rmcm::Answer(_)) => Self::Answer,
-            Output::StartManeuver(_) => Self::StartManeuver,
-            Output::StopManeuver(..) => Self::StopManeuver,
-            Output::FallBack(..) => Self::FallBack,
-            Output::CorridorOpened(_) => Self::CorridorOpened,
-            Output::CorridorExtended(_) => Self::CorridorExtended,
-            Output::CorridorClosed(_) => Self::CorridorClosed,
-            Output::LockIdentity => Self::LockIdentity,
-            Output::UnlockIdentity => Self::UnlockIdentity,
-            Output::RenewEpoch => Self::RenewEpoch,
-            Output::Ignored(_) => Self::Ignored,
-            Output::Notify(notice) => match notice {
-                Notice::FollowerJoined(_) => Self::FollowerJoined,
-                Notice::FollowerGone(..) => Self::FollowerGone,
-                Notice::LeaseGranted(_) => Self::LeaseGranted,
-                Notice::LeaseExpired(_) => Self::LeaseExpired,
-                Notice::CommandAcknowledged(..) => Self::CommandAcknowledged,
-                Notice::CommandRejected(..) => Self::CommandRejected,
-                Notice::ManeuverInPosition(..) => Self::ManeuverInPosition,
-                Notice::ManeuverCompleted(..) => Self::ManeuverCompleted,
-                Notice::ManeuverFailed(..) => Self::ManeuverFailed,
-                Notice::OfferLapsed(_) => Self::OfferLapsed,
-                Notice::Yielded(_) => Self::Yielded,
-                Notice::SessionEnded(_, EndReason::Renewed) => Self::Renewed,
-                Notice::SessionEnded(_, EndReason::Withdrawn(_)) => Self::Withdrawn,
-                Notice::SessionEnded(..) => Self::Ended,
-                Notice::ManeuverReported(..) => Self::ManeuverReported,
-                Notice::FollowerSafeIdle(..) => Self::FollowerSafeIdle,
-                Notice::RolesEstablished(_) => Self::RolesEstablished,
-                Notice::Offering(_) => Self::Offering,
-                Notice::Joined(_) => Self::Joined,
-                Notice::Released(..) => Self::Released,
-                Notice::ContactLost(_) => Self::ContactLost,
-                Notice::ContactRegained(_) => Self::ContactRegained,
-            },
-        }
-    }
-
-    const fn bit(self) -> u64 {
-        1 << self as u8
-    }
-}
 
 /// What has been said so far, and whether it was in order.
 #[derive(Clone, Debug)]
@@ -143,16 +22,19 @@ impl Sort {
 pub struct Watch {
     /// How many outputs there are, [`Output::SendRam`] once.
     len: usize,
-    /// The sorts among them.
-    sorts: u64,
+    /// The kinds among them, and those of notices.
+    outputs: u32,
+    notices: u32,
     /// The maneuver that runs, by what the body has been told.
     pub(super) running: Option<Maneuver>,
     /// Nothing was started over something that runs, and nothing stopped that does not run.
     pub(super) tells_the_body: bool,
     /// The command that was accepted last.
     acknowledged: Option<(SessionId, RequestId)>,
+    /// Whether a command was sent.
+    pub commanded: bool,
     /// The command that was answered last, and how.
-    pub(super) answered: Option<(RequestId, Verdict)>,
+    pub answered: Option<(RequestId, Verdict)>,
     /// Why the input is ignored.
     pub(super) ignored: Option<Ignored>,
     /// The maneuver that was started.
@@ -171,7 +53,7 @@ pub struct Watch {
     /// The maneuver that was ended last by a policy.
     pub(super) fallen_back: Option<(Maneuver, FallbackPolicy)>,
     /// Why the robot's own session ended.
-    pub(super) ended: Option<EndReason>,
+    pub ended: Option<EndReason>,
     /// The first follower that was dropped, and why.
     pub(super) dropped: Option<(StationId, GoneReason)>,
 }
@@ -190,10 +72,12 @@ impl Watch {
         };
         Self {
             len: 0,
-            sorts: 0,
+            outputs: 0,
+            notices: 0,
             running,
             tells_the_body: true,
             acknowledged: None,
+            commanded: false,
             answered: None,
             ignored: None,
             started: None,
@@ -221,11 +105,21 @@ impl Watch {
         self.len == 0
     }
 
-    /// Whether one of this sort is among them.
+    /// Whether one of this kind is among them.
     #[must_use]
-    pub const fn has(&self, sort: Sort) -> bool {
-        self.sorts & sort.bit() != 0
+    pub const fn has(&self, kind: OutputKind) -> bool {
+        self.outputs & bit(kind as u8) != 0
     }
+
+    /// Whether the application is told of this.
+    #[must_use]
+    pub const fn tells(&self, kind: NoticeKind) -> bool {
+        self.notices & bit(kind as u8) != 0
+    }
+}
+
+const fn bit(kind: u8) -> u32 {
+    1 << kind
 }
 
 /// Whether the robot leads and has its corridor open.
@@ -238,13 +132,17 @@ pub(super) const fn is_open(robot: &Robot) -> bool {
 
 impl Sink for Watch {
     fn push(&mut self, output: Output) {
-        let sort = Sort::of(&output);
-        if sort == Sort::SendRam && self.has(sort) {
+        let kind = output.kind();
+        if kind == OutputKind::SendRam && self.has(kind) {
             return;
         }
         self.len += 1;
-        self.sorts |= sort.bit();
+        self.outputs |= bit(kind as u8);
+        if let Output::Notify(notice) = output {
+            self.notices |= bit(notice.kind() as u8);
+        }
         match output {
+            Output::SendRmcm(Rmcm::Command(_)) => self.commanded = true,
             Output::SendRmcm(Rmcm::Answer(answer)) => {
                 if answer.verdict == Verdict::Accepted {
                     self.acknowledged = Some((answer.session, answer.request));
@@ -270,7 +168,7 @@ impl Sink for Watch {
                 self.fallen_back = Some((maneuver, policy));
             }
             Output::LockIdentity | Output::UnlockIdentity => {
-                let locks = sort == Sort::LockIdentity;
+                let locks = kind == OutputKind::LockIdentity;
                 self.changes_lock_and_corridor &= self.locked != locks;
                 self.locked = locks;
             }

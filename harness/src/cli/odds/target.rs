@@ -208,11 +208,7 @@ impl Candidate {
 
     fn outcome(&self) -> String {
         match (self.refused_by, self.probability) {
-            (Some(inequality), _) => format!(
-                "'{}' refuses it: {}",
-                inequality.name(),
-                inequality.formula()
-            ),
+            (Some(inequality), _) => format!("'{}' refuses it: {inequality}", inequality.name()),
             (None, Some(value)) => {
                 let verdict = if self.reaches {
                     "reaches it"

@@ -1,23 +1,23 @@
 //! What is needed besides the steps.
 
 use super::{
-    Happening, Kind, Laws, Part, Source, Stage, StationId, Symbolic, any_step, any_valid,
+    EventKind, Kind, Laws, Part, Role, Source, StationId, Symbolic, any_step, any_valid,
     any_watched, arbitrary, harnesses, kani, messages, robots, steps,
 };
 use crossguard_protocol::{
     Event, FallbackPolicy, Input, Maneuver, ManeuverId, Output, Rmcm, StopReason,
 };
 
-fn others_leave_it_so(part: Part, stage: Stage) {
+fn others_leave_it_so(part: Part, stage: Role) {
     let it = any_watched(part, stage);
     let later = arbitrary::history(&mut Symbolic, &it.exchange, &it.robot);
     steps::others_leave_it_so(&it.exchange, &it.history, &it.robot, &later);
     kani::cover!(it.history != later, "more is known");
 }
 
-fn bystands(stage: Stage) {
+fn bystands(stage: Role) {
     let it = any_watched(Part::Bystander, stage);
-    let followers = usize::from(stage == Stage::Leading);
+    let followers = usize::from(stage == Role::Leader);
     let after = any_valid(&it.config, stage, (followers, followers));
     kani::assume(after.station() == it.robot.station());
     let id = any_maneuver();
@@ -65,7 +65,7 @@ fn any_maneuver() -> ManeuverId {
 }
 
 fn stays_true(kind: u32) {
-    let it = any_watched(Part::Bystander, Stage::Idle);
+    let it = any_watched(Part::Bystander, Role::None);
     let later = arbitrary::history(&mut Symbolic, &it.exchange, &it.robot);
     let mut ram = arbitrary::ram(&mut Symbolic, kind, true);
     // Hints let it be of the follower or leader.
@@ -85,7 +85,7 @@ fn stays_true(kind: u32) {
     );
 }
 
-fn reboots(part: Part, stage: Stage) {
+fn reboots(part: Part, stage: Role) {
     let it = any_watched(part, stage);
     let boot = Symbolic.number(u16::MAX.into(), u32::from(it.robot.boot()) + 1);
     let boot = u16::try_from(boot).unwrap_or(u16::MAX);
@@ -99,21 +99,21 @@ harnesses! {
     #[unwind(6)]
     #[solver(cadical)]
     fn a_requester_is_left_so() {
-        others_leave_it_so(Part::Leader, Stage::Requesting);
+        others_leave_it_so(Part::Leader, Role::Requester);
     }
 
     /// What others do leaves a leader as it is.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_leader_is_left_so() {
-        others_leave_it_so(Part::Leader, Stage::Leading);
+        others_leave_it_so(Part::Leader, Role::Leader);
     }
 
     /// What others do leaves a follower as it is.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_follower_is_left_so() {
-        others_leave_it_so(Part::Follower, Stage::Following);
+        others_leave_it_so(Part::Follower, Role::Follower);
     }
 
     /// A request stays true.
@@ -148,57 +148,57 @@ harnesses! {
     #[unwind(6)]
     #[solver(cadical)]
     fn a_bystander_leads() {
-        bystands(Stage::Leading);
+        bystands(Role::Leader);
     }
 
     /// A robot that follows elsewhere makes nothing known.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_bystander_follows() {
-        bystands(Stage::Following);
+        bystands(Role::Follower);
     }
 
     /// A robot that asks for help makes nothing known.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_bystander_asks() {
-        bystands(Stage::Requesting);
+        bystands(Role::Requester);
     }
 
     /// A helper of another session makes nothing known.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_bystander_helps() {
-        bystands(Stage::Offering);
+        bystands(Role::Helper);
     }
 
     /// A robot without a part makes nothing known.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_bystander_idles() {
-        bystands(Stage::Idle);
+        bystands(Role::None);
     }
 
     /// A leader loses power and boots.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_leader_reboots() {
-        reboots(Part::Leader, Stage::Leading);
+        reboots(Part::Leader, Role::Leader);
     }
 
     /// A follower loses power and boots.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_follower_reboots() {
-        reboots(Part::Follower, Stage::Following);
+        reboots(Part::Follower, Role::Follower);
     }
 
     /// A robot takes another station id, which may be that of the leader or the follower.
     #[unwind(6)]
     #[solver(cadical)]
     fn a_station_is_taken() {
-        let kind = Kind::Local(Happening::IdentityChanged);
-        let kept = any_step(Part::Bystander, Stage::Idle, kind, Laws::All);
+        let kind = Kind::Local(EventKind::IdentityChanged);
+        let kept = any_step(Part::Bystander, Role::None, kind, Laws::All);
         let leads = Part::Leader.is_of(&kept.exchange, &kept.after);
         let follows = Part::Follower.is_of(&kept.exchange, &kept.after);
         kani::cover!(leads, "the leader's");
@@ -209,7 +209,7 @@ harnesses! {
     #[random_only("all stages, parts and kinds of input at once")]
     fn any_robot_keeps_it() {
         let part = [Part::Leader, Part::Follower, Part::Bystander][choice(3) as usize];
-        let stage = Stage::ALL[choice(5) as usize];
+        let stage = Role::ALL[choice(5) as usize];
         let kinds = [
             Kind::RamNone,
             Kind::RamNeedHelp,
@@ -223,7 +223,7 @@ harnesses! {
         ];
         let kind = match choice(2) {
             0 => kinds[choice(9) as usize],
-            _ => Kind::EVENTS[choice(14) as usize],
+            _ => Kind::Local(EventKind::ALL[choice(14) as usize]),
         };
         let kept = any_step(part, stage, kind, Laws::All);
         kani::cover!(kept.changed(), "a fact becomes known");

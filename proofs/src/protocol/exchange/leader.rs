@@ -1,147 +1,147 @@
 //! A robot that is the leader of the exchange.
 
 use super::{
-    Happening, Kind, Laws, Part, Phase, Stage, TimerKind, any_firing, any_step, harnesses, kani,
+    EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_firing, any_step, harnesses, kani,
     stage,
 };
 
 steps! { Leader;
     /// It opens a session, which may be the watched one.
-    detects_a_pedestrian(Idle, Kind::Local(Happening::PedestrianDetected)) |kept| {
+    detects_a_pedestrian(None, Kind::Local(EventKind::PedestrianDetected)) |kept| {
         "opens it": !kept.was.requested && kept.now.requested,
         "opens another": kept.was.ended && kept.before != kept.after,
     }
 
     /// It is offered help.
-    hears_an_offer(Requesting, Kind::RamOfferHelp) |kept| {
+    hears_an_offer(Requester, Kind::RamOfferHelp) |kept| {
         "takes it": kept.was.offered && kept.before != kept.after,
         "does not": !kept.was.offered && kept.before == kept.after,
     }
 
     /// A helper takes its offer back.
-    hears_a_farewell_of_a_helper(Requesting, Kind::RamNone) |kept| {
+    hears_a_farewell_of_a_helper(Requester, Kind::RamNone) |kept| {
         "forgets it": kept.before != kept.after,
     }
 
     /// It chooses its followers.
-    selects(Requesting, Kind::Local(Happening::AllAnswered)) |kept| {
+    selects(Requester, Kind::Local(EventKind::AllAnswered)) |kept| {
         "lists it": kept.was.listed.is_none() && kept.now.listed.is_some(),
         "lists others": matches!(kept.after.phase(), Phase::Leading(_)) && kept.now.listed.is_none(),
     }
 
     /// A follower answers.
-    hears_an_answer(Leading, Kind::Answer) |kept| {
+    hears_an_answer(Leader, Kind::Answer) |kept| {
         "counts it": kept.was.accepted && kept.before != kept.after,
         "is refused": kept.was.refused && kept.before != kept.after,
         "does not": kept.before == kept.after,
     }
 
     /// A follower reports: facts.
-    hears_a_follower(Leading, Kind::RamFollower, Facts) |kept| {
+    hears_a_follower(Leader, Kind::RamFollower, Facts) |kept| {
         "counts it as joined": kept.was.joined && kept.before != kept.after,
         "is of another": !kept.was.joined && kept.before != kept.after,
     }
 
     /// A follower reports: heartbeats and leases.
-    hears_an_echo(Leading, Kind::RamFollower, Heartbeats) |kept| {
+    hears_an_echo(Leader, Kind::RamFollower, Heartbeats) |kept| {
         "counts it as joined": kept.was.joined && kept.before != kept.after,
         "is of another": !kept.was.joined && kept.before != kept.after,
     }
 
     /// A follower leaves: facts.
-    hears_a_farewell(Leading, Kind::RamNone, Facts) |kept| {
+    hears_a_farewell(Leader, Kind::RamNone, Facts) |kept| {
         "drops it": !kept.was.dropped && kept.now.dropped,
         "drops another": kept.before != kept.after && !kept.now.dropped,
     }
 
     /// A follower leaves: heartbeats and leases.
-    counts_on_the_others(Leading, Kind::RamNone, Heartbeats) |kept| {
+    counts_on_the_others(Leader, Kind::RamNone, Heartbeats) |kept| {
         "drops it": !kept.was.dropped && kept.now.dropped,
         "drops another": kept.before != kept.after && !kept.now.dropped,
     }
 
     /// It commands: facts.
-    commands(Leading, Kind::Local(Happening::CommandManeuver), Facts) |kept| {
+    commands(Leader, Kind::Local(EventKind::CommandManeuver), Facts) |kept| {
         "commands it": kept.was.commanded.is_none() && kept.now.commanded.is_some(),
         "commands something else": !kept.changed() && kept.before != kept.after,
     }
 
     /// It commands: heartbeats and leases.
-    commands_within_leases(Leading, Kind::Local(Happening::CommandManeuver), Heartbeats) |kept| {
+    commands_within_leases(Leader, Kind::Local(EventKind::CommandManeuver), Heartbeats) |kept| {
         "commands it": kept.was.commanded.is_none() && kept.now.commanded.is_some(),
         "commands something else": !kept.changed() && kept.before != kept.after,
     }
 
     /// It repeats a command or drops the follower.
-    repeats_a_command(Leading, Kind::Fires(TimerKind::Acknowledgement)) |kept| {
+    repeats_a_command(Leader, Kind::Fires(TimerKind::Acknowledgement)) |kept| {
         "repeats": !kept.now.dropped && kept.before != kept.after,
         "drops it": !kept.was.dropped && kept.now.dropped,
     }
 
     /// It loses a follower.
-    loses_a_follower(Leading, Kind::Fires(TimerKind::Lost)) |kept| {
+    loses_a_follower(Leader, Kind::Fires(TimerKind::Lost)) |kept| {
         "drops it": !kept.was.dropped && kept.now.dropped,
         "drops another": kept.before != kept.after && !kept.now.dropped,
     }
 
     /// A command takes too long.
-    gives_a_command_up(Leading, Kind::Fires(TimerKind::Execution)) |kept| {
+    gives_a_command_up(Leader, Kind::Fires(TimerKind::Execution)) |kept| {
         "gives it up": kept.was.accepted,
     }
 
     /// It has had time to choose.
-    has_chosen(Requesting, Kind::Fires(TimerKind::Selection)) |kept| {
+    has_chosen(Requester, Kind::Fires(TimerKind::Selection)) |kept| {
         "lists it": kept.was.listed.is_none() && kept.now.listed.is_some(),
     }
 
     /// Nobody helps.
-    finds_no_help(Requesting, Kind::Fires(TimerKind::Help)) |kept| {
+    finds_no_help(Requester, Kind::Fires(TimerKind::Help)) |kept| {
         "ends it": !kept.was.ended && kept.now.ended,
     }
 
     /// A lease ends.
-    ends_a_lease(Leading, Kind::Fires(TimerKind::Lease)) |kept| {
+    ends_a_lease(Leader, Kind::Fires(TimerKind::Lease)) |kept| {
         "of a follower": kept.was.joined && kept.before != kept.after,
     }
 
     /// The identity cannot be locked any longer.
-    must_unlock(Leading, Kind::Fires(TimerKind::IdentityLock)) |kept| {
+    must_unlock(Leader, Kind::Fires(TimerKind::IdentityLock)) |kept| {
         "ends it": !kept.was.ended && kept.now.ended,
     }
 
     /// It tells that it asks for help.
-    beats_as_it_asks(Requesting, Kind::Fires(TimerKind::Ram)) |kept| {
+    beats_as_it_asks(Requester, Kind::Fires(TimerKind::Ram)) |kept| {
         "beats it": !kept.was.beaten && kept.now.beaten,
     }
 
     /// It tells that it leads: facts.
-    tells_that_it_leads(Leading, Kind::Fires(TimerKind::Ram), Facts) |kept| {
+    tells_that_it_leads(Leader, Kind::Fires(TimerKind::Ram), Facts) |kept| {
         "beats it": !kept.was.beaten && kept.now.beaten,
     }
 
     /// It tells that it leads: heartbeats.
-    beats(Leading, Kind::Fires(TimerKind::Ram), Heartbeats) |kept| {
+    beats(Leader, Kind::Fires(TimerKind::Ram), Heartbeats) |kept| {
         "beats it": !kept.was.beaten && kept.now.beaten,
     }
 
     /// It opens the corridor.
-    opens_the_corridor(Leading, Kind::Local(Happening::OpenCorridor)) |kept| {
+    opens_the_corridor(Leader, Kind::Local(EventKind::OpenCorridor)) |kept| {
         "counts on it": kept.was.accepted && kept.before != kept.after,
     }
 
     /// It hears another leader at its place.
-    hears_a_rival(Leading, Kind::RamLeader) |kept| {
+    hears_a_rival(Leader, Kind::RamLeader) |kept| {
         "gives way": !kept.was.ended && kept.now.ended,
         "goes on": kept.before != kept.after && !kept.now.ended,
     }
 
     /// It is to leave.
-    leaves(Leading, Kind::Local(Happening::LeaveRequested)) |kept| {
+    leaves(Leader, Kind::Local(EventKind::LeaveRequested)) |kept| {
         "ends it": !kept.was.ended && kept.now.ended,
     }
 
     /// It completes the task.
-    completes_the_task(Leading, Kind::Local(Happening::TaskCompleted)) |kept| {
+    completes_the_task(Leader, Kind::Local(EventKind::TaskCompleted)) |kept| {
         "ends it": !kept.was.ended && kept.now.ended,
         "ends another": kept.was.ended,
     }

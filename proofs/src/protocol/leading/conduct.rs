@@ -1,9 +1,8 @@
 //! What a step does to the part, the numbers and the leases of a leader; and what can come of each input.
 
-use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, TimerKind};
+use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{ignores, of_part_and_numbers};
-use crossguard_protocol::laws::watch::Sort;
+use crossguard_protocol::{EndReason, EventKind, NoticeKind, OutputKind, Role, TimerKind};
 
 use super::{FROM, IGNORED};
 use crate::protocol::stage::{becomes, steps};
@@ -11,20 +10,20 @@ use crate::protocol::stage::{becomes, steps};
 steps! { FROM, of_part_and_numbers;
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
-        "joins": step.said.has(Sort::FollowerJoined),
-        "grants a lease": step.said.has(Sort::LeaseGranted),
-        "counts as acknowledged": step.said.has(Sort::CommandAcknowledged),
-        "counts as in position": step.said.has(Sort::ManeuverInPosition),
-        "counts as completed": step.said.has(Sort::ManeuverCompleted),
-        "extends the corridor": step.said.has(Sort::CorridorExtended),
-        "closes the corridor": step.said.has(Sort::CorridorClosed),
+        "joins": step.said.tells(NoticeKind::FollowerJoined),
+        "grants a lease": step.said.tells(NoticeKind::LeaseGranted),
+        "counts as acknowledged": step.said.tells(NoticeKind::CommandAcknowledged),
+        "counts as in position": step.said.tells(NoticeKind::ManeuverInPosition),
+        "counts as completed": step.said.tells(NoticeKind::ManeuverCompleted),
+        "extends the corridor": step.said.has(OutputKind::CorridorExtended),
+        "closes the corridor": step.said.has(OutputKind::CorridorClosed),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a robot without a part in a session.
     hears_a_farewell(Kind::RamNone) |step| {
         "the last follower left": becomes(step, Role::None),
-        "a follower left": step.said.has(Sort::FollowerGone) && becomes(step, Role::Leader),
+        "a follower left": step.said.tells(NoticeKind::FollowerGone) && becomes(step, Role::Leader),
         "ignored": step.is_ignored(),
     }
 
@@ -35,16 +34,16 @@ steps! { FROM, of_part_and_numbers;
 
     /// A RAM that offers help.
     hears_an_offer(Kind::RamOfferHelp) |step| {
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
-        "yields": step.said.has(Sort::Yielded) && becomes(step, Role::Leader),
-        "ends for the one that goes before": step.said.has(Sort::Withdrawn),
+        "yields": step.said.tells(NoticeKind::Yielded) && becomes(step, Role::Leader),
+        "ends for the one that goes before": matches!(step.said.ended, Some(EndReason::Withdrawn(_))),
         "notes a rival": !step.is_ignored() && step.said.is_empty(),
-        "names a session as over": step.said.has(Sort::SendRam),
+        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 
@@ -55,8 +54,8 @@ steps! { FROM, of_part_and_numbers;
 
     /// An answer.
     hears_an_answer(Kind::Answer) |step| {
-        "acknowledged": step.said.has(Sort::CommandAcknowledged),
-        "rejected": step.said.has(Sort::CommandRejected),
+        "acknowledged": step.said.tells(NoticeKind::CommandAcknowledged),
+        "rejected": step.said.tells(NoticeKind::CommandRejected),
         "ignored": step.is_ignored(),
     }
 
@@ -66,21 +65,21 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The application commands a maneuver.
-    commands(Kind::Local(Happening::CommandManeuver)) |step| {
-        "commands": step.said.has(Sort::Command),
-        "renews the session": step.said.has(Sort::Renewed),
+    commands(Kind::Local(EventKind::CommandManeuver)) |step| {
+        "commands": step.said.commanded,
+        "renews the session": step.said.ended == Some(EndReason::Renewed),
         "ignored": step.is_ignored(),
     }
 
     /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(Happening::OpenCorridor)) |step| {
-        "opens": step.said.has(Sort::CorridorOpened),
+    opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| {
+        "opens": step.said.has(OutputKind::CorridorOpened),
         "ignored": step.is_ignored(),
     }
 
     /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(Happening::CloseCorridor)) |step| {
-        "closes": step.said.has(Sort::CorridorClosed),
+    closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| {
+        "closes": step.said.has(OutputKind::CorridorClosed),
         "ignored": step.is_ignored(),
     }
 
@@ -95,17 +94,17 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The task is completed.
-    completes_the_task(Kind::Local(Happening::TaskCompleted)) |step| {
+    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
     /// The robot is to leave.
-    leaves(Kind::Local(Happening::LeaveRequested)) |step| {
+    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
         "ends its session": becomes(step, Role::None),
     }
 
     /// The robot becomes available or unavailable.
-    changes_its_availability(Kind::Local(Happening::AvailabilityChanged)) |step| {
+    changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "ends its session": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
@@ -117,28 +116,28 @@ steps! { FROM, of_part_and_numbers;
 
     /// The end of a lease.
     loses_a_lease(Kind::Fires(TimerKind::Lease)) |step| {
-        "a lease ran out": step.said.has(Sort::LeaseExpired),
-        "closes the corridor": step.said.has(Sort::CorridorClosed),
+        "a lease ran out": step.said.tells(NoticeKind::LeaseExpired),
+        "closes the corridor": step.said.has(OutputKind::CorridorClosed),
         "ignored": step.is_ignored(),
     }
 
     /// A follower without a lease for too long.
     gives_up_a_follower(Kind::Fires(TimerKind::Lost)) |step| {
-        "drops a follower": step.said.has(Sort::FollowerGone),
+        "drops a follower": step.said.tells(NoticeKind::FollowerGone),
         "ends its session": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
 
     /// `T_exec`.
     limits_an_execution(Kind::Fires(TimerKind::Execution)) |step| {
-        "the execution limit ran out": step.said.has(Sort::ManeuverFailed),
+        "the execution limit ran out": step.said.tells(NoticeKind::ManeuverFailed),
         "ignored": step.is_ignored(),
     }
 
     /// `T_ack`.
     misses_an_acknowledgement(Kind::Fires(TimerKind::Acknowledgement)) |step| {
-        "repeats a command": step.said.has(Sort::Command),
-        "drops a follower": step.said.has(Sort::FollowerGone),
+        "repeats a command": step.said.commanded,
+        "drops a follower": step.said.tells(NoticeKind::FollowerGone),
         "ends its session": becomes(step, Role::None),
         "ignored": step.is_ignored(),
     }
@@ -150,7 +149,7 @@ steps! { FROM, of_part_and_numbers;
 
     /// The next RAM.
     repeats_itself(Kind::Fires(TimerKind::Ram)) |step| {
-        "sends": step.said.has(Sort::SendRam),
+        "sends": step.said.has(OutputKind::SendRam),
     }
 
     /// The end of a farewell.
@@ -165,9 +164,9 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// The road is clear.
-    clears_the_road(Kind::Local(Happening::RoadClear)) |step| {
+    clears_the_road(Kind::Local(EventKind::RoadClear)) |step| {
         "the road is clear": !step.is_ignored() && becomes(step, Role::Leader),
-        "ends for the one that goes before": step.said.has(Sort::Withdrawn),
+        "ends for the one that goes before": matches!(step.said.ended, Some(EndReason::Withdrawn(_))),
         "ignored": step.is_ignored(),
     }
 
@@ -177,7 +176,7 @@ steps! { FROM, of_part_and_numbers;
     }
 
     /// A larger boot counter has been persisted.
-    renews_its_epoch(Kind::Local(Happening::EpochRenewed)) |step| {
+    renews_its_epoch(Kind::Local(EventKind::EpochRenewed)) |step| {
         "renews it": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }

@@ -1,7 +1,7 @@
 //! What a leader offers, tells and ends, and the road.
 
-use crossguard_protocol::Role;
-use crossguard_protocol::laws::arbitrary::{Happening, Kind, TimerKind};
+use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::of_the_road;
+use crossguard_protocol::{EventKind, Role, TimerKind};
 
 of_each_input_and_timer! { of_the_road }

@@ -1,21 +1,21 @@
 //! 2: one timer fires.
 
 use crossguard_protocol::laws::Source;
-use crossguard_protocol::laws::arbitrary::{Stage, TimerKind};
+use crossguard_protocol::laws::arbitrary::AnyWord;
 use crossguard_protocol::laws::lease::heartbeats_count_time_alone;
 use crossguard_protocol::laws::steps;
 use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::laws::timers::{self as laws, firing_keeps_the_state_consistent};
-use crossguard_protocol::{Config, Millis};
+use crossguard_protocol::{Config, Millis, Role, Timer, TimerKind};
 
 use super::any_within_a_step;
 use crate::harness::harnesses;
 use crate::protocol::stage;
 use crate::{Symbolic, kani};
 
-fn any_firing(stage: Stage, countdown: TimerKind, laws_of_it: fn(&Config, &Taken)) {
+fn any_firing(stage: Role, countdown: TimerKind, laws_of_it: fn(&Config, &Taken)) {
     let config = stage::config();
-    let timer = countdown.timer(&mut Symbolic);
+    let timer = Timer::any_of(countdown, &mut Symbolic);
     let robot = laws::with_due(any_within_a_step(&config, stage), timer);
     kani::assume(laws::is_due(&robot, timer) && laws::is_consistent(&robot, &config));
     let late = Millis(Symbolic.number(u32::MAX, 0));
@@ -50,37 +50,37 @@ macro_rules! firing {
             #[unwind(6)]
             #[solver(cadical)]
             fn $name() {
-                any_firing(Stage::$stage, TimerKind::$countdown, $laws);
+                any_firing(Role::$stage, TimerKind::$countdown, $laws);
             }
         )+ }
     };
 }
 
 firing! {
-    idle_identity_lock(Idle, IdentityLock, all)
-    idle_farewell(Idle, Farewell, all)
-    idle_ram(Idle, Ram, all)
-    requesting_offer(Requesting, Offer, all)
-    requesting_help(Requesting, Help, all)
-    requesting_selection(Requesting, Selection, all)
-    requesting_identity_lock(Requesting, IdentityLock, all)
-    requesting_farewell(Requesting, Farewell, all)
-    requesting_ram(Requesting, Ram, all)
-    offering_reservation(Offering, Reservation, all)
-    offering_identity_lock(Offering, IdentityLock, all)
-    offering_farewell(Offering, Farewell, all)
-    offering_ram(Offering, Ram, all)
-    following_safety(Following, Safety, all)
-    following_leave(Following, Leave, all)
-    following_identity_lock(Following, IdentityLock, all)
-    following_farewell(Following, Farewell, all)
-    following_ram(Following, Ram, all)
-    leading_lease(Leading, Lease, leader)
-    leading_lost(Leading, Lost, leader)
-    leading_execution(Leading, Execution, leader)
-    leading_acknowledgement(Leading, Acknowledgement, leader)
-    leading_identity_lock(Leading, IdentityLock, leader)
-    leading_farewell(Leading, Farewell, leader)
-    leading_ram(Leading, Ram, conduct)
-    leading_ram_stays_consistent(Leading, Ram, firing_keeps_the_state_consistent)
+    idle_identity_lock(None, IdentityLock, all)
+    idle_farewell(None, Farewell, all)
+    idle_ram(None, Ram, all)
+    requesting_offer(Requester, Offer, all)
+    requesting_help(Requester, Help, all)
+    requesting_selection(Requester, Selection, all)
+    requesting_identity_lock(Requester, IdentityLock, all)
+    requesting_farewell(Requester, Farewell, all)
+    requesting_ram(Requester, Ram, all)
+    offering_reservation(Helper, Reservation, all)
+    offering_identity_lock(Helper, IdentityLock, all)
+    offering_farewell(Helper, Farewell, all)
+    offering_ram(Helper, Ram, all)
+    following_safety(Follower, Safety, all)
+    following_leave(Follower, Leave, all)
+    following_identity_lock(Follower, IdentityLock, all)
+    following_farewell(Follower, Farewell, all)
+    following_ram(Follower, Ram, all)
+    leading_lease(Leader, Lease, leader)
+    leading_lost(Leader, Lost, leader)
+    leading_execution(Leader, Execution, leader)
+    leading_acknowledgement(Leader, Acknowledgement, leader)
+    leading_identity_lock(Leader, IdentityLock, leader)
+    leading_farewell(Leader, Farewell, leader)
+    leading_ram(Leader, Ram, conduct)
+    leading_ram_stays_consistent(Leader, Ram, firing_keeps_the_state_consistent)
 }

@@ -1,15 +1,14 @@
 //! 1: all countdowns run.
 
-use crossguard_protocol::Millis;
-use crossguard_protocol::laws::arbitrary::Stage;
 use crossguard_protocol::laws::{Source, budgets, timers as laws};
+use crossguard_protocol::{Millis, Role};
 
 use super::peers;
 use crate::harness::harnesses;
 use crate::protocol::stage::{self, any_valid};
 use crate::{Symbolic, kani};
 
-fn any_running(stage: Stage) {
+fn any_running(stage: Role) {
     let config = stage::config();
     let robot = any_valid(&config, stage, peers(stage));
     let elapsed = Millis(Symbolic.number(u32::MAX, 100));
@@ -25,34 +24,34 @@ harnesses! {
     #[unwind(6)]
     #[solver(cadical)]
     fn idle() {
-        any_running(Stage::Idle);
+        any_running(Role::None);
     }
 
     /// A requester.
     #[unwind(6)]
     #[solver(cadical)]
     fn requesting() {
-        any_running(Stage::Requesting);
+        any_running(Role::Requester);
     }
 
     /// A helper.
     #[unwind(6)]
     #[solver(cadical)]
     fn offering() {
-        any_running(Stage::Offering);
+        any_running(Role::Helper);
     }
 
     /// A follower.
     #[unwind(6)]
     #[solver(cadical)]
     fn following() {
-        any_running(Stage::Following);
+        any_running(Role::Follower);
     }
 
     /// A leader.
     #[unwind(6)]
     #[solver(cadical)]
     fn leading() {
-        any_running(Stage::Leading);
+        any_running(Role::Leader);
     }
 }

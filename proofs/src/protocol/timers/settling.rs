@@ -1,15 +1,14 @@
 //! 3: the step settles.
 
-use crossguard_protocol::Millis;
-use crossguard_protocol::laws::arbitrary::Stage;
 use crossguard_protocol::laws::timers as laws;
+use crossguard_protocol::{Millis, Role};
 
 use super::any_within_a_step;
 use crate::harness::harnesses;
 use crate::kani;
 use crate::protocol::stage;
 
-fn any_settling(stage: Stage) {
+fn any_settling(stage: Role) {
     let config = stage::config();
     let robot = any_within_a_step(&config, stage);
     kani::assume(laws::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
@@ -24,34 +23,34 @@ harnesses! {
     #[unwind(6)]
     #[solver(cadical)]
     fn idle() {
-        any_settling(Stage::Idle);
+        any_settling(Role::None);
     }
 
     /// A requester.
     #[unwind(6)]
     #[solver(cadical)]
     fn requesting() {
-        any_settling(Stage::Requesting);
+        any_settling(Role::Requester);
     }
 
     /// A helper.
     #[unwind(6)]
     #[solver(cadical)]
     fn offering() {
-        any_settling(Stage::Offering);
+        any_settling(Role::Helper);
     }
 
     /// A follower.
     #[unwind(6)]
     #[solver(cadical)]
     fn following() {
-        any_settling(Stage::Following);
+        any_settling(Role::Follower);
     }
 
     /// A leader.
     #[unwind(6)]
     #[solver(cadical)]
     fn leading() {
-        any_settling(Stage::Leading);
+        any_settling(Role::Leader);
     }
 }

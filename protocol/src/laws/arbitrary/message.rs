@@ -1,16 +1,17 @@
 //! Arbitrary messages.
 
 use super::{
-    ME, PEER, Source, choice, heartbeat, help_request, list, number, offer_number, option, place,
-    request_id, session, session_number, station, task, task_set, unavailability, urgency,
+    Any, ME, PEER, Source, heartbeat, help_request, list, number, offer_number, option, place,
+    request_id, session, session_number, station, task, task_set,
 };
 use crate::MAX_FOLLOWERS;
 use crate::config::Settings;
 use crate::id::SessionNumber;
 use crate::message::{
-    Answer, Command, Confirmation, Coordination, Ending, Failure, Farewell, Progress, Ram,
-    Rejection, Report, Verdict,
+    Answer, Command, Confirmation, Coordination, Ending, Farewell, Progress, Ram, Rejection,
+    Report, Verdict,
 };
+use crate::task::Urgency;
 use crate::time::Millis;
 
 /// A RAM whose part in a session is of this kind: 0 none, 1 `needHelp`, 2 `offerHelp`, 3 leader, 4
@@ -60,7 +61,7 @@ fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
                 station: station(s, ME + i),
                 offer: offer_number(s),
             }),
-            urgency: urgency(source),
+            urgency: Urgency::any(source),
             place: place(source),
             yields: source.likely(Some(false)),
         },
@@ -69,7 +70,7 @@ fn coordination(source: &mut impl Source, kind: u32) -> Coordination {
             echo: heartbeat(source),
             last: option(source, |s| Report {
                 request: request_id(s),
-                progress: progress(s, u32::MAX),
+                progress: Progress::any(s),
             }),
         },
     }
@@ -81,41 +82,8 @@ pub(super) fn farewell(source: &mut impl Source, leader: u32) -> Farewell {
         let session = session(source, if leader == PEER { ME } else { PEER });
         Farewell::Left(session, offer_number(source))
     } else {
-        let ending = if source.flag() {
-            Ending::Completed
-        } else {
-            Ending::Aborted
-        };
+        let ending = Ending::any(source);
         Farewell::Ended(SessionNumber(number(source)), ending)
-    }
-}
-
-/// The hint for [`Progress::Executing`].
-pub(super) const EXECUTING: u32 = 0;
-
-pub(super) fn progress(source: &mut impl Source, hint: u32) -> Progress {
-    match source.number(4, hint) {
-        EXECUTING => Progress::Executing,
-        1 => Progress::InPosition,
-        2 => Progress::Completed,
-        3 => Progress::Failed(failure(source)),
-        _ => Progress::SafeIdle,
-    }
-}
-
-fn failure(source: &mut impl Source) -> Failure {
-    match choice(source, 3) {
-        0 => Failure::Maneuver,
-        1 => Failure::Unavailable(unavailability(source)),
-        _ => Failure::ExecutionLimit,
-    }
-}
-
-pub(super) fn rejection(source: &mut impl Source) -> Rejection {
-    match choice(source, 3) {
-        0 => Rejection::Unavailable(unavailability(source)),
-        1 => Rejection::OnDuty,
-        _ => Rejection::UnsupportedTask,
     }
 }
 
@@ -136,7 +104,7 @@ pub fn answer(source: &mut impl Source) -> Answer {
         session: session(source, ME),
         request: request_id(source),
         verdict: if source.flag() {
-            Verdict::Rejected(rejection(source))
+            Verdict::Rejected(Rejection::any(source))
         } else {
             Verdict::Accepted
         },

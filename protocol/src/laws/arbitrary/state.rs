@@ -1,72 +1,46 @@
 //! Arbitrary states, valid or not.
 
-use super::message::{EXECUTING, farewell, progress, rejection};
+use super::message::farewell;
 use super::{
-    BOOT, HEARTBEAT, ME, PEER, REQUEST, Source, availability, choice, earlier_heartbeat, heartbeat,
-    help_request, likely, list, maneuver_id, number, offer_number, option, request_id, session,
-    session_number, station, task, task_like, task_set,
+    Any, AnyWord, BOOT, HEARTBEAT, ME, PEER, REQUEST, Source, availability, choice,
+    earlier_heartbeat, heartbeat, help_request, likely, list, maneuver_id, number, offer_number,
+    option, request_id, session, session_number, station, task, task_like, task_set,
 };
 use crate::config::Config;
 use crate::id::{Heartbeat, OfferNumber, RequestId, SessionNumber, StationId};
 use crate::input::Decimetres;
-use crate::message::Progress;
+use crate::message::{Progress, ProgressKind, Rejection};
 use crate::output::Maneuver;
 use crate::state::{
     Contact, Corridor, Duty, Following, Identity, Job, Leading, Lease, Member, Offer, Offering,
-    Order, Outstanding, Phase, Refusal, Requesting, Rival, Robot, StandingFarewell,
+    Order, Outstanding, Phase, Refusal, Requesting, Rival, Robot, Role, StandingFarewell,
 };
 use crate::task::{Availability, HelpRequest, TaskType};
 use crate::time::{Countdown, Millis};
 
-/// The stages of a robot, which are the variants of [`Phase`].
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Stage {
-    /// [`Phase::Idle`].
-    Idle,
-    /// [`Phase::Requesting`].
-    Requesting,
-    /// [`Phase::Offering`].
-    Offering,
-    /// [`Phase::Leading`].
-    Leading,
-    /// [`Phase::Following`].
-    Following,
-}
-
-impl Stage {
-    /// All stages.
-    pub const ALL: [Self; 5] = [
-        Self::Idle,
-        Self::Requesting,
-        Self::Offering,
-        Self::Leading,
-        Self::Following,
-    ];
-}
-
 /// How many offers or followers a state has, at least and at most.
 pub type Peers = (usize, usize);
 
-/// Any state in this stage that can be valid. `config` is for hints.
+/// Any state in this role that can be valid. `config` is for hints.
 ///
 /// A robot in a session has its identity locked, and only one without a part or a follower can be
 /// unavailable or have a duty: to say so at once, rather than by [`Robot::is_valid`] alone, saves a proof the rest.
-pub fn valid_robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) -> Robot {
-    let mut robot = robot(source, config, stage, peers);
-    if stage != Stage::Idle {
+pub fn valid_robot(source: &mut impl Source, config: &Config, role: Role, peers: Peers) -> Robot {
+    let mut robot = robot(source, config, role, peers);
+    if role != Role::None {
         let limit = config.t_lock_session();
         robot.identity = Identity::Locked(countdown(source, limit));
         robot.ram = countdown(source, config.settings().ram_period);
     }
-    if !matches!(stage, Stage::Idle | Stage::Following) {
+    if !matches!(role, Role::None | Role::Follower) {
         robot.availability = Availability::Available;
         robot.duty = None;
     }
     robot
 }
 
-/// Any state in this stage. `config` is for hints.
-pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) -> Robot {
+/// Any state in this role. `config` is for hints.
+pub fn robot(source: &mut impl Source, config: &Config, role: Role, peers: Peers) -> Robot {
     let settings = config.settings();
     Robot {
         station: station(source, ME),
@@ -89,7 +63,7 @@ pub fn robot(source: &mut impl Source, config: &Config, stage: Stage, peers: Pee
             farewell: farewell(s, ME),
             left: countdown(s, settings.t_farewell),
         }),
-        phase: phase(source, config, stage, peers),
+        phase: phase(source, config, role, peers),
     }
 }
 
@@ -121,11 +95,11 @@ fn armed_if(source: &mut impl Source, hint: Option<bool>, limit: Millis) -> Coun
     }
 }
 
-fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) -> Phase {
+fn phase(source: &mut impl Source, config: &Config, role: Role, peers: Peers) -> Phase {
     let settings = config.settings();
-    match stage {
-        Stage::Idle => Phase::Idle,
-        Stage::Requesting => Phase::Requesting(Requesting {
+    match role {
+        Role::None => Phase::Idle,
+        Role::Requester => Phase::Requesting(Requesting {
             number: SessionNumber(number(source)),
             request: help_request(source),
             heartbeat: heartbeat(source),
@@ -134,7 +108,7 @@ fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) 
             help: countdown(source, settings.t_help),
             selection: armed_or_off(source, settings.t_select),
         }),
-        Stage::Offering => Phase::Offering(Offering {
+        Role::Helper => Phase::Offering(Offering {
             session: session(source, PEER),
             number: OfferNumber(number(source)),
             capabilities: task_set(source),
@@ -142,8 +116,8 @@ fn phase(source: &mut impl Source, config: &Config, stage: Stage, peers: Peers) 
             t_safety: Millis(source.number(u32::MAX, settings.t_safety.0)),
             reservation: countdown(source, settings.t_offer),
         }),
-        Stage::Leading => Phase::Leading(leading(source, config, peers)),
-        Stage::Following => Phase::Following(following(source, config)),
+        Role::Leader => Phase::Leading(leading(source, config, peers)),
+        Role::Follower => Phase::Following(following(source, config)),
     }
 }
 
@@ -250,12 +224,13 @@ fn echo(source: &mut impl Source) -> Heartbeat {
 fn order(source: &mut impl Source, config: &Config, engaged: bool, hint: u8) -> Order {
     let request = RequestId(source.u8(hint));
     let (hint, guards) = if engaged {
-        (EXECUTING, u32::from(TaskType::MOVE.value()))
+        let executing = ProgressKind::Executing as u32;
+        (executing, u32::from(TaskType::MOVE.value()))
     } else {
         (u32::MAX, u32::MAX)
     };
     let task = task_like(source, guards);
-    let progress = option(source, |s| progress(s, hint));
+    let progress = option(source, |s| Progress::any_like(s, hint));
     let is_running = progress.is_none_or(Progress::is_running);
     Order {
         request,
@@ -279,11 +254,11 @@ fn following(source: &mut impl Source, config: &Config) -> Following {
         job: option(source, |s| Job {
             request: request_id(s),
             task: task(s),
-            progress: progress(s, u32::MAX),
+            progress: Progress::any(s),
         }),
         refused: option(source, |s| Refusal {
             request: request_id(s).next(),
-            reason: rejection(s),
+            reason: Rejection::any(s),
         }),
     }
 }
