@@ -104,7 +104,7 @@ enum Command {
     Sniff(sniff::Arguments),
     /// Route for robots that meet over zenoh and have no way to each other (--zenoh client).
     Router(zenoh::RouterArguments),
-    /// Check and draw the site of a crossing, and a plan on it.
+    /// Check and print the site of a crossing, and a plan on it.
     #[command(subcommand)]
     Site(site::Command),
     /// Convert messages between octets and JSON.
@@ -145,9 +145,16 @@ impl From<std::io::Error> for Failure {
     }
 }
 
-pub(crate) fn main() -> ExitCode {
-    let command = ranges::with_negative_numbers(Arguments::command());
-    let arguments = Arguments::from_arg_matches(&command.get_matches());
+/// The commands and options that there are.
+#[must_use]
+pub fn command() -> clap::Command {
+    ranges::with_negative_numbers(Arguments::command())
+}
+
+/// Does what the arguments of this process say.
+#[must_use]
+pub fn main() -> ExitCode {
+    let arguments = Arguments::from_arg_matches(&command().get_matches());
     let arguments = arguments.unwrap_or_else(|error| error.exit());
     let _written = to_standard_error(
         arguments.verbose,

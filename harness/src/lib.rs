@@ -12,15 +12,15 @@
 //!
 //! - [`demo`] is the paper's crossing and its extensions to teams, with simulated bodies.
 //! - [`operator`] reads what a person types to `crossguard run`.
-//! - [`site_picture`] draws a site and a plan to scale.
 //! - [`studio`] serves a page on which logs are looked at.
 //! - [`metrics`] serves what Prometheus wants to know of a running robot.
 
+#[doc(hidden)]
+pub mod cli;
 pub mod demo;
 mod http;
 pub mod metrics;
 pub mod operator;
-pub mod site_picture;
 pub mod studio;
 
 /// The Rust in the README compiles.

@@ -1,7 +1,5 @@
 //! The `crossguard` command.
 
-mod cli;
-
 fn main() -> std::process::ExitCode {
-    cli::main()
+    crossguard_harness::cli::main()
 }

@@ -8,7 +8,6 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use crossguard_codec::Identifiers;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Mode;
-use crossguard_harness::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 use crossguard_judge::chart::Chart;
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::site_file::SiteFile;
@@ -18,6 +17,7 @@ use crossguard_robot::transport::Faults;
 use super::interrupts::interrupts;
 use super::ranges::{any, in_range, speed, whole};
 use super::{Failure, destinations, print, print_json, timing};
+use crate::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {

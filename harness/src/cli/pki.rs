@@ -4,9 +4,8 @@ mod shown;
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::NonEmptyStringValueParser;
-use clap::{ArgAction, ValueEnum};
-use crossguard_codec::security::{Certificate, Duration, Permission, Place, Region, Ssp, Time64};
+use clap::ValueEnum;
+use crossguard_codec::security::{Certificate, Duration, Permission, Time64};
 use crossguard_codec::{Identifiers, Part};
 use crossguard_protocol::StationId;
 use crossguard_robot::pki::{self, Holder, PkiError, Term};
@@ -28,24 +27,6 @@ pub(super) enum Command {
         robots: Vec<Named>,
         #[command(flatten)]
         pseudonyms: Pseudonyms,
-        #[command(flatten)]
-        output: Form,
-    },
-    /// Make a root, which vouches for authorities.
-    Root {
-        /// The folder, which is made if need be.
-        folder: PathBuf,
-        #[command(flatten)]
-        authority: Office,
-        #[command(flatten)]
-        output: Form,
-    },
-    /// Make an authority below the root in a folder, which issues pseudonyms.
-    Authority {
-        /// The folder with the root.
-        folder: PathBuf,
-        #[command(flatten)]
-        authority: Office,
         #[command(flatten)]
         output: Form,
     },
@@ -101,25 +82,6 @@ pub(super) struct Form {
     json: bool,
 }
 
-/// What a root or an authority is for.
-#[derive(clap::Args)]
-pub(super) struct Office {
-    /// Its name.
-    #[arg(long, value_parser = NonEmptyStringValueParser::new())]
-    name: Option<String>,
-    /// For how many years it is valid.
-    #[arg(long, default_value_t = 3, value_parser = whole::<u16>(1..=50))]
-    years: u16,
-    /// An ITS-AID that pseudonyms below it may be for; by default those of all services.
-    #[arg(long = "its-aid", value_name = "NUMBER", action = ArgAction::Append, value_parser = whole::<u32>(0..=u32::MAX.into()))]
-    its_aids: Vec<u32>,
-    #[command(flatten)]
-    where_valid: Where,
-    /// From when on it is valid, if not from now.
-    #[arg(skip)]
-    from: Option<Time64>,
-}
-
 /// What pseudonyms are for.
 #[derive(clap::Args)]
 pub(super) struct Pseudonyms {
@@ -144,13 +106,6 @@ pub(super) struct Pseudonyms {
     /// The only crossing where it may take them, as 'place' in robot files has it.
     #[arg(long, value_name = "NUMBER", value_parser = whole::<u32>(1..=u32::MAX.into()))]
     place: Option<u32>,
-    /// Instead of RAM, RMCM, CAM and VAM: an ITS-AID, with its service specific permissions as a bitmap in
-    /// hexadecimal digits if it has some.
-    #[arg(long = "its-aid", value_name = "NUMBER[:DIGITS]", action = ArgAction::Append,
-        value_parser = permission)]
-    its_aids: Vec<Permission>,
-    #[command(flatten)]
-    where_valid: Where,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -159,43 +114,6 @@ enum PartName {
     Lead,
     /// Offer help, follow and answer.
     Help,
-}
-
-/// Where certificates are valid; anywhere, if nothing is said.
-#[derive(clap::Args)]
-pub(super) struct Where {
-    /// Valid in a circle only: its centre in degrees and its radius in metres.
-    #[arg(long, value_name = "LAT,LON,RADIUS", value_parser = circle, allow_hyphen_values = true)]
-    circle: Option<Region>,
-    /// Valid in a rectangle only: its sides in degrees; give the option once for each.
-    #[arg(long, value_name = "NORTH,WEST,SOUTH,EAST", value_parser = rectangle,
-        conflicts_with = "circle", allow_hyphen_values = true)]
-    rectangle: Vec<(Place, Place)>,
-}
-
-impl Where {
-    fn region(&self) -> Option<Region> {
-        let rectangles =
-            (!self.rectangle.is_empty()).then(|| Region::Rectangles(self.rectangle.clone()));
-        self.circle.clone().or(rectangles)
-    }
-}
-
-fn permission(text: &str) -> Result<Permission, String> {
-    let (number, ssp) = match text.split_once(':') {
-        Some((number, digits)) => {
-            let bits = hex::decode(digits).map_err(|error| format!("'{digits}': {error}"))?;
-            if !(1..=32).contains(&bits.len()) {
-                return Err("1 to 32 octets of service specific permissions are wanted".to_owned());
-            }
-            (number, Ssp::Bitmap(bits))
-        }
-        None => (text, Ssp::Default),
-    };
-    let its_aid = number
-        .parse()
-        .map_err(|_| format!("'{number}' is no ITS-AID, a number like 16480"))?;
-    Ok(Permission { its_aid, ssp })
 }
 
 /// A robot that gets pseudonyms.
@@ -224,52 +142,6 @@ fn holder(text: &str) -> Result<Named, String> {
     })
 }
 
-fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let numbers: Result<Vec<_>, _> = text.split(',').map(|n| n.trim().parse()).collect();
-    numbers
-        .ok()
-        .and_then(|numbers| numbers.try_into().ok())
-        .ok_or_else(|| format!("{N} numbers with commas between them are wanted"))
-}
-
-fn place(latitude: f64, longitude: f64) -> Result<Place, String> {
-    if !(-90.0..=90.0).contains(&latitude) || !(-179.999_999_9..=180.0).contains(&longitude) {
-        return Err(format!(
-            "{latitude}, {longitude} is not a latitude and longitude in degrees"
-        ));
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "in range")]
-    let units = |degrees: f64| (degrees * 1e7).round() as i32;
-    Ok(Place {
-        latitude: units(latitude),
-        longitude: units(longitude),
-    })
-}
-
-fn circle(text: &str) -> Result<Region, String> {
-    let [latitude, longitude, radius] = numbers(text)?;
-    if !(1.0..=65_535.0).contains(&radius) {
-        return Err(format!("a radius of {radius} m: 1 to 65535 are possible"));
-    }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "in range"
-    )]
-    Ok(Region::Circle {
-        centre: place(latitude, longitude)?,
-        radius: radius as u16,
-    })
-}
-
-fn rectangle(text: &str) -> Result<(Place, Place), String> {
-    let [north, west, south, east] = numbers(text)?;
-    if south > north || west > east {
-        return Err("north must be above south, and west before east".to_owned());
-    }
-    Ok((place(north, west)?, place(south, east)?))
-}
-
 pub(super) fn run(command: &Command) -> Result<(), Failure> {
     let (files, is_json) = match command {
         Command::Init {
@@ -278,16 +150,6 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
             pseudonyms,
             output,
         } => (init(folder, robots, pseudonyms)?, output.json),
-        Command::Root {
-            folder,
-            authority,
-            output,
-        } => (vec![root(folder, authority)?], output.json),
-        Command::Authority {
-            folder,
-            authority,
-            output,
-        } => (vec![new_authority(folder, authority)?], output.json),
         Command::Tickets {
             folder,
             robot,
@@ -370,19 +232,18 @@ fn init_in(
     let early = Pseudonyms::from(pseudonyms.start_in.min(0));
     let early_us = pki::early_us(Duration::hours(pseudonyms.hours));
     let early = Time64(early.0.saturating_sub(early_us));
-    let office = |name: &str, years| Office {
-        name: Some(name.to_owned()),
-        years,
-        its_aids: Vec::new(),
-        where_valid: Where {
-            circle: None,
-            rectangle: Vec::new(),
-        },
-        from: Some(early),
+    let term = |years| Term {
+        from: early,
+        duration: Duration::years(years),
     };
+    let its_aids = pki::its_aids(&Identifiers::default());
+    let root = pki::new_root("test root", term(10), None, &its_aids).map_err(Failure::input)?;
+    let below = within(term(3), &root.certificate);
+    let authority = pki::new_authority(&root, "test authority", below, None, &its_aids);
+    let authority = authority.map_err(Failure::input)?;
     let mut files = vec![
-        root(folder, &office("test root", 10))?,
-        new_authority(folder, &office("test authority", 3))?,
+        write(&root, folder, "root")?,
+        write(&authority, folder, "authority")?,
     ];
     for robot in robots {
         files.extend(tickets(folder, robot, pseudonyms)?);
@@ -405,39 +266,6 @@ fn take_place(unfinished: &Path, folder: &Path) -> Result<(), Failure> {
     });
     let moved = moved.and_then(|()| pki::sync_folder(folder));
     moved.map_err(|error| Failure::Input(format!("{}: {error}", folder.display())))
-}
-
-impl Office {
-    fn its_aids(&self) -> Vec<u32> {
-        if self.its_aids.is_empty() {
-            pki::its_aids(&Identifiers::default())
-        } else {
-            self.its_aids.clone()
-        }
-    }
-
-    fn term(&self) -> Term {
-        Term {
-            from: self.from.unwrap_or_else(pki::now),
-            duration: Duration::years(self.years),
-        }
-    }
-}
-
-fn root(folder: &Path, office: &Office) -> Result<File, Failure> {
-    let name = office.name.as_deref().unwrap_or("test root");
-    let region = office.where_valid.region();
-    let root = pki::new_root(name, office.term(), region, &office.its_aids());
-    write(&root.map_err(Failure::input)?, folder, "root")
-}
-
-fn new_authority(folder: &Path, office: &Office) -> Result<File, Failure> {
-    let root = Holder::read(folder, "root").map_err(Failure::input)?;
-    let name = office.name.as_deref().unwrap_or("test authority");
-    let region = office.where_valid.region();
-    let term = within(office.term(), &root.certificate);
-    let authority = pki::new_authority(&root, name, term, region, &office.its_aids());
-    write(&authority.map_err(Failure::input)?, folder, "authority")
 }
 
 /// The same from not before an issuer is valid on.
@@ -480,13 +308,12 @@ fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File
     let robot_folder = pki::robot_folder(folder, &robot.name);
     let mut files = Vec::new();
     // All are made before any is written.
-    let region = || wanted.where_valid.region();
     let ticket = |_| {
         let from = pki::drawn_start(&authority.certificate, term.from, term.duration);
         pki::new_ticket(
             &authority,
             Term { from, ..term },
-            region(),
+            None,
             wanted.permissions(robot.station),
         )
     };
@@ -537,9 +364,6 @@ impl Pseudonyms {
     }
 
     fn permissions(&self, named: Option<StationId>) -> Vec<Permission> {
-        if !self.its_aids.is_empty() {
-            return self.its_aids.clone();
-        }
         let part = |part: &PartName| match part {
             PartName::Lead => Part::Lead,
             PartName::Help => Part::Help,

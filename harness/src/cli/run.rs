@@ -25,7 +25,6 @@ use std::time::{Duration, Instant};
 use crossguard_codec::{MapPlace, Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::listen::overhear;
-use crossguard_harness::operator::{self, Line, help};
 use crossguard_model_check::timed::{Limits, USUAL_DELAY};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::attachment::Sends;
@@ -41,6 +40,7 @@ use typist::Typist;
 use super::interrupts::interrupts;
 use super::ranges::{any, group, number};
 use super::{Failure, destinations, print};
+use crate::operator::{self, Line, help};
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);

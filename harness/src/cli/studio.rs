@@ -2,8 +2,8 @@
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
-use crossguard_harness::studio::{self, Followed, GivenRun, Numbered, Studied, Studio};
 use crossguard_judge::playback::{Playback, written_us};
 use crossguard_judge::validate::{self, Invalid, Validated};
 use crossguard_model_check::scenario::Scenario;
@@ -11,6 +11,7 @@ use crossguard_robot::trace::Merged;
 
 use super::interrupts::interrupts_that;
 use super::{Failure, complain, open_logs, print};
+use crate::studio::{self, Followed, GivenRun, Numbered, Studied, Studio};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -95,7 +96,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _ = interrupts_that(|| std::process::exit(0));
     print(format_args!("Open {page} in a browser; Ctrl-C ends it."))?;
     if !arguments.no_browser
-        && let Err(error) = open::that_detached(page)
+        && let Err(error) = Command::new("xdg-open")
+            .arg(page)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
     {
         complain(format_args!("no browser was opened: {error}"));
     }

@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use crossguard_endpoint::cause::Cause;
-use crossguard_harness::metrics::{self, Shared};
 use crossguard_robot::runtime::Running;
 use crossguard_robot::trace::Record;
 
 use super::Failure;
 use super::screen::Screen;
+use crate::metrics::{self, Shared};
 
 /// How often the status line is drawn, on a terminal and where lines stay.
 const REDRAW: Duration = Duration::from_millis(200);

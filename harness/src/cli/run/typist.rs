@@ -8,14 +8,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
 
-use crossguard_harness::metrics::Shared;
-use crossguard_harness::operator;
 use crossguard_robot::tally::Tally;
 use crossterm::event::{Event, read as read_key};
 
 use super::super::screen::{Pressed, Screen};
 use super::super::terminal;
 use super::TYPED;
+use crate::metrics::Shared;
+use crate::operator;
 
 /// How long the end of the program waits for what is still to be shown.
 const PATIENCE: Duration = Duration::from_millis(500);
