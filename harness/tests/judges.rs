@@ -2,16 +2,16 @@
 //! this.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Read, Write};
-use std::net::TcpStream;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Duration;
 
+use crossguard_harness::metrics;
 use crossguard_judge::sim::{Fuzz, run};
+use crossguard_robot::tally::Tally;
 use crossguard_robot::trace::{self, Record};
 use crossguard_testkit::command;
-use crossguard_testkit::command::{robot_file, stderr, type_to, wait_for};
+use crossguard_testkit::command::{robot_file, stderr};
 
 /// Runs a judge with something on its standard input, and shows what it says.
 fn judge(script: &str, arguments: &[&Path], input: &str) {
@@ -57,6 +57,22 @@ fn log_of(seed: u64, path: &Path) {
     file.flush().unwrap();
 }
 
+/// The log of a demonstration with a person at the road, so that there are cluster VAM.
+fn demo(folder: &Path) -> PathBuf {
+    let (people, log) = (folder.join("people.jsonl"), folder.join("demo.jsonl"));
+    let lines = (0..30).map(|tenth| {
+        let at_s = f64::from(tenth) / 10.0;
+        format!("{{\"at_s\": {at_s}, \"id\": 1, \"position_m\": [3.0, 2.0]}}\n")
+    });
+    std::fs::write(&people, lines.collect::<String>()).unwrap();
+    let port = command::two_free_ports().to_string();
+    let mut demo = command::crossguard(&["demo", "--speed", "10", "--loss", "0.1", "--quiet"]);
+    demo.args(["--cam", "--cluster-vam", "--port", &port, "--perceived"]);
+    let demo = demo.arg(&people).arg("--log").arg(&log).output().unwrap();
+    assert!(demo.status.success(), "{}", stderr(&demo));
+    log
+}
+
 #[test]
 #[ignore = "needs what harness/judges/run installs"]
 fn an_independent_reader_finds_the_log_in_the_mcap_file() {
@@ -70,52 +86,19 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
         assert!(output.status.success(), "{}", stderr(&output));
         judge("mcap_judge.py", &[&log, &file], "");
     }
-    let log = path("demo.jsonl");
-    let port = command::two_free_ports().to_string();
-    // Somebody stands at the road, so that there are cluster VAM.
-    let people = path("people.jsonl");
-    let lines = (0..30).map(|tenth| {
-        let at_s = f64::from(tenth) / 10.0;
-        format!("{{\"at_s\": {at_s}, \"id\": 1, \"position_m\": [3.0, 2.0]}}\n")
-    });
-    std::fs::write(&people, lines.collect::<String>()).unwrap();
-    let arguments = ["demo", "--speed", "10", "--loss", "0.1", "--quiet"];
-    let mut demo = command::crossguard(&arguments);
-    demo.args(["--cam", "--cluster-vam", "--port", &port, "--perceived"]);
-    let demo = demo.arg(&people).arg("--log").arg(&log).output().unwrap();
-    assert!(demo.status.success(), "{}", stderr(&demo));
+    let log = demo(folder.path());
     let file = path("demo.mcap");
     let export = command::crossguard(&["export", "--mcap"])
         .arg(&file)
         .arg(&log)
-        .output()
-        .unwrap();
-    assert!(export.status.success(), "{}", stderr(&export));
-    let log_text = std::fs::read_to_string(&log).unwrap();
-    for heard in [
-        "\"heard\",\"message\":\"CAM\"",
-        "\"heard\",\"message\":\"VAM\"",
-    ] {
-        assert!(log_text.contains(heard), "{heard}");
+        .output();
+    assert!(export.unwrap().status.success());
+    let text = std::fs::read_to_string(&log).unwrap();
+    for kind in ["CAM", "VAM"] {
+        let heard = format!("\"heard\",\"message\":\"{kind}\"");
+        assert!(text.contains(&heard), "{heard}");
     }
     judge("mcap_judge.py", &[&log, &file], "");
-}
-
-#[cfg(feature = "zenoh")]
-#[test]
-#[ignore = "needs what harness/judges/run installs"]
-fn a_subscriber_to_zenoh_hears_packets_that_can_be_decoded() {
-    let port = command::free_ports(1);
-    let demo = ["demo", "--zenoh", "router", "--quiet", "--trials", "3"];
-    let mut demo = command::crossguard(&demo)
-        .args(["--port", &port.to_string()])
-        .stdout(Stdio::null())
-        .spawn()
-        .unwrap();
-    let program = Path::new(env!("CARGO_BIN_EXE_crossguard"));
-    let endpoint = format!("tcp/127.0.0.1:{port}");
-    judge("zenoh_judge.py", &[program, Path::new(&endpoint)], "");
-    assert!(wait_for(&mut demo, Duration::from_mins(2)).success());
 }
 
 #[test]
@@ -136,47 +119,14 @@ fn an_independent_decoder_of_cam_sees_the_robot() {
 #[ignore = "needs what harness/judges/run installs"]
 fn prometheus_reads_the_metrics_of_a_robot_that_leads() {
     let folder = tempfile::tempdir().unwrap();
-    let port = command::two_free_ports();
-    let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
-    let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
-    let mut dog = command::start(&go2);
-    let mut command = command::crossguard(&["run", "--config", &ari, "--metrics", "0"]);
-    let mut robot = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut lines = BufReader::new(robot.stdout.take().unwrap())
-        .lines()
-        .map_while(Result::ok);
-    let address = lines.find_map(|line| {
-        let address = line.strip_prefix("Metrics are at http://")?;
-        Some(address.strip_suffix("/metrics.")?.to_owned())
-    });
-    type_to(
-        &mut robot,
-        // Nobody follows yet, so the first one is ignored, and counted.
-        "open\ndetect\nuntil maneuver-executing\nwait 2\nquit\n",
-    );
-    lines
-        .find(|line| line.contains("now ManeuverExecuting"))
-        .expect("it leads");
-    let mut client = TcpStream::connect(address.expect("metrics are served")).unwrap();
-    client
-        .set_read_timeout(Some(Duration::from_secs(10)))
-        .unwrap();
-    client
-        .write_all(b"GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n")
-        .unwrap();
-    let mut answer = String::new();
-    client.read_to_string(&mut answer).unwrap();
-    let (head, body) = answer.split_once("\r\n\r\n").unwrap();
-    assert!(head.starts_with("HTTP/1.1 200"), "{head}");
-    // The output is read to its end.
-    for _ in lines {}
-    type_to(&mut dog, "quit\n");
-    for child in [&mut robot, &mut dog] {
-        assert!(wait_for(child, Duration::from_secs(30)).success());
+    let log = trace::open(&demo(folder.path())).unwrap();
+    let (mut log, mut tally) = (trace::Records::new(log), Tally::default());
+    while !tally.corridor_open() {
+        let record = log.take().unwrap().expect("it leads before its log ends");
+        if record.robot == "ARI" {
+            tally.record(&record);
+        }
     }
-    judge("metrics_judge.py", &[], body);
+    "127.0.0.1:1".clone_into(&mut tally.link);
+    judge("metrics_judge.py", &[], &metrics::text(&tally));
 }

@@ -1,0 +1,347 @@
+"""The studio's pages in Chromium: what they show of good files and of hostile ones, by keys alone, at two widths.
+
+run (beside this file) installs what this needs. Arguments: the script of axe-core, which need not be there.
+"""
+
+import contextlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import traceback
+
+from playwright.sync_api import expect, sync_playwright
+
+PROGRAM = os.environ["CROSSGUARD"]
+AXE = pathlib.Path(sys.argv[1])
+PEOPLE = pathlib.Path(__file__).parents[2] / "examples" / "people.jsonl"
+HOSTILE = "<img src=x onerror='window.harmed=1'><script>window.harmed=1</script>"
+expect.set_options(timeout=60_000)
+
+# What cuts a text off at a width: a box that is narrower than its text, and a text outside of its picture.
+CUT = """() => [...document.querySelectorAll('h1, h2, h3, p, dd, dt, button, label, output, .said, .timers li, summary')]
+    .filter((it) => it.offsetParent && it.scrollWidth > it.clientWidth + 1 && getComputedStyle(it).display !== 'inline')
+    .map((it) => `${it.tagName} ${it.textContent}`)"""
+OUTSIDE = """() => [...document.querySelectorAll('svg[role=img]')].flatMap((of) => {
+    const box = of.getBoundingClientRect();
+    const is_outside = (b) => b.left < box.left - 1 || b.right > box.right + 1 || b.top < box.top - 1 || b.bottom > box.bottom + 1;
+    return [...of.querySelectorAll('text')].filter((it) => is_outside(it.getBoundingClientRect())).map((it) => it.textContent); })"""
+SERIOUS = """() => axe.run().then((all) => all.violations.filter((it) => ['serious', 'critical'].includes(it.impact))
+    .map((it) => `${it.id}: ${it.nodes.slice(0, 5).map((node) => node.html + node.failureSummary).join(' | ')}`))"""
+
+
+def run(*arguments):
+    """What a command of the kit prints."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+class Studio:
+    """A studio that is served, and a page of it in a browser."""
+
+    def __init__(self, browser, *arguments):
+        command = [PROGRAM, "studio", "--no-browser", "--port", "0", *map(str, arguments)]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        self.url = re.search(r"http://\S+", self.process.stdout.readline()).group()
+        self.server = "/".join(self.url.split("/")[:3]) + "/"
+        self.page = browser.new_page(viewport={"width": 1280, "height": 900}, accept_downloads=True)
+        self.errors, self.requests = [], []
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.on("console", lambda it: self.errors.append(it.text) if it.type == "error" else None)
+        self.page.on("request", lambda it: self.requests.append(it.url))
+
+    def open(self, view=None):
+        self.page.goto(self.server + view if view else self.url)
+        self.page.wait_for_selector("html[data-ready=true]", state="attached")
+        return self.page
+
+    def assert_clean(self):
+        """No error, and no request of anybody else."""
+        assert self.errors == [], self.errors
+        assert len(self.requests) > 8
+        others = [it for it in self.requests if not it.startswith((self.server, "blob:", "data:"))]
+        assert others == [], others
+        assert self.page.evaluate("window.harmed === undefined && document.images.length === 0")
+
+    def assert_fits(self):
+        """Each width and colour scheme shows the page without cutting a text off, and axe finds nothing serious."""
+        if AXE.is_file():
+            self.page.evaluate(AXE.read_text() + "; true")
+        for scheme in ("light", "dark"):
+            self.page.emulate_media(color_scheme=scheme)
+            for width in (820, 1280):
+                self.page.set_viewport_size({"width": width, "height": 900})
+                assert self.page.evaluate("document.documentElement.scrollWidth") <= width, (width, scheme)
+                for cut in (CUT, OUTSIDE):
+                    assert self.page.evaluate(cut) == [], (width, scheme, self.page.evaluate(cut))
+            if AXE.is_file():
+                assert self.page.evaluate(SERIOUS) == [], (scheme, self.page.evaluate(SERIOUS))
+
+    def assert_reached_by_tab(self, times, *names):
+        """What can be used is reached by Tab, and shows that it has the focus."""
+        reached = []
+        for _ in range(times):
+            self.page.keyboard.press("Tab")
+            name, is_shown = self.page.evaluate(
+                """() => { const it = document.activeElement;
+                return [it.id || it.className || it.textContent, getComputedStyle(it).outlineStyle !== 'none']; }"""
+            )
+            assert is_shown, name
+            reached.append(name)
+        assert set(names) <= set(reached), reached
+
+    def open_file(self, content):
+        file = {"name": "run.json", "mimeType": "application/json", "buffer": content.encode()}
+        self.page.set_input_files("#file", [file])
+
+    def saved(self, folder):
+        """The run that the page saves."""
+        with self.page.expect_download() as download:
+            self.page.click("#save")
+        path = folder / "saved.json"
+        download.value.save_as(path)
+        return path
+
+    def close(self):
+        self.page.close()
+        self.process.kill()
+        self.process.wait()
+
+
+def free_port():
+    """The first of some ports that are free now: nobody else picks from below the system's range."""
+    for port in range(20_000 + os.getpid() % 1_000 * 10, 32_000, 10):
+        with contextlib.suppress(OSError), contextlib.ExitStack() as sockets:
+            for offset in range(4):
+                sockets.enter_context(socket.socket(type=socket.SOCK_DGRAM)).bind(("127.0.0.1", port + offset))
+            return str(port)
+    raise OSError("no free ports")
+
+
+def demo(folder, *arguments):
+    log = folder / "log.jsonl"
+    run("demo", "--quiet", "--speed", "40", "--port", free_port(), "--log", log, *arguments)
+    return log
+
+
+def after(studio, folder):
+    log = demo(folder, "--scenario", "team", "--perceived", PEOPLE)
+    at = studio(log, "--site", "street")
+    page = at.open()
+    expect(page.locator("#robots article")).to_have_count(4)
+    expect(page.locator("#map .body")).to_have_count(4)
+    # Forth and back by keys, and the row that is current says the time.
+    time = lambda: int(page.eval_on_selector("#slider", "it => it.value"))
+    seen = []
+    for _ in range(5):
+        before = time()
+        page.keyboard.press("ArrowRight")
+        page.wait_for_function("at => Number(document.getElementById('slider').value) > at", arg=before)
+        seen.append(time())
+        expect(page.locator(".row.current .at")).to_have_text(f"{seen[-1] / 1e6:.3f}")
+    for past in reversed(seen[:-1]):
+        page.keyboard.press("ArrowLeft")
+        expect(page.locator(".row.current .at")).to_have_text(f"{past / 1e6:.3f}")
+    page.eval_on_selector("#slider", "it => { it.value = it.max / 2; it.dispatchEvent(new Event('input')); }")
+    expect(page.locator("#map .person").first).to_be_visible()
+    page.keyboard.press("Home")
+    page.keyboard.press(" ")
+    page.wait_for_function("Number(document.getElementById('slider').value) > 200000")
+    page.keyboard.press(" ")
+    expect(page.locator("#play")).to_have_text("Play")
+    at.assert_reached_by_tab(18, "skip", "first", "previous", "play", "next", "last", "speed", "slider", "rows")
+    page.keyboard.press("End")
+    at.assert_fits()
+    at.assert_clean()
+
+
+def hostile_log(studio, folder):
+    """Names with markup, very many events, and a cut in the middle of a record with more behind it."""
+    records = [json.loads(line) for line in demo(folder).read_text().splitlines()]
+    last = records[-1]["atUs"]
+    for number in range(50_000):
+        detail = HOSTILE + "x" * 300 if number % 25 == 0 else HOSTILE
+        records.append({"atUs": last + number * 100, "robot": "ARI", "entry": "dropped", "layer": "syntax",
+                        "cause": "malformed", "detail": detail, "octets": ""})
+    for record in records:
+        record.pop("link", None)
+        if record["robot"] == "ARI":
+            record["robot"] = HOSTILE
+    log = folder / "<b>hostile.jsonl"
+    cut = '{"atUs": 1, "robot": "cut\n{}\n'
+    log.write_text("".join(json.dumps(it) + "\n" for it in records) + cut)
+    at = studio(log)
+    page = at.open()
+    expect(page.locator("#troubles")).to_contain_text(f"line {len(records) + 1}: is not a record")
+    expect(page.locator("#chip")).to_have_text("✗ Not valid")
+    for key in ("Home", "ArrowRight", "End", "ArrowLeft"):
+        page.keyboard.press(key)
+    page.wait_for_function("document.querySelectorAll('#messages .row').length > 50")
+    assert page.evaluate("document.querySelectorAll('*').length") < 9_000
+    expect(page.locator("body")).to_contain_text(HOSTILE)
+    at.assert_clean()
+
+
+def play(studio, folder):
+    at = studio()
+    page = at.open("play/")
+    taken = lambda steps: expect(page.locator("#steps .row")).to_have_count(steps)
+    click = lambda part, label: page.locator(f"#{part} button:enabled", has_text=re.compile(f"^{label}")).first.click()
+    state = page.locator("#robots .state").nth(1)
+    click("robots", "Pedestrian detected")
+    taken(1)
+    expect(page.locator("#air .what")).to_have_text(re.compile("^robot 1 → robot 2: RAM"))
+    click("air", "Lose")
+    taken(2)
+    expect(page.locator("#air .what")).to_have_count(0)
+    click("robots", "Let timer ram run out")
+    taken(3)
+    click("air", "Deliver")
+    taken(4)
+    expect(state).to_have_text("HelpRequested (helper)")
+    # Back to before it was lost, and on again.
+    for steps in (3, 2, 1):
+        page.click("#undo")
+        taken(steps)
+    expect(state).to_have_text("Idle")
+    for steps in (2, 3, 4):
+        page.click("#redo")
+        taken(steps)
+    said = run("check", "--replay", at.saved(folder), "--endpoints")
+    assert "Endpoints took 4 of its 4 steps" in said, said
+    # Files that are no run leave the play as it was.
+    for content, cause in (("{cut", "this is no JSON"), ("[]", "this is no run")):
+        at.open_file(content)
+        expect(page.locator("#troubles")).to_contain_text(cause)
+        taken(4)
+    # A street of five robots, by keys alone.
+    at.assert_reached_by_tab(24, "scenario", "loss", "delay", "seed", "breakdowns", "auto", "save", "file")
+    page.evaluate("document.getElementById('own').open = true")
+    page.fill("#robots-wanted", "5")
+    page.press("#robots-wanted", "Enter")
+    expect(page.locator("#robots article")).to_have_count(5)
+    page.locator("#robots button", has_text="Pedestrian").first.press("Enter")
+    taken(1)
+    page.evaluate("document.activeElement.blur()")
+    for key, steps in (("l", 2), ("u", 1), ("r", 2), ("w", 3)):
+        page.keyboard.press(key)
+        taken(steps)
+    page.keyboard.press(" ")
+    page.wait_for_function("document.querySelectorAll('#steps .row').length > 12")
+    page.keyboard.press(" ")
+    expect(page.locator("#auto")).to_have_attribute("aria-pressed", "false")
+    at.assert_fits()
+    at.assert_clean()
+
+
+def explore(studio, folder):
+    at = studio()
+    page = at.open("explore/")
+    expect(page.locator("#about b")).to_have_text(re.compile("^P1: "))
+    states = lambda: page.locator("#robots .state").all_text_contents()
+    seen = [states()]
+    assert seen[0] == ["Idle", "Idle"]
+    for step in range(1, 10):
+        page.keyboard.press("ArrowRight")
+        expect(page.locator(".row.current .at")).to_have_text(str(step))
+        seen.append(states())
+    # The leader counts on a guard that has fallen back.
+    assert seen[9] == ["ManeuverExecuting (leader)", "RoleEstablished (follower)"], seen[9]
+    for step in range(8, -1, -1):
+        page.keyboard.press("ArrowLeft")
+        page.wait_for_function("at => Number(document.getElementById('slider').value) === at", arg=step)
+        assert states() == seen[step]
+    page.keyboard.press("End")
+    run_of_page = json.loads(at.saved(folder).read_text())
+    # The first state where something is so, and one that never is.
+    page.select_option("#scenario", "crossing")
+    page.select_option("#who", "event")
+    page.select_option("#goal", "0")
+    page.press("#goal", "Enter")
+    page.eval_on_selector("#search", "it => it.requestSubmit()")
+    expect(page.locator("#found")).to_have_text(re.compile("^After "))
+    expect(page.locator("#person")).to_have_text("Somebody is on the road, at the sign of robot 1.")
+    expect(page.locator("#touched")).to_contain_text("W1 when a pedestrian steps on the road")
+    page.select_option("#who", "1")
+    page.select_option("#goal", "1")
+    page.eval_on_selector("#search", "it => it.requestSubmit()")
+    expect(page.locator("#found")).to_have_text(re.compile("^Never: all "))
+    at.assert_reached_by_tab(20, "run", "file", "save", "scenario", "who", "goal", "next", "slider")
+    at.assert_fits()
+    at.assert_clean()
+    # A run with markup in it, opened from a file; the page reads no file of this machine.
+    run_of_page["steps"][1]["action"] = HOSTILE
+    run_of_page["property"] = HOSTILE
+    path = folder / "<b>hostile.json"
+    path.write_text(json.dumps(run_of_page))
+    at = studio("--replay", path)
+    page = at.open()
+    expect(page.locator("#troubles")).to_contain_text("cannot happen")
+    expect(page.locator("body")).to_contain_text(HOSTILE)
+    assert page.evaluate("window.harmed === undefined && document.images.length === 0")
+    at.open_file('{"scenario": "/etc/hostname", "property": "", "steps": []}')
+    expect(page.locator("#troubles")).to_contain_text("does not come with the kit")
+
+
+def live(studio, folder):
+    log = folder / "growing.jsonl"
+    at = studio("--follow", log)
+    page = at.open()
+    chip = page.locator("#chip")
+    expect(chip).to_have_text("Waiting for a record")
+    command = [PROGRAM, "demo", "--port", free_port(), "--log", str(log)]
+    crossing = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        expect(chip).to_have_text("● Live")
+        expect(page.locator("#map .body")).to_have_count(2)
+        page.wait_for_function("document.querySelectorAll('#messages .row').length > 4")
+        # Both hang: what is shown is said to be old.
+        crossing.send_signal(signal.SIGSTOP)
+        expect(chip).to_have_text("✗ 2 of 2 silent")
+        expect(page.locator(".robot.stale")).to_have_count(2)
+        at.assert_fits()
+        crossing.send_signal(signal.SIGCONT)
+        expect(chip).to_have_text("● Live")
+        page.keyboard.press(" ")
+        expect(chip).to_have_text("‖ Held")
+        page.keyboard.press(" ")
+        at.assert_clean()
+        # A page whose studio is gone says so.
+        at.process.kill()
+        expect(chip).to_have_text("✗ Not live")
+    finally:
+        crossing.kill()
+
+
+def main():
+    passed = failed = 0
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        for test in (after, hostile_log, play, explore, live):
+            with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as closing:
+                def studio(*arguments):
+                    at = Studio(browser, *arguments)
+                    closing.callback(at.close)
+                    return at
+                try:
+                    test(studio, pathlib.Path(folder))
+                    passed += 1
+                    print(f"{test.__name__}: ok", flush=True)
+                except Exception:
+                    failed += 1
+                    traceback.print_exc()
+                    print(f"{test.__name__}: FAILED", flush=True)
+        browser.close()
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
