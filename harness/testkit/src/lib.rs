@@ -11,8 +11,6 @@
 pub mod c;
 #[cfg(feature = "command")]
 pub mod command;
-#[cfg(feature = "markdown")]
-pub mod markdown;
 #[cfg(feature = "ports")]
 pub mod ports;
 #[cfg(feature = "rules")]

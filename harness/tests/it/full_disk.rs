@@ -1,0 +1,70 @@
+//! A disk that is full: without a boot counter on it a robot does not start, and does when there is room again.
+
+use std::fs;
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+use crossguard_testkit::command::*;
+
+/// Runs the robot three times on a small disk of its own: with room, without, and with room again.
+const SMALL_DISK: &str = r#"
+set -e
+mount -t tmpfs -o size=16k tmpfs "$1"
+[ "$2" = try ] && exit 0
+printf '%s' "$3" > "$1/ARI.toml"
+start() { echo quit | "$2" run --config "$1/ARI.toml" > /dev/null; }
+start "$1" "$2"
+dd if=/dev/zero of="$1/full" bs=1k status=none 2>/dev/null || true
+start "$1" "$2" && exit 90 || [ $? = 2 ]
+cat "$1/ARI.boot"
+rm "$1/full"
+start "$1" "$2"
+cat "$1/ARI.boot"
+"#;
+
+fn small_disk(arguments: &[&str]) -> Output {
+    Command::new("unshare")
+        .args([
+            "--user",
+            "--map-root-user",
+            "--mount",
+            "sh",
+            "-c",
+            SMALL_DISK,
+            "disk",
+        ])
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn on_a_disk_that_is_full_a_robot_does_not_start_and_does_when_there_is_room_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk = folder.path().to_str().unwrap();
+    let tried = small_disk(&[disk, "try"]);
+    if !tried.status.success() {
+        // Not by eprintln!, which the test runner would capture.
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED on_a_disk_that_is_full_…: this machine permits no mount namespaces: {}",
+            stderr(&tried).trim()
+        );
+        return;
+    }
+    let elsewhere = tempfile::tempdir().unwrap();
+    let port = two_free_ports();
+    let config = robot_file(elsewhere.path(), "ARI", 1, port, port + 1);
+    let config = fs::read_to_string(config).unwrap();
+    let output = small_disk(&[disk, env!("CARGO_BIN_EXE_crossguard"), &config]);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{}{said}", stdout(&output));
+    assert!(
+        said.contains("the boot counter cannot be kept in"),
+        "{said}"
+    );
+    assert!(said.contains("No space left on device"), "{said}");
+    let counters = "crossguard boot counter 1\ncrossguard boot counter 2\n";
+    assert_eq!(stdout(&output), counters);
+}

@@ -1,0 +1,292 @@
+//! The pages of the repository: what they link and tell to type is there.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use clap::error::ErrorKind;
+use crossguard_model_check::scenario::Scenario;
+use crossguard_testkit::command::*;
+use indicatif::HumanCount;
+
+fn repository() -> PathBuf {
+    let harness = Path::new(env!("CARGO_MANIFEST_DIR"));
+    harness.parent().expect("it is in a workspace").to_owned()
+}
+
+/// All files below a folder with this extension, but for what builds leave behind.
+fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
+    for entry in folder.read_dir().unwrap().flatten() {
+        let (path, name) = (entry.path(), entry.file_name());
+        let name = name.to_string_lossy();
+        if name.starts_with('.') || ["target", "node_modules", "build"].contains(&&*name) {
+            continue;
+        }
+        if entry.file_type().unwrap().is_dir() {
+            files(&path, extension, found);
+        } else if path.extension().is_some_and(|found| found == extension) {
+            found.push(path);
+        }
+    }
+}
+
+/// The pages with their texts.
+fn pages() -> BTreeMap<PathBuf, String> {
+    let mut paths = Vec::new();
+    files(&repository(), "md", &mut paths);
+    assert!(paths.len() > 10, "{paths:?}");
+    let read = |path: PathBuf| {
+        let text = std::fs::read_to_string(&path).unwrap();
+        (path, text)
+    };
+    paths.into_iter().map(read).collect()
+}
+
+/// The lines of a page outside of blocks of code, or those inside.
+fn lines(text: &str, code: bool) -> impl Iterator<Item = &str> {
+    let mut inside = false;
+    text.lines().filter(move |line| {
+        let is_fence = line.trim_start().starts_with("```");
+        inside ^= is_fence;
+        !is_fence && inside == code
+    })
+}
+
+/// The anchors of a page: the ones that GitHub gives its headings.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let headings = lines(text, false).filter(|line| line.starts_with('#'));
+    let slug = |heading: &str| {
+        let words = heading.trim_start_matches('#').trim().to_lowercase();
+        let kept = words.chars().filter_map(|c| match c {
+            ' ' => Some('-'),
+            c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c),
+            _ => None,
+        });
+        kept.collect()
+    };
+    headings.map(slug).collect()
+}
+
+/// What a page links, but for the web.
+fn links(text: &str) -> Vec<String> {
+    let prose: Vec<_> = lines(text, false).collect();
+    let prose = prose.join("\n");
+    let targets = prose.split("](").skip(1);
+    let targets = targets.filter_map(|rest| Some(rest.split_once(')')?.0.to_owned()));
+    targets
+        .filter(|target| !target.contains("://") && !target.starts_with("mailto:"))
+        .collect()
+}
+
+/// The page or other file that a link of this page leads to; of a folder, its README.
+fn target(page: &Path, link: &str) -> PathBuf {
+    let file = link.split('#').next().unwrap_or_default();
+    if file.is_empty() {
+        return page.to_owned();
+    }
+    let path = page.parent().unwrap().join(file);
+    let path = path.canonicalize();
+    let path = path.unwrap_or_else(|_| panic!("{}: no {link}", page.display()));
+    match path.join("README.md") {
+        readme if readme.is_file() => readme,
+        _ => path,
+    }
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let pages = pages();
+    for (page, text) in &pages {
+        for link in links(text) {
+            let target = target(page, &link);
+            if let Some((_, anchor)) = link.split_once('#') {
+                let there = anchors(&pages[&target]).contains(anchor);
+                assert!(there, "{}: no anchor {link}", page.display());
+            }
+        }
+    }
+}
+
+/// What stands between backticks in the prose of a page, in one line.
+fn quoted(text: &str) -> Vec<String> {
+    let prose: Vec<_> = lines(text, false).collect();
+    let prose = prose.join(" ");
+    let quoted = prose.split('`').skip(1).step_by(2);
+    quoted
+        .map(|words| words.split_whitespace().collect::<Vec<_>>().join(" "))
+        .collect()
+}
+
+/// The words of a command, as far as a shell would give them to one program; nothing where a part is
+/// left out.
+fn words(command: &str) -> Option<Vec<String>> {
+    let mut words = vec![String::new()];
+    let mut quote = None;
+    for c in command.chars() {
+        match (quote, c) {
+            (_, '…') => return None,
+            (None, '\'' | '"') => quote = Some(c),
+            (Some(open), close) if open == close => quote = None,
+            (None, '#' | '|' | '>' | '&' | ';') => break,
+            (None, ' ') => words.push(String::new()),
+            _ => words.last_mut().unwrap().push(c),
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    Some(words)
+}
+
+/// The arguments of every `crossguard` command on a page.
+fn commands(text: &str) -> Vec<Vec<String>> {
+    let code: Vec<_> = lines(text, true).map(str::trim).collect();
+    let code = code.join("\n").replace("\\\n", " ");
+    let prose = quoted(text);
+    let commands = code.lines().chain(prose.iter().map(String::as_str));
+    let arguments = commands.filter_map(|line| {
+        let starts = [
+            "cargo run --release -- ",
+            "target/release/crossguard ",
+            "crossguard ",
+        ];
+        starts.iter().find_map(|start| line.strip_prefix(start))
+    });
+    arguments.filter_map(words).collect()
+}
+
+/// The command line takes them apart; what they do is the concern of other tests.
+#[test]
+fn the_commands_that_pages_tell_to_type_can_be_typed() {
+    let mut typed = 0;
+    for (page, text) in pages() {
+        for mut command in commands(&text) {
+            typed += 1;
+            command.push("--help".to_owned());
+            let words = ["crossguard".to_owned()].into_iter().chain(command);
+            let parsed = crossguard_harness::cli::command().try_get_matches_from(words);
+            let said = parsed.expect_err("it asks for help");
+            let is_help = said.kind() == ErrorKind::DisplayHelp;
+            assert!(is_help, "{}: {said}", page.display());
+        }
+    }
+    assert!(typed > 40, "{typed}");
+}
+
+/// The Rust in the README is that of a page which is compiled.
+#[test]
+fn the_readmes_example_is_the_one_of_the_state_machines_crate() {
+    let text = |path: &str| std::fs::read_to_string(repository().join(path)).unwrap();
+    let readme = text("README.md");
+    let (_, code) = readme.split_once("```rust\n").expect("a block of Rust");
+    let (code, rest) = code.split_once("```").expect("it ends");
+    assert!(text("protocol/README.md").contains(code));
+    assert!(!rest.contains("```rust"), "a second one is not compiled");
+}
+
+#[test]
+fn the_state_diagram_of_the_protocols_page_is_the_one_that_the_code_makes() {
+    let diagram = stdout(&run(&["fsm"]));
+    let (path, page) = read("protocol/doc/protocol.md");
+    let (head, rest) = page.split_once("```mermaid\n").expect("a diagram");
+    let (_, tail) = rest.split_once("```").expect("it ends");
+    assert_is(&path, &format!("{head}```mermaid\n{diagram}```{tail}"));
+}
+
+fn read(page: &str) -> (PathBuf, String) {
+    let path = repository().join(page);
+    let text = std::fs::read_to_string(&path).unwrap();
+    (path, text)
+}
+
+/// Asserts that a page has this text; with `CROSSGUARD_BLESS=1`, writes it.
+fn assert_is(path: &Path, text: &str) {
+    if std::env::var_os("CROSSGUARD_BLESS").is_some() {
+        std::fs::write(path, text).unwrap();
+    }
+    let is_current = std::fs::read_to_string(path).unwrap() == text;
+    let page = path.strip_prefix(repository()).unwrap().display();
+    assert!(is_current, "{page}; run: cargo xtask bless {page}");
+}
+
+/// What the README says has been explored is what the scenario files pin.
+#[test]
+fn the_readmes_sum_of_states_is_that_of_the_scenarios() {
+    let sizes = Scenario::shipped().map(|name| {
+        let scenario = Scenario::load(name).unwrap();
+        scenario.expected.expect("it is pinned").unique_states
+    });
+    let sizes: Vec<_> = sizes.collect();
+    let states = HumanCount(sizes.iter().sum::<usize>() as u64);
+    let (path, readme) = read("README.md");
+    let (head, rest) = readme.split_once(" scenarios with ").expect("the sum");
+    let head = head.trim_end_matches(|c: char| c.is_ascii_digit());
+    let (_, tail) = rest.split_once(" states").expect("it ends");
+    let count = sizes.len();
+    let new = format!("{head}{count} scenarios with {states} states{tail}");
+    assert_is(&path, &new);
+}
+
+/// Everything that the index of rules names is there, and every property is of some rule.
+#[test]
+fn the_index_of_rules_names_what_there_is() {
+    let text = |path: String| std::fs::read_to_string(repository().join(path)).unwrap();
+    let has = |path: String, name: &str| {
+        let is_there = text(path.clone()).contains(&format!("fn {name}("));
+        assert!(is_there, "no {name} in {path}");
+    };
+    let page = text("protocol/doc/protocol.md".to_owned());
+    let missed = ["weakenings", "timed_weakenings"].map(|file| {
+        let path = format!("model-check/tests/{file}.rs");
+        text(path)
+    });
+    let (mut rules, mut named) = (0, BTreeSet::new());
+    for row in page.lines().filter(|line| line.starts_with("| R")) {
+        let cells: Vec<_> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [id, _, functions, properties, weakening, law, script] = cells[..] else {
+            panic!("another number of columns: {row}");
+        };
+        rules += 1;
+        assert_eq!(id, format!("R{rules}"));
+        for name in quoted(functions) {
+            let (file, function) = name.split_once("::").expect("a file and a function");
+            has(format!("protocol/src/{file}.rs"), function);
+        }
+        for name in quoted(weakening) {
+            let is_there = missed.iter().any(|it| it.contains(&format!("fn {name}(")));
+            assert!(is_there, "no weakening {name}");
+        }
+        for name in quoted(law) {
+            let (file, function) = name.split_once("::").expect("a file and a law");
+            has(format!("protocol/src/laws/{file}.rs"), function);
+        }
+        let [script] = &quoted(script)[..] else {
+            panic!("one script: {row}");
+        };
+        assert!(text(format!("protocol/tests/{script}")).contains("#[test]"));
+        named.extend(properties.split(", ").map(str::to_owned));
+    }
+    let verified = text("model-check/doc/verification.md".to_owned());
+    let is_property = |id: &&str| {
+        let number = id.get(1..).and_then(|number| number.parse::<u8>().ok());
+        id.starts_with(['I', 'L', 'W']) && number.is_some()
+    };
+    let rows = verified.lines().filter_map(|line| line.strip_prefix("| "));
+    let ids = rows.filter_map(|row| row.split(" | ").next());
+    let all: BTreeSet<_> = ids.filter(is_property).map(str::to_owned).collect();
+    assert!(all.len() > 30, "{all:?}");
+    assert_eq!(
+        named, all,
+        "a property of no rule, or one that there is not"
+    );
+}
+
+/// Whatever a signed packet can be refused for is in the table that says where it is checked.
+#[test]
+fn each_cause_of_a_rejection_is_on_the_page_of_security() {
+    let (_, source) = read("codec/src/security/rejected.rs");
+    let (_, page) = read("codec/doc/security.md");
+    let named = source.lines().filter_map(|line| line.split_once("=> \""));
+    let causes = named.filter_map(|(_, rest)| rest.strip_suffix("\","));
+    let missing: Vec<_> = causes
+        .filter(|cause| *cause != "not secured" && !page.contains(&format!("`{cause}`")))
+        .collect();
+    assert_eq!(missing, Vec::<&str>::new());
+}

@@ -1,0 +1,335 @@
+//! One run with all that a demonstration can send and write, and what every reader says of it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+
+use crossguard_codec::{Identifiers, golden};
+use crossguard_judge::sniffer::Sniffer;
+use crossguard_judge::validate;
+use crossguard_robot::{capture, trace};
+use crossguard_testkit::command::*;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A crossing with signed packets, CAM, and three people whom both robots see and announce in cluster VAM.
+struct Run {
+    folder: TempDir,
+    result: Value,
+}
+
+impl Run {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut made = Self {
+            folder,
+            result: Value::Null,
+        };
+        let pki = made.path("pki");
+        let init = ["pki", "init", &pki, "--robot", "ARI=1", "--robot", "Go2=2"];
+        assert!(run(&init).status.success());
+        let people = (0..75).map(|n| {
+            let (at_s, id) = (f64::from(n / 3) / 10.0, n % 3 + 1);
+            format!("{{\"at_s\": {at_s}, \"id\": {id}, \"position_m\": [{id}.0, 2.0]}}\n")
+        });
+        std::fs::write(made.path("people"), people.collect::<String>()).unwrap();
+        let mut demo = crossguard(&["demo", "--speed", "20", "--json", "--port"]);
+        demo.arg(two_free_ports().to_string());
+        demo.args(["--security", "enforce", "--cam", "--cluster-vam"]);
+        for (option, name) in [
+            ("--pki", "pki"),
+            ("--perceived", "people"),
+            ("--pcap", "pcap"),
+            ("--log", "log"),
+            ("--mcap", "mcap"),
+            ("--report", "page"),
+        ] {
+            demo.arg(option).arg(made.path(name));
+        }
+        let output = demo.output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        made.result = json(&output);
+        made
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.folder.path().join(name).display().to_string()
+    }
+
+    /// What `sniff --json` says of the packets.
+    fn sniffed(&self, arguments: &[&str]) -> Vec<Value> {
+        sniffed(&self.path("pcap"), arguments)
+    }
+}
+
+fn sniffed(pcap: &str, arguments: &[&str]) -> Vec<Value> {
+    let output = run(&[&["sniff", "--json", pcap], arguments].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let lines = stdout(&output);
+    lines
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+#[test]
+fn every_reader_says_the_same_of_one_run() {
+    let run = Run::new();
+    the_log_has_every_step(&run);
+    let seen = run.sniffed(&[]);
+    a_sniffer_sees_both_robots(&run, &seen);
+    signatures_are_verified_where_roots_are_given(&run, &seen);
+    people_are_announced_by_one_robot(&seen);
+    a_packet_is_decoded_and_a_message_comes_back(&run);
+    wireshark_takes_all_apart(&run, &seen);
+    let recording = std::fs::read(run.path("mcap")).unwrap();
+    assert!(recording.starts_with(b"\x89MCAP") && recording.ends_with(b"\x89MCAP0\r\n"));
+    assert!(
+        std::fs::read_to_string(run.path("page"))
+            .unwrap()
+            .contains("</html>")
+    );
+}
+
+fn the_log_has_every_step(of: &Run) {
+    assert_eq!(of.result["trace_valid"], true, "{}", of.result);
+    let log = trace::open(Path::new(&of.path("log"))).unwrap();
+    let validated = validate::all(vec![log]).unwrap();
+    let records = records(&std::fs::read_to_string(of.path("log")).unwrap());
+    let count = |entry: &str| records.iter().filter(|it| it["entry"] == entry).count();
+    assert_eq!(count("step"), validated.steps);
+    assert_eq!(of.result["trace"]["steps"], validated.steps);
+    assert_eq!((count("started"), count("stopped")), (2, 2));
+    // Nothing was refused for want of a permission, neither by the sender nor by the other robot.
+    let drops = records.iter().filter(|it| it["entry"] == "dropped");
+    assert_eq!(drops.filter(|it| it["layer"] == "security").count(), 0);
+}
+
+fn a_sniffer_sees_both_robots(of: &Run, seen: &[Value]) {
+    let kinds: BTreeSet<_> = seen
+        .iter()
+        .map(|it| format!("{} {}", it["kind"], it["station"]))
+        .collect();
+    for kind in ["RAM", "RMCM", "CAM"] {
+        for station in [1, 2] {
+            assert!(
+                kinds.contains(&format!("\"{kind}\" {station}")),
+                "{kinds:?}"
+            );
+        }
+    }
+    let lines = stdout(&run(&["sniff", &of.path("pcap")]));
+    for expected in [
+        "needHelp 1#",
+        "offerHelp",
+        "leader 1#",
+        "around: robot station 2",
+    ] {
+        assert!(lines.contains(expected), "{expected} is not in:\n{lines}");
+    }
+    assert_eq!(of.sniffed(&["--count", "3"]).len(), 3);
+}
+
+fn signatures_are_verified_where_roots_are_given(of: &Run, seen: &[Value]) {
+    for it in seen {
+        assert_eq!(it["isSigned"], true, "{it}");
+        assert_eq!(it["signature"]["whyNot"], "no roots were given", "{it}");
+    }
+    let other = of.path("other");
+    assert!(run(&["pki", "init", &other]).status.success());
+    for (roots, is_verified) in [(&of.path("pki"), true), (&other, false)] {
+        for it in of.sniffed(&["--trust", roots]) {
+            assert_eq!(it["signature"]["isVerified"], is_verified, "{it}");
+        }
+    }
+}
+
+/// Both robots see everybody; once they know of each other, the lower station id announces them.
+fn people_are_announced_by_one_robot(seen: &[Value]) {
+    for kind in ["RAM", "VAM"] {
+        let of_kind = seen.iter().filter(|it| it["kind"] == kind);
+        let mut users = of_kind.flat_map(|it| it["roadUsers"].as_array().into_iter().flatten());
+        assert!(users.any(|it| it["cardinality"] == 3), "{kind}");
+    }
+    let settled = seen
+        .iter()
+        .filter(|it| it["kind"] == "VAM" && it["atS"].as_f64() > Some(1.5));
+    let heads: Vec<_> = settled.map(|it| it["station"].as_u64()).collect();
+    assert!(
+        !heads.is_empty() && heads.iter().all(|it| *it == Some(1)),
+        "{heads:?}"
+    );
+}
+
+fn a_packet_is_decoded_and_a_message_comes_back(of: &Run) {
+    let decode = |digits: &str, more: &[&str]| {
+        let decode = ["codec", "decode", "--hex", digits];
+        run(&[&decode, more].concat())
+    };
+    // The first packet has its certificate.
+    let first = capture::read(Path::new(&of.path("pcap"))).unwrap().next();
+    let digits = hex::encode(first.unwrap().unwrap().packet);
+    let decoded = decode(&digits, &["--trust", &of.path("pki")]);
+    let value = json(&decoded);
+    assert_eq!(value["signature"]["isVerified"], true, "{value}");
+    assert!(value["packet"].is_object() && value["message"].is_object());
+    let encoded = run_with(&["codec", "encode"], &decoded.stdout);
+    assert_refused(&encoded, "nobody here has the key");
+
+    let log = records(&std::fs::read_to_string(of.path("log")).unwrap());
+    let sent = log.iter().find(|it| it["message"] == "RMCM").unwrap();
+    let digits = sent["octets"].as_str().unwrap();
+    let decoded = decode(digits, &[]);
+    assert_eq!(json(&decoded)["octets"], digits.len() / 2);
+    let encoded = run_with(&["codec", "encode"], &decoded.stdout);
+    assert_eq!(stdout(&encoded).trim(), digits);
+    // The same through octets.
+    let octets = run_with(&["codec", "encode", "--binary"], &decoded.stdout).stdout;
+    let again = run_with(&["codec", "decode", "--binary"], &octets);
+    assert_eq!(again.stdout, decoded.stdout);
+    for (digits, cause) in [
+        (&digits[..digits.len() - 8], "the message ends within it"),
+        (
+            &format!("{digits}00"),
+            "1 octets follow the end of the message",
+        ),
+        (
+            &format!("09{}", &digits[2..]),
+            "protocolVersion 9 of RMCM is unknown, 1 is known",
+        ),
+    ] {
+        assert_refused(&decode(digits, &[]), cause);
+    }
+}
+
+/// What tshark prints of these fields with the kit's dissector, line by line; `None` where it is not installed.
+fn tshark(pcap: &str, filter: &str, fields: &[&str]) -> Option<Vec<String>> {
+    let lua = concat!(
+        "lua_script:",
+        env!("CARGO_MANIFEST_DIR"),
+        "/../codec/wireshark/crossguard.lua"
+    );
+    let mut tshark = Command::new("tshark");
+    tshark.args(["-r", pcap, "-X", lua, "-Y", filter]);
+    tshark.args(["-T", "fields", "-E", "separator=;", "-E", "occurrence=f"]);
+    for field in fields {
+        tshark.args(["-e", field]);
+    }
+    let Ok(output) = tshark.output() else {
+        // Not by eprintln!, which the test runner would capture.
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED tshark: it is not installed (Debian package tshark)"
+        );
+        return None;
+    };
+    assert!(output.status.success(), "{}", stderr(&output));
+    Some(stdout(&output).lines().map(str::to_owned).collect())
+}
+
+/// tshark takes every signed RAM and RMCM apart by the dissector, which says that nothing is verified.
+fn wireshark_takes_all_apart(of: &Run, seen: &[Value]) {
+    let fields = [
+        "frame.protocols",
+        "crossguard.kind",
+        "crossguard.signature",
+        "crossguard.helpStatus",
+    ];
+    let pcap = of.path("pcap");
+    let Some(lines) = tshark(&pcap, "frame", &fields) else {
+        return;
+    };
+    assert_eq!(lines.len(), seen.len());
+    for (line, packet) in lines.iter().zip(seen) {
+        let kind = packet["kind"].as_str().unwrap();
+        let stack = "eth:ethertype:gnw:ieee1609dot2:btpb";
+        let is_ours = matches!(kind, "RAM" | "RMCM");
+        let ours = format!("{stack}:crossguard;{kind};not verified");
+        assert!(
+            line.starts_with(if is_ours { &ours } else { stack }),
+            "{kind}: {line}"
+        );
+    }
+    for status in ["needHelp", "offerHelp", "roleConfirmed", "none"] {
+        assert!(lines.iter().any(|line| line.ends_with(status)), "{status}");
+    }
+    let wrong = "_ws.malformed || _ws.lua.error || crossguard.broken";
+    assert_eq!(tshark(&pcap, wrong, &["frame.number"]).unwrap(), [""; 0]);
+}
+
+/// A robot that is alone for 3.3 s, with CAM and without; with identifiers of its own.
+#[test]
+fn a_station_that_does_not_know_ram_sees_a_robot_that_sends_cam() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let port = two_free_ports();
+    let config = robot_file(folder.path(), "ARI", 1, port, port + 1);
+    let identifiers = "[identifiers]\nram = { protocol_version = 1, message_id = 230, btp_port = 3100, its_aid = 16500 }\n\n[link]";
+    edit(
+        &config,
+        &[("autopilot = true", "cam = true"), ("[link]", identifiers)],
+    );
+    let (pcap, log) = (path("pcap"), path("log"));
+    let arguments = ["run", "--config", &config, "--pcap", &pcap, "--log", &log];
+    let output = run_with(&arguments, b"wait 3.3\nquit\n");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let count = |seen: &[Value]| {
+        let mut kinds = BTreeMap::new();
+        for packet in seen {
+            *kinds
+                .entry(packet["kind"].as_str().unwrap().to_owned())
+                .or_insert(0) += 1;
+        }
+        kinds
+    };
+    // Who stands still sends one a second. Its RAM are known by those who have its identifiers.
+    let strangers = count(&sniffed(&pcap, &[]));
+    let friends = count(&sniffed(&pcap, &["--config", &config]));
+    assert!((3..=5).contains(&strangers["CAM"]), "{strangers:?}");
+    assert!(
+        strangers["?"] >= 3 && strangers["?"] == friends["RAM"],
+        "{strangers:?} {friends:?}"
+    );
+    let seen = sniffed(&pcap, &["--config", &config]);
+    let north_m = |kind: &str| {
+        let packet = seen.iter().find(|it| it["kind"] == kind).unwrap();
+        packet["roadUsers"][0]["position"]["latitude"]
+            .as_f64()
+            .unwrap()
+            * 111_000.0
+    };
+    assert!((north_m("CAM") - north_m("RAM")).abs() < 0.5);
+    let records = records(&std::fs::read_to_string(&log).unwrap());
+    let sent = records.iter().filter(|it| it["message"] == "CAM");
+    let triggers: Vec<_> = sent.map(|it| it["trigger"].as_str().unwrap()).collect();
+    assert_eq!(triggers[..2], ["first", "interval"]);
+    // Wireshark's own dissector of CAM, from ETSI's module of release 1: a light vehicle of 0.6 m x 0.8 m, with the slow
+    // container every time since they are a second apart.
+    let fields = [
+        "its.stationID",
+        "its.messageID",
+        "cam.stationType",
+        "its.vehicleLengthValue",
+        "cam.vehicleWidth",
+        "cam.vehicleRole",
+        "its.speedValue",
+    ];
+    if let Some(lines) = tshark(&pcap, "btpb.dstport == 2001", &fields) {
+        assert_eq!(lines, vec!["1;2;12;6;8;0;0"; strangers["CAM"]]);
+    }
+}
+
+#[test]
+fn a_denm_is_a_line_that_names_its_cause_and_place() {
+    let packet = hex::decode(golden::vector(golden::PACKETS, "G2")).unwrap();
+    let seen = Sniffer::new(Identifiers::default()).see(&packet, 5_000, 694_694_401_000);
+    assert_eq!(
+        seen.to_string(),
+        "    0.000  DENM  123456789   111 B  collisionRisk (vulnerableRoadUser), \
+         48.765432 9.123457, event 1 of station 123456789, for 600 s, geo-broadcast"
+    );
+    let json = serde_json::to_value(&seen).unwrap();
+    assert_eq!(json["event"]["cause"]["name"], "collisionRisk");
+    assert_eq!(json["event"]["number"], 1);
+}

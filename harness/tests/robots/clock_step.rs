@@ -1,0 +1,133 @@
+//! A wall clock that is put forward or back by an hour while the robots cross. Timers do not notice; what is signed is
+//! not believed while clocks differ, and is again when they agree.
+
+use std::fs::File;
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crossguard_testkit::command::*;
+
+use crate::street::{ARI, GO2, Street, shim};
+
+const HOUR: i64 = 3_600;
+
+/// A wall clock that only one process has.
+struct WallClock {
+    library: PathBuf,
+    file: PathBuf,
+}
+
+impl WallClock {
+    /// Puts the clock so far ahead of the true one.
+    fn set(&self, ahead_s: i64) {
+        let mut file = File::options();
+        let file = file
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&self.file)
+            .unwrap();
+        file.write_all_at(&ahead_s.to_ne_bytes(), 0).unwrap();
+    }
+
+    /// The command, with this clock.
+    fn rules(&self, mut command: Command) -> Command {
+        command.env("LD_PRELOAD", &self.library);
+        command.env("CLOCK_STEP_FILE", &self.file);
+        command
+    }
+}
+
+/// Robots that cross, and ARI's clock. Certificates are of two hours ago, so that they are valid whatever it says.
+fn crossing(library: &Path, is_signed: bool) -> (Street, WallClock) {
+    let mut street = Street::new(&[("speed = 40.0", "speed = 5.0")]);
+    let clock = WallClock {
+        library: library.to_owned(),
+        file: street.path("step").into(),
+    };
+    let pki = street.path("pki");
+    clock.set(-2 * HOUR);
+    let mut init = clock.rules(crossguard(&["pki", "init", &pki]));
+    assert!(init.output().unwrap().status.success());
+    clock.set(0);
+    let security = ["--security", "enforce", "--pki", &pki];
+    let security = if is_signed { &security[..] } else { &[] };
+    let log = File::create(street.path("ARI.log")).unwrap();
+    let mut ari = clock.rules(crossguard(&[
+        "run",
+        "--config",
+        &street.configs[ARI],
+        "--json",
+    ]));
+    ari.args(security)
+        .stdin(Stdio::piped())
+        .stdout(log)
+        .stderr(Stdio::null());
+    street.robots = vec![
+        Killed(ari.spawn().unwrap()),
+        Killed(start_with(&street.configs[GO2], security)),
+    ];
+    street.say(ARI, "wait 0.5\ndetect\n");
+    street.until(ARI, "\"corridorOpened\"");
+    (street, clock)
+}
+
+/// ARI's clock is put so far ahead, and back.
+fn step(ahead_s: i64, library: &Path) {
+    let (mut street, clock) = crossing(library, true);
+    clock.set(ahead_s);
+    // Neither believes the other any more, so each comes to rest by itself, as when it hears nothing.
+    street.until(ARI, "\"noFollowers\"");
+    street.until(GO2, "\"contactLost\"");
+    street.say(GO2, "until idle 20\nclear\n");
+    // The leader asks nobody before the road is clear.
+    std::thread::sleep(Duration::from_secs(3));
+    clock.set(0);
+    street.say(ARI, "until idle 20\nwait 1\ndetect\n");
+    street.until(ARI, "\"taskCompleted\"");
+    street.end([Some(0); 2]);
+    let by_go2 = if ahead_s > 0 {
+        "from the future"
+    } else {
+        "too old"
+    };
+    let rejected = |cause: &str| format!("\"layer\":\"security\",\"cause\":\"{cause}\"");
+    let logs = [ARI, GO2].map(|robot| street.log(robot));
+    for (robot, expected) in [
+        (GO2, &*rejected(by_go2)),
+        (ARI, &rejected("time not trusted")),
+        (ARI, "leaseExpired"),
+        (GO2, "fallBack"),
+        (GO2, "\"taskCompleted\""),
+    ] {
+        assert!(logs[robot].contains(expected), "{expected}");
+    }
+    // It says so, and says when it trusts its clock again.
+    let clocks = logs[ARI].lines().filter(|line| line.contains("\"clock\""));
+    let told = clocks.map(|line| line.contains("\"trusted\""));
+    assert_eq!(told.collect::<Vec<_>>(), [true, false, true]);
+}
+
+#[test]
+fn robots_whose_clocks_differ_come_to_rest_where_they_sign_and_cross_where_they_do_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(library) = shim(folder.path(), "clock/step.c") else {
+        return;
+    };
+    std::thread::scope(|scope| {
+        for ahead_s in [HOUR, -HOUR] {
+            let library = &library;
+            scope.spawn(move || step(ahead_s, library));
+        }
+        let (mut street, clock) = crossing(&library, false);
+        for ahead_s in [HOUR, -HOUR, 0] {
+            clock.set(ahead_s);
+            std::thread::sleep(Duration::from_millis(300));
+        }
+        street.until(GO2, "\"taskCompleted\"");
+        street.end([Some(0); 2]);
+        assert!(!street.log(GO2).contains("fallBack"));
+    });
+}

@@ -1,0 +1,87 @@
+//! `[link]` in a robot file: multicast, packets behind an Ethernet header, signed, and addresses that others reach.
+
+use std::net::UdpSocket;
+
+use crossguard_testkit::command::*;
+
+use crate::street::{ARI, CROSS, GO2, PATIENCE, Street};
+
+/// Gives robots this link instead of their own.
+fn link(street: &Street, link: &str) {
+    for config in &street.configs {
+        let text = std::fs::read_to_string(config).unwrap();
+        let (robot, _) = text.split_once("[link]").unwrap();
+        std::fs::write(config, format!("{robot}[link]\n{link}")).unwrap();
+    }
+}
+
+#[test]
+fn two_robots_cross_by_multicast_behind_an_ethernet_header_and_signed() {
+    let mut street = Street::new(&[]);
+    let port = free_ports(1);
+    // A group that nothing else uses, on the loopback interface.
+    let group = format!(
+        "multicast = \"239.118.50.17:{port}\"\ninterface = \"lo\"\nframing = \"ethernet\"\n"
+    );
+    link(&street, &group);
+    let pki = street.path("pki");
+    assert!(run(&["pki", "init", &pki]).status.success());
+    street.start(&["--security", "enforce", "--pki", &pki]);
+    street.say(ARI, CROSS);
+    street.until(GO2, "\"taskCompleted\"");
+    for log in street.end([Some(0); 2]) {
+        // It hears itself, which it knows although it is signed.
+        let counters = &log.last().unwrap()["counters"];
+        assert!(
+            counters["packet"]["own packet"].as_u64() > Some(0),
+            "{counters}"
+        );
+    }
+}
+
+#[test]
+fn datagrams_without_the_ethernet_header_that_the_link_has_are_counted_by_cause() {
+    let street = Street::new(&[]);
+    let port = free_ports(1);
+    link(
+        &street,
+        &format!("address = \"127.0.0.1:{port}\"\npeers = []\nframing = \"ethernet\"\n"),
+    );
+    let mut robot = Killed(start(&street.configs[ARI]));
+    street.until(ARI, "\"sent\"");
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    for datagram in [&[0x11; 60][..], &[0x11; 60], &[0x11; 5]] {
+        socket.send_to(datagram, ("127.0.0.1", port)).unwrap();
+    }
+    street.until(ARI, "no Ethernet header");
+    type_to(&mut robot.0, "quit\n");
+    assert_eq!(wait_for(&mut robot.0, PATIENCE).code(), Some(0));
+    let last = records(&street.log(ARI)).pop().unwrap();
+    let counted = &last["counters"]["link"];
+    assert_eq!(counted["another ethertype"], 2, "{last}");
+    assert_eq!(counted["no Ethernet header"], 1, "{last}");
+}
+
+#[test]
+fn a_robot_that_others_can_reach_says_so_unless_it_verifies() {
+    let street = Street::new(&[]);
+    let pki = street.path("pki");
+    assert!(run(&["pki", "init", &pki]).status.success());
+    let warned = |more: &[&str]| {
+        let run = ["run", "--config", &street.configs[ARI]];
+        let output = run_with(&[&run[..], more].concat(), b"quit\n");
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stderr(&output)
+    };
+    assert_eq!(warned(&[]), "");
+    let port = free_ports(1);
+    link(
+        &street,
+        &format!("address = \"0.0.0.0:{port}\"\npeers = [\"192.0.2.1:47411\"]\n"),
+    );
+    let expected = format!("warning: packets on 0.0.0.0:{port} are neither signed nor verified");
+    assert!(warned(&[]).contains(&expected));
+    let own = format!("{pki}/robots/ARI");
+    let enforces = warned(&["--security", "enforce", "--pki", &own]);
+    assert!(!enforces.contains("warning"), "{enforces}");
+}

@@ -1,0 +1,178 @@
+//! What is lost in the middle of a crossing, and what each log must have then: the sign ends before a guard falls back,
+//! and whatever is left comes to rest.
+
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use crossguard_robot::boot;
+use crossguard_testkit::command::*;
+use serde_json::Value;
+
+use crate::street::{ARI, CROSS, GO2, Street, side_by_side};
+
+struct Row {
+    what: &'static str,
+    /// Happens while the corridor is open and Go2 walks.
+    lose: fn(&mut Street),
+    /// How ARI and Go2 end.
+    codes: [Option<i32>; 2],
+    /// What the logs of ARI and Go2 have, and what they lack.
+    has: [&'static [&'static str]; 2],
+    lacks: [&'static [&'static str]; 2],
+}
+
+const WELL: [Option<i32>; 2] = [Some(0); 2];
+
+/// A process that was stopped for so long.
+fn hang(street: &Street, robot: usize, ms: u64) {
+    street.signal(robot, "-STOP");
+    std::thread::sleep(Duration::from_millis(ms));
+    street.signal(robot, "-CONT");
+}
+
+const ROWS: [Row; 7] = [
+    Row {
+        what: "the leader is killed and boots again",
+        lose: |street| {
+            street.signal(ARI, "-KILL");
+            street.until(GO2, "contactLost");
+            street.say(GO2, "until idle 30\nclear\n");
+            street.boot(ARI);
+            street.say(ARI, CROSS);
+            street.until(ARI, "taskCompleted");
+        },
+        codes: WELL,
+        has: [&["taskCompleted"], &["fallBack"]],
+        lacks: [&[], &[]],
+    },
+    Row {
+        what: "the follower is killed and boots again",
+        lose: |street| {
+            street.signal(GO2, "-KILL");
+            street.until(ARI, "noFollowers");
+            street.boot(GO2);
+            // Somebody may have been on the road: it asks nobody before the road is clear.
+            street.say(ARI, "until idle 30\nwait 6\n");
+            street.say(ARI, CROSS);
+            street.until(ARI, "taskCompleted");
+        },
+        codes: WELL,
+        has: [&["corridorClosed", "leaseExpired"], &["taskCompleted"]],
+        lacks: [&[], &[]],
+    },
+    Row {
+        what: "the leader hangs for longer than its sign may show go",
+        lose: |street| hang(street, ARI, 8_000),
+        codes: WELL,
+        has: [
+            &["corridorClosed", "waited too long"],
+            &["fallBack", "contactLost"],
+        ],
+        lacks: [&["taskCompleted"], &[]],
+    },
+    Row {
+        what: "the follower hangs for a moment",
+        lose: |street| {
+            hang(street, GO2, 800);
+            street.until(ARI, "taskCompleted");
+        },
+        codes: WELL,
+        has: [&[], &["waited too long"]],
+        lacks: [&[], &["fallBack"]],
+    },
+    Row {
+        what: "the leader is told to stop",
+        lose: |street| street.signal(ARI, "-TERM"),
+        codes: WELL,
+        has: [
+            &["leaveRequested", "corridorClosed"],
+            &["fallBack", "sessionEnded"],
+        ],
+        // Released by name, not by silence.
+        lacks: [&[], &["contactLost"]],
+    },
+    Row {
+        what: "the leader is interrupted",
+        lose: |street| street.signal(ARI, "-INT"),
+        codes: WELL,
+        has: [
+            &["leaveRequested", "corridorClosed"],
+            &["fallBack", "sessionEnded"],
+        ],
+        lacks: [&[], &["contactLost"]],
+    },
+    Row {
+        what: "the follower is told to stop",
+        lose: |street| street.signal(GO2, "-TERM"),
+        codes: WELL,
+        has: [&["followerGone", "noFollowers", "corridorClosed"], &[]],
+        lacks: [&["leaseExpired"], &[]],
+    },
+];
+
+/// When the sign of the first session ended, at the latest, as people saw it.
+fn sign_ended_ms(leader: &[(f64, Value)]) -> f64 {
+    let mut ends_ms = f64::NAN;
+    for (at_ms, it) in leader {
+        if let Some(lasts) = it.get("corridorOpened").or(it.get("corridorExtended")) {
+            ends_ms = at_ms + lasts.as_f64().unwrap();
+        } else if it.get("corridorClosed").is_some() {
+            return ends_ms.min(*at_ms);
+        }
+    }
+    ends_ms
+}
+
+fn lose(row: &Row) {
+    let what = row.what;
+    let mut street = Street::started(&[("speed = 40.0", "speed = 2.0")]);
+    street.say(ARI, "wait 0.5\ndetect\n");
+    street.until(ARI, "\"corridorOpened\"");
+    std::thread::sleep(Duration::from_millis(300));
+    (row.lose)(&mut street);
+    let logs = street.end(row.codes);
+    for robot in [ARI, GO2] {
+        let log = &logs[robot];
+        assert_eq!(log.last().unwrap()["entry"], "stopped", "{what}");
+        let log: String = log.iter().map(Value::to_string).collect();
+        let missing = row.has[robot].iter().find(|it| !log.contains(**it));
+        assert_eq!(missing, None, "{what}: not in the log of {robot}");
+        let wrong = row.lacks[robot].iter().find(|it| log.contains(**it));
+        assert_eq!(wrong, None, "{what}: in the log of {robot}");
+    }
+    let [of_leader, of_follower] = [ARI, GO2].map(|robot| happenings(&street.first_log(robot)));
+    let fell_back_ms = first(&of_follower, |it| it.get("fallBack").is_some());
+    let ended_ms = sign_ended_ms(&of_leader);
+    assert!(
+        fell_back_ms.is_none_or(|ms| ended_ms <= ms),
+        "{what}: {ended_ms}, {fell_back_ms:?}"
+    );
+}
+
+#[test]
+fn whatever_is_lost_the_sign_ends_before_a_guard_falls_back_and_all_come_to_rest() {
+    side_by_side(&ROWS, lose);
+}
+
+#[test]
+fn robots_that_are_killed_while_they_start_never_boot_with_a_counter_twice() {
+    let street = Street::new(&[]);
+    let (config, counter) = (&street.configs[ARI], street.path("ARI.boot"));
+    let mut booted = Vec::new();
+    for attempt in 0..24 {
+        let robot = Killed(start(config));
+        std::thread::sleep(Duration::from_millis(attempt * 2));
+        drop(robot);
+        let log = street.log(ARI);
+        let first = log.lines().next().map(serde_json::from_str::<Value>);
+        booted.extend(first.and_then(|it| it.ok()?["boot"].as_u64()));
+        if let Ok(text) = fs::read_to_string(&counter) {
+            assert!(text.ends_with('\n'), "{text:?}");
+        }
+    }
+    assert!(!booted.is_empty(), "none of them came to start");
+    assert!(booted.is_sorted_by(|a, b| a < b), "{booted:?}");
+    let last = boot::take(Path::new(&counter)).unwrap().counter;
+    assert!(Some(&u64::from(last)) > booted.last());
+}

@@ -1,0 +1,142 @@
+//! Robots on two hosts: each in a network namespace of its own, with a link between them that may go and come back.
+//!
+//! Nothing of it touches the machine's own network. Where the kernel does not permit namespaces, the tests are skipped,
+//! and say so by name.
+
+use std::fs;
+use std::process::{Command, Output, Stdio};
+
+use crossguard_testkit::command::*;
+
+use crate::street::{ARI, GO2, Street, assert_valid, skipped};
+
+/// Two namespaces and the link between them. Go2 is told what is typed into a pipe, ARI what the last argument prints.
+const HOSTS: &str = r#"
+set -e
+unshare --net sleep 120 &
+other=$!
+trap 'kill $other' EXIT
+until [ "$(readlink /proc/$other/ns/net)" != "$(readlink /proc/$$/ns/net)" ]; do sleep 0.01; done
+inside="nsenter --target $other --net"
+connect() {
+    ip link add ari type veth peer name go2
+    ip link set go2 netns $other
+    ip addr add 10.9.0.1/24 dev ari
+    ip link set ari up
+    $inside ip addr add 10.9.0.2/24 dev go2
+    $inside ip link set go2 up
+}
+connect
+[ "$1" = try ] && exit 0
+program=$1
+cd "$2"
+mkfifo typed
+$inside $program run --config Go2.toml $3 --json --log Go2.jsonl < typed > /dev/null &
+follower=$!
+exec 3> typed
+eval "$5" | $program run --config ARI.toml $4 --json --log ARI.jsonl --pcap ari.pcap > /dev/null
+echo quit >&3
+exec 3>&-
+wait $follower
+"#;
+
+const ONCE: &str = "printf 'wait 1\ndetect\nuntil maneuver-executing 20\nuntil idle 30\nquit\n'";
+
+/// The interface is gone in the middle of a crossing, and comes back. Both had to leave a road on which somebody may have
+/// been.
+const TWICE: &str = r"
+printf 'wait 0.7\ndetect\nuntil maneuver-executing 20\n'
+sleep 2.5
+ip link del ari
+printf 'until idle 20\n'
+sleep 9
+connect
+printf 'clear\n' | tee /dev/fd/3
+sleep 3
+printf 'detect\nuntil maneuver-executing 20\nuntil idle 30\nquit\n'
+";
+
+/// A command that runs the script in namespaces of its own.
+fn hosts(arguments: &[&str]) -> Output {
+    Command::new("unshare")
+        .args(["--user", "--map-root-user", "--net", "--pid", "--fork"])
+        .args(["--kill-child", "--mount-proc", "sh", "-c", HOSTS, "hosts"])
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+/// The logs of ARI and Go2 after a crossing with these options of ARI, and the same of Go2 by its interface; what is typed
+/// to ARI; and lines of robot files instead of their links.
+fn cross(options: &str, typed: &str, links: Option<[&str; 2]>) -> Option<[String; 2]> {
+    let tried = hosts(&["try"]);
+    if !tried.status.success() {
+        let why = stderr(&tried);
+        skipped(&format!(
+            "this machine permits no network namespaces: {}",
+            why.trim()
+        ));
+        return None;
+    }
+    let street = Street::new(&[("speed = 40.0", "speed = 4.0")]);
+    for (config, link) in street.configs.iter().zip(links.into_iter().flatten()) {
+        let text = fs::read_to_string(config).unwrap();
+        let (robot, _) = text.split_once("[link]").unwrap();
+        fs::write(config, format!("{robot}[link]\n{link}\n")).unwrap();
+    }
+    let pki = street.path("pki");
+    let made = run(&["pki", "init", &pki, "--robot", "ARI=1", "--robot", "Go2=2"]);
+    assert!(made.status.success(), "{}", stderr(&made));
+    let of = |name: &str, robot: &str| options.replace("NAME", name).replace("ROBOT", robot);
+    let folder = street.path("");
+    let program = env!("CARGO_BIN_EXE_crossguard");
+    let output = hosts(&[
+        program,
+        &folder,
+        &of("go2", "Go2"),
+        &of("ari", "ARI"),
+        typed,
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stderr(&output);
+    assert!(links.is_none() || !said.contains("warning"), "{said}");
+    let logs = ["ARI.jsonl", "Go2.jsonl"].map(|log| street.path(log));
+    assert_valid(logs.iter().map(Into::into));
+    let seen = stdout(&run(&["sniff", &street.path("ari.pcap")]));
+    for expected in ["needHelp 1#", "offerHelp 1#"] {
+        assert!(seen.contains(expected), "{expected} is not in:\n{seen}");
+    }
+    let logs = logs.map(|log| fs::read_to_string(log).unwrap());
+    assert!(logs[ARI].contains("\"taskCompleted\"") && logs[GO2].contains("\"taskCompleted\""));
+    Some(logs)
+}
+
+#[test]
+fn robots_of_a_multicast_group_cross_again_when_their_interface_is_back() {
+    let options = "--multicast 239.118.50.1:47400 --interface NAME";
+    let Some([of_ari, of_go2]) = cross(options, TWICE, None) else {
+        return;
+    };
+    // Without the link each comes to rest by its own timers, and counts what does not go out.
+    for expected in ["\"not sent\"", "leaseExpired", "\"noFollowers\""] {
+        assert!(of_ari.contains(expected), "{expected}");
+    }
+    for expected in ["fallBack", "\"contactLost\""] {
+        assert!(of_go2.contains(expected), "{expected}");
+    }
+}
+
+#[test]
+fn robots_on_ethernet_cross() {
+    cross("--ethernet NAME", ONCE, None);
+}
+
+#[test]
+fn robots_cross_by_signed_unicast_from_host_to_host() {
+    let links = [(1, 2), (2, 1)].map(|(own, peer)| {
+        format!("address = \"10.9.0.{own}:4711\"\npeers = [\"10.9.0.{peer}:4711\"]")
+    });
+    let options = "--security enforce --pki pki/robots/ROBOT";
+    cross(options, ONCE, Some(links.each_ref().map(|it| &**it)));
+}

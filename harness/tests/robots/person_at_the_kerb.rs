@@ -1,0 +1,116 @@
+//! A person who comes to the kerb starts a whole crossing of two robots, and nobody types anything.
+//!
+//! The person is a thread that writes what a sensor would tell into a pipe, and looks at the leader's log for the
+//! sign, as people look at signs.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use crossguard_testkit::command::*;
+use serde_json::{Value, json};
+
+use crate::street::{ARI, GO2, PATIENCE, Street};
+
+/// The crossing between the kerbs of the shipped street, with the pavements behind them.
+const ZONE: &str = "\n[zone]\npavement_m = 2.5\n";
+
+/// Somebody in front of ARI, and the street.
+struct Person {
+    pipe: File,
+    street: Street,
+}
+
+impl Person {
+    fn is_at(&mut self, place: [f64; 2], velocity: [f64; 2]) {
+        let line = json!({
+            "id": 7, "position_m": place, "velocity_mps": velocity, "class": "pedestrian", "confidence": 0.9,
+        });
+        writeln!(self.pipe, "{line}").unwrap();
+        std::thread::sleep(Duration::from_millis(100));
+    }
+
+    /// Walks from one place to another.
+    fn walk(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let seconds = dx.hypot(dy) / 1.5;
+        let began = Instant::now();
+        while began.elapsed().as_secs_f64() < seconds {
+            let share = began.elapsed().as_secs_f64() / seconds;
+            let place = [from[0] + dx * share, from[1] + dy * share];
+            self.is_at(place, [dx / seconds, dy / seconds]);
+        }
+    }
+
+    /// Stands until the robot's log has something.
+    fn stand(&mut self, place: [f64; 2], until: &str) {
+        let deadline = Instant::now() + PATIENCE;
+        while !self.street.log(ARI).contains(until) {
+            assert!(Instant::now() < deadline, "never '{until}'");
+            self.is_at(place, [0.0, 0.0]);
+        }
+    }
+}
+
+/// A person comes to the kerb, waits for the sign, crosses, and walks away. The records of ARI.
+fn crossing() -> Vec<Value> {
+    let mut street = Street::new(&[("speed = 40.0", "speed = 5.0")]);
+    let [ari, go2] = &street.configs;
+    fs::write(ari, fs::read_to_string(ari).unwrap() + ZONE).unwrap();
+    let pipe = street.path("pipe");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    street.robots = vec![
+        Killed(start_with(ari, &["--perceived", &pipe])),
+        Killed(start(go2)),
+    ];
+    let pipe = File::create(&pipe).unwrap();
+    let mut person = Person { pipe, street };
+    person.walk([1.0, -6.0], [1.0, -0.8]);
+    person.stand([1.0, -0.8], "corridorOpened");
+    person.walk([1.0, -0.8], [1.0, 8.0]);
+    person.stand([1.0, 8.0], "sessionEnded");
+    person.walk([1.0, 8.0], [9.0, 8.0]);
+    let is_late = [ARI, GO2]
+        .iter()
+        .any(|it| person.street.log(*it).contains("waited too long"));
+    let [log, _] = person.street.end([Some(0); 2]);
+    let is_completed = log
+        .iter()
+        .any(|it| it.to_string().contains("\"taskCompleted\""));
+    assert!(is_completed || is_late, "the crossing was not completed");
+    if is_completed { log } else { Vec::new() }
+}
+
+/// How often robots begin anew where the machine was so slow that they lost each other: messages that waited for
+/// longer than `delay_max` are dropped, and then a session ends in order.
+const ATTEMPTS: usize = 3;
+
+#[test]
+fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
+    let mut tries = (0..ATTEMPTS).map(|_| crossing());
+    let log = tries
+        .find(|log| !log.is_empty())
+        .expect("no crossing was completed");
+    let detected = log
+        .iter()
+        .filter(|it| it["input"]["local"].get("pedestrianDetected").is_some());
+    assert_eq!(detected.count(), 1);
+    let of = |entry: &'static str| log.iter().filter(move |it| it["entry"] == entry);
+    assert_eq!(of("zone").count(), 1);
+    let people: String = of("people").map(Value::to_string).collect();
+    for conduct in ["elsewhere", "passing", "waiting", "onRoad", "across"] {
+        assert!(
+            people.contains(&format!("\"{conduct}\"")),
+            "nobody is {conduct}"
+        );
+    }
+    // What tracks a person stays in the robot.
+    assert!(!people.contains("\"id\""));
+}

@@ -1,0 +1,81 @@
+//! A reader of an output that does not read: the robot goes on, and hears a signal.
+
+use std::process::Stdio;
+
+use crossguard_testkit::command::*;
+
+use crate::street::{ARI, GO2, PATIENCE, Street, assert_valid, side_by_side};
+
+/// Arguments before and behind the configuration, lines that make it say more than a pipe holds, and whether it is
+/// standard output that nobody reads.
+type Row = (
+    &'static [&'static str],
+    &'static [&'static str],
+    &'static str,
+    bool,
+);
+
+const ROWS: [Row; 3] = [
+    // A person who looks away, and a program that does not take the log.
+    (&[], &[], "help\n", true),
+    (&[], &["--json"], "wait 0.01\n", true),
+    (&["-vvv"], &["--json"], "wait 0.02\n", false),
+];
+
+fn cross_unread((before, behind, chatter, is_stdout): &Row) {
+    let mut street = Street::new(&[]);
+    street.robots = [ARI, GO2]
+        .map(|robot| {
+            let config = &street.configs[robot];
+            if robot == GO2 {
+                return Killed(start(config));
+            }
+            let log = ["--log", &street.path("ari.jsonl")].map(str::to_owned);
+            let mut command = crossguard(before);
+            command
+                .args(["run", "--config", config])
+                .args(*behind)
+                .args(log);
+            if !is_stdout {
+                command.stdout(Stdio::null());
+            }
+            let piped = command.stdin(Stdio::piped()).stderr(Stdio::piped());
+            if *is_stdout {
+                piped.stdout(Stdio::piped());
+            }
+            Killed(piped.spawn().unwrap())
+        })
+        .into();
+    street.say(ARI, &chatter.repeat(200));
+    street.say(ARI, "wait 0.3\ndetect\n");
+    // The dog sees the whole crossing, although nobody reads what its leader says.
+    street.until(GO2, "\"taskCompleted\"");
+    street.signal(ARI, "-TERM");
+    let status = wait_for(&mut street.robots[ARI].0, PATIENCE);
+    street.say(GO2, "until idle 30\nquit\n");
+    assert_eq!(
+        wait_for(&mut street.robots[GO2].0, PATIENCE).code(),
+        Some(0)
+    );
+    assert!(!street.log(GO2).contains("fallBack"));
+    // The log has all, and is that of a robot that stopped in order.
+    let log = street.path("ari.jsonl");
+    let text = std::fs::read_to_string(&log).unwrap();
+    assert_eq!(records(&text).pop().unwrap()["entry"], "stopped");
+    assert_valid([log.into()].into_iter());
+    let mut said = String::new();
+    let unread = street.robots[ARI].0.stderr.take().unwrap();
+    std::io::Read::read_to_string(&mut { unread }, &mut said).unwrap();
+    if *is_stdout {
+        assert!(said.contains("standard output is not read"), "{said}");
+        assert_eq!(status.code(), Some(3));
+    } else {
+        assert!(said.len() > 65_000, "{}", said.len());
+        assert_eq!(status.code(), Some(0));
+    }
+}
+
+#[test]
+fn an_output_that_nobody_reads_does_not_stop_the_robot() {
+    side_by_side(&ROWS, cross_unread);
+}

@@ -1,0 +1,177 @@
+//! Two robots as processes on the loopback interface: ARI, which asks for help, and Go2.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use crossguard_judge::validate;
+use crossguard_robot::trace;
+use crossguard_testkit::command::*;
+use serde_json::Value;
+use tempfile::TempDir;
+
+pub(crate) const PATIENCE: Duration = Duration::from_mins(1);
+
+pub(crate) const ARI: usize = 0;
+pub(crate) const GO2: usize = 1;
+
+/// What ARI is told for a crossing by its autopilot.
+pub(crate) const CROSS: &str = "wait 0.5\ndetect\nuntil maneuver-executing 30\nuntil idle 30\n";
+
+pub(crate) struct Street {
+    pub(crate) folder: TempDir,
+    pub(crate) configs: [String; 2],
+    pub(crate) robots: Vec<Killed>,
+    /// Logs of robots before they were booted again.
+    before: Vec<(usize, PathBuf)>,
+}
+
+impl Street {
+    /// Their files, with these changes in both.
+    pub(crate) fn new(changes: &[(&str, &str)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let port = two_free_ports();
+        let configs = [("ARI", 1, port, port + 1), ("Go2", 2, port + 1, port)];
+        let configs = configs.map(|(name, station, port, peer)| {
+            let config = robot_file(folder.path(), name, station, port, peer);
+            edit(&config, changes);
+            config
+        });
+        let (robots, before) = (Vec::new(), Vec::new());
+        Self {
+            folder,
+            configs,
+            robots,
+            before,
+        }
+    }
+
+    /// Both run, with these changes in their files.
+    pub(crate) fn started(changes: &[(&str, &str)]) -> Self {
+        let mut street = Self::new(changes);
+        street.start(&[]);
+        street
+    }
+
+    /// Starts both, with these arguments.
+    pub(crate) fn start(&mut self, arguments: &[&str]) {
+        let starts = self.configs.iter().map(|it| start_with(it, arguments));
+        self.robots = starts.map(Killed).collect();
+    }
+
+    pub(crate) fn path(&self, name: &str) -> String {
+        self.folder.path().join(name).display().to_string()
+    }
+
+    pub(crate) fn say(&mut self, robot: usize, lines: &str) {
+        type_to(&mut self.robots[robot].0, lines);
+    }
+
+    pub(crate) fn signal(&self, robot: usize, name: &str) {
+        signal(&self.robots[robot].0, name);
+    }
+
+    /// The log of a robot as it is now.
+    pub(crate) fn log(&self, robot: usize) -> String {
+        log_of(&self.configs[robot])
+    }
+
+    /// Waits until the log of a robot has this.
+    pub(crate) fn until(&self, robot: usize, what: &str) {
+        let deadline = Instant::now() + PATIENCE;
+        while !self.log(robot).contains(what) {
+            assert!(
+                Instant::now() < deadline,
+                "no '{what}' in:\n{}",
+                self.log(robot)
+            );
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Boots a robot again that was killed.
+    pub(crate) fn boot(&mut self, robot: usize) {
+        let _ = self.robots[robot].0.wait();
+        let config = &self.configs[robot];
+        let before = self.folder.path().join("before.log");
+        fs::rename(Path::new(config).with_extension("log"), &before).unwrap();
+        self.before.push((robot, before));
+        self.robots[robot] = Killed(start(config));
+    }
+
+    /// The log of a robot before it was booted again, or the only one.
+    pub(crate) fn first_log(&self, robot: usize) -> String {
+        let before = self.before.iter().find(|(it, _)| *it == robot);
+        let Some((_, log)) = before else {
+            return self.log(robot);
+        };
+        // It may have been killed in the middle of a line.
+        let text = fs::read_to_string(log).unwrap();
+        text.rsplit_once('\n').unwrap().0.to_owned()
+    }
+
+    /// Ends the robots, each of which has this exit code. Their logs, which are valid together.
+    pub(crate) fn end(&mut self, codes: [Option<i32>; 2]) -> [Vec<Value>; 2] {
+        for robot in &mut self.robots {
+            // One that was told to stop hears nothing any more.
+            let input = robot.0.stdin.as_mut().unwrap();
+            let _ = input.write_all(b"until idle 30\nquit\n");
+        }
+        for (robot, code) in self.robots.iter_mut().zip(codes) {
+            assert_eq!(wait_for(&mut robot.0, PATIENCE).code(), code);
+        }
+        let logs = self
+            .configs
+            .iter()
+            .map(|it| Path::new(it).with_extension("log"));
+        assert_valid(logs.chain(self.before.iter().map(|(_, log)| log.clone())));
+        [ARI, GO2].map(|robot| records(&self.log(robot)))
+    }
+}
+
+/// Asserts that logs are of something that could have happened.
+pub(crate) fn assert_valid(logs: impl Iterator<Item = PathBuf>) {
+    let logs: Vec<_> = logs.map(|it| trace::open(&it).unwrap()).collect();
+    let validated = validate::all(logs);
+    assert!(validated.is_ok(), "{}", validated.unwrap_err());
+}
+
+/// A library that takes the place of a part of the C library in one process; `None`, and a word about it, without a
+/// C compiler.
+pub(crate) fn shim(folder: &Path, source: &str) -> Option<PathBuf> {
+    let library = folder.join("shim.so");
+    let mut compiler = Command::new("cc");
+    compiler
+        .args(["-shared", "-fPIC", "-O1", "-o"])
+        .arg(&library);
+    let source = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests")
+        .join(source);
+    match compiler.arg(source).arg("-ldl").output() {
+        Ok(output) => {
+            assert!(output.status.success(), "{}", stderr(&output));
+            Some(library)
+        }
+        Err(error) => {
+            skipped(&format!("there is no C compiler 'cc': {error}"));
+            None
+        }
+    }
+}
+
+/// Says that the test that runs in this thread is skipped, not by eprintln!, which the test runner would capture.
+pub(crate) fn skipped(why: &str) {
+    let test = std::thread::current().name().unwrap_or_default().to_owned();
+    let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
+}
+
+/// Runs each row of a table in a thread of its own: they wait more than they compute.
+pub(crate) fn side_by_side<T: Sync>(rows: &[T], run: impl Fn(&T) + Sync) {
+    std::thread::scope(|scope| {
+        for row in rows {
+            scope.spawn(|| run(row));
+        }
+    });
+}

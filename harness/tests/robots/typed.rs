@@ -1,0 +1,226 @@
+//! What a person types to a robot, reads of it, and is told when something is wrong.
+
+use std::net::{TcpListener, UdpSocket};
+use std::process::Stdio;
+use std::time::Duration;
+
+use crossguard_testkit::command::*;
+
+use crate::street::{ARI, CROSS, GO2, PATIENCE, Street};
+
+#[test]
+fn a_person_types_every_step_and_reads_what_happens() {
+    let street = Street::new(&[]);
+    // Nobody leads by itself here.
+    edit(&street.configs[ARI], &[("autopilot = true", "")]);
+    let mut go2 = Killed(start(&street.configs[GO2]));
+    let script = "wait 0.5\ndetect 1 high block # a child\nuntil role-established\nwait 0.4\n\
+                  order 2 block\nuntil maneuver-executing\nopen\nwait 0.2\nstatus\nclose\n\
+                  task-completed\nuntil idle\nquit\n";
+    let output = run_with(
+        &["run", "--config", &street.configs[ARI]],
+        script.as_bytes(),
+    );
+    let text = stdout(&output);
+    assert_eq!(output.status.code(), Some(0), "{text}{}", stderr(&output));
+    for expected in [
+        "ARI is station 1, boot 1, on 127.0.0.1:",
+        "a leader that does stops its followers within ",
+        "now RoleEstablished (leader)",
+        "2 joined",
+        "2 acknowledged 1#1.0/0",
+        "ManeuverExecuting, leader, available, session 1#1.0",
+        "1#1.0 ended: task completed",
+        "stopped",
+    ] {
+        assert!(text.contains(expected), "'{expected}' is not in:\n{text}");
+    }
+    // Nothing is told on standard error that was not asked for.
+    assert_eq!(stderr(&output), "");
+    type_to(&mut go2.0, "quit\n");
+    assert_eq!(wait_for(&mut go2.0, PATIENCE).code(), Some(0));
+}
+
+#[test]
+fn a_script_that_waits_in_vain_fails_and_a_mistake_is_refused_at_its_line() {
+    let street = Street::new(&[]);
+    let typed =
+        |lines: &str| run_with(&["run", "--config", &street.configs[ARI]], lines.as_bytes());
+    let output = typed("until role-established 0.3\n");
+    assert_eq!(output.status.code(), Some(1));
+    let text = stdout(&output);
+    let expected = "RoleEstablished was not reached in time; the state is Idle";
+    assert!(text.contains(expected), "{text}");
+    assert_refused(
+        &typed("detect\nfly\n"),
+        "'fly': no command 'fly'; type 'help'",
+    );
+    assert_refused(&typed("{\"id\": 1}\n"), "missing field `position_m`");
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = taken.local_addr().unwrap().to_string();
+    let metrics = [
+        "run",
+        "--config",
+        &street.configs[ARI],
+        "--metrics",
+        &address,
+    ];
+    assert_refused(&run(&metrics), &format!("--metrics {address}: "));
+}
+
+#[test]
+fn two_processes_of_one_robot_are_refused() {
+    let street = Street::new(&[]);
+    let config = &street.configs[ARI];
+    let mut first = Killed(start(config));
+    street.until(ARI, "\"started\"");
+    assert_refused(&run(&["run", "--config", config]), "is in use");
+    // Also when the second one would listen elsewhere.
+    let text = std::fs::read_to_string(config).unwrap();
+    let (robot, _) = text.split_once("[link]").unwrap();
+    let moved = format!("{robot}[link]\naddress = \"127.0.0.1:0\"\npeers = []\n");
+    std::fs::write(config, moved).unwrap();
+    let second = run(&["run", "--config", config]);
+    let cause = "is in use by another process: one robot, one process";
+    assert_refused(&second, cause);
+    type_to(&mut first.0, "quit\n");
+    assert_eq!(wait_for(&mut first.0, PATIENCE).code(), Some(0));
+    let counter = std::fs::read_to_string(street.path("ARI.boot")).unwrap();
+    assert_eq!(counter, "crossguard boot counter 1\n");
+}
+
+#[test]
+fn what_a_robot_drops_is_told_with_its_cause_and_a_status_line_counts_it() {
+    let street = Street::new(&[]);
+    let config = &street.configs[ARI];
+    let arguments = ["-vv", "run", "--config", config, "--status", "always"];
+    let mut command = crossguard(&arguments);
+    let command = command.stdin(Stdio::piped()).stdout(Stdio::null());
+    let mut robot = command.stderr(Stdio::piped()).spawn().unwrap();
+    let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let text = std::fs::read_to_string(config).unwrap();
+    let own = text.split("address = \"").nth(1).unwrap();
+    for _ in 0..6 {
+        std::thread::sleep(Duration::from_millis(300));
+        stranger
+            .send_to(&[0xA5; 80], own.split('"').next().unwrap())
+            .unwrap();
+    }
+    type_to(&mut robot, "leave\nquit\n");
+    let output = robot.wait_with_output().unwrap();
+    let said = stderr(&output);
+    assert!(output.status.success(), "{said}");
+    for expected in [
+        "INFO robot{name=\"ARI\"}: started station=1 boot=1",
+        "WARN robot{name=\"ARI\"}: dropped layer=packet cause=",
+        "DEBUG robot{name=\"ARI\"}: ignored cause=not in session input=leave requested",
+        "ARI Idle, available; sent ",
+    ] {
+        assert!(said.contains(expected), "'{expected}' is not in:\n{said}");
+    }
+    let line = |text: &&str| text.contains(" heard 0 of 0 stations, ");
+    let last = said.lines().rfind(line).unwrap();
+    assert!(!last.contains(", 0 dropped or ignored"), "{last}");
+}
+
+/// Hazard: who was stopped by an emergency stop is sent commands all the same.
+#[test]
+fn after_an_emergency_stop_of_a_follower_nothing_more_is_commanded() {
+    let mut street = Street::started(&[("speed = 40.0", "speed = 2.0")]);
+    street.say(ARI, "wait 0.5\ndetect\n");
+    street.until(ARI, "\"corridorOpened\"");
+    street.say(GO2, "unavailable emergency-stop\n");
+    street.until(ARI, "sessionEnded");
+    street.end([Some(0); 2]);
+    let log = street.log(ARI);
+    let (_, after) = log.split_once("maneuverFailed").expect("it fails");
+    for output in ["corridorOpened", "sendRmcm", "commandManeuver"] {
+        assert!(
+            !after.contains(&format!("\"{output}\"")),
+            "{output}: {after}"
+        );
+    }
+}
+
+/// A stolen robot: its operator puts it on the revocation list, and a robot that runs does not hear it any more.
+#[test]
+fn a_stolen_robot_is_put_on_the_list_and_nobody_hears_it_any_more() {
+    let mut street = Street::new(&[("name =", "revoked = \"pki/revoked.txt\"\nname =")]);
+    let pki = street.path("pki");
+    assert!(run(&["pki", "init", &pki]).status.success());
+    let list = street.path("pki/revoked.txt");
+    std::fs::write(&list, "# nobody yet\n").unwrap();
+    // The stolen one does not take the list.
+    edit(&street.configs[GO2], &[("revoked", "# revoked")]);
+    let enforce = ["--security", "enforce", "--pki", &pki];
+    street.start(&enforce);
+    street.until(ARI, "\"heard\"");
+    let revoked = json(&run(&["pki", "revoke", &pki, "--robot", "Go2", "--json"]));
+    let text = std::fs::read_to_string(&list).unwrap();
+    assert!(text.starts_with("# nobody yet\n"), "{text}");
+    for ticket in revoked.as_array().unwrap() {
+        assert!(text.contains(ticket["id"].as_str().unwrap()), "{text}");
+    }
+    street.until(ARI, r#""layer":"security","cause":"revoked""#);
+    street.end([Some(0); 2]);
+    // The stolen robot itself, should it ever take the list, and a list that cannot be read.
+    edit(&street.configs[GO2], &[("# revoked", "revoked")]);
+    let go2 = [&["run", "--config", &street.configs[GO2]][..], &enforce].concat();
+    assert_refused(&run(&go2), "'crossguard pki tickets' makes new ones");
+    std::fs::write(&list, "Go2\n").unwrap();
+    let cause = "revoked.txt:1: 'Go2' is no certificate: 16 hexadecimal digits are wanted";
+    assert_refused(&run(&go2), cause);
+}
+
+#[test]
+fn a_robot_whose_log_cannot_be_written_crosses_all_the_same_and_says_so() {
+    let street = Street::new(&[]);
+    let mut go2 = Killed(start(&street.configs[GO2]));
+    let arguments = [
+        "run",
+        "--config",
+        &street.configs[ARI],
+        "--log",
+        "/dev/full",
+    ];
+    let output = run_with(&arguments, format!("{CROSS}quit\n").as_bytes());
+    let (said, error) = (stdout(&output), stderr(&output));
+    assert!(
+        said.contains("1#1.0 ended: task completed"),
+        "{said}{error}"
+    );
+    assert!(
+        error.contains("/dev/full: No space left on device"),
+        "{error}"
+    );
+    assert!(error.contains("the robot goes on"), "{error}");
+    assert_eq!(output.status.code(), Some(3), "the log is incomplete");
+    type_to(&mut go2.0, "quit\n");
+    assert_eq!(wait_for(&mut go2.0, PATIENCE).code(), Some(0));
+}
+
+#[test]
+fn two_processes_block_both_directions_by_the_plan_of_the_demonstration() {
+    let mut street = Street::new(&[("autopilot = true\n", ""), ("speed = 40.0", "speed = 20.0")]);
+    let place = |place: &str| format!("place = {place}\nboot_file");
+    edit(
+        &street.configs[ARI],
+        &[("boot_file", &place("[-4.0, -0.8]"))],
+    );
+    let second = [
+        ("\"Go2\"", "\"ARI-2\""),
+        ("station = 2", "station = 3"),
+        ("quadruped", "humanoid"),
+        ("boot_file", &place("[6.0, 8.2]")),
+    ];
+    edit(&street.configs[GO2], &second);
+    street.robots = vec![
+        Killed(start_with(&street.configs[ARI], &["--plan", "bilateral"])),
+        Killed(start(&street.configs[GO2])),
+    ];
+    street.say(ARI, CROSS);
+    street.until(GO2, "\"taskCompleted\"");
+    street.end([Some(0); 2]);
+    assert_eq!(street.log(ARI).matches("\"corridorOpened\"").count(), 1);
+    assert_eq!(street.log(GO2).matches("\"startManeuver\"").count(), 2);
+}
