@@ -101,22 +101,11 @@ impl Replay {
     /// Follows the run through a model.
     #[must_use]
     pub fn follow(&self, model: &Model) -> Followed {
-        self.follow_with(model, &mut |_, _| ())
-    }
-
-    /// The same; `witness` receives each action that was possible, and the state that it led to. Where a robot put
-    /// out something else in the last one, it receives that one too.
-    pub fn follow_with(
-        &self,
-        model: &Model,
-        witness: &mut dyn FnMut(Action, &ModelState),
-    ) -> Followed {
         let mut state = model.initial();
         for (i, step) in self.steps.iter().enumerate() {
-            let Some((action, next, outputs)) = take(model, &state, step) else {
+            let Some((_, next, outputs)) = take(model, &state, step) else {
                 return Followed::StoppedAt(i);
             };
-            witness(action, &next);
             if outputs != step.outputs {
                 return Followed::OtherwiseAt(i, outputs);
             }

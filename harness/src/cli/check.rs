@@ -82,10 +82,6 @@ pub(super) struct Arguments {
     /// Follow the run in this file, a counterexample of before, and say whether it still exists.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["export", "charts"])]
     replay: Option<PathBuf>,
-    /// With --replay: drive real endpoints along the run too, with real octets, and compare their robots
-    /// with the model's after every step.
-    #[arg(long, requires = "replay")]
-    endpoints: bool,
     /// Write the state graph of the scenario instead of checking it.
     #[arg(long, value_name = "FORMAT", requires = "output")]
     export: Option<GraphFormat>,
@@ -132,7 +128,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return confinement::tell(arguments.json);
     }
     if let Some(file) = &arguments.replay {
-        return replay::run(&arguments.scenarios, file, arguments.endpoints);
+        return replay::run(&arguments.scenarios, file);
     }
     if arguments.large || arguments.workers.are_given() {
         return workers::run(arguments);

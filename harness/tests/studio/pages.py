@@ -214,8 +214,8 @@ def play(studio, folder):
     for steps in (2, 3, 4):
         page.click("#redo")
         taken(steps)
-    said = run("check", "--replay", at.saved(folder), "--endpoints")
-    assert "Endpoints took 4 of its 4 steps" in said, said
+    said = run("check", "--replay", at.saved(folder))
+    assert "exists in pair-with-room, all 4 steps of it" in said, said
     # Files that are no run leave the play as it was.
     for content, cause in (("{cut", "this is no JSON"), ("[]", "this is no run")):
         at.open_file(content)

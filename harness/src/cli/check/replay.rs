@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crossguard_judge::drive::{Driven, drive};
 use crossguard_model_check::check::names;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::{Followed, Replay};
@@ -19,8 +18,8 @@ pub(in crate::cli) fn read(file: &Path) -> Result<Replay, Failure> {
     serde_json::from_str(&text).map_err(|cause| cannot(&cause))
 }
 
-/// Follows the run in `file`; through real endpoints too, where they are asked for.
-pub(super) fn run(scenarios: &[String], file: &Path, endpoints: bool) -> Result<(), Failure> {
+/// Follows the run in `file`.
+pub(super) fn run(scenarios: &[String], file: &Path) -> Result<(), Failure> {
     let replay = read(file)?;
     let (name, scenario) = match scenarios {
         [] => (&replay.scenario, replay.load_scenario()),
@@ -29,9 +28,6 @@ pub(super) fn run(scenarios: &[String], file: &Path, endpoints: bool) -> Result<
     };
     let scenario = scenario.map_err(Failure::input)?;
     let model = Model::new(untimed(scenario)?);
-    if endpoints {
-        through_endpoints(&model, &replay)?;
-    }
     tell(&model, name, &replay)
 }
 
@@ -103,26 +99,4 @@ fn tell_of_walk(model: &Model, name: &str, replay: &Replay) -> Result<(), Failur
 fn line(model: &Model, replay: &Replay, step: usize) -> String {
     let robots = names(model.scenario());
     format!("{}. {}", step + 1, replay.steps[step].line(&robots))
-}
-
-fn through_endpoints(model: &Model, replay: &Replay) -> Result<(), Failure> {
-    let Driven {
-        steps,
-        datagrams,
-        disagreement,
-        ..
-    } = drive(model, replay);
-    print(format_args!(
-        "Endpoints took {steps} of its {} steps and sent {datagrams} datagrams; after each step their \
-         robots were as in the model.",
-        replay.steps.len()
-    ))?;
-    let Some(disagreement) = disagreement else {
-        return Ok(());
-    };
-    print(format_args!(
-        "But after\n  {}\n{disagreement}",
-        line(model, replay, steps)
-    ))?;
-    Err(Failure::Wrong)
 }
