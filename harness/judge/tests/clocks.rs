@@ -4,40 +4,14 @@ use std::io::Cursor;
 
 use crossguard_judge::sim::{Deed, Happening, Swarm, run};
 use crossguard_judge::validate::{Log, Validated, all};
-use crossguard_protocol::Config;
-use crossguard_robot::plan::Plan;
 use crossguard_robot::trace::{Entry, Record, write};
-use crossguard_robot::transport::{Faults, Outage};
+use crossguard_robot::transport::Outage;
 
 const SECOND_US: u64 = 1_000_000;
 
-/// A pair of which the first asks for help after a second.
-fn pair() -> Swarm {
-    let mut swarm = Swarm::draw(3, 2, Some(&Faults::default()));
-    swarm
-        .script
-        .retain(|happening| happening.deed == Deed::Boot);
-    (swarm.replays, swarm.is_secured, swarm.waits_at) = (Vec::new(), false, None);
-    (swarm.late_max_us, swarm.strikes) = (swarm.late_max_us.min(48_000), 0.0);
-    swarm.script.push(Happening {
-        at_us: SECOND_US,
-        place: 0,
-        deed: Deed::Detect,
-    });
-    for robot in &mut swarm.robots {
-        robot.config = Config::default();
-        robot.plan = Plan::crossing(robot.plan.site);
-        robot.time_scale = 1.0;
-    }
-    for way in &mut swarm.ways {
-        way.outages.clear();
-    }
-    swarm
-}
-
-/// The same; from the third second on they do not hear each other.
+/// A quiet pair; from the third second on they do not hear each other.
 fn parted_pair() -> Swarm {
-    let mut swarm = pair();
+    let mut swarm = Swarm::quiet(2);
     for way in &mut swarm.ways {
         way.outages.push(Outage {
             from_ms: 3_000,
@@ -79,9 +53,9 @@ fn has_i10(validated: &Validated) -> bool {
 
 #[test]
 fn a_timer_that_is_told_late_is_counted_with_the_longest_and_not_refused() {
-    let on_time = validated(&[&records(&pair())]).unwrap();
+    let on_time = validated(&[&records(&Swarm::quiet(2))]).unwrap();
     assert_eq!((on_time.late.steps, on_time.late.longest_ms), (0, 0));
-    let mut swarm = pair();
+    let mut swarm = Swarm::quiet(2);
     swarm.script.push(Happening {
         at_us: 3 * SECOND_US,
         place: 1,
@@ -98,7 +72,7 @@ fn a_timer_that_is_told_late_is_counted_with_the_longest_and_not_refused() {
 
 #[test]
 fn a_log_that_does_not_say_when_messages_arrived_says_of_how_many() {
-    let mut records = records(&pair());
+    let mut records = records(&Swarm::quiet(2));
     let mut receptions = 0;
     for record in &mut records {
         if let Entry::Heard { reception, .. } = &mut record.entry {

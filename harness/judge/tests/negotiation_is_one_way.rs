@@ -1,10 +1,8 @@
 //! `T_neg` is the way of a command to its follower, and not the way of the acknowledgement back: it agrees with the delay
 //! that the simulated network was given, also where the logs of leader and follower have clocks of their own.
 
-use crossguard_judge::sim::{Deed, Happening, Swarm, run};
+use crossguard_judge::sim::{Swarm, run};
 use crossguard_judge::timing::{NoOffset, Summary, Timing};
-use crossguard_protocol::Config;
-use crossguard_robot::plan::Plan;
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Delay, Faults};
 use rand::{Rng, SeedableRng};
@@ -14,23 +12,7 @@ const LEADER: &str = "R1";
 
 /// A leader and a follower; every datagram takes so many ms to the follower, and so many back.
 fn pair(there_ms: u32, back_ms: u32) -> Swarm {
-    let mut swarm = Swarm::draw(3, 2, Some(&Faults::default()));
-    swarm
-        .script
-        .retain(|happening| happening.deed == Deed::Boot);
-    (swarm.replays, swarm.is_secured, swarm.waits_at) = (Vec::new(), false, None);
-    (swarm.late_max_us, swarm.strikes) = (0, 0.0);
-    swarm.script.push(Happening {
-        at_us: 1_000_000,
-        place: 0,
-        deed: Deed::Detect,
-    });
-    for robot in &mut swarm.robots {
-        robot.config = Config::default();
-        robot.plan = Plan::crossing(robot.plan.site);
-        robot.time_scale = 1.0;
-        robot.drift_ppm = 0;
-    }
+    let mut swarm = Swarm::quiet(2);
     let exactly = |ms| Faults {
         delay: Delay {
             min_ms: ms,

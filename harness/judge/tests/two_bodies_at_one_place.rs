@@ -1,29 +1,16 @@
 //! A leader that sends two bodies to one place is found in its log, although no rule of the protocol is broken.
 
-use crossguard_judge::sim::{Deed, Happening, Swarm, run};
+use crossguard_judge::sim::{Swarm, run};
 use crossguard_judge::validate::{self, Fault};
-use crossguard_protocol::{Config, TaskType};
-use crossguard_robot::plan::{Leg, Plan, Stage, Who};
+use crossguard_protocol::TaskType;
+use crossguard_robot::plan::{Leg, Stage, Who};
 use crossguard_robot::site::Place;
 use crossguard_robot::trace::{self, Record};
-use crossguard_robot::transport::Faults;
 
 /// A leader and two followers on an undisturbed network. Each stage has a place for either follower.
 fn log(stages: &[(TaskType, [Place; 2])]) -> Vec<u8> {
-    let mut swarm = Swarm::draw(3, 3, Some(&Faults::default()));
-    swarm
-        .script
-        .retain(|happening| happening.deed == Deed::Boot);
-    (swarm.replays, swarm.is_secured, swarm.waits_at) = (Vec::new(), false, None);
-    (swarm.late_max_us, swarm.strikes) = (0, 0.0);
-    swarm.script.push(Happening {
-        at_us: 1_000_000,
-        place: 0,
-        deed: Deed::Detect,
-    });
+    let mut swarm = Swarm::quiet(3);
     for robot in &mut swarm.robots {
-        robot.config = Config::default();
-        robot.plan = Plan::crossing(robot.plan.site);
         robot.plan.followers = 2;
         robot.plan.roles = vec![None, None];
         let stage = |(task, [first, second]): &(TaskType, [Place; 2])| Stage {
@@ -33,7 +20,6 @@ fn log(stages: &[(TaskType, [Place; 2])]) -> Vec<u8> {
             ],
         };
         robot.plan.stages = stages.iter().map(stage).collect();
-        (robot.time_scale, robot.drift_ppm) = (1.0, 0);
     }
     let mut log = Vec::new();
     let mut watch = |record: Record| trace::write(&mut log, &record).unwrap();

@@ -15,8 +15,6 @@ pub mod command;
 pub mod ports;
 #[cfg(feature = "rules")]
 pub mod rules;
-#[cfg(feature = "story")]
-pub mod story;
 
 #[cfg(any(feature = "c", feature = "command"))]
 mod built;

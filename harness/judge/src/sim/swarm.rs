@@ -18,7 +18,7 @@ use crossguard_robot::transport::Faults;
 use self::draws::Draws;
 pub use self::hazards::Hazard;
 pub use self::insiders::InsiderDraw;
-use super::script::Happening;
+use super::script::{Deed, Happening};
 
 /// By how much a station id grows when the robot changes its pseudonym.
 pub(super) const PSEUDONYM_STEP: u32 = 100;
@@ -116,6 +116,33 @@ impl Swarm {
         Draws::new(seed).swarm(seed, robots, faults)
     }
 
+    /// This many robots with the default settings on an undisturbed network, the first of which detects a pedestrian
+    /// after a second.
+    #[must_use]
+    pub fn quiet(robots: usize) -> Self {
+        let mut swarm = Self::draw(3, robots, Some(&Faults::default()));
+        swarm.robots.iter_mut().for_each(|robot| {
+            robot.config = Config::default();
+            robot.plan = Plan::crossing(robot.plan.site);
+            (robot.time_scale, robot.drift_ppm) = (1.0, 0);
+        });
+        swarm.script.retain(|it| it.deed == Deed::Boot);
+        swarm.script.push(Happening {
+            at_us: SECOND_US,
+            place: 0,
+            deed: Deed::Detect,
+        });
+        Self {
+            ways: vec![Faults::default(); swarm.ways.len()],
+            late_max_us: 0,
+            strikes: 0.0,
+            replays: Vec::new(),
+            is_secured: false,
+            waits_at: None,
+            ..swarm
+        }
+    }
+
     /// The same robots, each of which does what this plan says when it leads. Any robot takes any role. Nobody takes
     /// longer across than `t_cross`, a leader is as patient as a drawn one, and whether it names its crossing stays as drawn.
     #[must_use]
@@ -202,7 +229,6 @@ impl Swarm {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::Deed;
 
     #[test]
     fn a_seed_draws_the_same_run_every_time_and_another_one_another() {
