@@ -53,7 +53,7 @@ fn two_robots_with_a_unit_each_do_the_crossing() {
     street.start(&[]);
     street.say(ARI, &format!("wait 1\n{CROSS}"));
     street.until(GO2, "\"taskCompleted\"");
-    let logs = street.end([Some(0); 2]);
+    let logs = street.end();
     for log in &logs {
         let measured = |it: &serde_json::Value| it["busyRatio"] == 0.2;
         assert!(log.iter().any(measured), "the busy ratio of the unit");
@@ -79,7 +79,7 @@ fn a_unit_that_is_killed_in_the_middle_closes_the_corridor_and_makes_the_followe
     drop(of_go2);
     street.until(GO2, "fallBack");
     street.until(GO2, "no unit is there");
-    street.end([Some(0); 2]);
+    street.end();
     let [leader, follower] = [ARI, GO2].map(|robot| happenings(&street.log(robot)));
     let closed_ms = first(&leader, |it| it.get("corridorClosed").is_some()).unwrap();
     let fell_back_ms = first(&follower, |it| it.get("fallBack").is_some()).unwrap();

@@ -87,7 +87,7 @@ fn step(ahead_s: i64, library: &Path) {
     clock.set(0);
     street.say(ARI, "until idle 20\nwait 1\ndetect\n");
     street.until(ARI, "\"taskCompleted\"");
-    street.end([Some(0); 2]);
+    street.end();
     let by_go2 = if ahead_s > 0 {
         "from the future"
     } else {
@@ -127,7 +127,7 @@ fn robots_whose_clocks_differ_come_to_rest_where_they_sign_and_cross_where_they_
             std::thread::sleep(Duration::from_millis(300));
         }
         street.until(GO2, "\"taskCompleted\"");
-        street.end([Some(0); 2]);
+        street.end();
         assert!(!street.log(GO2).contains("fallBack"));
     });
 }

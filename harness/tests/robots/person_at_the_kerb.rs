@@ -80,7 +80,7 @@ fn crossing() -> Vec<Value> {
     let is_late = [ARI, GO2]
         .iter()
         .any(|it| person.street.log(*it).contains("waited too long"));
-    let [log, _] = person.street.end([Some(0); 2]);
+    let [log, _] = person.street.end();
     let is_completed = log
         .iter()
         .any(|it| it.to_string().contains("\"taskCompleted\""));

@@ -131,7 +131,7 @@ fn after_an_emergency_stop_of_a_follower_nothing_more_is_commanded() {
     street.until(ARI, "\"corridorOpened\"");
     street.say(GO2, "unavailable emergency-stop\n");
     street.until(ARI, "sessionEnded");
-    street.end([Some(0); 2]);
+    street.end();
     let log = street.log(ARI);
     let (_, after) = log.split_once("maneuverFailed").expect("it fails");
     for output in ["corridorOpened", "sendRmcm", "commandManeuver"] {
@@ -162,7 +162,7 @@ fn a_stolen_robot_is_put_on_the_list_and_nobody_hears_it_any_more() {
         assert!(text.contains(ticket["id"].as_str().unwrap()), "{text}");
     }
     street.until(ARI, r#""layer":"security","cause":"revoked""#);
-    street.end([Some(0); 2]);
+    street.end();
     // The stolen robot itself, should it ever take the list, and a list that cannot be read.
     edit(&street.configs[GO2], &[("# revoked", "revoked")]);
     let go2 = [&["run", "--config", &street.configs[GO2]][..], &enforce].concat();
@@ -220,7 +220,7 @@ fn two_processes_block_both_directions_by_the_plan_of_the_demonstration() {
     ];
     street.say(ARI, CROSS);
     street.until(GO2, "\"taskCompleted\"");
-    street.end([Some(0); 2]);
+    street.end();
     assert_eq!(street.log(ARI).matches("\"corridorOpened\"").count(), 1);
     assert_eq!(street.log(GO2).matches("\"startManeuver\"").count(), 2);
 }
