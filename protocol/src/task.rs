@@ -191,6 +191,10 @@ words! {
     }
 }
 
+#[expect(
+    clippy::derivable_impls,
+    reason = "the macro has no place for a default"
+)]
 impl Default for Urgency {
     fn default() -> Self {
         Self::Medium
