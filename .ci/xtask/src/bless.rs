@@ -5,8 +5,7 @@
 
 use std::path::Path;
 
-use crate::error::Error;
-use crate::steps::{Step, run};
+use crate::steps::{NotStarted, Step, run};
 
 /// A file, a folder, or a part of a file, and the command that writes it.
 struct Generated {
@@ -70,28 +69,29 @@ const GENERATED: [Generated; 13] = [
     },
 ];
 
-/// Whether no part of the file is written by hand.
-pub(crate) fn is_generated(file: &Path) -> bool {
-    let mut whole = GENERATED.iter().filter(|it| !it.path.contains(": "));
-    whole.any(|it| file.to_string_lossy().starts_with(it.path))
+/// A text that the path of a generated file contains.
+pub(crate) fn part(text: &str) -> Result<String, String> {
+    let paths = GENERATED.map(|it| it.path);
+    if paths.iter().any(|it| it.contains(text)) {
+        return Ok(text.to_owned());
+    }
+    let paths = paths.join("\n    ");
+    Err(format!(
+        "no generated file is named so; there are:\n    {paths}"
+    ))
 }
 
-/// Writes the files whose names contain the text; all of them without one.
-pub(crate) fn bless(root: &Path, part: Option<&str>) -> Result<bool, Error> {
-    let is_wanted = |it: &&Generated| part.is_none_or(|part| it.path.contains(part));
+/// Writes the files whose names contain the text.
+pub(crate) fn bless(root: &Path, part: &str) -> Result<bool, NotStarted> {
     let mut done = Vec::new();
     let mut is_ok = true;
-    for generated in GENERATED.iter().filter(is_wanted) {
+    for generated in GENERATED.iter().filter(|it| it.path.contains(part)) {
         if !done.contains(&generated.by) {
             let step = Step::new(generated.path, generated.by).with("CROSSGUARD_BLESS", "1");
             let step = step.with("TRYCMD", "overwrite");
             is_ok &= run(root, &step)?;
             done.push(generated.by);
         }
-    }
-    if done.is_empty() {
-        let paths = GENERATED.map(|it| it.path);
-        return Err(Error::NotGenerated(paths.join("\n    ")));
     }
     Ok(is_ok)
 }
