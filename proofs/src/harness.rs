@@ -5,19 +5,8 @@
 pub struct Harness {
     /// Its path, with that of the crate.
     pub path: &'static str,
-    /// How Kani proves it; `None` where it is too large for that and random values are all it gets.
-    pub proof: Option<Proof>,
     /// The harness.
     pub run: fn(),
-}
-
-/// How Kani proves a harness.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Proof {
-    /// How often each loop is unwound.
-    pub unwind: u32,
-    /// The SAT solver.
-    pub solver: &'static str,
 }
 
 impl Harness {
@@ -66,18 +55,6 @@ macro_rules! harnesses {
         pub(crate) const HARNESSES: &[$crate::Harness] = &[$(
             $crate::Harness {
                 path: concat!(module_path!(), "::", stringify!($name)),
-                proof: {
-                    let proofs: &[$crate::Proof] = &[$($crate::Proof {
-                        unwind: $unwind,
-                        solver: stringify!($solver),
-                    })?];
-                    // Why it is not proved, whatever its bound is.
-                    let reasons: &[&str] = &[$($reason)?];
-                    match (reasons, proofs) {
-                        ([], [proof, ..]) => Some(*proof),
-                        _ => None,
-                    }
-                },
                 run: $name,
             },
         )*];

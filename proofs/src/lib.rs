@@ -11,7 +11,7 @@
 //! with `kani::cover!` each class of outcomes that must be reachable. In an ordinary build `kani`
 //! is the [`stand_in`], which makes a harness a function that runs with random values.
 //!
-//! `harnesses.toml` lists all harnesses, and `tests/harnesses.rs` compares it with this crate.
+//! `proofs/run` proves all of them, and `times.tsv` has how long that took.
 
 pub mod codec;
 mod harness;
@@ -22,12 +22,12 @@ mod symbolic;
 
 #[cfg(all(kani, not(feature = "stand-in")))]
 pub(crate) use ::kani;
-pub use harness::{Harness, Proof};
+pub use harness::Harness;
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
 pub(crate) use stand_in as kani;
 pub use symbolic::Symbolic;
 
-/// All harnesses, in the order of `harnesses.toml`.
+/// All harnesses.
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
 pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
     [

@@ -1,55 +1,14 @@
-//! The harnesses with random values, and the list of harnesses against the harnesses.
+//! The harnesses with random values.
 
-use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crossguard_proofs::{Harness, Proof, harnesses, stand_in};
-use serde::Deserialize;
+use crossguard_proofs::{Harness, harnesses, stand_in};
 
 /// How often each harness runs, at most.
 const RUNS: u64 = 400_000;
 
 /// How often each runs where more is asked for.
 const MANY_RUNS: u64 = 30_000;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Committed {
-    harness: Vec<Entry>,
-    random_only: Vec<Unproved>,
-}
-
-/// One entry of `harnesses.toml`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    /// As `cargo kani --harness` takes it.
-    name: String,
-    /// The laws that it calls.
-    law: String,
-    /// What is bounded, in words.
-    bound: String,
-    unwind: u32,
-    solver: String,
-    /// How many cover marks must be reached.
-    covers: usize,
-    /// Seconds that it took, or that it was not measured.
-    time: String,
-}
-
-/// One entry of the harnesses that are not proved.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Unproved {
-    name: String,
-    law: String,
-    bound: String,
-    covers: usize,
-}
-
-fn committed() -> Committed {
-    toml::from_str(include_str!("../harnesses.toml")).unwrap()
-}
 
 /// Runs a harness until it has reached all its marks, and some more.
 fn exercise(harness: &Harness) -> stand_in::Record {
@@ -106,68 +65,10 @@ fn the_harnesses_that_fail_are_named() {
 
 /// The harnesses of one module with random values.
 fn hold_and_reach_their_marks(module: &str) {
-    let committed = committed();
-    let proved = committed
-        .harness
-        .iter()
-        .map(|e| (e.name.as_str(), e.covers));
-    let others = committed
-        .random_only
-        .iter()
-        .map(|e| (e.name.as_str(), e.covers));
-    let covers: BTreeMap<_, _> = proved.chain(others).collect();
-    let mut wrong = Vec::new();
-    for harness in harnesses().filter(|harness| harness.name().starts_with(module)) {
-        let listed = covers.get(harness.name()).copied();
-        let record = exercise(harness);
-        let unreached = record.covers.values().any(|reached| !reached);
-        if Some(record.covers.len()) != listed || unreached {
-            wrong.push(format!("{}: {record:?}, listed {listed:?}", harness.name()));
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong:#?}");
-}
-
-#[test]
-fn the_list_has_every_harness_as_it_is() {
-    let committed = committed();
-    let (proved, others): (Vec<_>, Vec<_>) = harnesses().partition(|h| h.proof.is_some());
-    let names =
-        |harnesses: Vec<&Harness>| -> Vec<_> { harnesses.iter().map(|h| h.name()).collect() };
-    let listed: Vec<_> = committed.harness.iter().map(|e| e.name.as_str()).collect();
-    assert_eq!(listed, names(proved.clone()));
-    let listed: Vec<_> = committed
-        .random_only
-        .iter()
-        .map(|e| e.name.as_str())
+    let harnesses = harnesses().filter(|harness| harness.name().starts_with(module));
+    let records = harnesses.map(|harness| (harness.name(), exercise(harness)));
+    let wrong: Vec<_> = records
+        .filter(|(_, record)| record.covers.values().any(|reached| !reached))
         .collect();
-    assert_eq!(listed, names(others));
-    for entry in &committed.random_only {
-        assert!(
-            !entry.law.is_empty() && !entry.bound.is_empty(),
-            "{}",
-            entry.name
-        );
-    }
-    for (harness, entry) in proved.into_iter().zip(&committed.harness) {
-        let proof = Proof {
-            unwind: entry.unwind,
-            solver: entry.solver.as_str().to_owned().leak(),
-        };
-        assert_eq!(harness.proof, Some(proof), "{}", entry.name);
-        assert!(
-            !entry.law.is_empty() && !entry.bound.is_empty(),
-            "{}",
-            entry.name
-        );
-        let seconds = entry
-            .time
-            .strip_suffix(" s")
-            .and_then(|s| s.parse::<f64>().ok());
-        assert!(
-            seconds.is_some() || entry.time == "not measured",
-            "{}",
-            entry.name
-        );
-    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }

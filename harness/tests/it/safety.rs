@@ -94,7 +94,7 @@ fn missing(kind: &str, what: &str, read: Read) -> Option<String> {
         "law" => text.contains(&format!("pub fn {name}(")),
         "proof" => {
             text.contains(&format!("fn {name}("))
-                && read("proofs/harnesses.toml").contains(&format!("::{name}\""))
+                && read("proofs/times.tsv").contains(&format!("::{name}\t"))
         }
         // A row of a table is named behind the test that goes through the table.
         "test" | "weakening" => {
@@ -240,7 +240,7 @@ Who: outsider. Causes: a cause.
             "test.rs" => {
                 "#[test]\nfn test() { \"a row\" }\n#[test]\nfn weakening() {}\n#[test]\n#[ignore]\nfn ignored() {}\nfn helper() {}"
             }
-            "proofs/harnesses.toml" => "\"a::proof\"",
+            "proofs/times.tsv" => "a::proof\t0.2",
             "model-check/scenarios" => "[\"I1\"]",
             "model-check/doc/verification.md" => {
                 "| I1 | property |\n| I2 | no scenario claims it |"
