@@ -35,7 +35,6 @@ mod terminal;
 mod timing;
 mod validate;
 mod watch;
-mod zenoh;
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -102,8 +101,6 @@ enum Command {
     Simulate(Box<simulate::Arguments>),
     /// Print what is on the channel, one line per message, live or from a pcap file.
     Sniff(sniff::Arguments),
-    /// Route for robots that meet over zenoh and have no way to each other (--zenoh client).
-    Router(zenoh::RouterArguments),
     /// Check and print the site of a crossing, and a plan on it.
     #[command(subcommand)]
     Site(site::Command),
@@ -177,7 +174,6 @@ pub fn main() -> ExitCode {
         Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Sniff(arguments) => sniff::run(&arguments),
-        Command::Router(arguments) => zenoh::route(&arguments),
         Command::Site(command) => site::run(&command),
         Command::Codec(command) => codec::run(&command),
         Command::Pki(command) => pki::run(&command),

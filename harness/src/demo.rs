@@ -1,13 +1,12 @@
 //! Demonstrations: robots with sockets of their own on the loopback interface help a pedestrian across.
 //!
 //! The paper's proof of concept is one of them; the others are its extensions to teams, and what
-//! happens when a robot dies. Fan-out to the peers stands for the radio's broadcast, or zenoh does. Nothing
+//! happens when a robot dies. Fan-out to the peers stands for the radio's broadcast. Nothing
 //! leaves the machine.
 
 mod links;
 mod scenario;
 
-pub use links::Meeting;
 pub use scenario::{NoScenario, Participant, Scenario};
 
 use std::collections::BTreeMap;
@@ -37,7 +36,7 @@ use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::sign::Sign;
 use crossguard_robot::street::{Road, Street};
 use crossguard_robot::trace::{self, Entry, Record};
-use crossguard_robot::transport::{Faults, LinkError, ZenohRouter};
+use crossguard_robot::transport::{Faults, LinkError};
 use scenario::Ending;
 
 /// How many records the log may lag behind.
@@ -61,10 +60,8 @@ pub struct Options {
     pub faults: Faults,
     /// Seed of faults and gait.
     pub seed: u64,
-    /// Port of the first robot, or of the router; the others have the next ones.
+    /// Port of the first robot; the others have the next ones.
     pub port: u16,
-    /// How they meet over zenoh, instead of by UDP.
-    pub zenoh: Option<Meeting>,
     /// How much security there is.
     pub security_mode: Mode,
     /// The security of each participant, in their order; off for those beyond the list.
@@ -112,9 +109,6 @@ pub struct Outcome {
     pub seed: u64,
     /// How much security there was.
     pub security: Mode,
-    /// How robots met over zenoh, if they did.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub zenoh: Option<Meeting>,
     /// The state of each robot in the end.
     pub final_states: BTreeMap<String, String>,
     /// What was dropped or ignored, by robot and cause.
@@ -155,8 +149,6 @@ struct Demo<'a> {
     has_struck: bool,
     /// People that the robots' sensors report.
     perceived: Option<Feed>,
-    /// What the robots meet through.
-    _router: Option<ZenohRouter>,
     watch: &'a mut dyn FnMut(Seen<'_>),
 }
 
@@ -220,7 +212,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     let mut securities = securities.into_iter();
     let (mut robots, mut signs) = (Vec::new(), Vec::new());
     let street = Street::default();
-    for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
+    for ((participant, link), nth) in participants.into_iter().zip(links).zip(1..) {
         let (site, seed) = (options.scenario.site(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Simulated::new(build, site, place, options.time_scale, seed);
@@ -266,7 +258,6 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         signs,
         has_struck: false,
         perceived: options.perceived.clone(),
-        _router: links.router,
         watch,
     })
 }
@@ -450,7 +441,6 @@ impl Demo<'_> {
             faults: options.faults.to_string(),
             seed: options.seed,
             security: options.security_mode,
-            zenoh: options.zenoh,
             final_states: self
                 .rest
                 .iter()

@@ -1,9 +1,9 @@
 //! From a command to its acknowledgement between two running robots on the loopback interface: median and the
-//! tail, of several thousand commands, over UDP and, with the feature `zenoh`, over zenoh.
+//! tail, of several thousand commands, over UDP.
 //!
-//! `cargo bench -p crossguard-robot --features zenoh --bench latency [-- COMMANDS]`
+//! `cargo bench -p crossguard-robot --bench latency [-- COMMANDS]`
 
-use std::net::{TcpListener, UdpSocket};
+use std::net::UdpSocket;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
@@ -21,9 +21,7 @@ use crossguard_robot::plan::Plan;
 use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
-use crossguard_robot::transport::{
-    Framing, Halves, Link, LinkError, Transport, Zenoh, ZenohError, ZenohMode, ZenohRouter,
-};
+use crossguard_robot::transport::{Framing, Halves, Link, LinkError, Transport};
 
 const COMMANDS: usize = 5_000;
 
@@ -38,10 +36,7 @@ struct Pair {
 struct Street {
     leader: Halves,
     follower: Halves,
-    _router: Option<ZenohRouter>,
 }
-
-type Open = fn() -> Result<Street, LinkError>;
 
 /// Ports that are free now; where another process takes them in between, the benchmark fails.
 fn udp() -> Result<Street, LinkError> {
@@ -55,40 +50,6 @@ fn udp() -> Result<Street, LinkError> {
     Ok(Street {
         leader: link(first, second).open()?,
         follower: link(second, first).open()?,
-        _router: None,
-    })
-}
-
-/// An endpoint of zenoh whose port nobody has now.
-fn endpoint() -> Vec<String> {
-    let free = TcpListener::bind("127.0.0.1:0").and_then(|listener| listener.local_addr());
-    vec![format!("tcp/{}", free.expect("a port"))]
-}
-
-fn zenoh_peers() -> Result<Street, LinkError> {
-    let (listen, part) = (endpoint(), Zenoh::new(ZenohMode::Peer));
-    let (connect, other) = (listen.clone(), part.clone());
-    Ok(Street {
-        leader: Link::Zenoh(Zenoh { listen, ..part }).open()?,
-        follower: Link::Zenoh(Zenoh { connect, ..other }).open()?,
-        _router: None,
-    })
-}
-
-fn zenoh_router() -> Result<Street, LinkError> {
-    let listen = endpoint();
-    let client = Link::Zenoh(Zenoh {
-        connect: listen.clone(),
-        ..Zenoh::new(ZenohMode::Client)
-    });
-    let router = ZenohRouter::open(&Zenoh {
-        listen,
-        ..Zenoh::new(ZenohMode::Router)
-    })?;
-    Ok(Street {
-        leader: client.open()?,
-        follower: client.open()?,
-        _router: Some(router),
     })
 }
 
@@ -185,20 +146,8 @@ fn main() {
     let wanted = std::env::args().skip(1).find_map(|word| word.parse().ok());
     println!("| over | commands | median [µs] | 99 % [µs] | 99.9 % [µs] | longest [µs] |");
     println!("|---|--:|--:|--:|--:|--:|");
-    let streets: [(&str, Open); 3] = [
-        ("UDP", udp),
-        ("zenoh, peers", zenoh_peers),
-        ("zenoh, through a router", zenoh_router),
-    ];
-    for (over, street) in streets {
-        match street() {
-            Ok(street) => measure(over, street, wanted.unwrap_or(COMMANDS)),
-            Err(LinkError::Zenoh(ZenohError::NotBuilt)) => {
-                println!("| {over} | takes `--features zenoh` | | | | |");
-            }
-            Err(error) => panic!("{error}"),
-        }
-    }
+    let street = udp().expect("free ports");
+    measure("UDP", street, wanted.unwrap_or(COMMANDS));
 }
 
 fn measure(over: &str, street: Street, commands: usize) {

@@ -7,7 +7,6 @@ mod traits;
 mod whereabouts;
 
 use std::collections::VecDeque;
-use std::fmt;
 
 use crossguard_codec::TaskParameters;
 use crossguard_endpoint::Act;
@@ -46,15 +45,6 @@ pub enum Wish {
 /// The longest list of wishes; more are not kept.
 const WISHES: usize = 64;
 
-/// What is told every act of an application, in order and before the body is. It returns at once.
-pub struct Listener(pub Box<dyn FnMut(&Act) + Send>);
-
-impl fmt::Debug for Listener {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Listener")
-    }
-}
-
 /// The application of a robot: a body, a sign, and a plan for when it leads.
 #[derive(Debug)]
 pub struct Application {
@@ -86,7 +76,6 @@ pub struct Application {
     /// How its plan goes while it leads.
     errand: Option<Errand>,
     wishes: VecDeque<Wish>,
-    listener: Option<Listener>,
     rules: Rules,
     /// Whether its corridor is known to be clear.
     corridor: Corridor,
@@ -152,7 +141,6 @@ impl Application {
             plan,
             errand: None,
             wishes: VecDeque::new(),
-            listener: None,
             rules: Rules::of(&Config::default()),
             corridor: Corridor::Clear,
             at_s: 0.0,
@@ -169,13 +157,6 @@ impl Application {
     #[must_use]
     pub fn at(self, site: Site) -> Self {
         Self { site, ..self }
-    }
-
-    /// The same, which tells a listener every act.
-    #[must_use]
-    pub fn heard_by(mut self, listener: Listener) -> Self {
-        self.listener = Some(listener);
-        self
     }
 
     /// What it knows of the road from now on.
@@ -355,9 +336,6 @@ impl Application {
 
     /// Does what the endpoint says.
     pub fn act(&mut self, act: &Act) {
-        if let Some(Listener(hear)) = &mut self.listener {
-            hear(act);
-        }
         match act {
             Act::Start(maneuver, parameters) => {
                 (self.maneuver, self.waits_for_people) = (Some(*maneuver), None);

@@ -10,7 +10,7 @@
 //!   input and output.
 //! - [`runtime`] drives it, with threads and a bounded inbox; [`journal`] is where its records go, and waits
 //!   for no reader. [`robot_file`] is its configuration.
-//! - [`transport`] has UDP to peers, UDP multicast, Ethernet, zenoh, queues within a process, and a layer of
+//! - [`transport`] has UDP to peers, UDP multicast, Ethernet, queues within a process, and a layer of
 //!   seeded faults over any of them; [`capture`] writes packets to pcap files and reads them.
 //! - [`site`], [`street`], [`zone`] and [`perception`] are what the robot knows of the crossing and the people
 //!   there; [`sight`] is what its log says of them, [`around`] what it says of other road users, and [`sign`]
@@ -21,7 +21,6 @@
 //!   remembers besides; [`clock`] is whether it trusts its clock.
 //! - [`pki`] has the certificates and keys that it signs with, for tests.
 //!
-//! The feature `zenoh` brings the transport of that name.
 
 pub mod application;
 pub mod around;

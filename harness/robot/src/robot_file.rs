@@ -27,7 +27,7 @@ use crate::runtime::{Clock, Setup};
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
 use crate::site_file::SiteFile;
 use crate::street::{Road, Street};
-use crate::transport::{Framing, Halves, Link, Zenoh};
+use crate::transport::{Framing, Halves, Link};
 use crate::zone::{Watched, Zone};
 
 use self::body::BodyTable;
@@ -171,7 +171,6 @@ struct LinkTable {
     multicast: Option<SocketAddrV4>,
     interface: Option<String>,
     ethernet: Option<String>,
-    zenoh: Option<Zenoh>,
     framing: Option<Framing>,
     unit: Option<SocketAddr>,
     sends: Option<Sends>,
@@ -231,7 +230,7 @@ pub enum Impossibility {
     /// There is no link, or there are two.
     #[error(
         "[link] wants either 'address' and 'peers', or 'multicast' and 'interface', each with a 'framing' or \
-         without, or 'unit' with or without 'sends' and an 'address', or 'ethernet', or a table [link.zenoh] with a 'mode'"
+         without, or 'unit' with or without 'sends' and an 'address', or 'ethernet'"
     )]
     Link,
     /// No datagram can be sent there.
@@ -482,7 +481,7 @@ impl RobotTable {
             kerbs: kerbs.flatten(),
             plan_file: plan,
             body_port: self.body.map(|body| body.check(folder)).transpose()?,
-            link: self.link.check(folder)?,
+            link: self.link.check()?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,
             awareness: Awareness {
@@ -497,7 +496,7 @@ impl RobotTable {
 }
 
 impl LinkTable {
-    fn check(self, folder: &Path) -> Result<Link, Impossibility> {
+    fn check(self) -> Result<Link, Impossibility> {
         let framing = self.framing.unwrap_or_default();
         // A peer is none that no datagram can be sent to.
         let to = self.peers.iter().chain(&self.unit);
@@ -505,29 +504,23 @@ impl LinkTable {
         if let Some(nobody) = to.into_iter().find(is_nobody) {
             return Err(Impossibility::Peer(*nobody));
         }
-        let what = (self.address, self.multicast, self.ethernet, self.zenoh);
+        let what = (self.address, self.multicast, self.ethernet);
         let more = (self.unit, self.interface, self.peers.is_empty());
         let link = match (what, more) {
-            ((Some(address), None, None, None), (None, None, _)) => Link::Peers {
+            ((Some(address), None, None), (None, None, _)) => Link::Peers {
                 address,
                 peers: self.peers,
                 framing,
             },
-            ((None, Some(group), None, None), (None, Some(interface), true)) => Link::Multicast {
+            ((None, Some(group), None), (None, Some(interface), true)) => Link::Multicast {
                 group,
                 interface,
                 framing,
             },
-            ((None, None, Some(interface), None), (None, None, true)) if self.framing.is_none() => {
+            ((None, None, Some(interface)), (None, None, true)) if self.framing.is_none() => {
                 Link::Ethernet { interface }
             }
-            ((None, None, None, Some(part)), (None, None, true)) if self.framing.is_none() => {
-                Link::Zenoh(Zenoh {
-                    config: part.config.map(|file| folder.join(file)),
-                    ..part
-                })
-            }
-            ((address, None, None, None), (Some(unit), None, true)) if self.framing.is_none() => {
+            ((address, None, None), (Some(unit), None, true)) if self.framing.is_none() => {
                 return Ok(Link::Unit {
                     unit,
                     address,

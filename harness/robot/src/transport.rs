@@ -6,7 +6,7 @@
 //! ```
 //!
 //! [`Link`] is UDP, to peers or to a multicast group, with an Ethernet header in its datagrams or without
-//! ([`Framing`]), an on-board unit ([`attachment`](crate::attachment)), Ethernet, or a zenoh network ([`Zenoh`], with the feature `zenoh`). [`Air`] joins robots in one process. [`WithFaults`] lays
+//! ([`Framing`]), an on-board unit ([`attachment`](crate::attachment)), or Ethernet. [`Air`] joins robots in one process. [`WithFaults`] lays
 //! seeded faults over any of them: what becomes of a datagram is drawn by a [`Channel`], the one place
 //! where faults are made; the simulator draws from it as well. [`Reopening`] opens one again that has
 //! failed.
@@ -25,16 +25,14 @@ mod reopening;
 mod stamps;
 mod udp;
 mod unit;
-mod zenoh;
 
-pub use error::{LinkError, ZenohError};
+pub use error::LinkError;
 pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Outage};
 pub use framing::{Framing, FramingError};
 pub use layer::WithFaults;
 pub use link::Link;
 pub use memory::{Air, Port};
 pub use reopening::Reopening;
-pub use zenoh::{Zenoh, ZenohMode, ZenohRouter};
 
 use std::io::ErrorKind;
 use std::net::SocketAddr;
@@ -115,8 +113,6 @@ pub enum Source {
     LinkLayer([u8; 6]),
     /// The port of the [`Air`] that it came from.
     Port(usize),
-    /// The zenoh id by which its sender goes.
-    Zenoh(u128),
     /// Nobody that the transport could name.
     Unknown,
 }

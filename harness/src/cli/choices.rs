@@ -3,7 +3,6 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crossguard_endpoint::station::Mode;
 use crossguard_evaluation::grid::{Preset, Site};
-use crossguard_robot::transport::ZenohMode;
 
 /// A name, what it stands for, and what it means.
 type Choice<T> = (&'static str, T, &'static str);
@@ -37,27 +36,6 @@ pub(super) fn security() -> impl TypedValueParser<Value = Mode> {
             "enforce",
             Mode::Enforce,
             "Packets are signed; those without a valid signature are dropped",
-        ),
-    ])
-}
-
-/// What a robot is in its zenoh network.
-pub(super) fn zenoh() -> impl TypedValueParser<Value = ZenohMode> {
-    one_of(&[
-        (
-            "peer",
-            ZenohMode::Peer,
-            "Connected to each of the others directly",
-        ),
-        (
-            "client",
-            ZenohMode::Client,
-            "Connected to a router, and through it to the others",
-        ),
-        (
-            "router",
-            ZenohMode::Router,
-            "A router itself, through which others reach each other",
         ),
     ])
 }

@@ -17,7 +17,7 @@ use crossguard_robot::transport::Faults;
 use super::interrupts::interrupts;
 use super::ranges::{any, in_range, speed, whole};
 use super::{Failure, destinations, print, print_json, timing};
-use crate::demo::{self, Meeting, Options, Outcome, Scenario, Seen};
+use crate::demo::{self, Options, Outcome, Scenario, Seen};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -48,11 +48,7 @@ pub(super) struct Arguments {
     /// Seed of the faults and of the robots' gait.
     #[arg(long, default_value_t = 1, value_parser = any)]
     seed: u64,
-    /// Meet over zenoh: connected to each other, or through a router that runs beside them. Takes a
-    /// program that was built with --features zenoh.
-    #[arg(long, value_enum, value_name = "HOW")]
-    zenoh: Option<Meeting>,
-    /// Port of the first robot, or the router, on 127.0.0.1; the others have the next ones.
+    /// Port of the first robot on 127.0.0.1; the others have the next ones.
     #[arg(long, default_value_t = 47_401, value_parser = whole::<u16>(1_024..=65_500))]
     port: u16,
     #[command(flatten)]
@@ -176,7 +172,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
         seed: arguments.seed,
         port: arguments.port,
-        zenoh: arguments.zenoh,
         security_mode: arguments.security.mode(),
         security: arguments.security.of_robots(&names)?,
         capture: arguments
@@ -302,11 +297,7 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
         }
     };
     let (port, last_port) = (options.port, usize::from(options.port) + robots - 1);
-    let over = match options.zenoh {
-        None => format!("UDP on 127.0.0.1, ports {port} to {last_port}"),
-        Some(Meeting::Peer) => format!("zenoh on 127.0.0.1, ports {port} to {last_port}"),
-        Some(Meeting::Router) => format!("a zenoh router on 127.0.0.1, port {port}"),
-    };
+    let over = format!("UDP on 127.0.0.1, ports {port} to {last_port}");
     print(format_args!(
         "A pedestrian wants to cross. {}\nThe robots coordinate over {over}, and move {} times as fast as \
          real: about\n{seconds:.0} s per crossing{together}. Packets {security}{pki}.\n",

@@ -83,8 +83,6 @@ pub(super) struct Arguments {
     /// the right to open raw sockets.
     #[arg(long, value_name = "NAME", group = "link")]
     ethernet: Option<String>,
-    #[command(flatten)]
-    zenoh: super::zenoh::ZenohArguments,
     /// Probability with which the robot loses a datagram, from 0 to 1.
     #[arg(long, default_value_t = 0.0, value_parser = number(0.0..=1.0))]
     loss: f64,
@@ -268,7 +266,7 @@ fn configured_link(arguments: &Arguments, file: &RobotFile) -> Link {
         (_, _, Some(interface)) => Link::Ethernet {
             interface: interface.clone(),
         },
-        _ => arguments.zenoh.link().unwrap_or_else(|| file.link.clone()),
+        _ => file.link.clone(),
     }
 }
 

@@ -44,8 +44,6 @@ pub(super) struct Arguments {
     /// Listen to Ethernet frames on this interface; takes the right to open raw sockets.
     #[arg(long, value_name = "NAME", group = "link")]
     ethernet: Option<String>,
-    #[command(flatten)]
-    zenoh: super::zenoh::ZenohArguments,
     /// Stop after this many packets.
     #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=u64::MAX.into()))]
     count: Option<u64>,
@@ -88,7 +86,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(link)) => listen(arguments, &link, &mut printer)?,
         (None, None) => {
             return Err(Failure::Input(
-                "nothing to listen to: name a capture file, --address, --multicast, --ethernet or --zenoh \
+                "nothing to listen to: name a capture file, --address, --multicast or --ethernet \
                  (see --help)"
                     .to_owned(),
             ));
@@ -113,10 +111,8 @@ fn link(arguments: &Arguments) -> Option<Link> {
             framing: Framing::default(),
         });
     }
-    if let Some(interface) = arguments.ethernet.clone() {
-        return Some(Link::Ethernet { interface });
-    }
-    arguments.zenoh.link()
+    let interface = arguments.ethernet.clone()?;
+    Some(Link::Ethernet { interface })
 }
 
 fn listen(arguments: &Arguments, link: &Link, printer: &mut Printer) -> Result<(), Failure> {

@@ -144,10 +144,6 @@ fn ros_2_has_the_named_tasks() {
     assert_named("harness/ros2/crossguard_msgs/msg/Task.msg", |text| {
         between_marks(text, "named tasks", "#", &tasks)
     });
-    let tasks = of_each(|value, name, _| format!("        {} = {value},\n", upper(name)));
-    assert_named("harness/ros2/src/msgs.rs", |text| {
-        between_marks(text, "named tasks", "//", &tasks)
-    });
 }
 
 #[test]

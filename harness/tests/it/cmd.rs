@@ -7,8 +7,8 @@ use std::path::Path;
 fn files() -> BTreeSet<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cmd/refused.in");
     let names = folder.read_dir().unwrap().map(|it| it.unwrap().file_name());
-    let names = names.map(|it| it.to_string_lossy().into_owned());
-    names.filter(|it| !it.ends_with(".lock")).collect()
+    let names = names.filter(|it| Path::new(it).extension().is_none_or(|it| it != "lock"));
+    names.map(|it| it.to_string_lossy().into_owned()).collect()
 }
 
 #[test]

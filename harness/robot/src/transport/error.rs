@@ -1,7 +1,6 @@
 //! Why a link cannot be opened.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, SocketAddrV4};
-use std::path::PathBuf;
 
 /// Why a link cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -36,9 +35,6 @@ pub enum LinkError {
         /// Why.
         cause: std::io::Error,
     },
-    /// The zenoh network cannot be entered.
-    #[error(transparent)]
-    Zenoh(#[from] ZenohError),
     /// There is no such interface.
     #[error("no interface '{name}' that can be used so; there are: {known}")]
     NoInterface {
@@ -50,71 +46,6 @@ pub enum LinkError {
     /// The port of an [`Air`](super::Air) is open already.
     #[error("port {0} of the air is open already; each robot needs its own")]
     PortInUse(usize),
-}
-
-/// Why a zenoh network cannot be entered.
-#[derive(Debug, thiserror::Error)]
-pub enum ZenohError {
-    /// The program cannot speak zenoh.
-    #[error(
-        "this program was built without zenoh; build it with: cargo build --release --features zenoh"
-    )]
-    NotBuilt,
-    /// The file of settings cannot be used.
-    #[error("zenoh: {}: {cause}", path.display())]
-    Config {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        cause: String,
-    },
-    /// A setting is none that zenoh takes.
-    #[error("zenoh: {setting} cannot be {value}: {cause}")]
-    Setting {
-        /// Its name.
-        setting: &'static str,
-        /// What it was to be.
-        value: String,
-        /// Why not.
-        cause: String,
-    },
-    /// The key is none.
-    #[error("zenoh: '{key}' is no key like crossguard/v2x")]
-    Key {
-        /// What was given.
-        key: String,
-    },
-    /// An endpoint is none.
-    #[error("zenoh: '{endpoint}' is no endpoint like tcp/192.0.2.1:7447; protocols are {known}")]
-    Endpoint {
-        /// What was given.
-        endpoint: String,
-        /// The protocols that there are.
-        known: String,
-    },
-    /// A client has no router.
-    #[error("zenoh: a client wants a router to connect to, like tcp/127.0.0.1:7447")]
-    NoRouter,
-    /// No router answers.
-    #[error(
-        "zenoh: no router can be reached at {endpoints}; is zenohd, or 'crossguard router', running \
-         there? RUST_LOG=zenoh=warn tells more"
-    )]
-    Unreachable {
-        /// Where it was looked for.
-        endpoints: String,
-    },
-    /// It cannot listen.
-    #[error("zenoh: cannot listen on {endpoints}: {cause}")]
-    Unavailable {
-        /// Where it was to listen.
-        endpoints: String,
-        /// Why not.
-        cause: String,
-    },
-    /// The session does not take part in the key.
-    #[error("zenoh: {0}")]
-    Session(String),
 }
 
 /// Whether this is the name of a loopback interface.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::net::{SocketAddr, SocketAddrV4};
 
 use super::error::is_loopback;
-use super::{Framing, Halves, LinkError, Transport, Zenoh, ethernet, udp, unit};
+use super::{Framing, Halves, LinkError, Transport, ethernet, udp, unit};
 use crate::attachment::Sends;
 
 /// A robot's link to others.
@@ -42,8 +42,6 @@ pub enum Link {
         /// What the robot gives to it.
         sends: Sends,
     },
-    /// A zenoh network.
-    Zenoh(Zenoh),
 }
 
 impl Link {
@@ -52,11 +50,11 @@ impl Link {
     pub fn framing(&self) -> Framing {
         match self {
             Self::Peers { framing, .. } | Self::Multicast { framing, .. } => *framing,
-            Self::Unit { .. } | Self::Ethernet { .. } | Self::Zenoh(_) => Framing::default(),
+            Self::Unit { .. } | Self::Ethernet { .. } => Framing::default(),
         }
     }
 
-    /// Whether others than the processes of this machine hear it, or are heard. Of zenoh nobody knows.
+    /// Whether others than the processes of this machine hear it, or are heard.
     #[must_use]
     pub fn leaves_machine(&self) -> bool {
         match self {
@@ -69,7 +67,6 @@ impl Link {
             }
             // That is what a unit is for.
             Self::Unit { .. } => true,
-            Self::Zenoh(_) => false,
         }
     }
 }
@@ -82,7 +79,6 @@ impl fmt::Display for Link {
             Self::Multicast { group, .. } => group.fmt(f),
             Self::Ethernet { interface } => write!(f, "{interface}, ethertype 0x8947"),
             Self::Unit { unit, .. } => write!(f, "the unit at {unit}"),
-            Self::Zenoh(zenoh) => zenoh.fmt(f),
         }
     }
 }
@@ -106,7 +102,6 @@ impl Transport for Link {
                 address,
                 sends,
             } => unit::open(*unit, *address, *sends),
-            Self::Zenoh(zenoh) => zenoh.open(),
         }
     }
 }
