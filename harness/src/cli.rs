@@ -11,7 +11,6 @@ mod conform;
 mod demo;
 mod destinations;
 mod etsi;
-mod explore;
 mod export;
 mod fsm;
 mod fuzz;
@@ -79,8 +78,6 @@ enum Command {
     Bounds(bounds::Arguments),
     /// Work out how likely a crossing goes well when messages get lost, and how long it takes.
     Odds(Box<odds::Arguments>),
-    /// Walk through the states of a scenario in a browser.
-    Explore(explore::Arguments),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.
     Fuzz(fuzz::Arguments),
     /// Test anybody's robot from outside, over its link: play the others, and say for each rule whether it was kept.
@@ -163,7 +160,6 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Bounds(arguments) => bounds::run(&arguments),
         Command::Odds(arguments) => odds::run(&arguments),
-        Command::Explore(arguments) => explore::run(&arguments),
         Command::Conform(arguments) => conform::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),

@@ -33,8 +33,8 @@
 //!   leads-to, [`timed`] is the view in which time passes in ticks.
 //! - [`road`] is what bodies, signs and a pedestrian do.
 //! - [`odds`] are probabilities and expected times under loss, from the same transition function.
-//! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`export`] and [`explore`] hand the
-//!   states to other tools.
+//! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`walk`] goes through a scenario step by
+//!   step, [`export`] hands the states to other tools.
 //! - [`model::portable`] takes states from one process to another, for `crossguard-workers`.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
 //!   robot against everything, and the diagram of that.
@@ -50,7 +50,6 @@ pub mod check;
 pub mod confinement;
 pub mod cost;
 mod exploration;
-pub mod explore;
 pub mod export;
 pub mod fair;
 mod fairness;

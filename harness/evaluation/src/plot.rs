@@ -1,11 +1,7 @@
 //! The paper's two figures as SVG: grouped bars with their deviation, and the numbers that the paper
 //! states as bands.
 
-mod lines;
-
 use std::fmt::Write as _;
-
-pub use lines::{Band, Line, LineChart, Panel};
 
 use super::statistics::Estimate;
 

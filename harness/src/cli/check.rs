@@ -256,7 +256,7 @@ fn check_one(arguments: &Arguments, stop: &Stop, subject: Subject) -> ScenarioRe
 }
 
 /// A scenario for what only the untimed model can do.
-pub(super) fn untimed(scenario: Scenario) -> Result<Scenario, Failure> {
+fn untimed(scenario: Scenario) -> Result<Scenario, Failure> {
     if scenario.timed.is_some() {
         let name = &scenario.name;
         return Err(Failure::input(format!(

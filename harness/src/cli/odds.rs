@@ -2,9 +2,7 @@
 
 mod loss;
 mod output;
-mod plot;
 mod settings;
-mod target;
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -12,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use crossguard_model_check::check::Stop;
 use crossguard_model_check::odds::{
-    ChainError, ChainFormat, Coupling, Enclosure, FOLLOWERS_MAX, FlowCut, Iteration, OddsModel,
-    OddsProgress, OddsSetup, Stage, TeamOdds, TimeGrid,
+    ChainError, Coupling, Enclosure, FOLLOWERS_MAX, FlowCut, Iteration, OddsModel,
+    OddsProgress, OddsSetup, Stage, TeamOdds, TimeGrid, write_drn,
 };
 use crossguard_protocol::{Config, Millis};
 use crossguard_robot::robot_file::RobotFile;
@@ -22,7 +20,6 @@ use serde::Serialize;
 
 use self::loss::LossRates;
 use self::settings::{Knob, Varied};
-use self::target::Target;
 use super::interrupts::interrupts_that;
 use super::ranges::{number, whole};
 use super::{Failure, destinations, print, print_json, shows_progress};
@@ -53,12 +50,8 @@ pub(super) struct Arguments {
     /// A robot's configuration, as for 'crossguard run'; without it, the default settings.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    #[arg(long, value_name = "SETTING=VALUES", conflicts_with_all = ["target", "export"], help = VARY)]
+    #[arg(long, value_name = "SETTING=VALUES", conflicts_with = "export", help = VARY)]
     vary: Option<Varied>,
-    /// Search settings that reach this at the largest of the loss rates, like 'complete>=0.999 within 2s', and say
-    /// what limits it.
-    #[arg(long, value_name = "TARGET", conflicts_with_all = ["export", "csv", "plot"])]
-    target: Option<Target>,
     /// How far apart the bounds of a probability may be; by default 1e-9 for a pair, 1e-5 for a trio, 1e-3 for a
     /// trio with bursts and for three followers, 1e-2 for these with bursts.
     #[arg(long, value_name = "W", value_parser = number(1e-14..=0.1))]
@@ -67,14 +60,8 @@ pub(super) struct Arguments {
     /// states at high loss rates.
     #[arg(long)]
     joint: bool,
-    /// Write the table to this file as comma-separated values.
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    /// Draw loss rate against probability and time to this file, as SVG.
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
-    /// Write the Markov chains of the stages at the one loss rate to this folder: explicit files for PRISM, DRN for
-    /// Storm, and what this program says of them.
+    /// Write the Markov chains of the stages at the one loss rate to this folder, as DRN for Storm, and what this program
+    /// says of them.
     #[arg(long, value_name = "FOLDER")]
     export: Option<PathBuf>,
     /// Print the results as JSON, and nothing else.
@@ -86,9 +73,7 @@ const AFTER_HELP: &str = "\
 Prints how likely a crossing goes well when messages get lost, and how long its parts take: the full team, the \
 command at every follower, its acknowledgement, the open corridor; that the corridor closes or a follower falls back \
 before the maneuver is over. Numbers are solved from the transition function that robots run, on a grid of time, not \
-sampled. Nobody crashes in it, clocks do not drift, and every message takes the same time. \
-Targets: NAME >= P or NAME <= P, with 'within TIME' where time matters; NAME is complete, received, acknowledged, open, \
-interrupted, fell-back or crossing. Exit code 1: no settings reach the target.";
+sampled. Nobody crashes in it, clocks do not drift, and every message takes the same time.";
 
 const VARY: &str = "Work it out for each of these values of one setting, like ram_period=50,100,200; it may be \
     ram_period, t_ack, n_ack or t_safety. The lease goes with t_safety";
@@ -125,7 +110,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => RobotFile::read(path).map_err(Failure::input)?.config,
         None => Config::default(),
     };
-    destinations::files([&arguments.csv, &arguments.plot])?;
     destinations::folders([&arguments.export])?;
     let configs = match &arguments.vary {
         Some(varied) => varied.configs(&config).map_err(Failure::input)?,
@@ -139,9 +123,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = Stop::default();
     let asked = stop.clone();
     let _interrupted = interrupts_that(move || asked.request());
-    if let Some(target) = &arguments.target {
-        return target::search(arguments, target, &config, &stop);
-    }
     if let Some(folder) = &arguments.export {
         return export(arguments, &setups[0], folder, &stop);
     }
@@ -155,14 +136,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         odds: Vec::new(),
     };
     for setup in setups {
-        match arguments.solve(setup.clone(), Stage::Holding, &stop) {
+        match arguments.solve(setup.clone(), &stop) {
             Ok(team) => report.odds.push(SettingsOdds::new(&setup, team)),
             Err(ChainError::Cut(FlowCut::Stopped)) => break,
             Err(error) => return Err(Failure::input(error)),
         }
     }
-    output::write_csv(arguments.csv.as_deref(), &report)?;
-    plot::write(arguments.plot.as_deref(), &report)?;
     if arguments.json {
         print_json(&report)?;
     } else {
@@ -208,14 +187,14 @@ impl Arguments {
         Ok(setup)
     }
 
-    fn solve(&self, setup: OddsSetup, last: Stage, stop: &Stop) -> Result<TeamOdds, ChainError> {
+    fn solve(&self, setup: OddsSetup, stop: &Stop) -> Result<TeamOdds, ChainError> {
         let bar = progress(self.json);
         let mut watch = |it: OddsProgress| {
             bar.set_length(it.of as u64);
             bar.set_position(it.done as u64);
             bar.set_message(format!("{} at a loss of {}", it.stage.name(), it.loss));
         };
-        let solved = OddsModel::new(setup).odds(self.loss.rates(), last, stop, &mut watch);
+        let solved = OddsModel::new(setup).odds(self.loss.rates(), stop, &mut watch);
         bar.finish_and_clear();
         solved
     }
@@ -308,10 +287,8 @@ fn export(
             Err(ChainError::Cut(FlowCut::Stopped)) => return Err(Failure::Incomplete),
             Err(error) => return Err(Failure::Input(format!("{}: {error}", stage.name()))),
         };
-        for format in ChainFormat::ALL {
-            let path = folder.join(format!("{}.{}", stage.name(), format.extension()));
-            written(&path, |to| format.write(&chain, to))?;
-        }
+        let path = folder.join(stage.name()).with_extension("drn");
+        written(&path, |to| write_drn(&chain, to))?;
         let iteration = Iteration::default();
         let names = chain.label_names().iter().enumerate();
         let within = names.clone().flat_map(|(label, name)| {

@@ -57,16 +57,8 @@ fn json_has_the_bounds_of_each_milestone_at_each_loss_rate() {
 }
 
 #[test]
-fn tables_files_and_plots_say_what_was_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
-    let [csv, svg] = ["odds.csv", "odds.svg"].map(|name| folder.path().join(name));
-    let files = [
-        "--csv",
-        csv.to_str().unwrap(),
-        "--plot",
-        svg.to_str().unwrap(),
-    ];
-    let output = odds(&[&["--loss", "0..0.2"][..], &files].concat());
+fn tables_say_what_was_asked_for() {
+    let output = odds(&["--loss", "0..0.2"]);
     let said = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     for words in [
@@ -78,40 +70,6 @@ fn tables_files_and_plots_say_what_was_asked_for() {
     ] {
         assert!(said.contains(words), "{words}: {said}");
     }
-    let csv = fs::read_to_string(csv).unwrap();
-    // Three rates with six milestones and the crossing each.
-    assert_eq!(csv.lines().count(), 1 + 3 * 7, "{csv}");
-    let columns = csv.lines().next().unwrap().split(',').count();
-    assert!(csv.lines().all(|line| line.split(',').count() == columns));
-    let svg = fs::read_to_string(svg).unwrap();
-    assert!(
-        svg.contains("paper: 74 ± 15 ms") && svg.contains("crossing goes well"),
-        "{svg}"
-    );
-}
-
-#[test]
-fn a_target_is_reached_by_settings_that_are_named_or_exit_code_1_says_that_it_is_not() {
-    let found = odds(&["--loss", "0.3", "--target", "complete>=0.999 within 2s"]);
-    let said = stdout(&found);
-    assert_eq!(found.status.code(), Some(0), "{}", stderr(&found));
-    assert!(said.contains("is reached with ram_period=200"), "{said}");
-    assert!(
-        said.contains("ram_period=500 'farewell-repeated' refuses it"),
-        "{said}"
-    );
-    assert!(said.contains("ram_period=300 does not reach it"), "{said}");
-    let missed = odds(&[
-        "--loss",
-        "0.6",
-        "--target",
-        "complete>=0.999 within 300ms",
-        "--json",
-    ]);
-    assert_eq!(missed.status.code(), Some(1), "{}", stderr(&missed));
-    let report: Value = serde_json::from_slice(&missed.stdout).unwrap();
-    assert_eq!(report["found"], Value::Null);
-    assert_eq!(report["closest"]["ram_period_ms"], 50);
 }
 
 #[test]
@@ -137,9 +95,7 @@ fn the_chains_are_written_for_other_tools_with_what_is_said_of_them() {
             .zip(["gathering", "commanding", "holding"])
     {
         assert_eq!(stage["stage"], name);
-        let tra = fs::read_to_string(to.join(name).with_extension("tra")).unwrap();
-        let size = format!("{} {}", stage["states"], stage["transitions"]);
-        assert_eq!(tra.lines().next(), Some(&*size));
-        assert!(to.join(name).with_extension("drn").exists());
+        let drn = fs::read_to_string(to.join(name).with_extension("drn")).unwrap();
+        assert!(drn.contains(&format!("@nr_states\n{}\n", stage["states"])));
     }
 }

@@ -76,14 +76,13 @@ impl OddsModel {
         Self(TeamModel::new(setup, Box::new(rules)))
     }
 
-    /// What is known of the team at these loss rates, up to the end of stage `last`. `watch` receives the progress.
+    /// What is known of the team at these loss rates. `watch` receives the progress.
     ///
     /// # Errors
     /// There is no such channel, or it was given up.
     pub fn odds(
         &mut self,
         losses: &[f64],
-        last: Stage,
         stop: &Stop,
         watch: &mut dyn FnMut(OddsProgress),
     ) -> Result<TeamOdds, ChainError> {
@@ -91,9 +90,9 @@ impl OddsModel {
             self.0.setup().check_loss(loss)?;
         }
         let joint = self.setup().coupling() == Coupling::Joint;
-        let stages: Vec<Stage> = Stage::up_to(last).collect();
+        let stages = Stage::ALL;
         // One link at a time begins anew, so that its states are its own.
-        let again = usize::from(!joint && stages.len() > 1);
+        let again = usize::from(!joint);
         let mut counted = Counted {
             done: 0,
             of: (stages.len() + again) * losses.len(),
@@ -106,7 +105,7 @@ impl OddsModel {
             self.0.look_at_one_link(true);
             let one = self.go_through(losses, &stages, links, stop, &mut counted);
             self.0.look_at_one_link(false);
-            odds.add_link_by_link(one?, last);
+            odds.add_link_by_link(one?);
         }
         Ok(odds)
     }
@@ -309,7 +308,7 @@ impl From<Interim> for LossOdds {
 
 impl TeamOdds {
     /// Takes over what is known of the stages after the first one from an analysis link by link.
-    fn add_link_by_link(&mut self, one: Self, last: Stage) {
+    fn add_link_by_link(&mut self, one: Self) {
         let is_later = |stage: Stage| stage != Stage::Gathering;
         self.sizes
             .extend(one.sizes.into_iter().filter(|size| is_later(size.stage)));
@@ -317,9 +316,7 @@ impl TeamOdds {
             let later = one.milestones.into_iter().filter(|it| is_later(it.stage));
             all.milestones.extend(later);
             all.not_followed += one.not_followed;
-            if last == Stage::Holding {
-                all.crossing = all.product();
-            }
+            all.crossing = all.product();
         }
     }
 }

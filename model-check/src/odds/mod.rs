@@ -51,7 +51,7 @@ mod weight;
 pub use analysis::{ChainError, OddsModel, OddsProgress, TeamOdds};
 pub use chain::{Iteration, MarkovChain};
 pub use enclosure::Enclosure;
-pub use export::ChainFormat;
+pub use export::write_drn;
 pub use figures::{LossOdds, MilestoneOdds, Quantile, ReachedBy, StageSize};
 pub use flow::FlowCut;
 pub use setup::{Coupling, FOLLOWERS_MAX, OddsImpossibility, OddsSetup, TimeGrid};

@@ -117,11 +117,6 @@ impl Stage {
     /// All stages, in their order.
     pub const ALL: [Self; 3] = [Self::Gathering, Self::Commanding, Self::Holding];
 
-    /// The stages up to one, in their order.
-    pub fn up_to(last: Self) -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter().filter(move |stage| *stage <= last)
-    }
-
     /// Its name, as in files and in JSON.
     #[must_use]
     pub const fn name(self) -> &'static str {

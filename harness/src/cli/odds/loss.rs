@@ -14,11 +14,6 @@ impl LossRates {
     pub(super) fn rates(&self) -> &[f64] {
         &self.0
     }
-
-    /// The largest of them.
-    pub(super) fn largest(&self) -> f64 {
-        self.0.iter().copied().fold(0.0, f64::max)
-    }
 }
 
 impl FromStr for LossRates {

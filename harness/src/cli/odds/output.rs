@@ -1,6 +1,4 @@
-//! How odds are printed, and written as comma-separated values.
-
-use std::path::Path;
+//! How odds are printed.
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
@@ -123,7 +121,7 @@ fn quantile(odds: &MilestoneOdds, probability: f64) -> Option<u64> {
 
 /// A probability in a few digits, of which none is more than the bounds know. Small ones and those close to 1 are told
 /// by their distance.
-pub(super) fn shown(probability: Enclosure) -> String {
+fn shown(probability: Enclosure) -> String {
     let Enclosure { lower, upper } = probability;
     if lower >= 1.0 {
         return "1".to_owned();
@@ -157,85 +155,6 @@ fn small(probability: Enclosure) -> String {
     } else {
         format!("{:.1e}", probability.middle())
     }
-}
-
-const COLUMNS: [&str; 20] = [
-    "ram_period_ms",
-    "t_ack_ms",
-    "n_ack",
-    "t_safety_ms",
-    "t_lease_ms",
-    "tick_ms",
-    "loss",
-    "milestone",
-    "stage",
-    "probability_lower",
-    "probability_upper",
-    "mean_ms_lower",
-    "mean_ms_upper",
-    "deviation_ms",
-    "by_ms_0.5",
-    "by_ms_0.9",
-    "by_ms_0.99",
-    "by_ms_0.999",
-    "by_ms_0.9999",
-    "not_followed",
-];
-
-/// Writes a line for each milestone, and one for the crossing.
-pub(super) fn write_csv(path: Option<&Path>, report: &OddsReport) -> Result<(), Failure> {
-    let Some(path) = path else {
-        return Ok(());
-    };
-    let failed = |error: csv::Error| Failure::Input(format!("{}: {error}", path.display()));
-    let mut file = csv::Writer::from_path(path).map_err(failed)?;
-    file.write_record(COLUMNS).map_err(failed)?;
-    for odds in &report.odds {
-        for loss in &odds.team.losses {
-            for milestone in &loss.milestones {
-                file.write_record(record(odds, loss, Some(milestone)))
-                    .map_err(failed)?;
-            }
-            file.write_record(record(odds, loss, None))
-                .map_err(failed)?;
-        }
-    }
-    file.flush().map_err(|error| failed(error.into()))
-}
-
-/// A line of a milestone, or of the crossing as a whole.
-fn record(odds: &SettingsOdds, loss: &LossOdds, milestone: Option<&MilestoneOdds>) -> Vec<String> {
-    let settings = [
-        odds.ram_period_ms,
-        odds.t_ack_ms,
-        odds.n_ack.into(),
-        odds.t_safety_ms,
-        odds.t_lease_ms,
-        odds.tick_ms,
-    ];
-    let mut record: Vec<String> = settings.iter().map(ToString::to_string).collect();
-    let optional = |value: Option<f64>| value.map(|it| it.to_string()).unwrap_or_default();
-    let probability = milestone.map_or(loss.crossing, |it| it.probability);
-    let mean = milestone.and_then(|it| it.mean_ms);
-    let name = milestone.map_or("crossing", |it| it.milestone.name());
-    let stage = milestone.map_or("all", |it| it.stage.name());
-    record.extend([
-        loss.loss.to_string(),
-        name.to_owned(),
-        stage.to_owned(),
-        probability.lower.to_string(),
-        probability.upper.to_string(),
-        optional(mean.map(|it| it.lower)),
-        optional(mean.map(|it| it.upper)),
-        optional(milestone.and_then(|it| it.deviation_ms)),
-    ]);
-    let quantiles = [0.5, 0.9, 0.99, 0.999, 0.9999].map(|probability| {
-        let ms = milestone.and_then(|it| quantile(it, probability));
-        ms.map(|ms| ms.to_string()).unwrap_or_default()
-    });
-    record.extend(quantiles);
-    record.push(loss.not_followed.to_string());
-    record
 }
 
 #[cfg(test)]

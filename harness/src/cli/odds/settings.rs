@@ -32,16 +32,6 @@ impl Knob {
         }
     }
 
-    /// Its value, in ms but for the number of repetitions.
-    pub(super) fn value(self, settings: &Settings) -> u32 {
-        match self {
-            Self::RamPeriod => settings.ram_period.0,
-            Self::AckTimeout => settings.t_ack.0,
-            Self::AckRepeats => settings.n_ack.into(),
-            Self::Safety => settings.t_safety.0,
-        }
-    }
-
     /// Sets it. The lease becomes the longest, to 50 ms, that a new `t_safety` allows.
     pub(super) fn set(self, settings: &mut Settings, value: u32) {
         match self {
