@@ -133,7 +133,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.large || arguments.workers.are_given() {
         return workers::run(arguments);
     }
-    arguments.workers.none_are_needed()?;
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()
     } else if arguments.all {

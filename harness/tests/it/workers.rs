@@ -105,73 +105,6 @@ fn has_level(line: &str) -> bool {
     line.contains("level")
 }
 
-/// At this level and the ones after it, `trio` has most of its states.
-const LATE: u64 = 18;
-
-fn has_late_checkpoint(line: &str) -> bool {
-    let level = line.split_once("a checkpoint at level ");
-    let level = level.and_then(|(_, rest)| rest.split(' ').next());
-    level.is_some_and(|level| level.parse::<u64>().unwrap() >= LATE)
-}
-
-/// Asserts that a check of `trio` went on from a checkpoint and found all states.
-fn assert_went_on(process: Child) {
-    let output = process.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stderr(&output).contains("trio: goes on at level "));
-    let scenario = &json(&output)["scenarios"][0];
-    assert_eq!(scenario["size_as_expected"], true, "{scenario}");
-    assert!(scenario["resumed_at"].as_u64().unwrap() >= LATE);
-}
-
-#[test]
-fn a_check_that_was_killed_goes_on_from_its_checkpoint() {
-    let folder = TempDir::new().unwrap();
-    let kept = folder.path().join("kept");
-    let kept = kept.to_str().unwrap();
-    let arguments = [
-        "--workers",
-        "2",
-        "--checkpoints",
-        kept,
-        "--checkpoint-every",
-        "0",
-    ];
-    let mut killed = begin("trio", &arguments);
-    wait_for(&mut killed, has_late_checkpoint);
-    killed.kill().unwrap();
-    killed.wait().unwrap();
-    assert_refused(
-        &run(&["check", "trio", "--workers", "1", "--checkpoints", kept]),
-        "is a checkpoint of another check",
-    );
-    assert_went_on(begin("trio", &arguments));
-}
-
-#[test]
-fn processes_go_on_together_after_one_of_them_was_killed() {
-    let folder = TempDir::new().unwrap();
-    let kept = folder.path().join("kept");
-    let kept = kept.to_str().unwrap();
-    let both = || {
-        let hosts = hosts(folder.path(), 2);
-        ["0", "1"].map(|number| {
-            let hosts = ["--hosts", &hosts, "--process", number, "--patience", "300"];
-            let kept = ["--checkpoints", kept, "--checkpoint-every", "0"];
-            begin("trio", &[&hosts[..], &kept[..]].concat())
-        })
-    };
-    let [left, mut killed] = both();
-    wait_for(&mut killed, has_late_checkpoint);
-    killed.kill().unwrap();
-    killed.wait().unwrap();
-    let output = left.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
-    for process in both() {
-        assert_went_on(process);
-    }
-}
-
 #[test]
 fn when_one_of_four_processes_is_killed_the_others_say_that_they_are_incomplete() {
     let folder = TempDir::new().unwrap();
@@ -268,14 +201,6 @@ fn what_makes_no_sense_is_refused_with_its_cause() {
             "--hosts wants one scenario",
         ),
         (vec!["stable", "--hosts", &good], "--process"),
-        (
-            vec!["stable", "--checkpoints", "kept"],
-            "--checkpoints is for checks by workers",
-        ),
-        (
-            vec!["stable", "--workers", "1", "--checkpoints", one],
-            "one.txt",
-        ),
     ] {
         assert_refused(&run(&[vec!["check"], arguments].concat()), cause);
     }

@@ -38,7 +38,7 @@ pub enum ConnectError {
     /// A process checks something else.
     #[error(
         "process {process} checks something else: all processes need the same scenario, the same --workers, --max-states \
-         and --timeout, --checkpoints all or none, and the same build of crossguard"
+         and --timeout and the same build of crossguard"
     )]
     Different {
         /// Its number.

@@ -2,10 +2,8 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use timely::ExchangeData;
 use timely::dataflow::channels::pact::Exchange as ExchangePact;
@@ -14,97 +12,8 @@ use timely::dataflow::operators::{
 };
 use timely::worker::Worker;
 
-use crate::checkpoint::{Keeping, Store};
 use crate::explorer::{Common, Explorer, Found, Told};
 use crate::table::{Fingerprint, Hint, Table};
-
-/// Explores level by level, and keeps what was found now and then.
-struct Keeper<'a> {
-    common: &'a Common,
-    store: &'a Store,
-    every: Duration,
-}
-
-impl<'a> Keeper<'a> {
-    fn of(common: &'a Common, keeping: &'a Keeping, worker: usize) -> Self {
-        Self {
-            common,
-            store: &keeping.stores[worker % common.workers],
-            every: keeping.every,
-        }
-    }
-
-    fn explore(&self, worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>) {
-        let mut level = self.resume(worker, explorer);
-        let mut last = Instant::now();
-        let is_whole = loop {
-            explore(worker, explorer, level..level + 1);
-            level += 1;
-            let own = explorer.borrow();
-            let (waits, is_cut_off) = (own.waits_at(level), own.is_cut_off());
-            drop(own);
-            let said = gather(worker, (waits, is_cut_off, last.elapsed() >= self.every));
-            if said.iter().any(|(_, is_cut_off, _)| *is_cut_off) {
-                // What was not expanded is lost, so there is nothing to keep. The others may still end.
-                explore(worker, explorer, level..u32::MAX);
-                break false;
-            }
-            if !said.iter().any(|(waits, ..)| *waits) {
-                break true;
-            }
-            if said.iter().any(|(.., is_due)| *is_due) {
-                self.keep(worker, explorer, level);
-                last = Instant::now();
-            }
-        };
-        if is_whole {
-            self.store.remove_all_but(None);
-        }
-    }
-
-    /// Begins where all workers have a file, or anew. Returns the level.
-    fn resume(&self, worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>) -> u32 {
-        let own = self.store.levels().unwrap_or_default();
-        let common = gather(worker, own).into_iter().reduce(|a, b| &a & &b);
-        let Some(level) = common.and_then(|levels| levels.last().copied()) else {
-            explorer.borrow_mut().begin();
-            return 0;
-        };
-        let mut explorer = explorer.borrow_mut();
-        let read = self.store.read(level, |file| explorer.restore(level, file));
-        read.unwrap_or_else(|cause| panic!("a checkpoint cannot be read: {cause}"));
-        // All have read theirs, so that the sum is told at once.
-        gather(worker, ());
-        let mut kept = self.common.counters.kept();
-        let (_, states) = kept.resumed.unwrap_or_default();
-        kept.resumed = Some((level, states + explorer.told().states));
-        level
-    }
-
-    /// Keeps what was found before a level, if all workers can.
-    fn keep(&self, worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>, level: u32) {
-        let save = |file: &mut _| explorer.borrow_mut().save(level, file);
-        let written = self.store.write(level, save);
-        let all_have = gather(worker, written.is_ok()).into_iter().all(|it| it);
-        let finished = if all_have {
-            self.store.finish(level)
-        } else {
-            self.store.give_up(level);
-            written
-        };
-        // The ones before are needed until all have this one.
-        let is_finished = gather(worker, finished.is_ok() && all_have);
-        if is_finished.into_iter().all(|it| it) {
-            self.store.remove_all_but(Some(level));
-        }
-        let mut kept = self.common.counters.kept();
-        match finished {
-            Ok(()) if all_have => (kept.level, kept.error) = (Some(level), None),
-            Ok(()) => {}
-            Err(cause) => kept.error = Some(cause.to_string()),
-        }
-    }
-}
 
 /// The states that may lie on a run, by level; the last one is the state that the run leads to.
 pub(crate) type Candidates = Vec<BTreeSet<Fingerprint>>;
@@ -119,12 +28,8 @@ pub(crate) struct Outcome {
 pub(crate) fn work(worker: &mut Worker, common: &Arc<Common>) -> Outcome {
     let explorer = Explorer::new(common, worker.index(), worker.peers());
     let explorer = Rc::new(RefCell::new(explorer));
-    if let Some(keeping) = &common.keeping {
-        Keeper::of(common, keeping, worker.index()).explore(worker, &explorer);
-    } else {
-        explorer.borrow_mut().begin();
-        explore(worker, &explorer, 0..u32::MAX);
-    }
+    explorer.borrow_mut().begin();
+    explore(worker, &explorer);
     let explorer = explorer.borrow();
     let told = gather(worker, explorer.told());
     let ways = (0..common.judged.len()).map(|property| {
@@ -135,9 +40,9 @@ pub(crate) fn work(worker: &mut Worker, common: &Arc<Common>) -> Outcome {
     Outcome { told, ways }
 }
 
-/// Explores these levels, one after the other. A worker expands the states of a level once no more of that level can
+/// Explores level by level. A worker expands the states of a level once no more of that level can
 /// arrive.
-fn explore(worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>, levels: Range<u32>) {
+fn explore(worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>) {
     let explorer = Rc::clone(explorer);
     let probe = worker.dataflow::<u32, _, _>(|scope| {
         let (handle, found) = scope.feedback::<Vec<Found>>(1);
@@ -145,8 +50,7 @@ fn explore(worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>, levels: Range<
         let next = found.unary_frontier(by_owner, "explore", move |begin, info| {
             let activator = scope.activator_for(info.address);
             activator.activate();
-            let begin = begin.delayed(&levels.start);
-            let mut open: BTreeMap<u32, Capability<u32>> = BTreeMap::from([(levels.start, begin)]);
+            let mut open: BTreeMap<u32, Capability<u32>> = BTreeMap::from([(0, begin)]);
             move |(input, frontier), output| {
                 let mut explorer = explorer.borrow_mut();
                 input.for_each_stamp(|stamp, batches| {
@@ -167,9 +71,6 @@ fn explore(worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>, levels: Range<
                     return;
                 }
                 let capability = entry.remove();
-                if level >= levels.end {
-                    return;
-                }
                 let mut session = output.session(&capability);
                 explorer.expand(level, &mut |found| session.give(found));
                 drop(session);

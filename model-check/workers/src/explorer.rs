@@ -1,9 +1,8 @@
 //! What one worker does: it keeps the states that it owns, and expands them.
 
 use std::collections::{BTreeMap, HashMap};
-use std::io::{self, Read, Write};
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crossguard_model_check::check::Stop;
@@ -14,7 +13,6 @@ use crossguard_model_check::report::CutOff;
 use crossguard_model_check::transitions::Transitions;
 use serde::{Deserialize, Serialize};
 
-use crate::checkpoint::{self, Keeping, Kept};
 use crate::table::{Fingerprint, Hint, Table};
 use crate::waiting::Queue;
 
@@ -52,13 +50,6 @@ enum Cargo {
     Here(ModelState),
 }
 
-/// Some of the states that wait, in a file, with the parts that no state before them has.
-#[derive(Default, Serialize, Deserialize)]
-struct Saved {
-    parts: Vec<Part>,
-    states: Vec<(PackedState, Hint)>,
-}
-
 /// What the workers of a process have in common.
 pub(crate) struct Common {
     pub(crate) model: Model,
@@ -66,7 +57,6 @@ pub(crate) struct Common {
     pub(crate) judged: Vec<PropertyId>,
     pub(crate) workers: usize,
     pub(crate) limits: Limits,
-    pub(crate) keeping: Option<Keeping>,
     pub(crate) counters: Counters,
 }
 
@@ -83,13 +73,6 @@ pub(crate) struct Counters {
     pub(crate) states: AtomicU64,
     pub(crate) level: AtomicU32,
     pub(crate) table_bytes: AtomicU64,
-    kept: Mutex<Kept>,
-}
-
-impl Counters {
-    pub(crate) fn kept(&self) -> MutexGuard<'_, Kept> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }
 
 /// What one worker has found.
@@ -181,76 +164,6 @@ impl Explorer {
         if self.owner(fingerprint) == self.index {
             self.add(class.state, sighting, 0);
         }
-    }
-
-    /// Writes all that it has found. The states of this level wait, and no others.
-    pub(crate) fn save(&mut self, level: u32, file: &mut impl Write) -> io::Result<()> {
-        checkpoint::write(file, &self.told())?;
-        self.table.write(file)?;
-        let mut waiting = self.waiting.remove(&level).unwrap_or_default();
-        let mut kept = Queue::default();
-        let saved = self.save_waiting(&mut waiting, &mut kept, file);
-        while let Some(state) = waiting.pop() {
-            kept.push(state);
-        }
-        if !kept.is_empty() {
-            self.waiting.insert(level, kept);
-        }
-        saved
-    }
-
-    fn save_waiting(
-        &self,
-        waiting: &mut Queue,
-        kept: &mut Queue,
-        file: &mut impl Write,
-    ) -> io::Result<()> {
-        let mut packer = Packer::default();
-        loop {
-            let mut saved = Saved::default();
-            for (state, hint) in (0..BITE).map_while(|_| waiting.pop()) {
-                let portable = packer.pack(&self.common.model, &state, &mut saved.parts);
-                saved.states.push((portable, hint));
-                kept.push((state, hint));
-            }
-            checkpoint::write(file, &saved)?;
-            if saved.states.is_empty() {
-                return Ok(());
-            }
-        }
-    }
-
-    /// Reads what [`Explorer::save`] has written.
-    pub(crate) fn restore(&mut self, level: u32, file: &mut impl Read) -> io::Result<()> {
-        self.told = checkpoint::read(file)?;
-        // All of them are new to this process.
-        self.told.table_bytes = 0;
-        self.table = Table::read(file)?;
-        let mut waiting = Queue::default();
-        let mut unpacker = Unpacker::default();
-        loop {
-            let saved: Saved = checkpoint::read(file)?;
-            if saved.states.is_empty() {
-                break;
-            }
-            for part in &saved.parts {
-                let learned = unpacker.learn(&self.common.model, part);
-                learned.map_err(io::Error::other)?;
-            }
-            for (packed, hint) in saved.states {
-                let state = unpacker.unpack(&self.common.model, packed);
-                waiting.push((state.map_err(io::Error::other)?, hint));
-            }
-        }
-        if !waiting.is_empty() {
-            self.waiting.insert(level, waiting);
-        }
-        Ok(())
-    }
-
-    /// Whether it has given up.
-    pub(crate) const fn is_cut_off(&self) -> bool {
-        self.told.cut_off.is_some()
     }
 
     /// As timely routes it.

@@ -30,7 +30,6 @@
 //!
 //! There are no features.
 
-mod checkpoint;
 mod connect;
 mod dataflow;
 mod explorer;
@@ -50,8 +49,6 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::scenario::Scenario;
 
-use checkpoint::Keeping;
-pub use checkpoint::{CheckpointError, Checkpoints, Kept};
 pub use connect::ConnectError;
 use explorer::{Common, Counters, Limits};
 pub use hosts::{Cluster, Hosts, HostsError};
@@ -73,8 +70,6 @@ pub struct Options {
     pub time_max: Option<Duration>,
     /// Give up when asked.
     pub stop: Stop,
-    /// Keep what was found in files, and go on from there.
-    pub checkpoints: Option<Checkpoints>,
 }
 
 impl Default for Options {
@@ -86,7 +81,6 @@ impl Default for Options {
             states_max: None,
             time_max: None,
             stop: Stop::default(),
-            checkpoints: None,
         }
     }
 }
@@ -116,9 +110,6 @@ pub enum WorkersError {
     /// The processes did not come together.
     #[error(transparent)]
     Connect(#[from] ConnectError),
-    /// There is no place for checkpoints.
-    #[error(transparent)]
-    Checkpoint(#[from] CheckpointError),
     /// The threads or the sockets could not be set up.
     #[error("workers cannot be started: {0}")]
     Start(String),
@@ -159,24 +150,12 @@ pub fn check(
         &options.stop,
         processes,
     );
-    let keeping = options.checkpoints.as_ref().map(|checkpoints| {
-        let workers = options.workers.get();
-        let process = options
-            .cluster
-            .as_ref()
-            .map_or(0, |cluster| cluster.process);
-        let digest = processes::digest_of_states(model, (processes, workers));
-        let own = process * workers..(process + 1) * workers;
-        Keeping::of(checkpoints, digest, own)
-    });
-    let keeping = keeping.transpose()?;
     let meter = crossguard_model_check::cost::Meter::start();
     let common = Arc::new(Common {
         model: model.clone(),
         judged,
         workers: options.workers.get(),
         limits,
-        keeping,
         counters: Counters::default(),
     });
     let outcome = processes::run(&common, options, begin, watch)?;

@@ -142,17 +142,13 @@ fn set_up(common: &Common, options: &Options) -> Result<Setup, WorkersError> {
     })
 }
 
-/// What has to be the same in all processes.
+/// What has to be the same in all processes: what states and their fingerprints mean, which worker owns them, and the limits.
 fn digest(common: &Common, options: &Options) -> u128 {
     let processes = options.cluster.as_ref().map_or(1, Cluster::processes);
-    let states = digest_of_states(&common.model, (processes, options.workers.get()));
-    let keeps = options.checkpoints.is_some();
-    hashed(&(states, options.states_max, options.time_max, keeps))
-}
-
-/// What has to be the same where a check goes on: what states and their fingerprints mean, and which worker owns them.
-pub(crate) fn digest_of_states(model: &Model, shares: (usize, usize)) -> u128 {
-    hashed(&(format!("{:?}", model.scenario()), build(), shares))
+    let shares = (processes, options.workers.get());
+    let limits = (options.states_max, options.time_max);
+    let scenario = format!("{:?}", common.model.scenario());
+    hashed(&(scenario, build(), shares, limits))
 }
 
 /// The digest of this program: parts of states are hashed as they lie in memory. 0 where it cannot be read any more; then

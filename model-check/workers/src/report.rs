@@ -13,7 +13,6 @@ use crossguard_model_check::sequence::ChartStep;
 use crossguard_model_check::transitions::Transitions;
 use serde::Serialize;
 
-use crate::checkpoint::Kept;
 use crate::dataflow::{Candidates, Outcome};
 use crate::explorer::Common;
 use crate::path;
@@ -30,8 +29,6 @@ pub struct Progress {
     pub table_bytes: u64,
     /// For how long it has worked.
     pub elapsed: Duration,
-    /// What became of its checkpoints.
-    pub kept: Kept,
 }
 
 impl Progress {
@@ -42,7 +39,6 @@ impl Progress {
             states: counters.states.load(Ordering::Relaxed),
             table_bytes: counters.table_bytes.load(Ordering::Relaxed),
             elapsed: begin.elapsed(),
-            kept: counters.kept().clone(),
         }
     }
 }
@@ -67,9 +63,6 @@ pub struct WorkersReport {
     pub states_of_classes: u64,
     /// Bytes of the tables of all processes.
     pub table_bytes: u64,
-    /// The level that the check went on at, where it went on from a checkpoint. Its seconds and cost are those of this
-    /// run alone.
-    pub resumed_at: Option<u32>,
     /// Properties of the scenario that were not judged: they need the graph of all states.
     pub not_judged: Vec<String>,
 }
@@ -134,7 +127,6 @@ pub(crate) fn of(
         omission_probability,
         states_of_classes: told.iter().map(|told| told.of_classes).sum(),
         table_bytes: told.iter().map(|told| told.table_bytes).sum(),
-        resumed_at: common.counters.kept().resumed.map(|(level, _)| level),
         not_judged: not_judged.map(ToString::to_string).collect(),
     }
 }

@@ -10,7 +10,6 @@
 //! sixteenth once it is full to 61 parts of 64. So to grow takes hardly any memory beside that of the table itself.
 
 use std::collections::BTreeSet;
-use std::io::{self, Read, Write};
 use std::ops::{Index, IndexMut};
 
 /// How many bits of a fingerprint are kept and compared.
@@ -421,44 +420,6 @@ impl Table {
             .collect()
     }
 
-    /// Writes all that it has.
-    pub(crate) fn write(&self, file: &mut impl Write) -> io::Result<()> {
-        for segment in &self.segments {
-            for number in [segment.used, segment.buckets.0.len()] {
-                file.write_all(&(number as u64).to_le_bytes())?;
-            }
-            for bucket in segment.buckets.iter() {
-                file.write_all(&bucket.0)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Reads what [`Table::write`] has written.
-    pub(crate) fn read(file: &mut impl Read) -> io::Result<Self> {
-        let number = |file: &mut dyn Read| {
-            let mut octets = [0; 8];
-            file.read_exact(&mut octets)?;
-            usize::try_from(u64::from_le_bytes(octets)).map_err(io::Error::other)
-        };
-        let mut table = Self::new();
-        for segment in &mut table.segments {
-            segment.used = number(file)?;
-            let blocks = number(file)?;
-            if blocks > BLOCKS_MAX {
-                return Err(io::ErrorKind::InvalidData.into());
-            }
-            segment.buckets = Buckets::new(blocks);
-            for bucket in segment.buckets.0.iter_mut().flatten() {
-                file.read_exact(&mut bucket.0)?;
-                if bucket.len() > SLOTS {
-                    return Err(io::ErrorKind::InvalidData.into());
-                }
-            }
-        }
-        Ok(table)
-    }
-
     /// Bytes that the table takes.
     pub(crate) fn bytes(&self) -> usize {
         let buckets = self.segments.iter().map(|segment| segment.buckets.len());
@@ -524,10 +485,6 @@ mod tests {
             table.insert(next, u32::try_from(n).unwrap(), from.hint());
             from = next;
         }
-        let mut file = Vec::new();
-        table.write(&mut file).unwrap();
-        assert!(Table::read(&mut &file[..file.len() - 1]).is_err());
-        let table = Table::read(&mut &file[..]).unwrap();
         let mut hint = from.hint();
         for n in (0..1_000_u32).rev() {
             let meant = table.meant(n, &BTreeSet::from([hint]));

@@ -10,7 +10,7 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_workers::{
-    Checkpoints, Cluster, Hosts, Kept, Options, Progress, WorkersError, WorkersReport, check,
+    Cluster, Hosts, Options, Progress, WorkersError, WorkersReport, check,
 };
 use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
 use serde::Serialize;
@@ -38,19 +38,6 @@ pub(super) struct WorkersArguments {
     /// Seconds to wait for the other processes at the beginning.
     #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "hosts")]
     patience: u32,
-    /// Keep what was found in this folder now and then, and go on from there when the same check is run again. It takes
-    /// 15 bytes per state and some more, twice while one is written.
-    #[arg(long, value_name = "FOLDER",
-        conflicts_with_all = ["all", "threads", "replay", "export", "junit"])]
-    checkpoints: Option<PathBuf>,
-    /// Seconds from one checkpoint to the next, at the least; one is written at the end of a level.
-    #[arg(
-        long,
-        value_name = "SECONDS",
-        default_value_t = 600,
-        requires = "checkpoints"
-    )]
-    checkpoint_every: u32,
 }
 
 #[derive(Serialize)]
@@ -62,25 +49,6 @@ impl WorkersArguments {
     /// Whether workers are asked for.
     pub(super) const fn are_given(&self) -> bool {
         self.workers.is_some() || self.hosts.is_some()
-    }
-
-    /// Refuses what is for workers alone.
-    pub(super) fn none_are_needed(&self) -> Result<(), Failure> {
-        if self.checkpoints.is_some() {
-            return Err(Failure::input(
-                "--checkpoints is for checks by workers: add --workers, --hosts or --large",
-            ));
-        }
-        Ok(())
-    }
-
-    /// Where a scenario has its checkpoints.
-    fn checkpoints(&self, name: &str) -> Option<Checkpoints> {
-        let folder = self.checkpoints.as_ref()?;
-        Some(Checkpoints {
-            folder: folder.join(name),
-            every: Duration::from_secs(self.checkpoint_every.into()),
-        })
     }
 
     fn cluster(&self) -> Result<Option<Cluster>, Failure> {
@@ -118,14 +86,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         NonZeroUsize::MIN
     };
-    let mut options = Options {
+    let options = Options {
         workers: arguments.workers.workers.unwrap_or(by_default),
         cluster,
         patience: Duration::from_secs(arguments.workers.patience.into()),
         states_max: limits.states_max,
         time_max: limits.time_max,
         stop,
-        checkpoints: None,
     };
     let mut told = WorkersTold {
         scenarios: Vec::new(),
@@ -133,7 +100,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut written = Ok(());
     for scenario in scenarios {
         let name = scenario.name.clone();
-        options.checkpoints = arguments.workers.checkpoints(&name);
         let model = Model::new(scenario);
         let report = check(&model, &options, &mut show_progress(&name)).map_err(refused)?;
         if let Some(folder) = &arguments.charts {
@@ -170,24 +136,17 @@ fn refused(error: WorkersError) -> Failure {
     }
 }
 
-/// Tells on standard error how far this process is: each new level, and every ten seconds; and what became of its
-/// checkpoints.
+/// Tells on standard error how far this process is: each new level, and every ten seconds.
 fn show_progress(name: &str) -> impl FnMut(Progress) {
-    let (mut level, mut seconds, mut kept) = (None, 0, Kept::default());
+    let (mut level, mut seconds) = (None, 0);
     move |progress: Progress| {
-        if progress.kept != kept {
-            show_checkpoints(name, &kept, &progress.kept);
-            kept = progress.kept;
-        }
         let now = progress.elapsed.as_secs();
         if level == Some(progress.level) && now < seconds + 10 {
             return;
         }
         (level, seconds) = (Some(progress.level), now);
-        let (_, before) = kept.resumed.unwrap_or_default();
-        let new = progress.states.saturating_sub(before);
         #[expect(clippy::cast_precision_loss, reason = "a figure for people")]
-        let rate = new as f64 / progress.elapsed.as_secs_f64().max(0.001);
+        let rate = progress.states as f64 / progress.elapsed.as_secs_f64().max(0.001);
         // Standard error may be gone; the check goes on.
         let _ = writeln!(
             stderr(),
@@ -196,32 +155,6 @@ fn show_progress(name: &str) -> impl FnMut(Progress) {
             HumanCount(progress.states),
             HumanFloatCount(rate.round()),
             HumanBytes(progress.table_bytes)
-        );
-    }
-}
-
-/// Tells what is new of the checkpoints of this process.
-fn show_checkpoints(name: &str, before: &Kept, now: &Kept) {
-    if now.resumed != before.resumed
-        && let Some((level, states)) = now.resumed
-    {
-        let states = HumanCount(states);
-        let _ = writeln!(
-            stderr(),
-            "{name}: goes on at level {level}, from a checkpoint with {states} states in this process"
-        );
-    }
-    if now.level != before.level
-        && let Some(level) = now.level
-    {
-        let _ = writeln!(stderr(), "{name}: a checkpoint at level {level} is written");
-    }
-    if now.error != before.error
-        && let Some(cause) = &now.error
-    {
-        let _ = writeln!(
-            stderr(),
-            "{name}: no checkpoint could be written ({cause}); the check goes on, and what was written before stays"
         );
     }
 }
@@ -239,11 +172,6 @@ fn print_report(report: &WorkersReport) -> Result<(), Failure> {
         print(format_args!(
             "  the states stand for {}, which differ from them in which of the symmetric robots is which",
             HumanCount(report.states_of_classes)
-        ))?;
-    }
-    if let Some(level) = report.resumed_at {
-        print(format_args!(
-            "  it went on at level {level} from a checkpoint, and its times are of this run alone"
         ))?;
     }
     let how = if report.scenario.exhaustive {
