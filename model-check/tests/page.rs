@@ -1,11 +1,9 @@
 //! The verification page says what the scenario files say, and the scenario on the page for verifiers is one.
 
 use crossguard_model_check::check::{Options, check};
-use crossguard_model_check::confinement::table;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::{Claim, PropertyId};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_protocol::Config;
 
 const PAGE: &str = include_str!("../doc/verification.md");
 const GUIDE: &str = include_str!("../doc/verifying.md");
@@ -63,37 +61,9 @@ fn every_large_scenario_stands_there_with_its_size_and_properties() {
     }
 }
 
-#[test]
-fn every_property_stands_there() {
-    for id in PropertyId::ALL {
-        assert!(PAGE.contains(&format!("| {id} |")), "{id}");
-    }
-}
-
-/// What stands in the row of a property: what breaks it, the tests that show it, and what else fails
-/// there.
-fn breaking(id: &str) -> (Vec<&'static str>, &'static str) {
-    let row = PAGE
-        .lines()
-        .find(|line| line.starts_with(&format!("| {id} |")));
-    let row = row.unwrap_or_else(|| panic!("no row of {id}"));
-    let cells: Vec<_> = row.split('|').map(str::trim).collect();
-    let tests = cells[4].split(", ").map(|name| name.trim_matches('`'));
-    (tests.collect(), cells[5])
-}
-
 const WEAKENINGS: &str = include_str!("weakenings.rs");
 const TIMED_WEAKENINGS: &str = include_str!("timed_weakenings.rs");
 const SHARED_WEAKENINGS: &str = include_str!("../../harness/testkit/src/rules.rs");
-
-/// The text of a test.
-fn body(name: &str) -> &'static str {
-    let start = format!("fn {name}() {{\n");
-    let files = [WEAKENINGS, TIMED_WEAKENINGS];
-    let body = files.iter().find_map(|file| file.split_once(&start));
-    let (_, body) = body.unwrap_or_else(|| panic!("no test {name}"));
-    body.split_once("\n}\n").expect("it ends").0
-}
 
 fn words(text: &str) -> Vec<&str> {
     text.split(|c: char| !c.is_alphanumeric() && c != '_')
@@ -144,70 +114,10 @@ fn every_claim_names_a_weakening_that_a_test_shows_to_break_it() {
 }
 
 #[test]
-fn every_property_has_a_weakening_that_breaks_it_and_says_what_else_fails() {
-    for id in PropertyId::ALL.map(PropertyId::name) {
-        let (tests, with) = breaking(id);
-        let is_told = with != "see below";
-        let others = with
-            .split(", ")
-            .filter(|other| is_told && *other != "alone");
-        let others: Vec<_> = others.collect();
-        for test in tests {
-            let body = body(test);
-            let words = words(body);
-            assert!(words.contains(&id), "{test} does not break {id}");
-            let says_all = body.contains("assert_breaks_alone") || body.contains("violated(");
-            assert_eq!(says_all, is_told, "{test} looks at all properties, or not");
-            let named = |word: &&str| word.parse::<PropertyId>().is_ok();
-            let broken: Vec<_> = words.iter().filter(|word| named(word)).collect();
-            assert!(
-                !is_told || broken.len() == others.len() + 1,
-                "{test} breaks {broken:?}"
-            );
-            for other in &others {
-                assert!(
-                    words.contains(other),
-                    "{test} does not break {other} with {id}"
-                );
-            }
-        }
-    }
-}
-
-#[test]
 fn the_scenario_of_the_guide_can_be_checked_and_holds() {
     let (_, text) = GUIDE.split_once("```toml\n").expect("a scenario");
     let (text, _) = text.split_once("```").expect("it ends");
     let scenario = Scenario::parse("my.toml", text).unwrap();
     let report = check(&Model::new(scenario), &Options::default(), &mut |_| ());
     assert!(report.exhaustive && !report.failed(), "{report:#?}");
-}
-
-#[test]
-fn what_each_property_assumes_of_those_who_speak_stands_there() {
-    let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
-    for id in PropertyId::ALL {
-        let assumed = id.authentication().to_string();
-        match groups.iter_mut().find(|(known, _)| *known == assumed) {
-            Some((_, ids)) => ids.push(id.name()),
-            None => groups.push((assumed, vec![id.name()])),
-        }
-    }
-    for (assumed, ids) in groups {
-        let row = format!("| {assumed} | {} |", ids.join(", "));
-        assert!(PAGE.contains(&row), "no row {row}");
-    }
-}
-
-#[test]
-fn the_confinement_table_stands_there() {
-    for lie in table(&Config::default()) {
-        let at_most = lie.at_most.map(|ms| grouped(ms.0 as usize));
-        let at_most = at_most.map_or_else(
-            || "| no limit |".to_owned(),
-            |ms| format!("`{}` | {ms} ms |", lie.formula),
-        );
-        let row = format!("| {} | {} | {} | {at_most}", lie.part, lie.can, lie.from_to);
-        assert!(PAGE.contains(&row), "no row {row}");
-    }
 }

@@ -162,7 +162,7 @@ fn spin_and_the_kit_come_to_the_same_verdicts_about_the_pair() {
 
 /// A guard that holds a place is in place once it says so.
 #[test]
-#[ignore = "takes a minute: cargo test -p crossguard-model-check --test spin -- --ignored"]
+#[ignore = "takes a minute: cargo test -p crossguard-model-check --test it -- --ignored spin::"]
 fn spin_and_the_kit_come_to_the_same_verdicts_about_a_guard_that_blocks() {
     if !can_run("spin_and_the_kit_come_to_the_same_verdicts_about_a_guard_that_blocks") {
         return;
@@ -247,7 +247,7 @@ fn in_spin_too_each_rule_is_needed_for_the_property_that_it_keeps() {
 }
 
 #[test]
-#[ignore = "takes a minute: cargo test -p crossguard-model-check --test spin -- --ignored"]
+#[ignore = "takes a minute: cargo test -p crossguard-model-check --test it -- --ignored spin::"]
 fn in_spin_too_a_command_of_an_earlier_session_must_not_be_executed() {
     if !can_run("in_spin_too_a_command_of_an_earlier_session_must_not_be_executed") {
         return;
@@ -278,7 +278,7 @@ fn in_spin_and_in_the_kit_the_same_is_to_be_seen() {
 
 /// What rules change is to be seen: two models that differ in one would not pass for the same.
 #[test]
-#[ignore = "takes a minute: cargo test -p crossguard-model-check --test spin -- --ignored"]
+#[ignore = "takes a minute: cargo test -p crossguard-model-check --test it -- --ignored spin::"]
 fn in_spin_without_a_rule_something_else_is_to_be_seen() {
     if !can_run("in_spin_without_a_rule_something_else_is_to_be_seen") {
         return;

@@ -53,7 +53,7 @@ fn the_protocol_gets_the_same_verdicts() {
 }
 
 #[test]
-#[ignore = "takes a minute: cargo test -p crossguard-model-check --test symmetry -- --ignored"]
+#[ignore = "takes a minute: cargo test -p crossguard-model-check --test it -- --ignored symmetry::"]
 fn an_identity_that_is_not_locked_is_found() {
     assert_eq!(
         assert_same_verdicts(|| { Drops(|output| matches!(output, Output::LockIdentity)) }),

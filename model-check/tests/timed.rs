@@ -3,14 +3,12 @@
 //!
 //! `cargo run --release -- check timed-pair timed-trio` is the same check with its report.
 
-mod timing;
-
 use crossguard_model_check::check::Options;
 use crossguard_model_check::report::{CheckVerdict, CutOff, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::timed::{Limits, TimedModel, check};
 use crossguard_protocol::Millis;
-use timing::*;
+use crate::timing::*;
 
 const TRIO_DRIFT: &str = include_str!("../scenarios/timed-trio-drift.toml");
 
@@ -79,7 +77,7 @@ fn two_teams_that_meet_show_go_together_for_two_periods_at_most() {
 }
 
 #[test]
-#[ignore = "takes half a minute, and 'crossguard check' checks it too: cargo test --release -p crossguard-model-check --test timed -- --ignored"]
+#[ignore = "takes half a minute, and 'crossguard check' checks it too: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
 fn a_pair_with_drifting_clocks_and_delayed_messages_keeps_every_property_and_bound() {
     let report = run_shipped("timed-pair");
     let expected = [
@@ -94,7 +92,7 @@ fn a_pair_with_drifting_clocks_and_delayed_messages_keeps_every_property_and_bou
 }
 
 #[test]
-#[ignore = "takes half a minute, and 'crossguard check' checks it too: cargo test --release -p crossguard-model-check --test timed -- --ignored"]
+#[ignore = "takes half a minute, and 'crossguard check' checks it too: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
 fn a_leader_with_two_followers_keeps_every_property_and_bound() {
     let report = run_shipped("timed-trio");
     let expected = [
@@ -109,7 +107,7 @@ fn a_leader_with_two_followers_keeps_every_property_and_bound() {
 }
 
 #[test]
-#[ignore = "takes half a minute: cargo test --release -p crossguard-model-check --test timed -- --ignored"]
+#[ignore = "takes half a minute: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
 fn a_pair_with_the_timers_in_use_keeps_every_property_and_bound() {
     let report = run_shipped("timed-in-use");
     let expected = [
@@ -124,14 +122,14 @@ fn a_pair_with_the_timers_in_use_keeps_every_property_and_bound() {
 }
 
 #[test]
-#[ignore = "takes a minute: cargo test --release -p crossguard-model-check --test timed -- --ignored"]
+#[ignore = "takes a minute: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
 fn three_robots_with_drifting_clocks_and_late_endpoints_keep_every_property() {
     let report = run_shipped("timed-trio-drift");
     assert_eq!(figures(&report), [("L1", 165, 215), ("W1", 0, 0)]);
 }
 
 #[test]
-#[ignore = "takes a minute: cargo test --release -p crossguard-model-check --test timed -- --ignored"]
+#[ignore = "takes a minute: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
 fn three_robots_with_drifting_clocks_and_late_messages_keep_every_property() {
     let report = run_shipped("timed-trio-delay");
     assert_eq!(figures(&report), [("L1", 165, 215)]);
@@ -140,7 +138,7 @@ fn three_robots_with_drifting_clocks_and_late_messages_keep_every_property() {
 /// `timed-trio-drift` has clocks that keep their rates and endpoints that are late; here are clocks that
 /// change their rates at every tick, and endpoints that are not.
 #[test]
-#[ignore = "takes half a minute: cargo test --release -p crossguard-model-check --test timed -- --ignored"]
+#[ignore = "takes half a minute: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
 fn clocks_of_three_robots_may_change_their_rates() {
     let changes = [("rates = \"constant\"\n", ""), ("free = true\n", "")];
     let text = changed(TRIO_DRIFT, &changes);

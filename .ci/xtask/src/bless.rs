@@ -41,11 +41,11 @@ const GENERATED: [Generated; 12] = [
     },
     Generated {
         path: "model-check/doc/paper-literal.md",
-        by: "cargo test -p crossguard-model-check --test paper_literal",
+        by: "cargo test -p crossguard-model-check --test it paper_literal::",
     },
     Generated {
         path: "model-check/stories/",
-        by: "cargo test -p crossguard-model-check --test paper_literal",
+        by: "cargo test -p crossguard-model-check --test it paper_literal::",
     },
     Generated {
         path: "harness/conform/src/cases.txt",

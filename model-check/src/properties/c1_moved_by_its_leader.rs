@@ -4,27 +4,15 @@
 
 use crossguard_protocol::{Output, StationId};
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::{StepView, following_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "C1",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "what a station says starts, stops or ends nothing at a robot that does not follow it",
-        premise: Some("a robot that executes takes in what a station says that it does not follow"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: false,
-            of_two: false,
-        }),
-        weakening: "ObeysCommandsOfAnySession",
-    }),
-    timed: None,
-};
+property! {
+    "C1", Authentication::NAMES;
+    untimed T "what a station says starts, stops or ends nothing at a robot that does not follow it",
+        Some("a robot that executes takes in what a station says that it does not follow"),
+        Rule::Step(StepRule { holds, premise, looks_back: false, of_two: false }),
+        "ObeysCommandsOfAnySession";
+}
 
 fn follows(step: &StepView, sender: StationId) -> bool {
     following_of(step.before).is_some_and(|following| following.session.leader == sender)

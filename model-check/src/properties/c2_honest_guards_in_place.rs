@@ -4,23 +4,16 @@
 
 use crossguard_protocol::SessionId;
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule};
-use super::view::View;
 use super::w1_guards_in_place;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "C2",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "when a pedestrian steps on the road, every guard that does not lie is in place, or is gone and its leader has not been informed",
-        premise: Some("a pedestrian steps on the road"),
-        rule: Rule::StepOnRoad(holds),
-        weakening: "CountsOneForAll",
-    }),
-    timed: None,
-};
+property! {
+    "C2", Authentication::NAMES;
+    untimed T "when a pedestrian steps on the road, every guard that does not lie is in place, or is gone and its leader has not been informed",
+        Some("a pedestrian steps on the road"),
+        Rule::StepOnRoad(holds),
+        "CountsOneForAll";
+}
 
 /// Judged when a pedestrian steps on the road at the sign of `session`, where this number of guards is required.
 fn holds(view: &View, session: SessionId, required: usize) -> bool {

@@ -4,18 +4,13 @@
 
 use crossguard_protocol::Confirmation;
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule, StepRule};
-use super::view::{StepView, View, leading_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "C3",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "an open corridor rests on followers that were confirmed; what a station says changes no record but its own",
-        premise: Some("a leader takes in what a station says that is not its only follower"),
-        rule: Rule::StateAndStep(
+property! {
+    "C3", Authentication::NAMES;
+    untimed S "an open corridor rests on followers that were confirmed; what a station says changes no record but its own",
+        Some("a leader takes in what a station says that is not its only follower"),
+        Rule::StateAndStep(
             StateRule {
                 holds: rests_on_the_confirmed,
                 premise: |_| false,
@@ -28,10 +23,8 @@ pub(super) const PROPERTY: Property = Property {
                 of_two: false,
             },
         ),
-        weakening: "AdmitsWhoSaysThatItFollows",
-    }),
-    timed: None,
-};
+        "AdmitsWhoSaysThatItFollows";
+}
 
 fn rests_on_the_confirmed(view: &View) -> bool {
     view.nodes().all(|node| {

@@ -3,26 +3,15 @@
 //! The type of a robot's state allows one part in one session. The rest is checked: no two robots lead the same
 //! session, and no robot follows itself.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule};
-use super::view::View;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I1",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "no robot is leader and follower at once; a session has one leader",
-        premise: Some("one robot leads and another follows"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "TakesItsLeadersPseudonym",
-    }),
-    timed: None,
-};
+property! {
+    "I1", Authentication::NAMES;
+    untimed S "no robot is leader and follower at once; a session has one leader",
+        Some("one robot leads and another follows"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "TakesItsLeadersPseudonym";
+}
 
 fn holds(view: &View) -> bool {
     let mut leaders = view.leaders().map(|(session, _)| session);

@@ -2,26 +2,15 @@
 
 use crossguard_protocol::Confirmation;
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, StateRule};
-use super::view::View;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I2",
-    authentication: Authentication::truth_of(&[Insider::Leader]),
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a follower in a session was confirmed by its leader",
-        premise: Some("a robot follows"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: true,
-        }),
-        weakening: "NeedsNoConfirmation",
-    }),
-    timed: None,
-};
+property! {
+    "I2", Authentication::truth_of(&[Insider::Leader]);
+    untimed S "a follower in a session was confirmed by its leader",
+        Some("a robot follows"),
+        Rule::State(StateRule { holds, premise, of_two: true }),
+        "NeedsNoConfirmation";
+}
 
 fn holds(view: &View) -> bool {
     view.followers().all(|(robot, following)| {

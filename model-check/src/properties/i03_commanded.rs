@@ -1,26 +1,14 @@
 //! I3: a follower executes `(s,q)` only if its leader sent exactly that command to it.
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::StepView;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I3",
-    authentication: Authentication::truth_of(&[Insider::Leader]),
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a follower starts only what its leader commanded it",
-        premise: Some("a follower starts a maneuver"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: true,
-            of_two: true,
-        }),
-        weakening: "ObeysCommandsOfAnySession",
-    }),
-    timed: None,
-};
+property! {
+    "I3", Authentication::truth_of(&[Insider::Leader]);
+    untimed S "a follower starts only what its leader commanded it",
+        Some("a follower starts a maneuver"),
+        Rule::Step(StepRule { holds, premise, looks_back: true, of_two: true }),
+        "ObeysCommandsOfAnySession";
+}
 
 fn holds(step: &StepView) -> bool {
     step.started().is_none_or(|maneuver| {

@@ -1,26 +1,14 @@
 //! I4: `(s,q)` is started at most once, whatever is duplicated.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::StepView;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I4",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a command is started at most once",
-        premise: Some("a follower starts a maneuver"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: true,
-            of_two: false,
-        }),
-        weakening: "StartsRepeatedWhileRunning",
-    }),
-    timed: None,
-};
+property! {
+    "I4", Authentication::NAMES;
+    untimed S "a command is started at most once",
+        Some("a follower starts a maneuver"),
+        Rule::Step(StepRule { holds, premise, looks_back: true, of_two: false }),
+        "StartsRepeatedWhileRunning";
+}
 
 fn holds(step: &StepView) -> bool {
     step.started().is_none_or(|maneuver| {

@@ -2,27 +2,15 @@
 
 use crate::serial::request_is_newer;
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::StepView;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I5",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "the started requestID only grows within a session",
-        premise: Some("a follower starts a second maneuver in the same session"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: true,
-            of_two: false,
-        }),
-        weakening: "StartsOlderCommands",
-    }),
-    timed: None,
-};
+property! {
+    "I5", Authentication::NAMES;
+    untimed T "the started requestID only grows within a session",
+        Some("a follower starts a second maneuver in the same session"),
+        Rule::Step(StepRule { holds, premise, looks_back: true, of_two: false }),
+        "StartsOlderCommands";
+}
 
 fn newest_before(step: &StepView) -> Option<crossguard_protocol::RequestId> {
     let session = step.started()?.id.session;

@@ -3,18 +3,13 @@
 
 use crossguard_protocol::{Answer, ManeuverId, Output, Rmcm, StationId, Verdict};
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, StateRule, StepRule};
-use super::view::{StepView, View};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I6",
-    authentication: Authentication::truth_of(&[Insider::Follower, Insider::Leader]),
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a leader counts a command as acknowledged only if the follower accepted it; a follower acknowledges a command before it starts",
-        premise: Some("a leader counts a command as acknowledged"),
-        rule: Rule::StateAndStep(
+property! {
+    "I6", Authentication::truth_of(&[Insider::Follower, Insider::Leader]);
+    untimed S "a leader counts a command as acknowledged only if the follower accepted it; a follower acknowledges a command before it starts",
+        Some("a leader counts a command as acknowledged"),
+        Rule::StateAndStep(
             StateRule {
                 holds,
                 premise,
@@ -27,10 +22,8 @@ pub(super) const PROPERTY: Property = Property {
                 of_two: true,
             },
         ),
-        weakening: "StartsBeforeItAcknowledges",
-    }),
-    timed: None,
-};
+        "StartsBeforeItAcknowledges";
+}
 
 /// Whether the follower acknowledges before it starts, in the outputs of one step too.
 fn acknowledges_before_it_starts(step: &StepView) -> bool {

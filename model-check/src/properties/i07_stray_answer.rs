@@ -2,27 +2,15 @@
 
 use crossguard_protocol::{Answer, Input, Rmcm};
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::{StepView, leading_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I7",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "an answer that is not for the outstanding command changes nothing",
-        premise: Some("an answer arrives that is not for the outstanding command"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: false,
-            of_two: false,
-        }),
-        weakening: "TakesAnyAcknowledgement",
-    }),
-    timed: None,
-};
+property! {
+    "I7", Authentication::NAMES;
+    untimed T "an answer that is not for the outstanding command changes nothing",
+        Some("an answer arrives that is not for the outstanding command"),
+        Rule::Step(StepRule { holds, premise, looks_back: false, of_two: false }),
+        "TakesAnyAcknowledgement";
+}
 
 fn holds(step: &StepView) -> bool {
     !premise(step) || (step.after == step.before && step.outputs.ignored().is_some())

@@ -2,26 +2,15 @@
 
 use crossguard_protocol::{ManeuverId, Progress, StationId};
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, StateRule};
-use super::view::View;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I8",
-    authentication: Authentication::truth_of(&[Insider::Follower]),
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a leader counts a command as completed or in position only if the follower's body has done that",
-        premise: Some("a leader counts a command as completed or in position"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: true,
-        }),
-        weakening: "TakesAnyProgress",
-    }),
-    timed: None,
-};
+property! {
+    "I8", Authentication::truth_of(&[Insider::Follower]);
+    untimed S "a leader counts a command as completed or in position only if the follower's body has done that",
+        Some("a leader counts a command as completed or in position"),
+        Rule::State(StateRule { holds, premise, of_two: true }),
+        "TakesAnyProgress";
+}
 
 /// What leaders count as completed or in position.
 fn counted<'a>(

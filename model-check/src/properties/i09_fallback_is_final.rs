@@ -1,25 +1,14 @@
 //! I9: after fallback of `(s,q)` that command is never executed again.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule};
-use super::view::View;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I9",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "after its fallback a command is never executed again",
-        premise: Some("a follower has fallen back"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "StartsRepeatedCommands",
-    }),
-    timed: None,
-};
+property! {
+    "I9", Authentication::NAMES;
+    untimed S "after its fallback a command is never executed again",
+        Some("a follower has fallen back"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "StartsRepeatedCommands";
+}
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {

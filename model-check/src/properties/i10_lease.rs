@@ -6,30 +6,15 @@
 
 use crossguard_protocol::{Contact, Lease, Phase, Robot, SessionId, StationId};
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, TimedView};
-use crate::node::Node;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I10",
-    authentication: Authentication::truth_of(&[Insider::Follower]),
-    untimed: None,
-    timed: Some(Claim {
-        kind: Kind::S,
-        statement: "while the lease on a follower stands, the follower has not fallen back for lack of contact",
-        premise: Some("a lease stands; and a follower falls back for lack of contact"),
-        rule: Rule::Timed(TimedRule {
-            holds,
-            premise: &[
-                TimedPremise::State(lease_stands),
-                TimedPremise::State(falls_back),
-            ],
-            ends_run: false,
-        }),
-        weakening: "TakesAnyTimers",
-    }),
-};
+property! {
+    "I10", Authentication::truth_of(&[Insider::Follower]);
+    timed S "while the lease on a follower stands, the follower has not fallen back for lack of contact",
+        Some("a lease stands; and a follower falls back for lack of contact"),
+        Rule::Timed(TimedRule { holds, premise: &[TimedPremise::State(lease_stands), TimedPremise::State(falls_back)], ends_run: false }),
+        "TakesAnyTimers";
+}
 
 /// A robot may act on the last input until it takes in the tick, so the leader's lease before the tick is
 /// compared with the follower after it.

@@ -5,38 +5,19 @@
 
 use crossguard_protocol::{Config, Corridor, Leading, Member, Progress};
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, TimedView};
-use super::view::{View, leading_of};
-use crate::timed::watch::StopWatch;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I11",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "the corridor is open only while every required follower is engaged",
-        premise: Some("the corridor is open"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "NEVER_CLOSES_THE_CORRIDOR",
-    }),
-    timed: Some(Claim {
-        kind: Kind::S,
-        statement: "after a follower's own failure the corridor closes within the bound",
-        premise: Some("a follower fails while the corridor is open"),
-        rule: Rule::Timed(TimedRule {
-            holds: closes_in_time,
-            premise: &[TimedPremise::State(fails_while_open)],
-            ends_run: true,
-        }),
-        weakening: "SHOWS_GO_TOO_LONG",
-    }),
-};
+property! {
+    "I11", Authentication::NAMES;
+    untimed S "the corridor is open only while every required follower is engaged",
+        Some("the corridor is open"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "NEVER_CLOSES_THE_CORRIDOR";
+    timed S "after a follower's own failure the corridor closes within the bound",
+        Some("a follower fails while the corridor is open"),
+        Rule::Timed(TimedRule { holds: closes_in_time, premise: &[TimedPremise::State(fails_while_open)], ends_run: true }),
+        "SHOWS_GO_TOO_LONG";
+}
 
 fn holds(view: &View) -> bool {
     view.configured().all(|(node, config)| {

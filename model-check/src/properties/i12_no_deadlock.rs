@@ -4,38 +4,19 @@
 //! that arrives or a timer that expires, and that changes the state; it takes no application's help. The
 //! timer of periodic RAM does not count: it always runs, and what it sends may always get lost.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule, TimedRule};
-use super::timed_view::TimedStepView;
-use super::view::View;
-use crate::node::Node;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I12",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a robot with a part in a session can make progress, by more than its periodic RAM",
-        premise: Some("a robot has a part in a session"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "LeadsWithoutTimers",
-    }),
-    timed: Some(Claim {
-        kind: Kind::S,
-        statement: "time can always pass, and never stands still for ever",
-        premise: None,
-        rule: Rule::Timed(TimedRule {
-            holds: time_can_pass,
-            premise: &[],
-            ends_run: false,
-        }),
-        weakening: "AnswersEveryRam",
-    }),
-};
+property! {
+    "I12", Authentication::NAMES;
+    untimed S "a robot with a part in a session can make progress, by more than its periodic RAM",
+        Some("a robot has a part in a session"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "LeadsWithoutTimers";
+    timed S "time can always pass, and never stands still for ever",
+        None,
+        Rule::Timed(TimedRule { holds: time_can_pass, premise: &[], ends_run: false }),
+        "AnswersEveryRam";
+}
 
 fn holds(view: &View) -> bool {
     !premise(view) || view.world.can_progress()

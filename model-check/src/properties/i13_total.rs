@@ -1,26 +1,14 @@
 //! I13: every input in every state yields a valid state, and an ignored input changes nothing.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::StepView;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I13",
-    authentication: Authentication::NONE,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "every input in every state yields a valid state",
-        premise: None,
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: false,
-            of_two: false,
-        }),
-        weakening: "ReportsTheLeadersLimit",
-    }),
-    timed: None,
-};
+property! {
+    "I13", Authentication::NONE;
+    untimed S "every input in every state yields a valid state",
+        None,
+        Rule::Step(StepRule { holds, premise, looks_back: false, of_two: false }),
+        "ReportsTheLeadersLimit";
+}
 
 fn holds(step: &StepView) -> bool {
     let valid = step

@@ -4,26 +4,15 @@
 
 use crossguard_protocol::Phase;
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule};
-use super::view::View;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I14",
-    authentication: Authentication::NONE,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a released or idle robot executes nothing",
-        premise: Some("a maneuver runs"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "NEVER_STOPS",
-    }),
-    timed: None,
-};
+property! {
+    "I14", Authentication::NONE;
+    untimed S "a released or idle robot executes nothing",
+        Some("a maneuver runs"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "NEVER_STOPS";
+}
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {

@@ -2,26 +2,15 @@
 
 use crossguard_protocol::{Phase, Robot};
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, StateRule};
-use super::view::View;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I15",
-    authentication: Authentication::truth_of(&[Insider::Leader]),
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "a rebooted robot takes part in no session from before its reboot",
-        premise: Some("a robot that crashed in a role has a role again"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "ConfirmsByStationAlone",
-    }),
-    timed: None,
-};
+property! {
+    "I15", Authentication::truth_of(&[Insider::Leader]);
+    untimed S "a rebooted robot takes part in no session from before its reboot",
+        Some("a robot that crashed in a role has a role again"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "ConfirmsByStationAlone";
+}
 
 fn has_role(robot: &Robot) -> bool {
     matches!(robot.phase(), Phase::Leading(_) | Phase::Following(_))

@@ -2,37 +2,19 @@
 //!
 //! The timers' limits are among the clauses of `is_valid`, which I13 checks on every step.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule, TimedRule};
-use super::timed_view::TimedStepView;
-use super::view::{View, leading_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I16",
-    authentication: Authentication::NONE,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "commands are repeated at most N_ack times",
-        premise: Some("a command has been repeated N_ack times"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "RepeatsOnceTooOften",
-    }),
-    timed: Some(Claim {
-        kind: Kind::S,
-        statement: "no timer has more time left than it was started with, and none stays due",
-        premise: None,
-        rule: Rule::Timed(TimedRule {
-            holds: |step: &TimedStepView| step.robots.are_valid,
-            premise: &[],
-            ends_run: false,
-        }),
-        weakening: "asks_too_long",
-    }),
-};
+property! {
+    "I16", Authentication::NONE;
+    untimed S "commands are repeated at most N_ack times",
+        Some("a command has been repeated N_ack times"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "RepeatsOnceTooOften";
+    timed S "no timer has more time left than it was started with, and none stays due",
+        None,
+        Rule::Timed(TimedRule { holds: |step: &TimedStepView| step.robots.are_valid, premise: &[], ends_run: false }),
+        "asks_too_long";
+}
 
 /// How often each outstanding command was repeated, and how often it may be.
 fn repeats<'a>(view: &View<'a>) -> impl Iterator<Item = (u8, u8)> + use<'a> {

@@ -4,27 +4,15 @@ use crossguard_protocol::{
     Coordination, Countdown, EndReason, Input, Lease, Member, Millis, Notice, StationId,
 };
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::{StepView, leading_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I17",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "dropping one follower leaves the others' records unchanged",
-        premise: Some("a follower is dropped while another one stays"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: false,
-            of_two: false,
-        }),
-        weakening: "LosesTwoForOne",
-    }),
-    timed: None,
-};
+property! {
+    "I17", Authentication::NAMES;
+    untimed T "dropping one follower leaves the others' records unchanged",
+        Some("a follower is dropped while another one stays"),
+        Rule::Step(StepRule { holds, premise, looks_back: false, of_two: false }),
+        "LosesTwoForOne";
+}
 
 fn dropped(step: &StepView) -> Option<StationId> {
     step.notices().find_map(|notice| match notice {

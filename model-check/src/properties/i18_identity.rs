@@ -4,26 +4,15 @@
 //! never carry the same station id needs no rule: the robots of a scenario differ, and a locked id does not
 //! change. A robot that takes its leader's id breaks I1.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StateRule};
-use super::view::View;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "I18",
-    authentication: Authentication::NONE,
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "the identity is locked while the robot is in a session",
-        premise: Some("one robot leads and another follows"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "NEVER_LOCKS_ITS_IDENTITY",
-    }),
-    timed: None,
-};
+property! {
+    "I18", Authentication::NONE;
+    untimed S "the identity is locked while the robot is in a session",
+        Some("one robot leads and another follows"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "NEVER_LOCKS_ITS_IDENTITY";
+}
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {

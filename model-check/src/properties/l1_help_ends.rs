@@ -2,40 +2,29 @@
 
 use crossguard_protocol::State;
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, LivenessRule, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::TimedStepView;
-use super::view::{LivenessSubject, LivenessSubjects, View};
-use crate::timed::watch::StopWatch;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "L1",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::L,
-        statement: "HelpRequested leads to RoleEstablished or Idle",
-        premise: Some("a robot is in HelpRequested"),
-        rule: Rule::Live(LivenessRule {
+property! {
+    "L1", Authentication::NAMES;
+    untimed L "HelpRequested leads to RoleEstablished or Idle",
+        Some("a robot is in HelpRequested"),
+        Rule::Live(LivenessRule {
             subjects: LivenessSubjects::Robots,
             from: in_help_requested,
             to: |view, subject| !in_help_requested(view, subject),
             needs_cooperation: false,
             broken_by_old_requests: false,
         }),
-        weakening: "ASKS_FOR_EVER",
-    }),
-    timed: Some(Claim {
-        kind: Kind::L,
-        statement: "a request has roles or is given up within the bound",
-        premise: Some("a requester gets roles; and one gives up"),
-        rule: Rule::Timed(TimedRule {
+        "ASKS_FOR_EVER";
+    timed L "a request has roles or is given up within the bound",
+        Some("a requester gets roles; and one gives up"),
+        Rule::Timed(TimedRule {
             holds: ends_in_time,
             premise: &[TimedPremise::Step(gets_roles), TimedPremise::Step(gives_up)],
             ends_run: true,
         }),
-        weakening: "asks_too_long",
-    }),
-};
+        "asks_too_long";
+}
 
 fn in_help_requested(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     let robot = view.node(robot).robot.as_ref();

@@ -1,27 +1,20 @@
 //! L2: an outstanding command leads to acknowledged or given up.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, LivenessRule, Property, Rule};
-use super::view::{LivenessSubject, LivenessSubjects, View, leading_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "L2",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::L,
-        statement: "an outstanding command is acknowledged or given up at some time",
-        premise: Some("a command is outstanding"),
-        rule: Rule::Live(LivenessRule {
+property! {
+    "L2", Authentication::NAMES;
+    untimed L "an outstanding command is acknowledged or given up at some time",
+        Some("a command is outstanding"),
+        Rule::Live(LivenessRule {
             subjects: LivenessSubjects::Pairs,
             from: is_outstanding,
             to: |view, subject| !is_outstanding(view, subject),
             needs_cooperation: false,
             broken_by_old_requests: false,
         }),
-        weakening: "NEVER_REPEATS",
-    }),
-    timed: None,
-};
+        "NEVER_REPEATS";
+}
 
 fn is_outstanding(view: &View, LivenessSubject { robot, other }: LivenessSubject) -> bool {
     leading_of(view.node(robot)).is_some_and(|leading| {

@@ -4,32 +4,21 @@
 
 use crossguard_protocol::{Member, Phase};
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, LivenessRule, Property, Rule};
-use super::view::{LivenessSubject, LivenessSubjects, View, leading_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "L3",
-    authentication: Authentication::truth_of(&[
-        Insider::Follower,
-        Insider::Leader,
-        Insider::Stranger,
-    ]),
-    untimed: Some(Claim {
-        kind: Kind::L,
-        statement: "if everything around the robots cooperates, a request leads to a completed task",
-        premise: Some("a robot asks for help"),
-        rule: Rule::Live(LivenessRule {
+property! {
+    "L3", Authentication::truth_of(&[Insider::Follower, Insider::Leader, Insider::Stranger]);
+    untimed L "if everything around the robots cooperates, a request leads to a completed task",
+        Some("a robot asks for help"),
+        Rule::Live(LivenessRule {
             subjects: LivenessSubjects::Robots,
             from: asks,
             to: has_completed,
             needs_cooperation: true,
             broken_by_old_requests: false,
         }),
-        weakening: "ReadsNoProgress",
-    }),
-    timed: None,
-};
+        "ReadsNoProgress";
+}
 
 fn asks(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     let robot = view.node(robot).robot.as_ref();

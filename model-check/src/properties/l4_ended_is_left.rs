@@ -2,28 +2,21 @@
 //!
 //! A follower has no way out of its session but to `Idle`, so it is enough to show that it leaves.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, LivenessRule, Property, Rule};
-use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "L4",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::L,
-        statement: "the end of a session leads to every former member being idle",
-        premise: Some("a robot follows in a session that no robot leads"),
-        rule: Rule::Live(LivenessRule {
+property! {
+    "L4", Authentication::NAMES;
+    untimed L "the end of a session leads to every former member being idle",
+        Some("a robot follows in a session that no robot leads"),
+        Rule::Live(LivenessRule {
             subjects: LivenessSubjects::Robots,
             from: is_orphaned,
             to: |view, subject| !is_orphaned(view, subject),
             needs_cooperation: false,
             broken_by_old_requests: false,
         }),
-        weakening: "FollowersWaitForEver",
-    }),
-    timed: None,
-};
+        "FollowersWaitForEver";
+}
 
 /// Whether the robot follows in a session that no robot leads any more.
 fn is_orphaned(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {

@@ -2,21 +2,13 @@
 //!
 //! Within which time is what the timed view finds.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, LivenessRule, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, TimedView};
-use super::view::{LivenessSubject, LivenessSubjects, View, following_of};
-use crate::node::Node;
-use crate::timed::watch::StopWatch;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "L5",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::L,
-        statement: "a permanent crash of a leader leads to its followers being stopped and idle",
-        premise: Some("a robot follows one that has crashed for good"),
-        rule: Rule::Live(LivenessRule {
+property! {
+    "L5", Authentication::NAMES;
+    untimed L "a permanent crash of a leader leads to its followers being stopped and idle",
+        Some("a robot follows one that has crashed for good"),
+        Rule::Live(LivenessRule {
             subjects: LivenessSubjects::Robots,
             from: has_lost_its_leader,
             to: |view, LivenessSubject { robot, .. }| {
@@ -25,20 +17,12 @@ pub(super) const PROPERTY: Property = Property {
             needs_cooperation: false,
             broken_by_old_requests: false,
         }),
-        weakening: "FollowersWaitForEver",
-    }),
-    timed: Some(Claim {
-        kind: Kind::L,
-        statement: "after the leader's crash a follower stops, and is idle, within the bounds",
-        premise: Some("the leader crashes while a follower executes"),
-        rule: Rule::Timed(TimedRule {
-            holds: is_survived_in_time,
-            premise: &[TimedPremise::State(crashes_while_executed)],
-            ends_run: true,
-        }),
-        weakening: "follows_too_long",
-    }),
-};
+        "FollowersWaitForEver";
+    timed L "after the leader's crash a follower stops, and is idle, within the bounds",
+        Some("the leader crashes while a follower executes"),
+        Rule::Timed(TimedRule { holds: is_survived_in_time, premise: &[TimedPremise::State(crashes_while_executed)], ends_run: true }),
+        "follows_too_long";
+}
 
 fn has_lost_its_leader(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     following_of(view.node(robot)).is_some_and(|following| {

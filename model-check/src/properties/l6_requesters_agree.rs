@@ -5,28 +5,21 @@
 
 use crossguard_protocol::Phase;
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, LivenessRule, Property, Rule};
-use super::view::{LivenessSubject, LivenessSubjects, View};
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "L6",
-    authentication: Authentication::truth_of(&[Insider::Stranger]),
-    untimed: Some(Claim {
-        kind: Kind::L,
-        statement: "two robots that ask or lead at one place do not both do so for ever",
-        premise: Some("two robots ask or lead"),
-        rule: Rule::Live(LivenessRule {
+property! {
+    "L6", Authentication::truth_of(&[Insider::Stranger]);
+    untimed L "two robots that ask or lead at one place do not both do so for ever",
+        Some("two robots ask or lead"),
+        Rule::Live(LivenessRule {
             subjects: LivenessSubjects::Pairs,
             from: both_claim,
             to: |view, subject| !both_claim(view, subject),
             needs_cooperation: false,
             broken_by_old_requests: true,
         }),
-        weakening: "InsistsOnItsRequest",
-    }),
-    timed: None,
-};
+        "InsistsOnItsRequest";
+}
 
 fn both_claim(view: &View, LivenessSubject { robot, other }: LivenessSubject) -> bool {
     let claims = |place: usize| {

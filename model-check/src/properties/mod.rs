@@ -10,6 +10,29 @@
 //! A rule says what must hold, and its premise in which situation. A property counts only when its premise is
 //! reachable. The page `doc/verification.md` has a row for each.
 
+/// Declares the property of a file: its id, what it assumes of senders, and for each model that it is claimed of kind,
+/// statement, premise, rule, and the weakening that breaks it.
+macro_rules! property {
+    (
+        $id:literal, $authentication:expr;
+        $($model:ident $kind:ident $statement:literal, $premise:expr, $rule:expr, $weakening:literal;)*
+    ) => {
+        #[allow(clippy::needless_update, reason = "some are claimed of both models")]
+        pub(super) const PROPERTY: Property = Property {
+            id: $id,
+            authentication: $authentication,
+            $($model: Some(Claim {
+                kind: Kind::$kind,
+                statement: $statement,
+                premise: $premise,
+                rule: $rule,
+                weakening: $weakening,
+            }),)*
+            ..Property::OF_NOTHING
+        };
+    };
+}
+
 mod authentication;
 mod c1_moved_by_its_leader;
 mod c2_honest_guards_in_place;
@@ -51,6 +74,19 @@ mod w5_hang_stops_the_sign;
 mod w6_application_is_informed;
 mod w7_crossing_gets_done;
 mod w8_go_or_a_reason;
+
+/// What the file of a property needs.
+mod prelude {
+    pub(super) use super::authentication::{Authentication, Insider};
+    pub(super) use super::property::{Claim, Kind, LivenessRule, Property, Rule, StateRule, StepRule};
+    pub(super) use super::property::{TimedPremise, TimedRule};
+    pub(super) use super::timed_view::{TimedStepView, TimedView, has_fallback};
+    pub(super) use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
+    pub(super) use super::view::{following_of, leading_of};
+    pub(super) use crate::node::Node;
+    pub(super) use crate::road::{Body, Heard, Pedestrian};
+    pub(super) use crate::timed::watch::StopWatch;
+}
 
 use std::fmt;
 use std::str::FromStr;

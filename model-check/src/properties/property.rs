@@ -21,6 +21,16 @@ pub struct Property {
     pub timed: Option<Claim>,
 }
 
+impl Property {
+    /// One that is claimed of no model.
+    pub(super) const OF_NOTHING: Self = Self {
+        id: "",
+        authentication: Authentication::NONE,
+        untimed: None,
+        timed: None,
+    };
+}
+
 /// What a property claims of one model.
 #[derive(Debug)]
 pub struct Claim {

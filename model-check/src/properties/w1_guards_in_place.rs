@@ -5,35 +5,23 @@
 
 use crossguard_protocol::SessionId;
 
-use crate::road::Body;
+use super::prelude::*;
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, has_fallback};
-use super::view::View;
-
-pub(super) const PROPERTY: Property = Property {
-    id: "W1",
-    authentication: Authentication::truth_of(&[Insider::Follower]),
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "when a pedestrian steps on the road, every guard is in place, or is gone and its leader has not been informed",
-        premise: Some("a pedestrian steps on the road"),
-        rule: Rule::StepOnRoad(holds),
-        weakening: "AsksForFewer",
-    }),
-    timed: Some(Claim {
-        kind: Kind::S,
-        statement: "no follower falls back for lack of contact while the sign shows go",
-        premise: Some("an executing follower falls back for lack of contact"),
-        rule: Rule::Timed(TimedRule {
+property! {
+    "W1", Authentication::truth_of(&[Insider::Follower]);
+    untimed T "when a pedestrian steps on the road, every guard is in place, or is gone and its leader has not been informed",
+        Some("a pedestrian steps on the road"),
+        Rule::StepOnRoad(holds),
+        "AsksForFewer";
+    timed S "no follower falls back for lack of contact while the sign shows go",
+        Some("an executing follower falls back for lack of contact"),
+        Rule::Timed(TimedRule {
             holds: |step: &TimedStepView| !step.after.is_unguarded,
             premise: &[TimedPremise::Step(has_fallback)],
             ends_run: false,
         }),
-        weakening: "SHOWS_GO_TOO_LONG",
-    }),
-};
+        "SHOWS_GO_TOO_LONG";
+}
 
 /// Judged when a pedestrian steps on the road at the sign of `session`, where this number of guards is required.
 pub(super) fn holds(view: &View, session: SessionId, required: usize) -> bool {

@@ -6,29 +6,15 @@
 
 use crossguard_protocol::{FallbackPolicy, ManeuverId, Output, StopReason, TaskType};
 
-use crate::road::Body;
+use super::prelude::*;
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::StepView;
-
-pub(super) const PROPERTY: Property = Property {
-    id: "W2",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "while a pedestrian is on the road, every guard that is able to stay does",
-        premise: Some("a guard's maneuver ends while a pedestrian is on the road"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: true,
-            of_two: false,
-        }),
-        weakening: "StopsInPlace",
-    }),
-    timed: None,
-};
+property! {
+    "W2", Authentication::NAMES;
+    untimed T "while a pedestrian is on the road, every guard that is able to stay does",
+        Some("a guard's maneuver ends while a pedestrian is on the road"),
+        Rule::Step(StepRule { holds, premise, looks_back: true, of_two: false }),
+        "StopsInPlace";
+}
 
 /// The maneuver by which the body guards the pedestrian on the road, also while it falls back.
 fn guarding(step: &StepView) -> Option<ManeuverId> {

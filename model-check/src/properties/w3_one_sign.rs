@@ -4,40 +4,19 @@
 //! messages of the other, the second with a newer heartbeat. One message alone may be from a session that is
 //! long over. How long two signs can show go once the two hear each other is what the timed view finds.
 
-use crate::road::Heard;
+use super::prelude::*;
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, StateRule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, TimedView};
-use super::view::View;
-use crate::timed::watch::StopWatch;
-
-pub(super) const PROPERTY: Property = Property {
-    id: "W3",
-    authentication: Authentication::truth_of(&[Insider::Stranger]),
-    untimed: Some(Claim {
-        kind: Kind::S,
-        statement: "of two leaders at one place that hear each other, only one shows go",
-        premise: Some("a leader has heard twice a leader that goes before it"),
-        rule: Rule::State(StateRule {
-            holds,
-            premise,
-            of_two: false,
-        }),
-        weakening: "HearsNoLeader",
-    }),
-    timed: Some(Claim {
-        kind: Kind::L,
-        statement: "after one of two leaders at a place hears the other, both signs show go no longer than the bound",
-        premise: Some("two leaders whose signs show go hear each other"),
-        rule: Rule::Timed(TimedRule {
-            holds: one_stops_in_time,
-            premise: &[TimedPremise::State(hear_each_other)],
-            ends_run: true,
-        }),
-        weakening: "YieldsLate",
-    }),
-};
+property! {
+    "W3", Authentication::truth_of(&[Insider::Stranger]);
+    untimed S "of two leaders at one place that hear each other, only one shows go",
+        Some("a leader has heard twice a leader that goes before it"),
+        Rule::State(StateRule { holds, premise, of_two: false }),
+        "HearsNoLeader";
+    timed L "after one of two leaders at a place hears the other, both signs show go no longer than the bound",
+        Some("two leaders whose signs show go hear each other"),
+        Rule::Timed(TimedRule { holds: one_stops_in_time, premise: &[TimedPremise::State(hear_each_other)], ends_run: true }),
+        "YieldsLate";
+}
 
 fn holds(view: &View) -> bool {
     view.nodes()

@@ -6,30 +6,15 @@
 
 use crossguard_protocol::{Coordination, Output, SessionId};
 
-use crate::node::Node;
-use crate::road::Body;
+use super::prelude::*;
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, StepRule};
-use super::view::StepView;
-
-pub(super) const PROPERTY: Property = Property {
-    id: "W4",
-    authentication: Authentication::NAMES,
-    untimed: Some(Claim {
-        kind: Kind::T,
-        statement: "a robot begins nothing new before its duty on the road is over",
-        premise: Some("a robot has a duty on the road"),
-        rule: Rule::Step(StepRule {
-            holds,
-            premise,
-            looks_back: false,
-            of_two: false,
-        }),
-        weakening: "ForgetsItsDuty",
-    }),
-    timed: None,
-};
+property! {
+    "W4", Authentication::NAMES;
+    untimed T "a robot begins nothing new before its duty on the road is over",
+        Some("a robot has a duty on the road"),
+        Rule::Step(StepRule { holds, premise, looks_back: false, of_two: false }),
+        "ForgetsItsDuty";
+}
 
 fn has_duty(node: &Node) -> bool {
     matches!(node.actuation.body, Body::FallingBack(..)) || node.actuation.road_unsure

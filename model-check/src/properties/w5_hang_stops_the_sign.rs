@@ -2,20 +2,13 @@
 //!
 //! It ends no run: a hang ends.
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, TimedView};
-use crate::timed::watch::StopWatch;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "W5",
-    authentication: Authentication::truth_of(&[Insider::Follower]),
-    untimed: None,
-    timed: Some(Claim {
-        kind: Kind::L,
-        statement: "after a robot begins to hang, the sign shows stop within the bound",
-        premise: Some("the leader hangs while the sign shows go; and a follower does"),
-        rule: Rule::Timed(TimedRule {
+property! {
+    "W5", Authentication::truth_of(&[Insider::Follower]);
+    timed L "after a robot begins to hang, the sign shows stop within the bound",
+        Some("the leader hangs while the sign shows go; and a follower does"),
+        Rule::Timed(TimedRule {
             holds,
             premise: &[
                 TimedPremise::State(leader_hangs),
@@ -23,9 +16,8 @@ pub(super) const PROPERTY: Property = Property {
             ],
             ends_run: false,
         }),
-        weakening: "NeverClosesTheCorridor",
-    }),
-};
+        "NeverClosesTheCorridor";
+}
 
 fn holds(step: &TimedStepView) -> bool {
     let after = step.after;

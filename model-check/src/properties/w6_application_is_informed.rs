@@ -2,22 +2,13 @@
 //!
 //! It ends no run: a follower that is gone is dropped at some time.
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::{TimedStepView, TimedView, has_fallback};
-use crate::node::Node;
-use crate::road::Body;
-use crate::timed::watch::StopWatch;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "W6",
-    authentication: Authentication::truth_of(&[Insider::Follower]),
-    untimed: None,
-    timed: Some(Claim {
-        kind: Kind::L,
-        statement: "the leader's application is informed of a lost guard within the bound, and of a fallback before it happens",
-        premise: Some("a guard that the application counts on is gone; and one falls back"),
-        rule: Rule::Timed(TimedRule {
+property! {
+    "W6", Authentication::truth_of(&[Insider::Follower]);
+    timed L "the leader's application is informed of a lost guard within the bound, and of a fallback before it happens",
+        Some("a guard that the application counts on is gone; and one falls back"),
+        Rule::Timed(TimedRule {
             holds,
             premise: &[
                 TimedPremise::State(guard_is_gone),
@@ -25,9 +16,8 @@ pub(super) const PROPERTY: Property = Property {
             ],
             ends_run: false,
         }),
-        weakening: "DoesNotTell",
-    }),
-};
+        "DoesNotTell";
+}
 
 fn holds(step: &TimedStepView) -> bool {
     let after = step.after;

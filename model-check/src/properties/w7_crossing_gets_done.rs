@@ -4,24 +4,13 @@
 
 use crossguard_protocol::Phase;
 
-use crate::road::Pedestrian;
+use super::prelude::*;
 
-use super::authentication::{Authentication, Insider};
-use super::property::{Claim, Kind, LivenessRule, Property, Rule};
-use super::view::{LivenessSubject, LivenessSubjects};
-
-pub(super) const PROPERTY: Property = Property {
-    id: "W7",
-    authentication: Authentication::truth_of(&[
-        Insider::Follower,
-        Insider::Leader,
-        Insider::Stranger,
-    ]),
-    untimed: Some(Claim {
-        kind: Kind::L,
-        statement: "if everything around the robots cooperates, a request leads to a finished crossing",
-        premise: Some("a robot asks for help"),
-        rule: Rule::Live(LivenessRule {
+property! {
+    "W7", Authentication::truth_of(&[Insider::Follower, Insider::Leader, Insider::Stranger]);
+    untimed L "if everything around the robots cooperates, a request leads to a finished crossing",
+        Some("a robot asks for help"),
+        Rule::Live(LivenessRule {
             subjects: LivenessSubjects::Robots,
             from: |view, LivenessSubject { robot, .. }| {
                 let robot = view.node(robot).robot.as_ref();
@@ -31,7 +20,5 @@ pub(super) const PROPERTY: Property = Property {
             needs_cooperation: true,
             broken_by_old_requests: false,
         }),
-        weakening: "ReadsNoProgress",
-    }),
-    timed: None,
-};
+        "ReadsNoProgress";
+}

@@ -1,25 +1,14 @@
 //! W8: within the bound a noticed pedestrian sees go, or the application is informed why not.
 
-use super::authentication::Authentication;
-use super::property::{Claim, Kind, Property, Rule, TimedPremise, TimedRule};
-use super::timed_view::TimedStepView;
+use super::prelude::*;
 
-pub(super) const PROPERTY: Property = Property {
-    id: "W8",
-    authentication: Authentication::NAMES,
-    untimed: None,
-    timed: Some(Claim {
-        kind: Kind::L,
-        statement: "within the bound a noticed pedestrian sees go, or the application is informed why not",
-        premise: Some("a pedestrian sees go; and an application is informed why not"),
-        rule: Rule::Timed(TimedRule {
-            holds,
-            premise: &[TimedPremise::Step(sees_go), TimedPremise::Step(is_informed)],
-            ends_run: true,
-        }),
-        weakening: "DoesNotTell",
-    }),
-};
+property! {
+    "W8", Authentication::NAMES;
+    timed L "within the bound a noticed pedestrian sees go, or the application is informed why not",
+        Some("a pedestrian sees go; and an application is informed why not"),
+        Rule::Timed(TimedRule { holds, premise: &[TimedPremise::Step(sees_go), TimedPremise::Step(is_informed)], ends_run: true }),
+        "DoesNotTell";
+}
 
 fn holds(step: &TimedStepView) -> bool {
     let after = step.after;
