@@ -54,6 +54,7 @@
 //!
 //! - `serde`: every public type is serialized and deserialized, for logs and bindings.
 //! - `laws`: what proofs and property tests call; no part of the stable interface.
+//! - `renaming`: states and messages under other names, for the model checker; no part of it either.
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -76,6 +77,7 @@ mod list;
 mod maneuver;
 mod message;
 mod output;
+#[cfg(any(test, feature = "renaming"))]
 mod rename;
 mod robot;
 mod roles;
@@ -105,6 +107,7 @@ pub use output::{
     EndReasonKind, GoneReason, Ignored, IgnoredKind, Maneuver, Notice, NoticeKind, Output,
     OutputKind, Outputs, ReleaseReason, ReleaseReasonKind, StopReason, StopReasonKind,
 };
+#[cfg(feature = "renaming")]
 pub use rename::Renaming;
 pub use robot::StateMachine;
 pub use state::{

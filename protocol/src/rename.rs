@@ -222,15 +222,6 @@ impl Rmcm {
 }
 
 impl Robot {
-    /// The number that the robot will give out next.
-    #[must_use]
-    pub const fn next_number(&self) -> UniqueNumber {
-        UniqueNumber {
-            boot: self.boot,
-            count: self.next_count,
-        }
-    }
-
     /// The state under other names.
     #[must_use]
     pub fn renamed(&self, to: &mut impl Renaming) -> Self {

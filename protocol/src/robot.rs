@@ -364,6 +364,15 @@ impl Robot {
         self.station
     }
 
+    /// The number that the robot will give out next.
+    #[must_use]
+    pub const fn next_number(&self) -> UniqueNumber {
+        UniqueNumber {
+            boot: self.boot,
+            count: self.next_count,
+        }
+    }
+
     /// The boot counter with which it was started.
     #[must_use]
     pub const fn boot(&self) -> u16 {

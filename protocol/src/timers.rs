@@ -185,6 +185,7 @@ impl Robot {
     }
 
     /// Replaces the time that every armed timer has left.
+    #[cfg(any(test, feature = "laws", feature = "renaming"))]
     pub(crate) fn rename_countdowns(&mut self, mut left: impl FnMut(Timer, Millis) -> Millis) {
         visit_countdowns!(self, iter_mut, (mut), |timer, countdown: &mut Countdown| {
             if let Some(time) = countdown.left() {
