@@ -92,7 +92,7 @@ enum Command {
     Timing(timing::Arguments),
     /// Convert logs to what other tools open: MCAP, sequence charts.
     Export(export::Arguments),
-    /// Print the state diagram of the protocol, drawn from what the transition function does.
+    /// Print the state diagram of the protocol in Mermaid, drawn from what the transition function does.
     Fsm(fsm::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
     Simulate(Box<simulate::Arguments>),

@@ -504,27 +504,12 @@ fn receivers(scenario: &Scenario) -> String {
 }
 
 /// Whether a state keeps the property of this number. stateright wants a plain function for each.
-pub(crate) fn holds<const N: usize>(model: &Model, state: &ModelState) -> bool {
+fn holds<const N: usize>(model: &Model, state: &ModelState) -> bool {
     let id = PropertyId::ALL[N];
     !Model::breaks(state, id) && model.state_rule_holds(state, id)
 }
 
 const HOLDS: [fn(&Model, &ModelState) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);
-
-/// The properties of a scenario that stateright can check, each with its condition from `conditions`.
-pub(crate) fn checked_properties<M: stateright::Model>(
-    scenario: &Scenario,
-    conditions: &[fn(&M, &M::State) -> bool; PropertyId::ALL.len()],
-) -> Vec<Property<M>> {
-    let ids = scenario.properties.iter().copied();
-    let ids = ids.filter(|id| id.is_of_states_or_steps());
-    ids.map(|id| Property {
-        expectation: Expectation::Always,
-        name: id.name(),
-        condition: conditions[id as usize],
-    })
-    .collect()
-}
 
 impl stateright::Model for Model {
     type State = ModelState;
@@ -547,10 +532,13 @@ impl stateright::Model for Model {
     }
 
     fn properties(&self) -> Vec<Property<Self>> {
-        checked_properties(self.scenario(), &HOLDS)
-    }
-
-    fn format_action(&self, action: &Action) -> String {
-        label(self, *action)
+        let ids = self.scenario().properties.iter().copied();
+        let ids = ids.filter(|id| id.is_of_states_or_steps());
+        ids.map(|id| Property {
+            expectation: Expectation::Always,
+            name: id.name(),
+            condition: HOLDS[id as usize],
+        })
+        .collect()
     }
 }

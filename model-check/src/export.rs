@@ -1,4 +1,4 @@
-//! State graphs in files, for other tools.
+//! State graphs in files of Aldébaran, which CADP and mCRL2 read.
 
 use std::io::{self, Seek, SeekFrom, Write};
 
@@ -8,15 +8,6 @@ use crate::graph::{Graph, Keep};
 use crate::model::Model;
 use crate::report::CutOff;
 use crate::runs::Runs;
-
-/// The form of a file.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum GraphFormat {
-    /// A digraph of Graphviz.
-    Dot,
-    /// Aldébaran, which CADP and mCRL2 read.
-    Aut,
-}
 
 /// Writes the state graph of a model, each transition with what happens in it. Says why it is not the
 /// whole, where it is not; then nothing has been written. Where robots are symmetric, one state stands
@@ -30,7 +21,6 @@ pub enum GraphFormat {
 pub fn export(
     model: &Model,
     options: &Options,
-    format: GraphFormat,
     to: &mut (impl Write + Seek),
 ) -> io::Result<Option<CutOff>> {
     let graph = Graph::build(
@@ -50,29 +40,18 @@ pub fn export(
     let states = u32::try_from(graph.states()).expect("fewer than 2^32 states");
     let header = to.stream_position()?;
     // How many transitions there are is known in the end.
-    match format {
-        GraphFormat::Dot => writeln!(to, "digraph \"{}\" {{", model.scenario().name)?,
-        GraphFormat::Aut => aut_header(to, 0, states)?,
-    }
+    aut_header(to, 0, states)?;
     let mut transitions = 0;
     for from in 0..states {
         for (action, edge) in runs.transitions(from) {
             transitions += 1;
             let (what, to_state) = (label(model, action).replace('"', "'"), edge.to);
-            match format {
-                GraphFormat::Dot => writeln!(to, "  {from} -> {to_state} [label=\"{what}\"];")?,
-                GraphFormat::Aut => writeln!(to, "({from}, \"{what}\", {to_state})")?,
-            }
+            writeln!(to, "({from}, \"{what}\", {to_state})")?;
         }
     }
-    match format {
-        GraphFormat::Dot => writeln!(to, "}}")?,
-        GraphFormat::Aut => {
-            to.seek(SeekFrom::Start(header))?;
-            aut_header(to, transitions, states)?;
-            to.seek(SeekFrom::End(0))?;
-        }
-    }
+    to.seek(SeekFrom::Start(header))?;
+    aut_header(to, transitions, states)?;
+    to.seek(SeekFrom::End(0))?;
     Ok(None)
 }
 

@@ -1,4 +1,4 @@
-//! The state diagram of the protocol, drawn from what the transition function does.
+//! The state diagram of the protocol in Mermaid, drawn from what the transition function does.
 //!
 //! No rule is written here: the edges are the transitions that [`universe`](crate::universe) has seen one
 //! robot take among peers that say anything.
@@ -8,18 +8,9 @@ use std::fmt::Write as _;
 
 use crate::transitions::{Mode, Transitions, mode_name, mode_parts};
 
-/// The form of a diagram.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum DiagramFormat {
-    /// A `stateDiagram-v2` of Mermaid.
-    Mermaid,
-    /// A digraph of Graphviz.
-    Dot,
-}
-
-/// The diagram of what robots have been seen to do.
+/// A `stateDiagram-v2` of what robots have been seen to do.
 #[must_use]
-pub fn diagram(transitions: &Transitions, format: DiagramFormat) -> String {
+pub fn diagram(transitions: &Transitions) -> String {
     let modes: BTreeSet<Mode> = transitions
         .0
         .keys()
@@ -30,10 +21,7 @@ pub fn diagram(transitions: &Transitions, format: DiagramFormat) -> String {
         .iter()
         .map(|(way, labels)| (*way, condense(labels)))
         .collect();
-    match format {
-        DiagramFormat::Mermaid => mermaid(&modes, &edges),
-        DiagramFormat::Dot => dot(&modes, &edges),
-    }
+    mermaid(&modes, &edges)
 }
 
 /// Labels of one kind in one line: `timer Help, Lock` rather than `timer Help`, `timer Lock`.
@@ -72,32 +60,5 @@ fn mermaid(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) 
             labels.join("<br>")
         );
     }
-    text
-}
-
-fn dot(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> String {
-    let mut text = String::from(
-        "digraph fsm {\n    rankdir=LR;\n    node [shape=box, style=rounded, fontname=sans];\n    \
-         edge [fontname=sans, fontsize=9];\n",
-    );
-    for &mode in modes {
-        let (state, side) = mode_parts(mode);
-        let label = if side.is_empty() {
-            state.to_owned()
-        } else {
-            format!("{state}\\n{side}")
-        };
-        let _ = writeln!(text, "    {} [label=\"{label}\"];", mode_name(mode));
-    }
-    for ((from, to), labels) in edges {
-        let label = labels.join("\\n");
-        let _ = writeln!(
-            text,
-            "    {} -> {} [label=\"{label}\"];",
-            mode_name(*from),
-            mode_name(*to)
-        );
-    }
-    text.push_str("}\n");
     text
 }

@@ -497,7 +497,7 @@ fn answers(robot: &Robot) -> Vec<Answer> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fsm::{DiagramFormat, diagram};
+    use crate::fsm::diagram;
 
     /// Up to renaming.
     const STATES: usize = 48_202;
@@ -508,9 +508,9 @@ mod tests {
         assert_eq!(universe.invalid, Vec::<String>::new());
         assert_eq!(universe.wrongly_left_out, Vec::<String>::new());
         assert_eq!(universe.states, STATES, "verification.md says how many");
-        let dot = diagram(&universe.transitions, DiagramFormat::Dot);
+        let diagram = diagram(&universe.transitions);
         for state in ["Idle", "HelpRequested_helper", "ManeuverExecuting_leader"] {
-            assert!(dot.contains(state), "{state} is not in:\n{dot}");
+            assert!(diagram.contains(state), "{state} is not in:\n{diagram}");
         }
     }
 }

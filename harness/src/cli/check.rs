@@ -82,12 +82,10 @@ pub(super) struct Arguments {
     /// Follow the run in this file, a counterexample of before, and say whether it still exists.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["export", "charts"])]
     replay: Option<PathBuf>,
-    /// Write the state graph of the scenario instead of checking it.
-    #[arg(long, value_name = "FORMAT", requires = "output")]
-    export: Option<GraphFormat>,
-    /// The file that the state graph is written to.
-    #[arg(long, value_name = "FILE", requires = "export")]
-    output: Option<PathBuf>,
+    /// Write the state graph of the scenario to this file instead of checking it, in the format of Aldébaran, which CADP and
+    /// mCRL2 read.
+    #[arg(long, value_name = "FILE")]
+    export: Option<PathBuf>,
     #[command(flatten)]
     workers: workers::WorkersArguments,
     #[command(flatten)]
@@ -95,14 +93,6 @@ pub(super) struct Arguments {
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum GraphFormat {
-    /// A digraph of Graphviz.
-    Dot,
-    /// Aldébaran, which CADP and mCRL2 read.
-    Aut,
 }
 
 #[derive(Serialize)]
@@ -147,14 +137,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(Subject::load)
         .collect::<Result<Vec<_>, _>>();
     let scenarios = scenarios.map_err(Failure::input)?;
-    destinations::files([&arguments.output])?;
+    destinations::files([&arguments.export])?;
     arguments.junit.check()?;
     destinations::folders([&arguments.charts])?;
     let stop = Stop::default();
     let asked = stop.clone();
     let interrupted = interrupts_that(move || asked.request());
-    if let (Some(format), Some(file)) = (arguments.export, &arguments.output) {
-        return export_one(arguments, &stop, scenarios, format, file);
+    if let Some(file) = &arguments.export {
+        return export_one(arguments, &stop, scenarios, file);
     }
     let mut report = CheckReport {
         scenarios: Vec::new(),
@@ -284,21 +274,16 @@ fn export_one(
     arguments: &Arguments,
     stop: &Stop,
     subjects: Vec<Subject>,
-    format: GraphFormat,
     file: &Path,
 ) -> Result<(), Failure> {
     let Ok([Subject::Scenario(scenario)]) = <[Subject; 1]>::try_from(subjects) else {
         return Err(Failure::input("--export wants one scenario"));
     };
-    let format = match format {
-        GraphFormat::Dot => export::GraphFormat::Dot,
-        GraphFormat::Aut => export::GraphFormat::Aut,
-    };
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
     let model = Model::new(untimed(*scenario)?);
     let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
     let cut_off =
-        export::export(&model, &options(arguments, stop), format, &mut to).map_err(cannot)?;
+        export::export(&model, &options(arguments, stop), &mut to).map_err(cannot)?;
     to.flush().map_err(cannot)?;
     match cut_off {
         None => Ok(()),
