@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use crossguard_model_check::check::Stop;
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::odds::{
-    Coupling, Enclosure, Iteration, LossOdds, MarkovChain, Milestone, MilestoneOdds,
-    OddsModel, OddsSetup, Stage, TimeGrid, write_drn,
+    Coupling, Enclosure, Iteration, LossOdds, MarkovChain, Milestone, MilestoneOdds, OddsModel,
+    OddsSetup, Stage, TimeGrid, write_drn,
 };
 use crossguard_protocol::{Config, Input, Millis, Output, Outputs, Rmcm, Robot, Settings};
 

@@ -3,12 +3,12 @@
 //!
 //! `cargo run --release -- check timed-pair timed-trio` is the same check with its report.
 
+use crate::timing::*;
 use crossguard_model_check::check::Options;
 use crossguard_model_check::report::{CheckVerdict, CutOff, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::timed::{Limits, TimedModel, check};
 use crossguard_protocol::Millis;
-use crate::timing::*;
 
 const TRIO_DRIFT: &str = include_str!("../scenarios/timed-trio-drift.toml");
 

@@ -1,13 +1,13 @@
 //! What the properties of the timed model are good for: a robot whose timers do not suit its team, or a
 //! transition function without a rule, breaks the property that the timer or rule is there to keep.
 
+use crate::timing::*;
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::report::{CheckVerdict, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::sequence::{ChartPlace, ChartStep};
 use crossguard_model_check::timed::TimedModel;
 use crossguard_protocol::*;
-use crate::timing::*;
 
 const HANG: &str = include_str!("../scenarios/timed-hang.toml");
 

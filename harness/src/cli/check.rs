@@ -282,8 +282,7 @@ fn export_one(
     let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
     let model = Model::new(untimed(*scenario)?);
     let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
-    let cut_off =
-        export::export(&model, &options(arguments, stop), &mut to).map_err(cannot)?;
+    let cut_off = export::export(&model, &options(arguments, stop), &mut to).map_err(cannot)?;
     to.flush().map_err(cannot)?;
     match cut_off {
         None => Ok(()),

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use crossguard_model_check::check::Stop;
 use crossguard_model_check::odds::{
-    ChainError, Coupling, Enclosure, FOLLOWERS_MAX, FlowCut, Iteration, OddsModel,
-    OddsProgress, OddsSetup, Stage, TeamOdds, TimeGrid, write_drn,
+    ChainError, Coupling, Enclosure, FOLLOWERS_MAX, FlowCut, Iteration, OddsModel, OddsProgress,
+    OddsSetup, Stage, TeamOdds, TimeGrid, write_drn,
 };
 use crossguard_protocol::{Config, Millis};
 use crossguard_robot::robot_file::RobotFile;

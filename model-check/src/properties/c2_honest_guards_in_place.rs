@@ -4,8 +4,8 @@
 
 use crossguard_protocol::SessionId;
 
-use super::w1_guards_in_place;
 use super::prelude::*;
+use super::w1_guards_in_place;
 
 property! {
     "C2", Authentication::NAMES;

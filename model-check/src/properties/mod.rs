@@ -78,7 +78,9 @@ mod w8_go_or_a_reason;
 /// What the file of a property needs.
 mod prelude {
     pub(super) use super::authentication::{Authentication, Insider};
-    pub(super) use super::property::{Claim, Kind, LivenessRule, Property, Rule, StateRule, StepRule};
+    pub(super) use super::property::{
+        Claim, Kind, LivenessRule, Property, Rule, StateRule, StepRule,
+    };
     pub(super) use super::property::{TimedPremise, TimedRule};
     pub(super) use super::timed_view::{TimedStepView, TimedView, has_fallback};
     pub(super) use super::view::{LivenessSubject, LivenessSubjects, StepView, View};

@@ -1,8 +1,8 @@
 //! What one worker does: it keeps the states that it owns, and expands them.
 
 use std::collections::{BTreeMap, HashMap};
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crossguard_model_check::check::Stop;

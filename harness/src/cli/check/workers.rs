@@ -9,9 +9,7 @@ use crossguard_model_check::check::Stop;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
-use crossguard_workers::{
-    Cluster, Hosts, Options, Progress, WorkersError, WorkersReport, check,
-};
+use crossguard_workers::{Cluster, Hosts, Options, Progress, WorkersError, WorkersReport, check};
 use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
 use serde::Serialize;
 
