@@ -63,15 +63,17 @@ words! {
             /// The maneuver.
             task: TaskType
         } = 1, "command {follower} {task}";
-        /// The body holds the place from which the maneuver that was started guards.
+        /// The body holds the place from which the maneuver that was started guards. To be told only when the body is
+        /// there: the leader lets people on the road by it.
         InPosition(id: ManeuverId) = 2, "maneuver {id} in position";
         /// The maneuver that was started has been finished.
         ManeuverCompleted(id: ManeuverId) = 3, "maneuver {id} completed";
         /// The maneuver that was started cannot be finished.
         ManeuverFailed(id: ManeuverId) = 4, "maneuver {id} failed";
-        /// The pedestrian has crossed and nobody is on the road; the session may end.
+        /// The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off the road.
         TaskCompleted = 5;
-        /// The people that this robot guarded are off the road, and its body has finished its fallback.
+        /// The people that this robot guarded are off the road, and its body has finished its fallback. To be told only
+        /// when both are so: it ends the robot's duty.
         RoadClear = 6;
         /// The requester knows of no robot nearby that has not answered its request.
         AllAnswered = 7, "all have answered";

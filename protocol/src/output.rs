@@ -27,7 +27,7 @@ words! {
         CorridorOpened(left: Millis) = 4, "corridor opened for {left}";
         /// The pedestrian may go on crossing, for this long from now.
         CorridorExtended(left: Millis) = 5, "corridor open for another {left}";
-        /// The pedestrian may not cross from now on.
+        /// The pedestrian may not cross from now on. People may still be on the road.
         CorridorClosed(why: CorridorClosure) = 6, "corridor closed: {why}";
         /// Keep station id, certificate and link address from now on.
         LockIdentity = 7;
@@ -283,7 +283,7 @@ words! {
         IdentityLocked = 58;
         /// The identity has been locked for too long; it must be unlocked before the next session.
         IdentityLockLimit = 8;
-        /// This boot counter's numbers are used up; persist a larger one.
+        /// This boot counter's numbers are used up; persist a larger one and tell `EpochRenewed`.
         NumbersExhausted = 59;
         /// No such timer is armed.
         TimerNotArmed = 60;

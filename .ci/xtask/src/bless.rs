@@ -14,7 +14,15 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 12] = [
+const GENERATED: [Generated; 14] = [
+    Generated {
+        path: "protocol/src: the words, in other languages",
+        by: "cargo test -p crossguard-protocol --test languages",
+    },
+    Generated {
+        path: "protocol/words.md",
+        by: "cargo test -p crossguard-protocol --test words",
+    },
     Generated {
         path: "protocol/src/task.rs: the named tasks, in other languages",
         by: "cargo test -p crossguard-testkit --test named_tasks",

@@ -91,13 +91,13 @@ enum CrossguardState
   : uint8_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // No part in a session.
+  // Stages 1 and 5: no part in a session.
   CROSSGUARD_STATE_IDLE = 0,
-  // Asks for help, or offers it.
+  // Stage 2: asks for help, or offers it.
   CROSSGUARD_STATE_HELP_REQUESTED = 1,
-  // Has a role; nothing is executed.
+  // Stage 3: has a role; nothing is executed.
   CROSSGUARD_STATE_ROLE_ESTABLISHED = 2,
-  // A maneuver is executed.
+  // Stage 4: a maneuver is executed.
   CROSSGUARD_STATE_MANEUVER_EXECUTING = 3,
 };
 #ifndef __cplusplus
@@ -154,7 +154,7 @@ typedef uint8_t CrossguardTask;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// How urgent a request for help is.
+// How urgent a request for help is, lowest first.
 enum CrossguardUrgency
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
@@ -204,8 +204,7 @@ typedef uint8_t CrossguardUnavailability;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a follower does with a running maneuver at every end but a completed crossing: contact lost,
-// session aborted, left, or not listed any more.
+// What a follower does with a running maneuver at every end but a completed crossing: contact lost, session aborted, left, or not listed any more.
 enum CrossguardFallback
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
@@ -246,7 +245,7 @@ enum CrossguardProgress
   CROSSGUARD_PROGRESS_COMPLETED = 4,
   // It ended without success.
   CROSSGUARD_PROGRESS_FAILED = 5,
-  // It was stopped because contact with the leader was lost.
+  // It was stopped by the fallback policy because contact with the leader was lost.
   CROSSGUARD_PROGRESS_SAFE_IDLE = 6,
 };
 #ifndef __cplusplus
@@ -320,43 +319,39 @@ typedef uint8_t CrossguardDuty;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What happened in the robot itself.
+// An event of the robot's own application.
 enum CrossguardEventKind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // A pedestrian needs help that takes more robots than this one: `urgency`, `followers`, `tasks`,
-  // `place`.
+  // A pedestrian needs help that takes more robots than this one. With `urgency`, `followers`, `tasks`, `place`.
   CROSSGUARD_EVENT_KIND_PEDESTRIAN_DETECTED = 0,
-  // The leader's application wants a follower to do a maneuver: `station`, `task`, `parameters`.
+  // The leader's application wants a follower to do a maneuver. With `station`, `task`, `parameters`.
   CROSSGUARD_EVENT_KIND_COMMAND_MANEUVER = 1,
-  // The body holds the place from which the maneuver that was started guards: `session`, `request`.
-  // To be told only when the body is there: the leader lets people on the road by it.
+  // The body holds the place from which the maneuver that was started guards. To be told only when the body is there: the leader lets people on the road by it. With `session`, `request`.
   CROSSGUARD_EVENT_KIND_IN_POSITION = 2,
-  // The maneuver that was started has been finished: `session`, `request`.
+  // The maneuver that was started has been finished. With `session`, `request`.
   CROSSGUARD_EVENT_KIND_MANEUVER_COMPLETED = 3,
-  // The maneuver that was started cannot be finished: `session`, `request`.
+  // The maneuver that was started cannot be finished. With `session`, `request`.
   CROSSGUARD_EVENT_KIND_MANEUVER_FAILED = 4,
-  // The pedestrian has crossed and nobody is on the road; the session may end.
+  // The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off the road.
   CROSSGUARD_EVENT_KIND_TASK_COMPLETED = 5,
-  // The people that this robot guarded are off the road, and its body has finished its fallback. To be
-  // told only when both are so: it ends the robot's duty.
+  // The people that this robot guarded are off the road, and its body has finished its fallback. To be told only when both are so: it ends the robot's duty.
   CROSSGUARD_EVENT_KIND_ROAD_CLEAR = 6,
   // The requester knows of no robot nearby that has not answered its request.
   CROSSGUARD_EVENT_KIND_ALL_ANSWERED = 7,
   // The robot wants to leave whatever session it is in.
   CROSSGUARD_EVENT_KIND_LEAVE_REQUESTED = 8,
-  // The robot became available or unavailable: `unavailability`.
+  // The robot became available or unavailable. With `unavailability`.
   CROSSGUARD_EVENT_KIND_AVAILABILITY_CHANGED = 9,
   // The leader's application wants to let the pedestrian cross.
   CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR = 10,
   // The leader's application wants to hold the pedestrian back again.
   CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR = 11,
-  // The robot has changed its pseudonym: `station`. Only while the identity is not locked. Its numbers begin anew
-  // at `session.number`, which it must never have given out under this station id; 0 to go on counting.
+  // The robot has changed its pseudonym; only possible while the identity is not locked. Where a number is given, those of its sessions and offers begin anew there, so that they do not tell that the two pseudonyms are one robot. Under this station id, no number from there on may have been given out before. With `station`, `session.number`.
   CROSSGUARD_EVENT_KIND_IDENTITY_CHANGED = 12,
-  // A larger boot counter has been persisted, as an output `RenewEpoch` asked: `boot`.
+  // A larger boot counter has been persisted, as the output `RenewEpoch` asked. With `boot`.
   CROSSGUARD_EVENT_KIND_EPOCH_RENEWED = 13,
 };
 #ifndef __cplusplus
@@ -375,31 +370,27 @@ enum CrossguardOutputKind
  {
   // Send a packet: `message`, and where packet and message are among the packets of the turn.
   CROSSGUARD_OUTPUT_KIND_SEND = 0,
-  // Start a maneuver: `session`, `request`, `task`, `parameters`.
+  // Start this maneuver. The acknowledgement stands before it in the list. With `session`, `request`, `task`.
   CROSSGUARD_OUTPUT_KIND_START_MANEUVER = 1,
-  // Stop a maneuver: `session`, `request`, `task`, `reason`.
+  // Stop this maneuver. With `session`, `request`, `task`, `reason`.
   CROSSGUARD_OUTPUT_KIND_STOP_MANEUVER = 2,
-  // End a maneuver by its task's policy: as before, and `policy`. The robot is on duty until it is told
-  // `RoadClear`.
+  // End this maneuver by the task's policy. The robot is on duty until the application says `RoadClear`. With `session`, `request`, `task`, `policy`.
   CROSSGUARD_OUTPUT_KIND_FALL_BACK = 3,
-  // The pedestrian may cross from now on, for `open_ms`. What shows it must end by itself then, without
-  // this robot's help.
+  // The pedestrian may cross from now on, for this long. What shows it must end by itself then, without this robot's help. With `open_ms`.
   CROSSGUARD_OUTPUT_KIND_CORRIDOR_OPENED = 4,
-  // The pedestrian may go on crossing, for `open_ms` from now.
+  // The pedestrian may go on crossing, for this long from now. With `open_ms`.
   CROSSGUARD_OUTPUT_KIND_CORRIDOR_EXTENDED = 5,
-  // The pedestrian may not cross from now on: `reason`, and `station` where it is about one. People may
-  // still be on the road.
+  // The pedestrian may not cross from now on. People may still be on the road. With `reason`, `station`.
   CROSSGUARD_OUTPUT_KIND_CORRIDOR_CLOSED = 6,
   // Keep station id, certificate and link address from now on.
   CROSSGUARD_OUTPUT_KIND_LOCK_IDENTITY = 7,
   // Station id, certificate and link address may change again.
   CROSSGUARD_OUTPUT_KIND_UNLOCK_IDENTITY = 8,
-  // Half of this boot counter's numbers are given out: persist a larger one, and then tell
-  // `EpochRenewed`.
+  // Half of this boot counter's numbers are given out: persist a larger one, and then tell `EpochRenewed`.
   CROSSGUARD_OUTPUT_KIND_RENEW_EPOCH = 9,
-  // Know this: `notice`, and what that says.
+  // Tell the application. With `notice`.
   CROSSGUARD_OUTPUT_KIND_NOTICE = 10,
-  // Know that what was told or heard changed nothing: `reason`, and `station` where it is about one.
+  // The input changed nothing, for this reason. With `reason`, `station`.
   CROSSGUARD_OUTPUT_KIND_IGNORED = 11,
 };
 #ifndef __cplusplus
@@ -410,7 +401,7 @@ typedef uint8_t CrossguardOutputKind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// News for the application. In parentheses is which fields of the output are set besides.
+// News for the application.
 enum CrossguardNotice
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
@@ -418,45 +409,45 @@ enum CrossguardNotice
  {
   // None.
   CROSSGUARD_NOTICE_NONE = 0,
-  // Leader: the followers are confirmed (`session`).
+  // Leader: the followers are confirmed; the session has its roles. With `session`.
   CROSSGUARD_NOTICE_ROLES_ESTABLISHED = 1,
-  // Leader: a follower has taken its role (`station`).
+  // Leader: this follower has taken its role. With `station`.
   CROSSGUARD_NOTICE_FOLLOWER_JOINED = 2,
-  // Leader: a follower has no part in the session any more (`station`, `reason`).
+  // Leader: this follower has no part in the session any more. With `station`, `reason`.
   CROSSGUARD_NOTICE_FOLLOWER_GONE = 3,
-  // Leader: the lease on a follower stands (`station`).
+  // Leader: this follower's lease stands. With `station`.
   CROSSGUARD_NOTICE_LEASE_GRANTED = 4,
-  // Leader: the lease on a follower has run out (`station`).
+  // Leader: this follower's lease has run out. With `station`.
   CROSSGUARD_NOTICE_LEASE_EXPIRED = 5,
-  // Leader: a command was acknowledged (`station`, `session`, `request`).
+  // Leader: this follower acknowledged this command. With `station`, `session`, `request`.
   CROSSGUARD_NOTICE_COMMAND_ACKNOWLEDGED = 6,
-  // Leader: a command was rejected (`station`, `session`, `request`, `reason`).
+  // Leader: this follower rejected this command. With `station`, `session`, `request`, `reason`.
   CROSSGUARD_NOTICE_COMMAND_REJECTED = 7,
-  // Leader: a follower reports that it executes a command (`station`, `session`, `request`).
+  // Leader: this follower reports that it executes this command. With `station`, `session`, `request`.
   CROSSGUARD_NOTICE_MANEUVER_REPORTED = 8,
-  // Leader: a follower reports that it guards from its place (`station`, `session`, `request`).
+  // Leader: this follower reports that it guards from its place. With `station`, `session`, `request`.
   CROSSGUARD_NOTICE_MANEUVER_IN_POSITION = 9,
-  // Leader: a follower finished a command (`station`, `session`, `request`).
+  // Leader: this follower finished this command. With `station`, `session`, `request`.
   CROSSGUARD_NOTICE_MANEUVER_COMPLETED = 10,
-  // Leader: a command failed (`station`, `session`, `request`, `reason`).
+  // Leader: this command failed. With `station`, `session`, `request`, `reason`.
   CROSSGUARD_NOTICE_MANEUVER_FAILED = 11,
-  // Leader: a follower fell back (`station`, `session`, `request`).
+  // Leader: this follower fell back; it is idle in safety. With `station`, `session`, `request`.
   CROSSGUARD_NOTICE_FOLLOWER_SAFE_IDLE = 12,
-  // Requester: the offer of a helper has lapsed (`station`).
+  // Requester: the offer of this helper has lapsed. With `station`.
   CROSSGUARD_NOTICE_OFFER_LAPSED = 13,
-  // Leader: yields the place to another leader; the session ends once the road is clear (`station`).
+  // Leader: yields the place to this leader. The session ends once the road is clear. With `station`.
   CROSSGUARD_NOTICE_YIELDED = 14,
-  // Requester or leader: the session is over (`session`, `reason`, `station` if withdrawn for one).
+  // Requester or leader: the session is over. With `session`, `reason`, `station`.
   CROSSGUARD_NOTICE_SESSION_ENDED = 15,
-  // Helper: offers to take part in a session (`session`).
+  // Helper: offers to take part in this session. With `session`.
   CROSSGUARD_NOTICE_OFFERING = 16,
-  // Follower: takes part in a session (`session`).
+  // Follower: takes part in this session. With `session`.
   CROSSGUARD_NOTICE_JOINED = 17,
-  // Helper or follower: has no part in a session any more (`session`, `reason`).
+  // Helper or follower: has no part in this session any more. With `session`, `reason`.
   CROSSGUARD_NOTICE_RELEASED = 18,
-  // Follower: contact with the leader is lost (`session`).
+  // Follower: contact with the leader is lost. With `session`.
   CROSSGUARD_NOTICE_CONTACT_LOST = 19,
-  // Follower: contact with the leader is back (`session`).
+  // Follower: contact with the leader is back. With `session`.
   CROSSGUARD_NOTICE_CONTACT_REGAINED = 20,
 };
 #ifndef __cplusplus
@@ -477,7 +468,7 @@ enum CrossguardReason
   CROSSGUARD_REASON_NONE = 0,
   // A newer command takes its place.
   CROSSGUARD_REASON_SUPERSEDED = 1,
-  // The session ended otherwise than by a completed crossing.
+  // The leader named the session as ended otherwise.
   CROSSGUARD_REASON_SESSION_ENDED = 2,
   // The leader does not list this robot.
   CROSSGUARD_REASON_NOT_LISTED = 3,
@@ -487,51 +478,51 @@ enum CrossguardReason
   CROSSGUARD_REASON_CONTACT_LOST = 5,
   // The application asked to leave.
   CROSSGUARD_REASON_LEAVE_REQUESTED = 6,
-  // The robot that it is about is unavailable.
+  // The robot is unavailable.
   CROSSGUARD_REASON_UNAVAILABLE = 7,
-  // The identity must be unlocked before anything else.
+  // The identity has been locked for too long; it must be unlocked before the next session.
   CROSSGUARD_REASON_IDENTITY_LOCK_LIMIT = 8,
-  // The crossing is completed, as the leader's application said.
+  // The leader named the session as ended: the crossing is completed.
   CROSSGUARD_REASON_TASK_COMPLETED = 9,
   // `T_help` ran out before enough helpers were found.
   CROSSGUARD_REASON_NO_HELP = 10,
-  // The request of `station` at the same place goes before, or it leads there already.
+  // The request of this station at the same place goes before, or it leads there already.
   CROSSGUARD_REASON_WITHDRAWN = 11,
   // No follower is left.
   CROSSGUARD_REASON_NO_FOLLOWERS = 12,
   // The request numbers are used up; a new session follows at once.
   CROSSGUARD_REASON_RENEWED = 13,
-  // The follower named the session as left.
+  // It named the session as left.
   CROSSGUARD_REASON_LEFT = 14,
-  // The follower did not acknowledge a command, however often it was repeated.
+  // It did not acknowledge a command, however often it was repeated.
   CROSSGUARD_REASON_NO_ACKNOWLEDGEMENT = 15,
-  // The follower was without a lease for too long.
+  // It was without a lease for too long.
   CROSSGUARD_REASON_NO_CONTACT = 16,
-  // The robot cannot do such a task.
+  // The robot can do none of the tasks that are asked for.
   CROSSGUARD_REASON_UNSUPPORTED_TASK = 17,
-  // Fewer followers are left than the task requires.
+  // The corridor cannot open because fewer followers are left than the task requires.
   CROSSGUARD_REASON_FOLLOWER_MISSING = 18,
-  // The place is yielded to the leader `station`.
+  // The place is yielded to this leader.
   CROSSGUARD_REASON_YIELDED = 19,
   // The application asked for it.
   CROSSGUARD_REASON_APPLICATION = 20,
-  // The leader has no lease on the follower.
+  // The leader has no lease on it.
   CROSSGUARD_REASON_NO_LEASE = 21,
-  // The follower has a command that it has not acknowledged.
+  // The follower has not acknowledged the command before.
   CROSSGUARD_REASON_COMMAND_OUTSTANDING = 22,
-  // The robot executes no such maneuver, or has not reported that it does.
+  // The robot executes no such maneuver.
   CROSSGUARD_REASON_NOT_EXECUTING = 23,
-  // The follower's task does not guard a pedestrian.
+  // Its task does not guard a pedestrian.
   CROSSGUARD_REASON_NOT_GUARDING = 24,
-  // The follower's task guards from a place, and it has not reported that it is there.
+  // Its task guards from a place, and it has not reported that it is there.
   CROSSGUARD_REASON_NOT_IN_POSITION = 25,
-  // The follower finished its task.
+  // It finished its task.
   CROSSGUARD_REASON_COMPLETED = 26,
-  // The robot could not do the maneuver.
+  // The robot could not do it.
   CROSSGUARD_REASON_MANEUVER_FAILED = 27,
-  // The leader's execution limit `T_exec` ran out.
+  // The leader's execution limit `T_exec` ran out. Never in a RAM.
   CROSSGUARD_REASON_EXECUTION_LIMIT = 28,
-  // The follower fell back for lack of contact.
+  // It fell back for lack of contact.
   CROSSGUARD_REASON_SAFE_IDLE = 29,
   // The message carries this robot's own station id.
   CROSSGUARD_REASON_OWN_STATION = 30,
@@ -547,7 +538,7 @@ enum CrossguardReason
   CROSSGUARD_REASON_ECHO_FROM_FUTURE = 35,
   // The command is older than the newest one of the session.
   CROSSGUARD_REASON_OLD_COMMAND = 36,
-  // The station is not a follower in this session.
+  // The sender is not a follower in this session.
   CROSSGUARD_REASON_NOT_A_FOLLOWER = 37,
   // The followers are already confirmed.
   CROSSGUARD_REASON_ROLES_ALREADY_ASSIGNED = 38,
@@ -555,8 +546,7 @@ enum CrossguardReason
   CROSSGUARD_REASON_NOT_OUTSTANDING = 39,
   // The request or leader does not go before this robot's own.
   CROSSGUARD_REASON_LOWER_PRECEDENCE = 40,
-  // The request or leader goes before, but does not count yet: it was not heard before with an older
-  // heartbeat, or another one was noted less than a period ago.
+  // The request or leader goes before, but does not count yet: it was not heard before with an older heartbeat, or another one was noted less than a period ago.
   CROSSGUARD_REASON_FIRST_HEARD = 41,
   // The request or leader is of another place.
   CROSSGUARD_REASON_OTHER_PLACE = 42,
@@ -568,13 +558,13 @@ enum CrossguardReason
   CROSSGUARD_REASON_OTHER_OFFER = 45,
   // The list names an offer that this robot never made.
   CROSSGUARD_REASON_NEVER_OFFERED = 46,
-  // The helper's `t_safety_ms` is too short for this robot's lease.
+  // The helper's `t_safety` is too short for this robot's lease.
   CROSSGUARD_REASON_TIMERS_DO_NOT_FIT = 47,
   // The robot has a duty on the road, of which its application has not said that it is over.
   CROSSGUARD_REASON_ON_DUTY = 48,
   // People may be on the road, so no guard is taken off it and no session is renewed.
   CROSSGUARD_REASON_ROAD_OCCUPIED = 49,
-  // The identity lock or an execution limit leaves less time than `t_cross_ms`.
+  // The identity lock or an execution limit leaves less time than `t_cross`.
   CROSSGUARD_REASON_NOT_ENOUGH_TIME = 50,
   // The robot has a part in a session already.
   CROSSGUARD_REASON_IN_SESSION = 51,

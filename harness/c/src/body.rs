@@ -4,11 +4,11 @@ use crossguard_codec::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, Heard, JobRole, Measurement,
     Position, PublicSignal, RobotCategory, RobotState, SignalMeans, SignalsShown, SlowState,
 };
-use crossguard_protocol::{Availability, Decimetres, Input};
+use crossguard_protocol::{Decimetres, Input};
 
 use crate::abi::{CrossguardBody, CrossguardHeard, CrossguardMessage};
 use crate::place::PlainPlace;
-use crate::why::unavailability;
+use crate::view::unavailability;
 
 /// A quantity, if it is known.
 pub(crate) fn known(quantity: f64) -> Option<f64> {
@@ -70,10 +70,7 @@ impl CrossguardHeard {
             distance_m: or_nan(distance.map(|distance| f64::from(distance.0) / 10.0)),
             station: heard.from.0,
             message: CrossguardMessage::Ram as u8,
-            unavailability: unavailability(match heard.availability {
-                Some(Availability::Unavailable(why)) => Some(why),
-                Some(Availability::Available) | None => None,
-            }),
+            unavailability: heard.availability.map_or(0, unavailability),
             on_duty: on_duty.into(),
             signal_means: shown.map_or(0, |shown| shown.means.0),
             to_vehicles: shown.map_or(0, |shown| signal_code(shown.to_vehicles)),
@@ -233,7 +230,7 @@ fn control_mode(code: u8) -> Option<ControlMode> {
 #[cfg(test)]
 mod tests {
     use crossguard_codec::{Identifiers, RAM_LEN_MAX, encode_into, ram_from};
-    use crossguard_protocol::{Robot, StationId};
+    use crossguard_protocol::{Availability, Robot, StationId};
 
     use super::*;
 

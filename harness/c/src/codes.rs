@@ -1,4 +1,4 @@
-//! What the codes that cross the boundary mean. They are numbered in the order of the protocol's enumerations.
+//! What the codes that cross the boundary mean. Those of the protocol's words are written from its table.
 
 /// What became of a call.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,36 +28,6 @@ pub enum CrossguardStatus {
     Unsupported = 10,
 }
 
-/// The state of the paper's finite-state model.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardState {
-    /// No part in a session.
-    Idle = 0,
-    /// Asks for help, or offers it.
-    HelpRequested = 1,
-    /// Has a role; nothing is executed.
-    RoleEstablished = 2,
-    /// A maneuver is executed.
-    ManeuverExecuting = 3,
-}
-
-/// A robot's role in a session.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardRole {
-    /// No part in a session.
-    None = 0,
-    /// Asks for help.
-    Requester = 1,
-    /// Offers help.
-    Helper = 2,
-    /// Leads.
-    Leader = 3,
-    /// Follows.
-    Follower = 4,
-}
-
 /// Task types that have names; a robot may give meaning to the others, up to 15.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
@@ -70,85 +40,6 @@ pub enum CrossguardTask {
     /// Hold back one direction of traffic.
     Block = 2,
     // </named tasks>
-}
-
-/// How urgent a request for help is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardUrgency {
-    /// Nobody waits at the kerb yet.
-    Low = 0,
-    /// A pedestrian waits.
-    Medium = 1,
-    /// A pedestrian who needs more help than others waits.
-    High = 2,
-    /// A pedestrian is on the road.
-    Emergency = 3,
-}
-
-/// Why a robot takes no part in coordination.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardUnavailability {
-    /// It takes part.
-    None = 0,
-    /// The battery is below the robot's limit.
-    LowBattery = 1,
-    /// A person steers the robot.
-    Teleoperated = 2,
-    /// The emergency stop is engaged.
-    EmergencyStop = 3,
-    /// A fault of the robot.
-    LocalFault = 4,
-    /// The application holds it unsafe to act.
-    NotSafe = 5,
-}
-
-/// What a follower does with a running maneuver at every end but a completed crossing: contact lost,
-/// session aborted, left, or not listed any more.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardFallback {
-    /// Stop where it stands.
-    StopInPlace = 0,
-    /// Leave the carriageway for the safe position that the application knows.
-    GoToSafePosition = 1,
-    /// Stay at the side of the escorted person to the nearer kerb, then stop.
-    EscortToKerb = 2,
-    /// Hold the position and the traffic until the carriageway is clear, then stop.
-    HoldUntilClear = 3,
-}
-
-/// How far a command is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardProgress {
-    /// There is none, or it was not acknowledged.
-    None = 0,
-    /// It is acknowledged, and nothing is reported yet.
-    Acknowledged = 1,
-    /// The maneuver runs, and the body is under way.
-    Executing = 2,
-    /// The maneuver runs, and the body holds the place from which it guards.
-    InPosition = 3,
-    /// It was finished.
-    Completed = 4,
-    /// It ended without success.
-    Failed = 5,
-    /// It was stopped because contact with the leader was lost.
-    SafeIdle = 6,
-}
-
-/// The corridor of a leader.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardCorridor {
-    /// Nobody may cross, and nobody is on the road.
-    Clear = 0,
-    /// The pedestrian may cross.
-    Open = 1,
-    /// Nobody may cross any more, and people may still be on the road.
-    Clearing = 2,
 }
 
 /// A duty on the road that outlives its command or its session. It ends with an event `RoadClear`.
@@ -175,42 +66,196 @@ pub enum CrossguardMessage {
     Rmcm = 2,
 }
 
-/// What happened in the robot itself.
+// <words>
+
+/// The state of the paper's finite-state model.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardState {
+    /// Stages 1 and 5: no part in a session.
+    Idle = 0,
+    /// Stage 2: asks for help, or offers it.
+    HelpRequested = 1,
+    /// Stage 3: has a role; nothing is executed.
+    RoleEstablished = 2,
+    /// Stage 4: a maneuver is executed.
+    ManeuverExecuting = 3,
+}
+
+/// A robot's role in a session.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardRole {
+    /// No part in a session.
+    None = 0,
+    /// Asks for help.
+    Requester = 1,
+    /// Offers help.
+    Helper = 2,
+    /// Leads.
+    Leader = 3,
+    /// Follows.
+    Follower = 4,
+}
+
+/// How urgent a request for help is, lowest first.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardUrgency {
+    /// Nobody waits at the kerb yet.
+    Low = 0,
+    /// A pedestrian waits.
+    Medium = 1,
+    /// A pedestrian who needs more help than others waits.
+    High = 2,
+    /// A pedestrian is on the road.
+    Emergency = 3,
+}
+
+/// What a follower does with a running maneuver at every end but a completed crossing: contact lost, session aborted, left, or not listed any more.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardFallback {
+    /// Stop where it stands.
+    StopInPlace = 0,
+    /// Leave the carriageway for the safe position that the application knows.
+    GoToSafePosition = 1,
+    /// Stay at the side of the escorted person to the nearer kerb, then stop.
+    EscortToKerb = 2,
+    /// Hold the position and the traffic until the carriageway is clear, then stop.
+    HoldUntilClear = 3,
+}
+
+/// The corridor of a leader.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardCorridor {
+    /// Nobody may cross, and nobody is on the road.
+    Clear = 0,
+    /// The pedestrian may cross.
+    Open = 1,
+    /// Nobody may cross any more, and people may still be on the road.
+    Clearing = 2,
+}
+
+/// An event of the robot's own application.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum CrossguardEventKind {
-    /// A pedestrian needs help that takes more robots than this one: `urgency`, `followers`, `tasks`,
-    /// `place`.
+    /// A pedestrian needs help that takes more robots than this one. With `urgency`, `followers`, `tasks`, `place`.
     PedestrianDetected = 0,
-    /// The leader's application wants a follower to do a maneuver: `station`, `task`, `parameters`.
+    /// The leader's application wants a follower to do a maneuver. With `station`, `task`, `parameters`.
     CommandManeuver = 1,
-    /// The body holds the place from which the maneuver that was started guards: `session`, `request`.
-    /// To be told only when the body is there: the leader lets people on the road by it.
+    /// The body holds the place from which the maneuver that was started guards. To be told only when the body is there: the leader lets people on the road by it. With `session`, `request`.
     InPosition = 2,
-    /// The maneuver that was started has been finished: `session`, `request`.
+    /// The maneuver that was started has been finished. With `session`, `request`.
     ManeuverCompleted = 3,
-    /// The maneuver that was started cannot be finished: `session`, `request`.
+    /// The maneuver that was started cannot be finished. With `session`, `request`.
     ManeuverFailed = 4,
-    /// The pedestrian has crossed and nobody is on the road; the session may end.
+    /// The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off the road.
     TaskCompleted = 5,
-    /// The people that this robot guarded are off the road, and its body has finished its fallback. To be
-    /// told only when both are so: it ends the robot's duty.
+    /// The people that this robot guarded are off the road, and its body has finished its fallback. To be told only when both are so: it ends the robot's duty.
     RoadClear = 6,
     /// The requester knows of no robot nearby that has not answered its request.
     AllAnswered = 7,
     /// The robot wants to leave whatever session it is in.
     LeaveRequested = 8,
-    /// The robot became available or unavailable: `unavailability`.
+    /// The robot became available or unavailable. With `unavailability`.
     AvailabilityChanged = 9,
     /// The leader's application wants to let the pedestrian cross.
     OpenCorridor = 10,
     /// The leader's application wants to hold the pedestrian back again.
     CloseCorridor = 11,
-    /// The robot has changed its pseudonym: `station`. Only while the identity is not locked. Its numbers begin anew
-    /// at `session.number`, which it must never have given out under this station id; 0 to go on counting.
+    /// The robot has changed its pseudonym; only possible while the identity is not locked. Where a number is given, those of its sessions and offers begin anew there, so that they do not tell that the two pseudonyms are one robot. Under this station id, no number from there on may have been given out before. With `station`, `session.number`.
     IdentityChanged = 12,
-    /// A larger boot counter has been persisted, as an output `RenewEpoch` asked: `boot`.
+    /// A larger boot counter has been persisted, as the output `RenewEpoch` asked. With `boot`.
     EpochRenewed = 13,
+}
+
+/// Why a robot takes no part in coordination.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardUnavailability {
+    /// It takes part.
+    None = 0,
+    /// The battery is below the robot's limit.
+    LowBattery = 1,
+    /// A person steers the robot.
+    Teleoperated = 2,
+    /// The emergency stop is engaged.
+    EmergencyStop = 3,
+    /// A fault of the robot.
+    LocalFault = 4,
+    /// The application holds it unsafe to act.
+    NotSafe = 5,
+}
+
+/// How far a command is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardProgress {
+    /// There is none, or it was not acknowledged.
+    None = 0,
+    /// It is acknowledged, and nothing is reported yet.
+    Acknowledged = 1,
+    /// The maneuver runs, and the body is under way.
+    Executing = 2,
+    /// The maneuver runs, and the body holds the place from which it guards.
+    InPosition = 3,
+    /// It was finished.
+    Completed = 4,
+    /// It ended without success.
+    Failed = 5,
+    /// It was stopped by the fallback policy because contact with the leader was lost.
+    SafeIdle = 6,
+}
+
+/// News for the application.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum CrossguardNotice {
+    /// None.
+    None = 0,
+    /// Leader: the followers are confirmed; the session has its roles. With `session`.
+    RolesEstablished = 1,
+    /// Leader: this follower has taken its role. With `station`.
+    FollowerJoined = 2,
+    /// Leader: this follower has no part in the session any more. With `station`, `reason`.
+    FollowerGone = 3,
+    /// Leader: this follower's lease stands. With `station`.
+    LeaseGranted = 4,
+    /// Leader: this follower's lease has run out. With `station`.
+    LeaseExpired = 5,
+    /// Leader: this follower acknowledged this command. With `station`, `session`, `request`.
+    CommandAcknowledged = 6,
+    /// Leader: this follower rejected this command. With `station`, `session`, `request`, `reason`.
+    CommandRejected = 7,
+    /// Leader: this follower reports that it executes this command. With `station`, `session`, `request`.
+    ManeuverReported = 8,
+    /// Leader: this follower reports that it guards from its place. With `station`, `session`, `request`.
+    ManeuverInPosition = 9,
+    /// Leader: this follower finished this command. With `station`, `session`, `request`.
+    ManeuverCompleted = 10,
+    /// Leader: this command failed. With `station`, `session`, `request`, `reason`.
+    ManeuverFailed = 11,
+    /// Leader: this follower fell back; it is idle in safety. With `station`, `session`, `request`.
+    FollowerSafeIdle = 12,
+    /// Requester: the offer of this helper has lapsed. With `station`.
+    OfferLapsed = 13,
+    /// Leader: yields the place to this leader. The session ends once the road is clear. With `station`.
+    Yielded = 14,
+    /// Requester or leader: the session is over. With `session`, `reason`, `station`.
+    SessionEnded = 15,
+    /// Helper: offers to take part in this session. With `session`.
+    Offering = 16,
+    /// Follower: takes part in this session. With `session`.
+    Joined = 17,
+    /// Helper or follower: has no part in this session any more. With `session`, `reason`.
+    Released = 18,
+    /// Follower: contact with the leader is lost. With `session`.
+    ContactLost = 19,
+    /// Follower: contact with the leader is back. With `session`.
+    ContactRegained = 20,
 }
 
 /// What the robot is to do.
@@ -219,80 +264,28 @@ pub enum CrossguardEventKind {
 pub enum CrossguardOutputKind {
     /// Send a packet: `message`, and where packet and message are among the packets of the turn.
     Send = 0,
-    /// Start a maneuver: `session`, `request`, `task`, `parameters`.
+    /// Start this maneuver. The acknowledgement stands before it in the list. With `session`, `request`, `task`.
     StartManeuver = 1,
-    /// Stop a maneuver: `session`, `request`, `task`, `reason`.
+    /// Stop this maneuver. With `session`, `request`, `task`, `reason`.
     StopManeuver = 2,
-    /// End a maneuver by its task's policy: as before, and `policy`. The robot is on duty until it is told
-    /// `RoadClear`.
+    /// End this maneuver by the task's policy. The robot is on duty until the application says `RoadClear`. With `session`, `request`, `task`, `policy`.
     FallBack = 3,
-    /// The pedestrian may cross from now on, for `open_ms`. What shows it must end by itself then, without
-    /// this robot's help.
+    /// The pedestrian may cross from now on, for this long. What shows it must end by itself then, without this robot's help. With `open_ms`.
     CorridorOpened = 4,
-    /// The pedestrian may go on crossing, for `open_ms` from now.
+    /// The pedestrian may go on crossing, for this long from now. With `open_ms`.
     CorridorExtended = 5,
-    /// The pedestrian may not cross from now on: `reason`, and `station` where it is about one. People may
-    /// still be on the road.
+    /// The pedestrian may not cross from now on. People may still be on the road. With `reason`, `station`.
     CorridorClosed = 6,
     /// Keep station id, certificate and link address from now on.
     LockIdentity = 7,
     /// Station id, certificate and link address may change again.
     UnlockIdentity = 8,
-    /// Half of this boot counter's numbers are given out: persist a larger one, and then tell
-    /// `EpochRenewed`.
+    /// Half of this boot counter's numbers are given out: persist a larger one, and then tell `EpochRenewed`.
     RenewEpoch = 9,
-    /// Know this: `notice`, and what that says.
+    /// Tell the application. With `notice`.
     Notice = 10,
-    /// Know that what was told or heard changed nothing: `reason`, and `station` where it is about one.
+    /// The input changed nothing, for this reason. With `reason`, `station`.
     Ignored = 11,
-}
-
-/// News for the application. In parentheses is which fields of the output are set besides.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[repr(u8)]
-pub enum CrossguardNotice {
-    /// None.
-    None = 0,
-    /// Leader: the followers are confirmed (`session`).
-    RolesEstablished = 1,
-    /// Leader: a follower has taken its role (`station`).
-    FollowerJoined = 2,
-    /// Leader: a follower has no part in the session any more (`station`, `reason`).
-    FollowerGone = 3,
-    /// Leader: the lease on a follower stands (`station`).
-    LeaseGranted = 4,
-    /// Leader: the lease on a follower has run out (`station`).
-    LeaseExpired = 5,
-    /// Leader: a command was acknowledged (`station`, `session`, `request`).
-    CommandAcknowledged = 6,
-    /// Leader: a command was rejected (`station`, `session`, `request`, `reason`).
-    CommandRejected = 7,
-    /// Leader: a follower reports that it executes a command (`station`, `session`, `request`).
-    ManeuverReported = 8,
-    /// Leader: a follower reports that it guards from its place (`station`, `session`, `request`).
-    ManeuverInPosition = 9,
-    /// Leader: a follower finished a command (`station`, `session`, `request`).
-    ManeuverCompleted = 10,
-    /// Leader: a command failed (`station`, `session`, `request`, `reason`).
-    ManeuverFailed = 11,
-    /// Leader: a follower fell back (`station`, `session`, `request`).
-    FollowerSafeIdle = 12,
-    /// Requester: the offer of a helper has lapsed (`station`).
-    OfferLapsed = 13,
-    /// Leader: yields the place to another leader; the session ends once the road is clear (`station`).
-    Yielded = 14,
-    /// Requester or leader: the session is over (`session`, `reason`, `station` if withdrawn for one).
-    SessionEnded = 15,
-    /// Helper: offers to take part in a session (`session`).
-    Offering = 16,
-    /// Follower: takes part in a session (`session`).
-    Joined = 17,
-    /// Helper or follower: has no part in a session any more (`session`, `reason`).
-    Released = 18,
-    /// Follower: contact with the leader is lost (`session`).
-    ContactLost = 19,
-    /// Follower: contact with the leader is back (`session`).
-    ContactRegained = 20,
 }
 
 /// Why something is as it is. With `Unavailable`, the output's `unavailability` says more.
@@ -303,7 +296,7 @@ pub enum CrossguardReason {
     None = 0,
     /// A newer command takes its place.
     Superseded = 1,
-    /// The session ended otherwise than by a completed crossing.
+    /// The leader named the session as ended otherwise.
     SessionEnded = 2,
     /// The leader does not list this robot.
     NotListed = 3,
@@ -313,51 +306,51 @@ pub enum CrossguardReason {
     ContactLost = 5,
     /// The application asked to leave.
     LeaveRequested = 6,
-    /// The robot that it is about is unavailable.
+    /// The robot is unavailable.
     Unavailable = 7,
-    /// The identity must be unlocked before anything else.
+    /// The identity has been locked for too long; it must be unlocked before the next session.
     IdentityLockLimit = 8,
-    /// The crossing is completed, as the leader's application said.
+    /// The leader named the session as ended: the crossing is completed.
     TaskCompleted = 9,
     /// `T_help` ran out before enough helpers were found.
     NoHelp = 10,
-    /// The request of `station` at the same place goes before, or it leads there already.
+    /// The request of this station at the same place goes before, or it leads there already.
     Withdrawn = 11,
     /// No follower is left.
     NoFollowers = 12,
     /// The request numbers are used up; a new session follows at once.
     Renewed = 13,
-    /// The follower named the session as left.
+    /// It named the session as left.
     Left = 14,
-    /// The follower did not acknowledge a command, however often it was repeated.
+    /// It did not acknowledge a command, however often it was repeated.
     NoAcknowledgement = 15,
-    /// The follower was without a lease for too long.
+    /// It was without a lease for too long.
     NoContact = 16,
-    /// The robot cannot do such a task.
+    /// The robot can do none of the tasks that are asked for.
     UnsupportedTask = 17,
-    /// Fewer followers are left than the task requires.
+    /// The corridor cannot open because fewer followers are left than the task requires.
     FollowerMissing = 18,
-    /// The place is yielded to the leader `station`.
+    /// The place is yielded to this leader.
     Yielded = 19,
     /// The application asked for it.
     Application = 20,
-    /// The leader has no lease on the follower.
+    /// The leader has no lease on it.
     NoLease = 21,
-    /// The follower has a command that it has not acknowledged.
+    /// The follower has not acknowledged the command before.
     CommandOutstanding = 22,
-    /// The robot executes no such maneuver, or has not reported that it does.
+    /// The robot executes no such maneuver.
     NotExecuting = 23,
-    /// The follower's task does not guard a pedestrian.
+    /// Its task does not guard a pedestrian.
     NotGuarding = 24,
-    /// The follower's task guards from a place, and it has not reported that it is there.
+    /// Its task guards from a place, and it has not reported that it is there.
     NotInPosition = 25,
-    /// The follower finished its task.
+    /// It finished its task.
     Completed = 26,
-    /// The robot could not do the maneuver.
+    /// The robot could not do it.
     ManeuverFailed = 27,
-    /// The leader's execution limit `T_exec` ran out.
+    /// The leader's execution limit `T_exec` ran out. Never in a RAM.
     ExecutionLimit = 28,
-    /// The follower fell back for lack of contact.
+    /// It fell back for lack of contact.
     SafeIdle = 29,
     /// The message carries this robot's own station id.
     OwnStation = 30,
@@ -373,7 +366,7 @@ pub enum CrossguardReason {
     EchoFromFuture = 35,
     /// The command is older than the newest one of the session.
     OldCommand = 36,
-    /// The station is not a follower in this session.
+    /// The sender is not a follower in this session.
     NotAFollower = 37,
     /// The followers are already confirmed.
     RolesAlreadyAssigned = 38,
@@ -381,8 +374,7 @@ pub enum CrossguardReason {
     NotOutstanding = 39,
     /// The request or leader does not go before this robot's own.
     LowerPrecedence = 40,
-    /// The request or leader goes before, but does not count yet: it was not heard before with an older
-    /// heartbeat, or another one was noted less than a period ago.
+    /// The request or leader goes before, but does not count yet: it was not heard before with an older heartbeat, or another one was noted less than a period ago.
     FirstHeard = 41,
     /// The request or leader is of another place.
     OtherPlace = 42,
@@ -394,13 +386,13 @@ pub enum CrossguardReason {
     OtherOffer = 45,
     /// The list names an offer that this robot never made.
     NeverOffered = 46,
-    /// The helper's `t_safety_ms` is too short for this robot's lease.
+    /// The helper's `t_safety` is too short for this robot's lease.
     TimersDoNotFit = 47,
     /// The robot has a duty on the road, of which its application has not said that it is over.
     OnDuty = 48,
     /// People may be on the road, so no guard is taken off it and no session is renewed.
     RoadOccupied = 49,
-    /// The identity lock or an execution limit leaves less time than `t_cross_ms`.
+    /// The identity lock or an execution limit leaves less time than `t_cross`.
     NotEnoughTime = 50,
     /// The robot has a part in a session already.
     InSession = 51,
@@ -425,3 +417,4 @@ pub enum CrossguardReason {
     /// The session is over, and this robot is naming another one as over or left.
     AnsweringAnother = 61,
 }
+// </words>

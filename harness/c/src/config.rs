@@ -4,16 +4,15 @@ use core::ffi::c_char;
 
 use crossguard_codec::{Identifiers, MessageIdentifiers};
 use crossguard_protocol::{
-    Availability, BrokenInequality, Config, Event, FallbackPolicy, HelpRequest, ManeuverId, Millis,
-    Place, RequestId, Settings, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
-    Urgency,
+    Availability, BrokenInequality, Config, Event, EventKind, FallbackPolicy, HelpRequest,
+    ManeuverId, Millis, Place, RequestId, Settings, StationId, TaskSet, TaskType, Unavailability,
+    UniqueNumber, Urgency,
 };
 
 use crate::abi::{
     CROSSGUARD_NAME_LEN, CROSSGUARD_TASKS, CrossguardConfig, CrossguardEvent,
     CrossguardMessageIdentifiers, CrossguardSettings,
 };
-use crate::output::{policy, policy_code};
 
 const _: () = assert!(CROSSGUARD_TASKS == TaskType::COUNT);
 
@@ -45,7 +44,7 @@ impl From<&Settings> for CrossguardSettings {
     fn from(settings: &Settings) -> Self {
         let mut fallback = [0; CROSSGUARD_TASKS];
         for (code, policy) in fallback.iter_mut().zip(settings.fallback) {
-            *code = policy_code(policy);
+            *code = policy.code();
         }
         Self {
             ram_period_ms: settings.ram_period.0,
@@ -76,7 +75,7 @@ impl CrossguardSettings {
     fn to_protocol(self) -> Result<Config, Refused> {
         let mut fallback = [FallbackPolicy::StopInPlace; CROSSGUARD_TASKS];
         for (to, code) in fallback.iter_mut().zip(self.fallback) {
-            *to = policy(code).ok_or(Refused::Fallback)?;
+            *to = FallbackPolicy::of_code(code).ok_or(Refused::Fallback)?;
         }
         Config::new(Settings {
             ram_period: Millis(self.ram_period_ms),
@@ -187,26 +186,11 @@ impl CrossguardConfig {
     }
 }
 
-fn urgency(code: u8) -> Option<Urgency> {
-    Some(match code {
-        0 => Urgency::Low,
-        1 => Urgency::Medium,
-        2 => Urgency::High,
-        3 => Urgency::Emergency,
-        _ => return None,
-    })
-}
-
 fn availability(code: u8) -> Option<Availability> {
-    Some(Availability::Unavailable(match code {
-        0 => return Some(Availability::Available),
-        1 => Unavailability::LowBattery,
-        2 => Unavailability::Teleoperated,
-        3 => Unavailability::EmergencyStop,
-        4 => Unavailability::LocalFault,
-        5 => Unavailability::NotSafe,
-        _ => return None,
-    }))
+    match code {
+        0 => Some(Availability::Available),
+        code => Unavailability::of_code(code).map(Availability::Unavailable),
+    }
 }
 
 impl CrossguardEvent {
@@ -216,34 +200,35 @@ impl CrossguardEvent {
             session: self.session.into(),
             request: RequestId(self.request),
         };
-        Some(match self.kind {
-            0 => Event::PedestrianDetected(HelpRequest {
-                urgency: urgency(self.urgency)?,
+        Some(match EventKind::of_code(self.kind)? {
+            EventKind::PedestrianDetected => Event::PedestrianDetected(HelpRequest {
+                urgency: Urgency::of_code(self.urgency)?,
                 followers: self.followers,
                 tasks: TaskSet(self.tasks),
                 place: Place(self.place),
             }),
-            1 => Event::CommandManeuver {
+            EventKind::CommandManeuver => Event::CommandManeuver {
                 follower: StationId(self.station),
                 task: TaskType::new(self.task)?,
             },
-            2 => Event::InPosition(id),
-            3 => Event::ManeuverCompleted(id),
-            4 => Event::ManeuverFailed(id),
-            5 => Event::TaskCompleted,
-            6 => Event::RoadClear,
-            7 => Event::AllAnswered,
-            8 => Event::LeaveRequested,
-            9 => Event::AvailabilityChanged(availability(self.unavailability)?),
-            10 => Event::OpenCorridor,
-            11 => Event::CloseCorridor,
-            12 => {
+            EventKind::InPosition => Event::InPosition(id),
+            EventKind::ManeuverCompleted => Event::ManeuverCompleted(id),
+            EventKind::ManeuverFailed => Event::ManeuverFailed(id),
+            EventKind::TaskCompleted => Event::TaskCompleted,
+            EventKind::RoadClear => Event::RoadClear,
+            EventKind::AllAnswered => Event::AllAnswered,
+            EventKind::LeaveRequested => Event::LeaveRequested,
+            EventKind::AvailabilityChanged => {
+                Event::AvailabilityChanged(availability(self.unavailability)?)
+            }
+            EventKind::OpenCorridor => Event::OpenCorridor,
+            EventKind::CloseCorridor => Event::CloseCorridor,
+            EventKind::IdentityChanged => {
                 let next = self.session.number;
                 let next = (next > 0).then(|| UniqueNumber::from_u32(next));
                 Event::IdentityChanged(StationId(self.station), next)
             }
-            13 => Event::EpochRenewed(self.boot),
-            _ => return None,
+            EventKind::EpochRenewed => Event::EpochRenewed(self.boot),
         })
     }
 }

@@ -4,7 +4,7 @@
 //! ```text
 //!   C, C++ ──► ffi ──► live ──► crossguard_protocol::Robot::step
 //!   memory,    the     │  └───► crossguard_codec: RAM, RMCM, GeoNetworking, BTP-B
-//!   time,      only    ├─► output, why, view: plain numbers
+//!   time,      only    ├─► output, view: plain numbers
 //!   buffers    unsafe  └─► trace: lines for `crossguard validate`
 //! ```
 //!
@@ -37,7 +37,7 @@
 //! | `abi`, `codes` | the types and constants of the header |
 //! | `ffi` | the functions; the only `unsafe` |
 //! | `live` | a robot: state machine, codec stack, log |
-//! | `config`, `body`, `output`, `view`, `why`, `cause` | Rust's types as plain numbers, and back |
+//! | `config`, `body`, `output`, `view`, `cause` | Rust's types as plain numbers, and back |
 //! | `trace` | lines of the log |
 //!
 //! Features: `std` (default) links the standard library for its panic handler and nothing else, `trace`
@@ -63,7 +63,6 @@ mod place;
 mod stop;
 mod trace;
 mod view;
-mod why;
 
 pub use abi::*;
 pub use ffi::*;

@@ -1,18 +1,18 @@
 //! Outputs of the protocol as plain data.
 
 use crossguard_codec::{Target, TaskParameters};
+use crossguard_protocol::words::Said;
 use crossguard_protocol::{
-    FallbackPolicy, Maneuver, ManeuverId, Millis, Notice, Output, SessionId, SessionNumber,
-    StationId, UniqueNumber,
+    FallbackPolicy, Millis, NoticeKind, Output, OutputKind, SessionId, SessionNumber, StationId,
+    TaskType, Unavailability, UniqueNumber,
 };
 
 use crate::abi::{
-    CROSSGUARD_NO_LANE, CrossguardFallback, CrossguardNotice as Code, CrossguardOutput,
-    CrossguardOutputKind as Kind, CrossguardSession, CrossguardTaskParameters,
+    CROSSGUARD_NO_LANE, CrossguardOutput, CrossguardOutputKind as Kind, CrossguardSession,
+    CrossguardTaskParameters,
 };
 use crate::body::{known, or_nan};
 use crate::place::PlainPlace;
-use crate::why::{Why, unavailability};
 
 /// An output with nothing in it.
 const NOTHING: CrossguardOutput = CrossguardOutput {
@@ -67,150 +67,30 @@ impl CrossguardOutput {
         }
     }
 
-    fn because(self, why: impl Into<Why>) -> Self {
-        let why = why.into();
-        Self {
-            reason: why.reason as u8,
-            station: why.station.map_or(self.station, |station| station.0),
-            unavailability: unavailability(why.unavailability),
-            ..self
-        }
-    }
-
-    fn in_session(self, session: SessionId) -> Self {
-        Self {
-            session: session.into(),
-            ..self
-        }
-    }
-
-    fn about(self, id: ManeuverId) -> Self {
-        Self {
-            request: id.request.0,
-            ..self.in_session(id.session)
-        }
-    }
-
-    fn maneuver(self, maneuver: Maneuver) -> Self {
-        Self {
-            task: maneuver.task.value(),
-            ..self.about(maneuver.id)
-        }
-    }
-
-    fn news(notice: Code) -> Self {
-        Self {
-            notice: notice as u8,
-            ..Self::of(Kind::Notice)
-        }
-    }
-
-    const fn open_for(self, left: Millis) -> Self {
-        Self {
-            open_ms: left.0,
-            ..self
-        }
-    }
-
-    fn at(self, station: StationId) -> Self {
-        Self {
-            station: station.0,
-            ..self
-        }
-    }
-
     /// What `output` says; `None` for what becomes a packet. `parameters` are those of the command that
     /// the input may be.
     pub(crate) fn from_protocol(output: &Output, parameters: &TaskParameters) -> Option<Self> {
-        Some(match *output {
-            Output::SendRam | Output::SendRmcm(_) => return None,
-            Output::StartManeuver(maneuver) => Self {
-                parameters: parameters.into(),
-                ..Self::of(Kind::StartManeuver).maneuver(maneuver)
-            },
-            Output::StopManeuver(maneuver, why) => {
-                Self::of(Kind::StopManeuver).maneuver(maneuver).because(why)
-            }
-            Output::FallBack(maneuver, policy) => Self {
-                policy: policy_code(policy),
-                ..Self::of(Kind::FallBack).maneuver(maneuver)
-            },
-            Output::CorridorOpened(left) => Self::of(Kind::CorridorOpened).open_for(left),
-            Output::CorridorExtended(left) => Self::of(Kind::CorridorExtended).open_for(left),
-            Output::CorridorClosed(why) => Self::of(Kind::CorridorClosed).because(why),
-            Output::LockIdentity => Self::of(Kind::LockIdentity),
-            Output::UnlockIdentity => Self::of(Kind::UnlockIdentity),
-            Output::RenewEpoch => Self::of(Kind::RenewEpoch),
-            Output::Notify(notice) => Self::notice(notice),
-            Output::Ignored(why) => Self::of(Kind::Ignored).because(why),
+        let said = Said::by(output);
+        let parameters = match said.kind {
+            OutputKind::SendRam | OutputKind::SendRmcm => return None,
+            OutputKind::StartManeuver => parameters.into(),
+            _ => OPEN,
+        };
+        Some(Self {
+            kind: said.kind.code(),
+            notice: said.notice.map_or(0, NoticeKind::code),
+            reason: said.reason.map_or(0, |reason| reason.code),
+            unavailability: said.unavailability.map_or(0, Unavailability::code),
+            policy: said.policy.map_or(0, FallbackPolicy::code),
+            task: said.task.map_or(0, TaskType::value),
+            request: said.request.map_or(0, |request| request.0),
+            station: said.station.map_or(0, |station| station.0),
+            session: said.session.map(Into::into).unwrap_or_default(),
+            open_ms: said.open.map_or(0, |left| left.0),
+            parameters,
+            ..NOTHING
         })
     }
-
-    fn notice(notice: Notice) -> Self {
-        let news = Self::news;
-        match notice {
-            Notice::RolesEstablished(session) => news(Code::RolesEstablished).in_session(session),
-            Notice::FollowerJoined(station) => news(Code::FollowerJoined).at(station),
-            Notice::FollowerGone(station, why) => news(Code::FollowerGone).at(station).because(why),
-            Notice::LeaseGranted(station) => news(Code::LeaseGranted).at(station),
-            Notice::LeaseExpired(station) => news(Code::LeaseExpired).at(station),
-            Notice::CommandAcknowledged(station, id) => {
-                news(Code::CommandAcknowledged).at(station).about(id)
-            }
-            Notice::CommandRejected(station, id, why) => {
-                let rejected = news(Code::CommandRejected).at(station).about(id);
-                rejected.because(why)
-            }
-            Notice::ManeuverReported(station, id) => {
-                news(Code::ManeuverReported).at(station).about(id)
-            }
-            Notice::ManeuverInPosition(station, id) => {
-                news(Code::ManeuverInPosition).at(station).about(id)
-            }
-            Notice::ManeuverCompleted(station, id) => {
-                news(Code::ManeuverCompleted).at(station).about(id)
-            }
-            Notice::ManeuverFailed(station, id, why) => {
-                let failed = news(Code::ManeuverFailed).at(station).about(id);
-                failed.because(why)
-            }
-            Notice::FollowerSafeIdle(station, id) => {
-                news(Code::FollowerSafeIdle).at(station).about(id)
-            }
-            Notice::OfferLapsed(station) => news(Code::OfferLapsed).at(station),
-            Notice::Yielded(station) => news(Code::Yielded).at(station),
-            Notice::SessionEnded(session, why) => {
-                news(Code::SessionEnded).in_session(session).because(why)
-            }
-            Notice::Offering(session) => news(Code::Offering).in_session(session),
-            Notice::Joined(session) => news(Code::Joined).in_session(session),
-            Notice::Released(session, why) => news(Code::Released).in_session(session).because(why),
-            Notice::ContactLost(session) => news(Code::ContactLost).in_session(session),
-            Notice::ContactRegained(session) => news(Code::ContactRegained).in_session(session),
-        }
-    }
-}
-
-/// The code of a fallback policy.
-pub(crate) const fn policy_code(policy: FallbackPolicy) -> u8 {
-    let code = match policy {
-        FallbackPolicy::StopInPlace => CrossguardFallback::StopInPlace,
-        FallbackPolicy::GoToSafePosition => CrossguardFallback::GoToSafePosition,
-        FallbackPolicy::EscortToKerb => CrossguardFallback::EscortToKerb,
-        FallbackPolicy::HoldUntilClear => CrossguardFallback::HoldUntilClear,
-    };
-    code as u8
-}
-
-/// The fallback policy of a code.
-pub(crate) const fn policy(code: u8) -> Option<FallbackPolicy> {
-    Some(match code {
-        0 => FallbackPolicy::StopInPlace,
-        1 => FallbackPolicy::GoToSafePosition,
-        2 => FallbackPolicy::EscortToKerb,
-        3 => FallbackPolicy::HoldUntilClear,
-        _ => return None,
-    })
 }
 
 impl From<SessionId> for CrossguardSession {

@@ -1,15 +1,12 @@
 //! What a robot is doing, as plain numbers.
 
 use crossguard_protocol::{
-    Availability, Corridor, Duty, Identity, Lease, Maneuver, Member, Order, Phase, Progress, Robot,
-    Role, State,
+    Availability, Duty, Identity, Lease, Maneuver, Member, Order, Phase, Robot,
 };
 
 use crate::abi::{
-    CROSSGUARD_NONE_MS, CrossguardCorridor, CrossguardDuty, CrossguardFollower, CrossguardProgress,
-    CrossguardRole, CrossguardState, CrossguardView,
+    CROSSGUARD_NONE_MS, CrossguardDuty, CrossguardFollower, CrossguardProgress, CrossguardView,
 };
-use crate::why::unavailability;
 
 impl CrossguardView {
     /// What `robot` is doing.
@@ -20,19 +17,16 @@ impl CrossguardView {
             next_ram_ms: robot.next_ram().map_or(CROSSGUARD_NONE_MS, |due| due.0),
             session: robot.session().map(Into::into).unwrap_or_default(),
             boot: robot.boot(),
-            state: state(robot.state()),
-            role: role(robot.role()),
-            unavailability: unavailability(match robot.availability() {
-                Availability::Available => None,
-                Availability::Unavailable(why) => Some(why),
-            }),
+            state: robot.state().code(),
+            role: robot.role().code(),
+            unavailability: unavailability(robot.availability()),
             is_locked: (robot.identity() != Identity::Unlocked).into(),
             has_session: robot.session().is_some().into(),
             ..Self::default()
         };
         match robot.phase() {
             Phase::Leading(leading) => {
-                view.corridor = corridor(leading.corridor);
+                view.corridor = leading.corridor.code();
                 view.has_yielded = leading.yields_to.is_some().into();
                 view.yields_to = leading.yields_to.map_or(0, |station| station.0);
                 for (slot, member) in view.followers.iter_mut().zip(leading.members.iter()) {
@@ -43,7 +37,7 @@ impl CrossguardView {
             Phase::Following(following) => {
                 view.is_contact_lost = following.contact.is_lost().into();
                 if let Some(job) = following.job {
-                    view.progress = progress(job.progress) as u8;
+                    view.progress = job.progress.kind().code();
                     view.request = job.request.0;
                     view.task = job.task.value();
                 }
@@ -67,57 +61,25 @@ impl CrossguardView {
     }
 }
 
-const fn state(state: State) -> u8 {
-    let code = match state {
-        State::Idle => CrossguardState::Idle,
-        State::HelpRequested => CrossguardState::HelpRequested,
-        State::RoleEstablished => CrossguardState::RoleEstablished,
-        State::ManeuverExecuting => CrossguardState::ManeuverExecuting,
-    };
-    code as u8
-}
-
-const fn role(role: Role) -> u8 {
-    let code = match role {
-        Role::None => CrossguardRole::None,
-        Role::Requester => CrossguardRole::Requester,
-        Role::Helper => CrossguardRole::Helper,
-        Role::Leader => CrossguardRole::Leader,
-        Role::Follower => CrossguardRole::Follower,
-    };
-    code as u8
-}
-
-const fn corridor(corridor: Corridor) -> u8 {
-    let code = match corridor {
-        Corridor::Clear => CrossguardCorridor::Clear,
-        Corridor::Open => CrossguardCorridor::Open,
-        Corridor::Clearing => CrossguardCorridor::Clearing,
-    };
-    code as u8
-}
-
-const fn progress(progress: Progress) -> CrossguardProgress {
-    match progress {
-        Progress::Executing => CrossguardProgress::Executing,
-        Progress::InPosition => CrossguardProgress::InPosition,
-        Progress::Completed => CrossguardProgress::Completed,
-        Progress::Failed(_) => CrossguardProgress::Failed,
-        Progress::SafeIdle => CrossguardProgress::SafeIdle,
+/// The code of why a robot is unavailable; 0 where it is not.
+pub(crate) fn unavailability(availability: Availability) -> u8 {
+    match availability {
+        Availability::Available => 0,
+        Availability::Unavailable(why) => why.code(),
     }
 }
 
 fn follower(member: &Member) -> CrossguardFollower {
     let of_order = |order: Order| match order.progress {
-        None => CrossguardProgress::Acknowledged,
-        Some(reported) => progress(reported),
+        None => CrossguardProgress::Acknowledged as u8,
+        Some(reported) => reported.kind().code(),
     };
     CrossguardFollower {
         station: member.station.0,
         has_joined: member.has_joined().into(),
         has_lease: matches!(member.lease, Lease::Stands(_)).into(),
         is_outstanding: member.outstanding.is_some().into(),
-        progress: member.order.map_or(CrossguardProgress::None, of_order) as u8,
+        progress: member.order.map_or(0, of_order),
         request: member.order.map_or(0, |order| order.request.0),
         task: member.order.map_or(0, |order| order.task.value()),
         reserved: [0; 2],

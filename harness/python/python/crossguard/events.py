@@ -9,6 +9,9 @@ from ._wire import Positional, Variant
 from .types import Availability, HelpRequest, ManeuverId, TaskType, UniqueNumber
 
 
+# <words>
+
+
 @dataclass(frozen=True, slots=True)
 class PedestrianDetected(Positional):
     """A pedestrian needs help that takes more robots than this one."""
@@ -21,15 +24,13 @@ class CommandManeuver(Variant):
     """The leader's application wants a follower to do a maneuver."""
 
     follower: int
-    """Its station id."""
     task: TaskType
-    """What it is to do."""
 
 
 @dataclass(frozen=True, slots=True)
 class InPosition(Positional):
-    """The body holds the place from which the maneuver that was started guards. To be told only when the
-    body is there: people step on the road by it."""
+    """The body holds the place from which the maneuver that was started guards. To be told only when the body
+    is there: the leader lets people on the road by it."""
 
     id: ManeuverId
 
@@ -50,14 +51,14 @@ class ManeuverFailed(Positional):
 
 @dataclass(frozen=True, slots=True)
 class TaskCompleted(Variant):
-    """The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off
-    the road."""
+    """The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off the
+    road."""
 
 
 @dataclass(frozen=True, slots=True)
 class RoadClear(Variant):
-    """The people that this robot guarded are off the road, and its body has finished its fallback. To be
-    told only when both are so: it ends the robot's duty."""
+    """The people that this robot guarded are off the road, and its body has finished its fallback. To be told
+    only when both are so: it ends the robot's duty."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,17 +90,17 @@ class CloseCorridor(Variant):
 
 @dataclass(frozen=True, slots=True)
 class IdentityChanged(Positional):
-    """The robot has changed its pseudonym; only possible while the identity is not locked."""
+    """The robot has changed its pseudonym; only possible while the identity is not locked. Where a number is
+    given, those of its sessions and offers begin anew there, so that they do not tell that the two pseudonyms
+    are one robot. Under this station id, no number from there on may have been given out before."""
 
     station: int
     next: UniqueNumber | None = None
-    """Where the numbers of its sessions and offers begin anew, never given out before under this station
-    id; `None` to go on counting, which tells that both pseudonyms are one robot."""
 
 
 @dataclass(frozen=True, slots=True)
 class EpochRenewed(Positional):
-    """A larger boot counter has been persisted, as `outputs.RenewEpoch` asked."""
+    """A larger boot counter has been persisted, as the output `RenewEpoch` asked."""
 
     boot: int
 
@@ -120,3 +121,7 @@ Event: TypeAlias = (
     | IdentityChanged
     | EpochRenewed
 )
+"""An event of the robot's own application."""
+
+
+# </words>

@@ -10,6 +10,9 @@ from ._wire import Positional
 from .types import ManeuverId, SessionId
 
 
+# <words>
+
+
 @dataclass(frozen=True, slots=True)
 class RolesEstablished(Positional):
     """Leader: the followers are confirmed; the session has its roles."""
@@ -184,3 +187,7 @@ Notice: TypeAlias = (
     | ContactLost
     | ContactRegained
 )
+"""News for the application."""
+
+
+# </words>

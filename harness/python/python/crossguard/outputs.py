@@ -17,9 +17,12 @@ from .notices import Notice
 from .types import FallbackPolicy, Maneuver
 
 
+# <words>
+
+
 @dataclass(frozen=True, slots=True)
 class SendRam(Variant):
-    """Send a RAM now, with `Robot.ram` of the state after this step."""
+    """Send a RAM now, with `Robot::ram` of the state after this step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +38,7 @@ class StartManeuver(Positional):
 
     maneuver: Maneuver
     parameters: TaskParameters = TaskParameters()
-    """Where and how, by the command that an endpoint heard; the state machine itself knows nothing of
-    it."""
+    """Where and how, by the command that an endpoint heard; the state machine itself knows nothing of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +51,7 @@ class StopManeuver(Positional):
 
 @dataclass(frozen=True, slots=True)
 class FallBack(Positional):
-    """End this maneuver by the task's policy. The robot is on duty until it is told `events.RoadClear`."""
+    """End this maneuver by the task's policy. The robot is on duty until the application says `RoadClear`."""
 
     maneuver: Maneuver
     policy: FallbackPolicy
@@ -90,7 +92,7 @@ class UnlockIdentity(Variant):
 @dataclass(frozen=True, slots=True)
 class RenewEpoch(Variant):
     """Half of this boot counter's numbers are given out: persist a larger one, and then tell
-    `events.EpochRenewed`."""
+    `EpochRenewed`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +124,10 @@ Output: TypeAlias = (
     | Notify
     | Ignored
 )
-"""An output of the state machine."""
+"""One output of the transition function."""
+
+
+# </words>
 
 
 class Service(enum.Enum):

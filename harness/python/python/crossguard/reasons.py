@@ -13,6 +13,9 @@ from typing import TypeAlias
 from ._wire import Positional, Variant
 
 
+# <words>
+
+
 class Unavailability(enum.Enum):
     """Why a robot takes no part in coordination."""
 
@@ -26,228 +29,6 @@ class Unavailability(enum.Enum):
     """A fault of the robot."""
     NOT_SAFE = "notSafe"
     """The application holds it unsafe to act."""
-
-
-class GoneReason(enum.Enum):
-    """Why a leader has dropped a follower."""
-
-    LEFT = "left"
-    """It named the session as left."""
-    NO_ACKNOWLEDGEMENT = "noAcknowledgement"
-    """It did not acknowledge a command, however often it was repeated."""
-    NO_CONTACT = "noContact"
-    """It was without a lease for too long."""
-
-
-@dataclass(frozen=True, slots=True)
-class Unavailable(Positional):
-    """The robot that it is about is unavailable."""
-
-    why: Unavailability
-
-
-@dataclass(frozen=True, slots=True)
-class Superseded(Variant):
-    """A newer command takes its place."""
-
-
-@dataclass(frozen=True, slots=True)
-class TaskCompleted(Variant):
-    """The crossing is completed, as the leader's application said."""
-
-
-@dataclass(frozen=True, slots=True)
-class SessionEnded(Variant):
-    """The session ended otherwise than by a completed crossing."""
-
-
-@dataclass(frozen=True, slots=True)
-class NotListed(Variant):
-    """The leader does not list this robot."""
-
-
-@dataclass(frozen=True, slots=True)
-class ReservationExpired(Variant):
-    """`T_offer` ran out."""
-
-
-@dataclass(frozen=True, slots=True)
-class ContactLost(Variant):
-    """`T_leave` ran out without contact."""
-
-
-@dataclass(frozen=True, slots=True)
-class LeaveRequested(Variant):
-    """The application asked to leave."""
-
-
-@dataclass(frozen=True, slots=True)
-class IdentityLockLimit(Variant):
-    """The identity must be unlocked before anything else."""
-
-
-ReleaseReason: TypeAlias = (
-    TaskCompleted
-    | SessionEnded
-    | NotListed
-    | ReservationExpired
-    | ContactLost
-    | LeaveRequested
-    | Unavailable
-    | IdentityLockLimit
-)
-"""Why a helper or follower has no part in a session any more."""
-
-
-@dataclass(frozen=True, slots=True)
-class Released(Positional):
-    """The follower has no part in the session any more."""
-
-    why: ReleaseReason
-
-
-StopReason: TypeAlias = Superseded | Released | Unavailable
-"""Why a maneuver is stopped."""
-
-
-@dataclass(frozen=True, slots=True)
-class NoHelp(Variant):
-    """`T_help` ran out before enough helpers were found."""
-
-
-@dataclass(frozen=True, slots=True)
-class Withdrawn(Positional):
-    """The request of this station at the same place goes before, or it leads there already."""
-
-    station: int
-
-
-@dataclass(frozen=True, slots=True)
-class NoFollowers(Variant):
-    """No follower is left."""
-
-
-@dataclass(frozen=True, slots=True)
-class Renewed(Variant):
-    """The request numbers are used up; a new session follows at once."""
-
-
-EndReason: TypeAlias = (
-    TaskCompleted
-    | NoHelp
-    | Withdrawn
-    | NoFollowers
-    | LeaveRequested
-    | Unavailable
-    | IdentityLockLimit
-    | Renewed
-)
-"""Why a session ended."""
-
-
-@dataclass(frozen=True, slots=True)
-class UnsupportedTask(Variant):
-    """The robot can do none of the tasks that are asked for."""
-
-
-@dataclass(frozen=True, slots=True)
-class OnDuty(Variant):
-    """The robot has a duty on the road, of which its application has not said that it is over."""
-
-
-Rejection: TypeAlias = UnsupportedTask | Unavailable | OnDuty
-"""Why a follower rejects a command."""
-
-
-@dataclass(frozen=True, slots=True)
-class Maneuver(Variant):
-    """The robot could not do the maneuver."""
-
-
-@dataclass(frozen=True, slots=True)
-class ExecutionLimit(Variant):
-    """The leader's execution limit `T_exec` ran out."""
-
-
-Failure: TypeAlias = Maneuver | Unavailable | ExecutionLimit
-"""Why a maneuver ended without success."""
-
-
-@dataclass(frozen=True, slots=True)
-class NoLease(Variant):
-    """The leader has no lease on the follower."""
-
-
-@dataclass(frozen=True, slots=True)
-class CommandOutstanding(Variant):
-    """The follower has a command that it has not acknowledged."""
-
-
-@dataclass(frozen=True, slots=True)
-class NotExecuting(Variant):
-    """The robot executes no such maneuver, or has not reported that it does."""
-
-
-@dataclass(frozen=True, slots=True)
-class NotGuarding(Variant):
-    """The follower's task does not guard a pedestrian."""
-
-
-@dataclass(frozen=True, slots=True)
-class NotInPosition(Variant):
-    """The follower's task guards from a place, and it has not reported that it is there."""
-
-
-@dataclass(frozen=True, slots=True)
-class Completed(Variant):
-    """It was finished."""
-
-
-@dataclass(frozen=True, slots=True)
-class Failed(Positional):
-    """It ended without success."""
-
-    why: Failure
-
-
-@dataclass(frozen=True, slots=True)
-class SafeIdle(Variant):
-    """It was stopped by the fallback policy because contact with the leader was lost."""
-
-
-Disengagement: TypeAlias = (
-    NoLease | CommandOutstanding | NotExecuting | NotGuarding | NotInPosition | Completed | Failed | SafeIdle
-)
-"""Why a follower does not hold the corridor."""
-
-
-@dataclass(frozen=True, slots=True)
-class NotEngaged(Positional):
-    """This follower does not hold the corridor."""
-
-    station: int
-    why: Disengagement
-
-
-@dataclass(frozen=True, slots=True)
-class FollowerMissing(Variant):
-    """Fewer followers are left than the task requires."""
-
-
-@dataclass(frozen=True, slots=True)
-class Yielded(Positional):
-    """The place is yielded to this leader."""
-
-    station: int
-
-
-@dataclass(frozen=True, slots=True)
-class Application(Variant):
-    """The application asked for it."""
-
-
-CorridorClosure: TypeAlias = NotEngaged | FollowerMissing | SessionEnded | Yielded | Application
-"""Why the corridor closed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -343,7 +124,12 @@ class NeverOffered(Variant):
 
 @dataclass(frozen=True, slots=True)
 class TimersDoNotFit(Variant):
-    """The helper's `t_safety_ms` is too short for this robot's lease."""
+    """The helper's `t_safety` is too short for this robot's lease."""
+
+
+@dataclass(frozen=True, slots=True)
+class OnDuty(Variant):
+    """The robot has a duty on the road, of which its application has not said that it is over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -353,7 +139,7 @@ class RoadOccupied(Variant):
 
 @dataclass(frozen=True, slots=True)
 class NotEnoughTime(Variant):
-    """The identity lock or an execution limit leaves less time than `t_cross_ms`."""
+    """The identity lock or an execution limit leaves less time than `t_cross`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -372,6 +158,23 @@ class NotInSession(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class NotExecuting(Variant):
+    """The robot executes no such maneuver."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unavailable(Positional):
+    """The robot is unavailable."""
+
+    why: Unavailability
+
+
+@dataclass(frozen=True, slots=True)
+class UnsupportedTask(Variant):
+    """The robot can do none of the tasks that are asked for."""
+
+
+@dataclass(frozen=True, slots=True)
 class ImpossibleRequest(Variant):
     """The number of followers is zero or above the limit, or no task is asked for."""
 
@@ -379,6 +182,11 @@ class ImpossibleRequest(Variant):
 @dataclass(frozen=True, slots=True)
 class NotJoined(Variant):
     """The follower has not taken its role yet."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandOutstanding(Variant):
+    """The follower has not acknowledged the command before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -392,18 +200,165 @@ class CorridorClosed(Variant):
 
 
 @dataclass(frozen=True, slots=True)
+class NotEngaged(Positional):
+    """The corridor cannot open because this follower is not engaged."""
+
+    station: int
+    why: Disengagement
+
+
+@dataclass(frozen=True, slots=True)
+class FollowerMissing(Variant):
+    """The corridor cannot open because fewer followers are left than the task requires."""
+
+
+@dataclass(frozen=True, slots=True)
 class IdentityLocked(Variant):
     """The identity is locked."""
 
 
 @dataclass(frozen=True, slots=True)
+class IdentityLockLimit(Variant):
+    """The identity has been locked for too long; it must be unlocked before the next session."""
+
+
+@dataclass(frozen=True, slots=True)
 class NumbersExhausted(Variant):
-    """This boot counter's numbers are used up; persist a larger one and tell `events.EpochRenewed`."""
+    """This boot counter's numbers are used up; persist a larger one and tell `EpochRenewed`."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimerNotArmed(Variant):
     """No such timer is armed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Superseded(Variant):
+    """A newer command takes its place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Released(Positional):
+    """The follower has no part in the session any more."""
+
+    why: ReleaseReason
+
+
+@dataclass(frozen=True, slots=True)
+class TaskCompleted(Variant):
+    """The leader named the session as ended: the crossing is completed."""
+
+
+@dataclass(frozen=True, slots=True)
+class SessionEnded(Variant):
+    """The leader named the session as ended otherwise."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotListed(Variant):
+    """The leader does not list this robot."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReservationExpired(Variant):
+    """`T_offer` ran out."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactLost(Variant):
+    """`T_leave` ran out without contact."""
+
+
+@dataclass(frozen=True, slots=True)
+class LeaveRequested(Variant):
+    """The application asked to leave."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoHelp(Variant):
+    """`T_help` ran out before enough helpers were found."""
+
+
+@dataclass(frozen=True, slots=True)
+class Withdrawn(Positional):
+    """The request of this station at the same place goes before, or it leads there already."""
+
+    station: int
+
+
+@dataclass(frozen=True, slots=True)
+class NoFollowers(Variant):
+    """No follower is left."""
+
+
+@dataclass(frozen=True, slots=True)
+class Renewed(Variant):
+    """The request numbers are used up; a new session follows at once."""
+
+
+class GoneReason(enum.Enum):
+    """Why a leader has dropped a follower."""
+
+    LEFT = "left"
+    """It named the session as left."""
+    NO_ACKNOWLEDGEMENT = "noAcknowledgement"
+    """It did not acknowledge a command, however often it was repeated."""
+    NO_CONTACT = "noContact"
+    """It was without a lease for too long."""
+
+
+@dataclass(frozen=True, slots=True)
+class Yielded(Positional):
+    """The place is yielded to this leader."""
+
+    station: int
+
+
+@dataclass(frozen=True, slots=True)
+class Application(Variant):
+    """The application asked for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoLease(Variant):
+    """The leader has no lease on it."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotGuarding(Variant):
+    """Its task does not guard a pedestrian."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotInPosition(Variant):
+    """Its task guards from a place, and it has not reported that it is there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Completed(Variant):
+    """It finished its task."""
+
+
+@dataclass(frozen=True, slots=True)
+class Failed(Positional):
+    """Its task failed."""
+
+    why: Failure
+
+
+@dataclass(frozen=True, slots=True)
+class SafeIdle(Variant):
+    """It fell back for lack of contact."""
+
+
+@dataclass(frozen=True, slots=True)
+class Maneuver(Variant):
+    """The robot could not do it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExecutionLimit(Variant):
+    """The leader's execution limit `T_exec` ran out. Never in a RAM."""
 
 
 Ignored: TypeAlias = (
@@ -448,3 +403,61 @@ Ignored: TypeAlias = (
     | TimerNotArmed
 )
 """Why an input changed nothing."""
+
+
+StopReason: TypeAlias = Superseded | Released | Unavailable
+"""Why a maneuver is stopped."""
+
+
+ReleaseReason: TypeAlias = (
+    TaskCompleted
+    | SessionEnded
+    | NotListed
+    | ReservationExpired
+    | ContactLost
+    | LeaveRequested
+    | Unavailable
+    | IdentityLockLimit
+)
+"""Why a helper or follower has no part in a session any more."""
+
+
+EndReason: TypeAlias = (
+    TaskCompleted
+    | NoHelp
+    | Withdrawn
+    | NoFollowers
+    | LeaveRequested
+    | Unavailable
+    | IdentityLockLimit
+    | Renewed
+)
+"""Why a session ended."""
+
+
+CorridorClosure: TypeAlias = NotEngaged | FollowerMissing | SessionEnded | Yielded | Application
+"""Why the corridor closed."""
+
+
+Disengagement: TypeAlias = (
+    NoLease
+    | CommandOutstanding
+    | NotExecuting
+    | NotGuarding
+    | NotInPosition
+    | Completed
+    | Failed
+    | SafeIdle
+)
+"""Why a follower does not hold the corridor."""
+
+
+Failure: TypeAlias = Maneuver | Unavailable | ExecutionLimit
+"""Why a maneuver ended without success."""
+
+
+Rejection: TypeAlias = UnsupportedTask | Unavailable | OnDuty
+"""Why a follower rejects a command."""
+
+
+# </words>

@@ -8,6 +8,9 @@ from typing import TypeAlias
 from ._wire import Positional, Variant
 
 
+# <words>
+
+
 @dataclass(frozen=True, slots=True)
 class Safety(Variant):
     """Follower: `T_safety`, since the newest heartbeat or command."""
@@ -22,28 +25,28 @@ class Leave(Variant):
 class Lease(Positional):
     """Leader: the lease on this follower."""
 
-    station: int
+    follower: int
 
 
 @dataclass(frozen=True, slots=True)
 class Lost(Positional):
     """Leader: how long this follower is kept without a lease."""
 
-    station: int
+    follower: int
 
 
 @dataclass(frozen=True, slots=True)
 class Execution(Positional):
     """Leader: `T_exec` of this follower's command."""
 
-    station: int
+    follower: int
 
 
 @dataclass(frozen=True, slots=True)
 class Acknowledgement(Positional):
     """Leader: `T_ack` of this follower's outstanding command."""
 
-    station: int
+    follower: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +58,7 @@ class Help(Variant):
 class Offer(Positional):
     """Requester: how long the offer of this helper stands without a newer echo."""
 
-    station: int
+    helper: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,3 +101,7 @@ Timer: TypeAlias = (
     | Farewell
     | Ram
 )
+"""The timers of a robot. A timer exists only in the state that needs it."""
+
+
+# </words>

@@ -14,6 +14,9 @@ from . import reasons
 from ._wire import Variant
 
 
+# <words>
+
+
 class State(enum.Enum):
     """The state of the paper's finite-state model."""
 
@@ -67,6 +70,9 @@ class FallbackPolicy(enum.Enum):
     """Stay at the side of the escorted person to the nearer kerb, then stop."""
     HOLD_UNTIL_CLEAR = "holdUntilClear"
     """Hold the position and the traffic until the carriageway is clear, then stop."""
+
+
+# </words>
 
 
 class TaskType(enum.IntEnum):
