@@ -1,26 +1,31 @@
 //! Time of one transition, in the situations that an endpoint meets most and at worst.
 
-#[path = "../tests/script/mod.rs"]
+#[path = "../tests/it/script.rs"]
 mod script;
 
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use crossguard_protocol::{Event, Input, Millis, Robot, TaskType};
-use script::{ARI, GO2, NAO, NEAR, PEPPER, SPOT, Street};
+use crossguard_protocol::{Input, Millis, Robot, TaskType};
+use script::{ARI, GO2, NAO, NEAR, PEPPER, SPOT, Street, order};
+
+fn team_of_four() -> Street {
+    Street::with_roles(&[ARI, GO2, SPOT, NAO, PEPPER])
+}
 
 fn steps(criterion: &mut Criterion) {
     let pair = Street::with_roles(&[ARI, GO2]);
-    let team = Street::with_roles(&[ARI, GO2, SPOT, NAO, PEPPER]);
+    let team = team_of_four();
     let executing = Street::executing(TaskType::MOVE);
+    let mut commanded = team_of_four();
+    for follower in [GO2, SPOT, NAO, PEPPER] {
+        commanded.part(ARI, follower);
+        commanded.tell(ARI, order(follower, TaskType::MOVE));
+    }
     let heard = |ram_of: &Robot| Input::Ram {
         ram: ram_of.ram(),
         distance: NEAR,
     };
-    let order = Input::Local(Event::CommandManeuver {
-        follower: GO2,
-        task: TaskType::MOVE,
-    });
     let situations = [
         (
             "20 ms pass, idle",
@@ -57,7 +62,16 @@ fn steps(criterion: &mut Criterion) {
             team[ARI].clone(),
             heard(&team[PEPPER]),
         ),
-        ("a command given, leading four", team[ARI].clone(), order),
+        (
+            "a command given, leading four",
+            team[ARI].clone(),
+            Input::Local(order(GO2, TaskType::MOVE)),
+        ),
+        (
+            "four commands unacknowledged, all timers due",
+            commanded[ARI].clone(),
+            Input::Elapsed(Millis(600)),
+        ),
         (
             "contact with all four lost",
             team[ARI].clone(),

@@ -189,6 +189,3 @@ impl Following {
             }
     }
 }
-
-#[cfg(test)]
-mod tests;
