@@ -24,7 +24,7 @@ const GENERATED: [Generated; 14] = [
         by: "cargo test -p crossguard-protocol --test words",
     },
     Generated {
-        path: "protocol/src/task.rs: the named tasks, in other languages",
+        path: "protocol/src: words and named tasks, in other languages",
         by: "cargo test -p crossguard-testkit --test named_tasks",
     },
     Generated {

@@ -1,10 +1,14 @@
 //! The named tasks are the same in every language: those of `TaskType::NAMED`. `CROSSGUARD_BLESS=1`
-//! writes them where they stand between `<named tasks>` and `</named tasks>`.
+//! writes them where they stand between `<named tasks>` and `</named tasks>`. The messages of ROS 2 have the words of
+//! the protocol as well.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crossguard_protocol::TaskType;
+use crossguard_protocol::words::Words;
+use crossguard_protocol::{
+    Corridor, FallbackPolicy, Notice, Output, Progress, Role, State, TaskType, Unavailability,
+};
 
 /// A name of a task in the spelling of a language.
 fn spelled(name: &str, word: impl Fn(usize, &str) -> String) -> String {
@@ -137,13 +141,64 @@ fn python_has_the_named_tasks() {
     });
 }
 
+/// Constants of a message: a word is itself, in the spelling of who says it.
+fn constants(
+    prefix: &str,
+    words: &Words,
+    but: &[&str],
+    spelling: impl Fn(&str) -> String,
+) -> String {
+    let told = words.words.iter().filter(|it| !but.contains(&it.variant));
+    let line = |it: &crossguard_protocol::words::Word| {
+        let (first, rest) = it.variant.split_at(1);
+        let name = upper(&(first.to_lowercase() + rest));
+        let (meaning, word) = (it.meaning, spelling(it.name));
+        format!("# {meaning}\nstring {prefix}{name}=\"{word}\"\n")
+    };
+    told.map(line).collect()
+}
+
 #[test]
-fn ros_2_has_the_named_tasks() {
-    let tasks =
-        of_each(|value, name, meaning| format!("# {meaning}\nuint8 {}={value}\n", upper(name)));
-    assert_named("harness/ros2/crossguard_msgs/msg/Task.msg", |text| {
-        between_marks(text, "named tasks", "#", &tasks)
+fn ros_2_has_the_words() {
+    let as_it_is = |name: &str| name.to_owned();
+    let kebab = |name: &str| lower(name).replace('_', "-");
+    let assert_words = |file: &str, parts: &[(&str, String)]| {
+        assert_named(&format!("harness/ros2/{file}"), |text| {
+            let part = |text: String, (mark, words): &(&str, String)| {
+                between_marks(&text, mark, "#", words)
+            };
+            parts.iter().fold(text.to_owned(), part)
+        });
+    };
+    let tasks = of_each(|_, name, meaning| {
+        let constant = upper(name);
+        format!("# {meaning}\nstring {constant}=\"{name}\"\n")
     });
+    let policies = constants("", &FallbackPolicy::WORDS, &[], kebab);
+    assert_words(
+        "crossguard_msgs/action/Maneuver.action",
+        &[("named tasks", tasks), ("policies", policies)],
+    );
+    // What is told by the lines of others, or by nobody.
+    let untold = ["SendRam", "SendRmcm", "Notify"];
+    let events = constants("", &Output::WORDS, &untold, as_it_is)
+        + &constants("", &Notice::WORDS, &[], as_it_is);
+    assert_words("crossguard_msgs/msg/Event.msg", &[("words", events)]);
+    let progress = constants("", &Progress::WORDS, &[], as_it_is);
+    assert_words("crossguard_msgs/msg/Follower.msg", &[("words", progress)]);
+    let words = constants("STATE_", &State::WORDS, &[], as_it_is)
+        + &constants("ROLE_", &Role::WORDS, &[], as_it_is)
+        + &constants("CORRIDOR_", &Corridor::WORDS, &[], as_it_is);
+    let why = constants("", &Unavailability::WORDS, &[], as_it_is);
+    assert_words(
+        "crossguard_msgs/msg/Status.msg",
+        &[("words", words), ("unavailability", why)],
+    );
+    let tasks = of_each(|value, name, _| format!("    {value}: \"{name}\",\n"));
+    assert_words(
+        "crossguard_ros/crossguard_ros/node.py",
+        &[("named tasks", tasks)],
+    );
 }
 
 #[test]

@@ -1,0 +1,392 @@
+"""A robot of `crossguard run` in a ROS 2 system: joins topics, the action of maneuvers and diagnostics to its ports.
+
+Nothing is decided here: what a robot does is decided by `crossguard run`, and what it may be told, too. Each turn of the
+node takes in the lines that the ports have, and tells them; what comes from the graph goes out as lines at once.
+"""
+
+import json
+import math
+import os
+import socket
+import sys
+import time
+
+import rclpy
+from action_msgs.msg import GoalStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from geometry_msgs.msg import PoseStamped
+from rclpy.action import ActionClient
+from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import BatteryState
+from std_msgs.msg import Empty, String
+
+from crossguard_msgs.action import Maneuver
+from crossguard_msgs.msg import Corridor, Event, Follower, Person, Session, Status
+
+VERSION = 1
+TURN_S = 0.02
+SHOWN_S = 0.3  # a corridor is shown no longer than this after its line
+STATUS_S = 1.0
+
+TASKS = {
+    # <named tasks>
+    0: "initialPos",
+    1: "move",
+    2: "block",
+    # </named tasks>
+}
+
+
+def task_of(number):
+    """What a task is called."""
+    return "" if number is None else TASKS.get(number, f"task{number}")
+
+
+def is_visible(environment):
+    """Whether others than this machine may be on the ROS graph, as far as its environment tells."""
+    own = ["ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER", "FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE",
+           "CYCLONEDDS_URI", "ZENOH_SESSION_CONFIG_URI", "ZENOH_CONFIG_OVERRIDE"]
+    if any(environment.get(name) for name in own):
+        return True
+    if environment.get("ROS_LOCALHOST_ONLY") == "1":
+        return False
+    # Humble does not know this one.
+    known = environment.get("ROS_DISTRO") != "humble"
+    return not known or environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE") not in ("LOCALHOST", "OFF")
+
+
+class Port:
+    """Lines of JSON, from and to `crossguard run`."""
+
+    def __init__(self, address):
+        self.address, self.link, self.text, self.heard = address, None, b"", 0.0
+
+    def connect(self):
+        """Whether it is connected now. It said hello, then."""
+        host, _, port = self.address.rpartition(":")
+        link = socket.socket(socket.AF_UNIX if host == "unix" else socket.AF_INET)
+        try:
+            link.settimeout(0.1)
+            link.connect(port if host == "unix" else (host, int(port)))
+        except OSError:
+            link.close()
+            return False
+        link.setblocking(False)
+        self.link, self.text, self.heard = link, b"", time.monotonic()
+        return self.say("hello", crossguard=VERSION)
+
+    def close(self):
+        if self.link:
+            self.link.close()
+        self.link = None
+
+    def say(self, kind, **more):
+        """Whether it was taken; who takes no line any more is not there."""
+        line = (json.dumps({"type": kind, **more}) + "\n").encode()
+        try:
+            if self.link and self.link.send(line) == len(line):
+                return True
+        except OSError:
+            pass
+        self.close()
+        return False
+
+    def lines(self):
+        """What has come. The port is closed after the last one if the other side has closed it."""
+        while self.link:
+            try:
+                octets = self.link.recv(65536)
+            except BlockingIOError:
+                break
+            except OSError:
+                octets = b""
+            if not octets:
+                self.close()
+            else:
+                self.text, self.heard = self.text + octets, time.monotonic()
+        *lines, self.text = self.text.split(b"\n")
+        return [json.loads(line) for line in lines]
+
+
+class Body:
+    """The body port: each act is a goal of the action `maneuver`, and poses are the heartbeat of the body."""
+
+    def __init__(self, node, address, silence_s):
+        self.node, self.port, self.silence_s = node, Port(address), silence_s
+        self.goal = self.hold = None  # the newest one
+        self.pose = self.place = None  # not said yet; where and when it was before
+        self.client = ActionClient(node, Maneuver, "~/maneuver")
+        self.beat = node.create_publisher(Empty, "~/beat", 1)
+        quality = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        node.create_subscription(PoseStamped, "~/pose", self.moved, quality)
+
+    def moved(self, message):
+        frame = message.header.frame_id
+        if frame not in ("", "site"):
+            return self.node.refuse(f"a pose in frame {frame}: it is wanted on the site")
+        place, now = (message.pose.position.x, message.pose.position.y), time.monotonic()
+        before, self.place = self.place, (place, now)
+        speed = math.dist(place, before[0]) / (now - before[1]) if before and now > before[1] else 0.0
+        z, w = message.pose.orientation.z, message.pose.orientation.w
+        heading = 90.0 - math.degrees(2 * math.atan2(z, w))
+        self.pose = dict(east_m=place[0], north_m=place[1], heading_deg=heading % 360.0, speed_mps=speed)
+
+    def turn(self, late_s):
+        if late_s > self.silence_s:  # it was held: what has come meanwhile is of no use any more
+            self.port.close()
+        # Nobody is a body before it says where it is, and it is one for as long as it does.
+        if not self.port.link and self.pose and self.client.server_is_ready():
+            self.port.connect()
+        lines = self.port.lines()
+        if not self.port.link:
+            self.pose = None
+            return self.stand()
+        for line in lines:
+            self.act(line)
+        if lines:
+            self.beat.publish(Empty())
+        if self.goal and time.monotonic() - self.port.heard > self.silence_s:
+            done = self.goal["done"]
+            self.stand()
+            done(False)
+        if self.pose:
+            self.port.say("pose", **self.pose)
+            self.pose = None
+
+    def act(self, line):
+        kind, to = line["type"], line.get("to")
+        goal = Maneuver.Goal(has_target=bool(to))
+        if to:
+            goal.target.x, goal.target.y = to["east_m"], to["north_m"]
+            goal.latitude, goal.longitude = to["latitude"], to["longitude"]
+        if kind == "start":
+            report, maneuver = line["report"], line["id"]
+            goal.task, goal.hold = line["task"], report == "in-position"
+            goal.speed = line["speed_mps"] or 0.0
+            goal.pedestrian_distance = line["pedestrian_distance_m"] or 0.0
+            goal.has_heading = line["heading_deg"] is not None
+            goal.heading = math.radians(90.0 - (line["heading_deg"] or 0.0))
+            self.begin(goal, lambda is_done: self.port.say(report if is_done else "failed", id=maneuver))
+        elif kind == "fall-back":
+            goal.policy, policy = line["policy"], line["policy"]
+            self.begin(goal, lambda is_done: self.port.say("fallen-back") if is_done else
+                       self.port.say("fault", text=f"the body did not finish {policy}"))
+        elif kind == "go":
+            self.begin(goal, lambda is_done: None)
+        elif kind in ("stop", "halt") or kind == "release" and self.holds():
+            self.stand()
+        elif kind == "refused":
+            self.node.get_logger().error(f"the body port refuses this node: {line['why']}")
+
+    def holds(self):
+        return self.goal and self.goal["asked"].policy == Maneuver.Goal.HOLD_UNTIL_CLEAR
+
+    def begin(self, asked, done):
+        """Sends a goal; `done` hears whether the body did it, unless another one takes its place."""
+        self.stand()
+        goal = self.goal = {"asked": asked, "done": done, "handle": None}
+
+        def end(is_done):
+            if self.goal is goal:
+                self.goal = None
+                done(is_done)
+
+        def told(feedback):
+            if self.goal is goal and asked.hold and feedback.feedback.in_position and not goal.get("said"):
+                goal["said"] = True
+                done(True)
+
+        def answered(future):
+            handle = goal["handle"] = future.result()
+            if not handle.accepted:
+                return end(False)
+            if self.goal is not goal:
+                handle.cancel_goal_async()
+            # Who holds a place, and ends, has left it.
+            handle.get_result_async().add_done_callback(
+                lambda result: end(result.result().status == GoalStatus.STATUS_SUCCEEDED and not asked.hold))
+
+        if self.client.server_is_ready():
+            self.client.send_goal_async(asked, feedback_callback=told).add_done_callback(answered)
+        else:
+            end(False)
+
+    def stand(self):
+        goal, self.goal = self.goal, None
+        if goal and goal["handle"] and goal["handle"].accepted:
+            goal["handle"].cancel_goal_async()
+
+
+class Operator:
+    """The operator port: commands and people go in; corridor, status and events come out."""
+
+    def __init__(self, node, address):
+        self.node, self.port = node, Port(address)
+        self.robot = self.said = self.offset = None
+        self.told = self.asked = 0.0
+        self.drops = {}
+        self.corridor = node.create_publisher(Corridor, "~/corridor", 1)
+        self.status = node.create_publisher(Status, "~/status", 1)
+        self.events = node.create_publisher(Event, "~/event", 100)
+        node.create_subscription(String, "~/command", lambda it: self.say("command", line=it.data), 10)
+        node.create_subscription(Person, "~/perceived", self.perceive, 10)
+        node.create_subscription(BatteryState, "~/battery", self.charge, 10)
+
+    def trusts(self):
+        return bool(self.robot and self.robot["trusts_ros_graph"])
+
+    def say(self, kind, **more):
+        if not self.robot:
+            self.node.refuse("the robot is not there")
+        elif not self.trusts():
+            self.node.refuse("the robot takes signed packets only, and its file does not say trust_ros_graph")
+        else:
+            self.port.say(kind, **more)
+
+    def perceive(self, person):
+        at, by = person.position, person.velocity
+        self.say("person", id=person.id, position_m=[at.x, at.y], velocity_mps=[by.x, by.y],
+                 confidence=person.confidence, **({"class": person.kind} if person.kind else {}))
+
+    def charge(self, battery):
+        if math.isfinite(battery.percentage):
+            is_charging = battery.power_supply_status == BatteryState.POWER_SUPPLY_STATUS_CHARGING
+            self.say("command", line=f"battery {100 * battery.percentage:.0f}{' charging' if is_charging else ''}")
+
+    def turn(self):
+        if not self.port.link and time.monotonic() - self.asked > 10 * TURN_S:
+            self.asked = time.monotonic()
+            self.port.connect()
+        for line in self.port.lines():
+            self.hear(line)
+        if not self.port.link and self.robot:
+            self.robot = self.said = self.offset = None
+
+    def hear(self, line):
+        kind = line["type"]
+        if kind == "hello":
+            self.robot = line
+        elif kind == "state" and self.robot:
+            self.tell(line)
+        elif kind in ("act", "notice", "ignored", "refused", "dropped", "stopped"):
+            if kind == "dropped":
+                cause = f"{line['layer']}: {line['cause']}"
+                self.drops[cause] = self.drops.get(cause, 0) + line.get("count", 1)
+            self.event(line.get("output") or line.get("notice") or kind, line)
+
+    def event(self, kind, line):
+        text = line.get("text") or line.get("why") or line.get("detail", "")
+        what = line.get("event") or line.get("cause")
+        event = Event(kind=kind, text=f"{what}: {text}" if what else text, station=line.get("station", 0),
+                      request=line.get("request", 0), task=task_of(line.get("task")),
+                      reason=line.get("reason", ""), unavailability=line.get("unavailability", ""))
+        event.header.stamp = self.node.now()
+        event.in_session, event.session = self.session(line.get("session"))
+        self.events.publish(event)
+
+    def session(self, of):
+        return bool(of), Session(**of) if of else Session()
+
+    def tell(self, line):
+        """Tells a state: the corridor of each line, and the rest when it changes or a second is over."""
+        now = time.monotonic()
+        # A line that waited, here or in the socket, is older than the quickest one would be.
+        passed = now - line["at_us"] / 1e6
+        self.offset = passed if self.offset is None else min(passed, self.offset)
+        left = min(line.get("open_ms", 0) / 1e3, SHOWN_S) - (passed - self.offset)
+        corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["road_occupied"],
+                            valid_for=Duration(seconds=max(left, 0.0)).to_msg())
+        corridor.header.stamp = self.node.now()
+        self.corridor.publish(corridor)
+        what = {name: value for name, value in line.items() if name not in ("at_us", "open_ms")}
+        if what == self.said and now - self.told < STATUS_S:
+            return
+        self.said, self.told = what, now
+        executes = line.get("executes", {})
+        status = Status(robot=self.robot["robot"], corridor=line.get("corridor", Status.CORRIDOR_CLEAR),
+                        task=task_of(executes.get("task")), request=executes.get("request", 0),
+                        yields_to=line.get("yields_to", 0), duty=line.get("duty", ""),
+                        duty_request=line.get("duty_request", 0))
+        for name in ("station", "boot", "state", "role", "availability"):
+            setattr(status, name, line[name])
+        status.header.stamp = self.node.now()
+        status.in_session, status.session = self.session(line.get("session"))
+        _, status.duty_session = self.session(line.get("duty_session"))
+        status.followers = [
+            Follower(station=it["station"], has_joined=it["has_joined"], task=task_of(it.get("task")),
+                     progress=it.get("progress", ""), has_lease=it["has_lease"]) for it in line.get("followers", [])]
+        self.status.publish(status)
+
+
+class Crossguard(Node):
+    """The node."""
+
+    def __init__(self):
+        super().__init__("crossguard")
+        trusts = self.declare_parameter("trust_ros_graph", False).value
+        body = self.declare_parameter("body", "").value
+        operator = self.declare_parameter("operator", "").value
+        silence_s = self.declare_parameter("silence", 0.5).value
+        if is_visible(os.environ) and not trusts:
+            sys.exit("others than this machine may be on the ROS graph, and who is on it moves and commands the robot: set "
+                     "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Humble: ROS_LOCALHOST_ONLY=1), and no other peers, "
+                     "discovery server or profile; or the parameter trust_ros_graph")
+        if not body and not operator:
+            sys.exit("the parameters body and operator name ports of the robot's file, like unix:go2.sock: set one or both")
+        self.operator = Operator(self, operator) if operator else None
+        self.body = Body(self, body, silence_s) if body else None
+        self.refused, self.turned = 0, time.monotonic()
+        self.diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self.create_timer(TURN_S, self.turn)
+        self.create_timer(STATUS_S, self.diagnose)
+
+    def now(self):
+        return self.get_clock().now().to_msg()
+
+    def turn(self):
+        now = time.monotonic()
+        late_s, self.turned = now - self.turned, now
+        if self.operator:
+            self.operator.turn()
+        # A robot that does not trust the graph is moved by nobody on it.
+        if self.body and (not self.operator or self.operator.trusts()):
+            self.body.turn(late_s)
+
+    def refuse(self, why):
+        self.refused += 1
+        self.get_logger().warning(f"refused: {why}", throttle_duration_sec=1.0)
+        if self.operator:
+            self.operator.event(Event.REFUSED, {"text": why})
+
+    def diagnose(self):
+        message = DiagnosticArray()
+        message.header.stamp = self.now()
+        for name, end in (("body", self.body), ("operator", self.operator)):
+            if end:
+                is_there = bool(end.port.link)
+                level = DiagnosticStatus.OK if is_there else DiagnosticStatus.ERROR
+                said = "connected" if is_there else "not connected"
+                message.status.append(self.status(name, level, said, {"address": end.port.address}))
+        if self.operator and self.operator.said:
+            availability = self.operator.said["availability"]
+            is_fine = availability == Status.AVAILABLE
+            level = DiagnosticStatus.OK if is_fine else DiagnosticStatus.WARN
+            drops = {"refused": self.refused, **self.operator.drops}
+            message.status.append(self.status("robot", level, availability, drops))
+        self.diagnostics.publish(message)
+
+    def status(self, name, level, said, values):
+        values = [KeyValue(key=key, value=str(value)) for key, value in values.items()]
+        return DiagnosticStatus(
+            name=f"{self.get_fully_qualified_name()}: {name}", level=level, message=said, values=values)
+
+
+def main():
+    rclpy.init()
+    try:
+        rclpy.spin(Crossguard())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
