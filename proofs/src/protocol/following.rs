@@ -9,6 +9,17 @@ use super::stage::{From, becomes, steps};
 const FROM: From = From::stage(Role::Follower);
 
 steps! { FROM, all;
+    @each |step| { "ignored": step.is_ignored() } {
+        hears_an_answer(Kind::Answer);
+        detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected));
+        commands(Kind::Local(EventKind::CommandManeuver));
+        opens_the_corridor(Kind::Local(EventKind::OpenCorridor));
+        closes_the_corridor(Kind::Local(EventKind::CloseCorridor));
+        completes_the_task(Kind::Local(EventKind::TaskCompleted));
+        changes_its_identity(Kind::Local(EventKind::IdentityChanged));
+        hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
+    }
+
     /// A RAM of a leader: the state stays valid.
     stays_valid_as_it_hears_a_leader(Kind::RamLeader, keeps_the_state_valid) |step| {
         "is not listed any more": becomes(step, Role::None),
@@ -62,31 +73,6 @@ steps! { FROM, all;
         "ignored": step.is_ignored(),
     }
 
-    /// An answer.
-    hears_an_answer(Kind::Answer) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// A pedestrian.
-    detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application commands a maneuver.
-    commands(Kind::Local(EventKind::CommandManeuver)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// The body has completed a maneuver.
     completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted)) |step| {
         "reports": !step.is_ignored(),
@@ -96,11 +82,6 @@ steps! { FROM, all;
     /// The body has failed at a maneuver.
     fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed)) |step| {
         "reports": !step.is_ignored(),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The task is completed.
-    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -115,11 +96,6 @@ steps! { FROM, all;
         "leaves": becomes(step, Role::None),
         "stops and stays": step.said.has(OutputKind::StopManeuver) && becomes(step, Role::Follower),
         "falls back and stays": step.said.has(OutputKind::FallBack) && becomes(step, Role::Follower),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The robot has another pseudonym.
-    changes_its_identity(Kind::Local(EventKind::IdentityChanged)) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -139,11 +115,6 @@ steps! { FROM, all;
     /// The road is clear.
     clears_the_road(Kind::Local(EventKind::RoadClear)) |step| {
         "ends a duty": !step.is_ignored(),
-        "ignored": step.is_ignored(),
-    }
-
-    /// All robots nearby have answered.
-    hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered)) |step| {
         "ignored": step.is_ignored(),
     }
 

@@ -9,14 +9,24 @@ use super::stage::{From, becomes, steps};
 const FROM: From = From::stage(Role::None);
 
 steps! { FROM, all;
+    @each |step| { "ignored": step.is_ignored() } {
+        hears_a_farewell(Kind::RamNone);
+        hears_a_command(Kind::Command);
+        hears_an_answer(Kind::Answer);
+        commands(Kind::Local(EventKind::CommandManeuver));
+        opens_the_corridor(Kind::Local(EventKind::OpenCorridor));
+        closes_the_corridor(Kind::Local(EventKind::CloseCorridor));
+        completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted));
+        fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed));
+        completes_the_task(Kind::Local(EventKind::TaskCompleted));
+        leaves(Kind::Local(EventKind::LeaveRequested));
+        reaches_its_position(Kind::Local(EventKind::InPosition));
+        hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
+    }
+
     /// A RAM that asks for help.
     hears_a_request(Kind::RamNeedHelp) |step| {
         "offers": becomes(step, Role::Helper),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM of a robot without a part in a session.
-    hears_a_farewell(Kind::RamNone) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -38,54 +48,9 @@ steps! { FROM, all;
         "ignored": step.is_ignored(),
     }
 
-    /// A command.
-    hears_a_command(Kind::Command) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// An answer.
-    hears_an_answer(Kind::Answer) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// A pedestrian.
     detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected)) |step| {
         "requests": becomes(step, Role::Requester),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application commands a maneuver.
-    commands(Kind::Local(EventKind::CommandManeuver)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has completed a maneuver.
-    completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has failed at a maneuver.
-    fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The task is completed.
-    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The robot is to leave.
-    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -108,19 +73,9 @@ steps! { FROM, all;
         "ignored": step.is_ignored(),
     }
 
-    /// The body holds its place.
-    reaches_its_position(Kind::Local(EventKind::InPosition)) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// The road is clear.
     clears_the_road(Kind::Local(EventKind::RoadClear)) |step| {
         "ends a duty": !step.is_ignored(),
-        "ignored": step.is_ignored(),
-    }
-
-    /// All robots nearby have answered.
-    hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered)) |step| {
         "ignored": step.is_ignored(),
     }
 

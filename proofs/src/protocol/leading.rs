@@ -33,46 +33,22 @@ pub(super) const IGNORED: [Kind; 8] = [
 macro_rules! of_each_input {
     ($laws:expr $(; $($timers:tt)+)?) => {
         $crate::protocol::stage::steps! { super::FROM, $laws;
-            /// A RAM of a follower.
-            hears_a_follower(Kind::RamFollower) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// A RAM of a robot without a part in a session.
-            hears_a_farewell(Kind::RamNone) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// A RAM that offers help.
-            hears_an_offer(Kind::RamOfferHelp) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// A RAM of a leader.
-            hears_a_leader(Kind::RamLeader) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// An answer.
-            hears_an_answer(Kind::Answer) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The application commands a maneuver.
-            commands(Kind::Local(EventKind::CommandManeuver)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The application opens the corridor.
-            opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The application closes the corridor.
-            closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The task is completed.
-            completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The robot is to leave.
-            leaves(Kind::Local(EventKind::LeaveRequested)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The robot becomes available or unavailable.
-            changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The road is clear.
-            clears_the_road(Kind::Local(EventKind::RoadClear)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// A larger boot counter has been persisted.
-            renews_its_epoch(Kind::Local(EventKind::EpochRenewed)) |step| { "a step": step.before.role() == Role::Leader }
-
-            $($($timers)+)?
+            @each |step| { "a step": step.before.role() == Role::Leader } {
+                hears_a_follower(Kind::RamFollower);
+                hears_a_farewell(Kind::RamNone);
+                hears_an_offer(Kind::RamOfferHelp);
+                hears_a_leader(Kind::RamLeader);
+                hears_an_answer(Kind::Answer);
+                commands(Kind::Local(EventKind::CommandManeuver));
+                opens_the_corridor(Kind::Local(EventKind::OpenCorridor));
+                closes_the_corridor(Kind::Local(EventKind::CloseCorridor));
+                completes_the_task(Kind::Local(EventKind::TaskCompleted));
+                leaves(Kind::Local(EventKind::LeaveRequested));
+                changes_its_availability(Kind::Local(EventKind::AvailabilityChanged));
+                clears_the_road(Kind::Local(EventKind::RoadClear));
+                renews_its_epoch(Kind::Local(EventKind::EpochRenewed));
+                $($($timers)+)?
+            }
         }
     };
 }
@@ -81,26 +57,13 @@ macro_rules! of_each_input {
 macro_rules! of_each_input_and_timer {
     ($laws:expr) => {
         of_each_input! { $laws;
-            /// The end of a lease.
-            loses_a_lease(Kind::Fires(TimerKind::Lease)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// A follower without a lease for too long.
-            gives_up_a_follower(Kind::Fires(TimerKind::Lost)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// `T_exec`.
-            limits_an_execution(Kind::Fires(TimerKind::Execution)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// `T_ack`.
-            misses_an_acknowledgement(Kind::Fires(TimerKind::Acknowledgement)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// `T_lock`.
-            must_unlock(Kind::Fires(TimerKind::IdentityLock)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The next RAM.
-            repeats_itself(Kind::Fires(TimerKind::Ram)) |step| { "a step": step.before.role() == Role::Leader }
-
-            /// The end of a farewell.
-            ends_a_farewell(Kind::Fires(TimerKind::Farewell)) |step| { "a step": step.before.role() == Role::Leader }
+            loses_a_lease(Kind::Fires(TimerKind::Lease));
+            gives_up_a_follower(Kind::Fires(TimerKind::Lost));
+            limits_an_execution(Kind::Fires(TimerKind::Execution));
+            misses_an_acknowledgement(Kind::Fires(TimerKind::Acknowledgement));
+            must_unlock(Kind::Fires(TimerKind::IdentityLock));
+            repeats_itself(Kind::Fires(TimerKind::Ram));
+            ends_a_farewell(Kind::Fires(TimerKind::Farewell));
         }
     };
 }

@@ -31,6 +31,20 @@ pub(super) const IGNORED: [Kind; 11] = [
 ];
 
 steps! { FROM, all;
+    @each |step| { "ignored": step.is_ignored() } {
+        hears_a_command(IGNORED[0], ignores);
+        hears_an_answer(IGNORED[1], ignores);
+        detects_a_pedestrian(IGNORED[2], ignores);
+        commands(IGNORED[3], ignores);
+        opens_the_corridor(IGNORED[4], ignores);
+        closes_the_corridor(IGNORED[5], ignores);
+        completes_a_maneuver(IGNORED[6], ignores);
+        fails_a_maneuver(IGNORED[7], ignores);
+        changes_its_identity(IGNORED[8], ignores);
+        reaches_its_position(IGNORED[9], ignores);
+        clears_the_road(IGNORED[10], ignores);
+    }
+
     /// A RAM that asks for help as well.
     hears_a_request(Kind::RamNeedHelp) |step| {
         "helps the one that goes before": becomes(step, Role::Helper),
@@ -66,46 +80,6 @@ steps! { FROM, all;
         "ignored": step.is_ignored(),
     }
 
-    /// A command.
-    hears_a_command(IGNORED[0], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// An answer.
-    hears_an_answer(IGNORED[1], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// A pedestrian.
-    detects_a_pedestrian(IGNORED[2], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application commands a maneuver.
-    commands(IGNORED[3], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application opens the corridor.
-    opens_the_corridor(IGNORED[4], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application closes the corridor.
-    closes_the_corridor(IGNORED[5], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has completed a maneuver.
-    completes_a_maneuver(IGNORED[6], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has failed at a maneuver.
-    fails_a_maneuver(IGNORED[7], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// The task is completed.
     completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ends its session": becomes(step, Role::None),
@@ -119,11 +93,6 @@ steps! { FROM, all;
     /// The robot becomes available or unavailable.
     changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "ends its session": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The robot has another pseudonym.
-    changes_its_identity(IGNORED[8], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -151,16 +120,6 @@ steps! { FROM, all;
     /// The end of a farewell.
     ends_a_farewell(Kind::Fires(TimerKind::Farewell)) |step| {
         "ends it": !step.is_ignored(),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body holds its place.
-    reaches_its_position(IGNORED[9], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The road is clear.
-    clears_the_road(IGNORED[10], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 

@@ -93,28 +93,46 @@ macro_rules! laws_of {
 
 /// Declares the harnesses of a stage: the laws of one step from any valid state of it, with any input of
 /// one kind (to a proof each is a case of its own), and what must be able to come of it. Where all laws together are much
-/// to prove, a harness has some of them, and another the rest.
+/// to prove, a harness has some of them, and another the rest. Those that have the same marks stand in front, as a list.
 macro_rules! steps {
-    ($from:expr, $laws:expr; $(
-        $(#[doc = $doc:literal])*
-        $(#[random_only($reason:literal)])?
-        $name:ident($kind:expr $(, $own:expr)?) |$step:ident| { $($mark:literal: $came:expr),+ $(,)? }
-    )+) => {
-        $crate::harness::harnesses! { $(
-            $(#[doc = $doc])*
-            #[unwind(6)]
-            #[solver(cadical)]
-            $(#[random_only($reason)])?
-            fn $name() {
-                let laws = $crate::protocol::stage::laws_of!($laws $(, $own)?);
-                let $step = &$from.any_step($kind, laws);
-                // No branch in a mark: each branch of it would be a mark of its own to Kani.
-                $(
-                    let came: bool = $came;
-                    $crate::kani::cover!(came, $mark);
-                )+
-            }
-        )+ }
+    ($from:expr, $laws:expr;
+        $(@each |$any:ident| { $same:literal: $comes:expr } {
+            $($each:ident($of:expr $(, $law:expr)?);)+
+        })?
+        $(
+            $(#[doc = $doc:literal])*
+            $(#[random_only($reason:literal)])?
+            $name:ident($kind:expr $(, $own:expr)?) |$step:ident| { $($mark:literal: $came:expr),+ $(,)? }
+        )*
+    ) => {
+        $crate::harness::harnesses! {
+            $($(
+                #[doc = concat!("Any input of `", stringify!($of), "`.")]
+                #[unwind(6)]
+                #[solver(cadical)]
+                fn $each() {
+                    let laws = $crate::protocol::stage::laws_of!($laws $(, $law)?);
+                    let $any = &$from.any_step($of, laws);
+                    let came: bool = $comes;
+                    $crate::kani::cover!(came, $same);
+                }
+            )+)?
+            $(
+                $(#[doc = $doc])*
+                #[unwind(6)]
+                #[solver(cadical)]
+                $(#[random_only($reason)])?
+                fn $name() {
+                    let laws = $crate::protocol::stage::laws_of!($laws $(, $own)?);
+                    let $step = &$from.any_step($kind, laws);
+                    // No branch in a mark: each branch of it would be a mark of its own to Kani.
+                    $(
+                        let came: bool = $came;
+                        $crate::kani::cover!(came, $mark);
+                    )+
+                }
+            )*
+        }
     };
 }
 

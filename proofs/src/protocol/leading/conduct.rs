@@ -8,6 +8,17 @@ use super::{FROM, IGNORED};
 use crate::protocol::stage::{becomes, steps};
 
 steps! { FROM, of_part_and_numbers;
+    @each |step| { "ignored": step.is_ignored() } {
+        hears_a_request(IGNORED[0], ignores);
+        hears_a_command(IGNORED[1], ignores);
+        detects_a_pedestrian(IGNORED[2], ignores);
+        completes_a_maneuver(IGNORED[3], ignores);
+        fails_a_maneuver(IGNORED[4], ignores);
+        changes_its_identity(IGNORED[5], ignores);
+        reaches_its_position(IGNORED[6], ignores);
+        hears_that_all_have_answered(IGNORED[7], ignores);
+    }
+
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
         "joins": step.said.tells(NoticeKind::FollowerJoined),
@@ -27,11 +38,6 @@ steps! { FROM, of_part_and_numbers;
         "ignored": step.is_ignored(),
     }
 
-    /// A RAM that asks for help.
-    hears_a_request(IGNORED[0], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// A RAM that offers help.
     hears_an_offer(Kind::RamOfferHelp) |step| {
         "names a session as over": step.said.has(OutputKind::SendRam),
@@ -47,20 +53,10 @@ steps! { FROM, of_part_and_numbers;
         "ignored": step.is_ignored(),
     }
 
-    /// A command.
-    hears_a_command(IGNORED[1], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// An answer.
     hears_an_answer(Kind::Answer) |step| {
         "acknowledged": step.said.tells(NoticeKind::CommandAcknowledged),
         "rejected": step.said.tells(NoticeKind::CommandRejected),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A pedestrian.
-    detects_a_pedestrian(IGNORED[2], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -83,16 +79,6 @@ steps! { FROM, of_part_and_numbers;
         "ignored": step.is_ignored(),
     }
 
-    /// The body has completed a maneuver.
-    completes_a_maneuver(IGNORED[3], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has failed at a maneuver.
-    fails_a_maneuver(IGNORED[4], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// The task is completed.
     completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
         "ends its session": becomes(step, Role::None),
@@ -106,11 +92,6 @@ steps! { FROM, of_part_and_numbers;
     /// The robot becomes available or unavailable.
     changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "ends its session": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The robot has another pseudonym.
-    changes_its_identity(IGNORED[5], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
@@ -158,20 +139,10 @@ steps! { FROM, of_part_and_numbers;
         "ignored": step.is_ignored(),
     }
 
-    /// The body holds its place.
-    reaches_its_position(IGNORED[6], ignores) |step| {
-        "ignored": step.is_ignored(),
-    }
-
     /// The road is clear.
     clears_the_road(Kind::Local(EventKind::RoadClear)) |step| {
         "the road is clear": !step.is_ignored() && becomes(step, Role::Leader),
         "ends for the one that goes before": matches!(step.said.ended, Some(EndReason::Withdrawn(_))),
-        "ignored": step.is_ignored(),
-    }
-
-    /// All robots nearby have answered.
-    hears_that_all_have_answered(IGNORED[7], ignores) |step| {
         "ignored": step.is_ignored(),
     }
 
