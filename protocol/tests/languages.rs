@@ -1,30 +1,45 @@
 //! The words of the protocol in the languages of its bindings, written from [`TABLE`]: `cargo xtask bless languages`.
 //!
-//! What is written stands between the marks `<words>` and `</words>` of a file.
+//! What is written stands between marks of a file, like `<words>` and `</words>`. So do the named tasks.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crossguard_protocol::TaskType;
 use crossguard_protocol::words::{Field, REASONS, TABLE, Word, Words};
 
-/// Holds a file against what stands between its marks, or writes it there. A package of this crate has no bindings.
-fn assert_words(file: &str, mark: &str, words: &str) {
+/// Holds a file against what it should be, or writes it. A package of this crate has no bindings.
+fn assert_file(file: &str, change: impl Fn(&str) -> String) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file);
     if !path.is_file() {
         return;
     }
     let text = std::fs::read_to_string(&path).unwrap();
-    let (begin, end) = (format!("<{mark}>\n"), format!("</{mark}>\n"));
-    let (head, rest) = text.split_once(&begin).expect("the mark before it");
-    let (inside, tail) = rest.split_once(&end).expect("the mark behind it");
-    let (_, comment) = inside.rsplit_once('\n').unwrap_or(("", inside));
-    let changed = [head, &begin, words, comment, &end, tail].concat();
+    let changed = change(&text);
     if std::env::var_os("CROSSGUARD_BLESS").is_some() {
         std::fs::write(&path, changed).unwrap();
     } else {
         assert!(text == changed, "{file}; run: cargo xtask bless languages");
     }
+}
+
+/// A text with what stands from one to the other replaced.
+fn replaced(text: &str, begin: &str, end: &str, by: &str) -> String {
+    let (head, rest) = text.split_once(begin).expect("what stands before it");
+    let (_, tail) = rest.split_once(end).expect("what stands behind it");
+    [head, begin, by, end, tail].concat()
+}
+
+/// Holds a file against what stands between its marks, which are comments of a line.
+fn assert_words(file: &str, mark: &str, words: &str) {
+    let (begin, end) = (format!("<{mark}>\n"), format!("</{mark}>\n"));
+    assert_file(file, |text| {
+        let (_, rest) = text.split_once(&begin).expect("the mark before it");
+        let (inside, _) = rest.split_once(&end).expect("the mark behind it");
+        let (_, comment) = inside.rsplit_once('\n').unwrap_or(("", inside));
+        replaced(text, &begin, &end, &(words.to_owned() + comment))
+    });
 }
 
 /// An enumeration by its name.
@@ -334,4 +349,136 @@ fn python_has_the_words() {
         unions += &union_of_python(words);
     }
     assert_python("reasons", text + &unions);
+}
+
+/// `initialPos` as `InitialPos`.
+fn camel(name: &str) -> String {
+    let (first, rest) = name.split_at(1);
+    first.to_uppercase() + rest
+}
+
+/// Lines made of each named task's value, name and meaning.
+fn of_each_task(line: impl Fn(u8, &str, &str) -> String) -> String {
+    let named = TaskType::NAMED.iter();
+    let lines = named.map(|(task, name, meaning)| line(task.value(), name, meaning.trim()));
+    lines.collect()
+}
+
+#[test]
+fn asn1_has_the_named_tasks() {
+    let names = of_each_task(|value, name, _| format!(" {name}({value}),"));
+    let names = names.trim_end_matches(',').to_owned() + " ";
+    assert_file("codec/asn1/Crossguard-Common.asn", |text| {
+        let text = replaced(text, "TaskType ::= INTEGER {", "}", &names);
+        replaced(&text, "TaskSet ::= BIT STRING {", "}", &names)
+    });
+}
+
+#[test]
+fn c_has_the_named_tasks() {
+    let c = |value, name: &str, meaning: &str| {
+        format!("    /// {meaning}\n    {} = {value},\n", camel(name))
+    };
+    assert_words("harness/c/src/codes.rs", "named tasks", &of_each_task(c));
+    let cpp = |_, name: &str, _: &str| {
+        let upper = upper(name);
+        format!("  {} = CROSSGUARD_TASK_{upper},\n", upper.to_lowercase())
+    };
+    assert_words(
+        "harness/c/include/crossguard.hpp",
+        "named tasks",
+        &of_each_task(cpp),
+    );
+}
+
+/// Constants of a message of ROS 2: a word is itself, in the spelling of who says it.
+fn constants(prefix: &str, of: &str, but: &[&str], spelling: impl Fn(&str) -> String) -> String {
+    let told = words(of)
+        .words
+        .iter()
+        .filter(|word| !but.contains(&word.variant));
+    let line = |word: &Word| {
+        let (name, said, meaning) = (upper(word.variant), spelling(word.name), word.meaning);
+        format!("# {meaning}\nstring {prefix}{name}=\"{said}\"\n")
+    };
+    told.map(line).collect()
+}
+
+#[test]
+fn ros_2_has_the_words() {
+    let as_it_is = |name: &str| name.to_owned();
+    let kebab = |name: &str| upper(name).to_lowercase().replace('_', "-");
+    let all = |of: &str| constants("", of, &[], as_it_is);
+    let assert_part = |file: &str, mark: &str, words: &str| {
+        assert_words(&format!("harness/ros2/{file}"), mark, words);
+    };
+
+    let action = "crossguard_msgs/action/Maneuver.action";
+    let tasks = of_each_task(|_, name, meaning| {
+        format!("# {meaning}\nstring {}=\"{name}\"\n", upper(name))
+    });
+    assert_part(action, "named tasks", &tasks);
+    assert_part(
+        action,
+        "policies",
+        &constants("", "FallbackPolicy", &[], kebab),
+    );
+    // What is told by the lines of others, or by nobody.
+    let untold = ["SendRam", "SendRmcm", "Notify"];
+    let events = constants("", "Output", &untold, as_it_is) + &all("Notice");
+    assert_part("crossguard_msgs/msg/Event.msg", "words", &events);
+    assert_part(
+        "crossguard_msgs/msg/Follower.msg",
+        "words",
+        &all("Progress"),
+    );
+    let parts = [
+        ("STATE_", "State"),
+        ("ROLE_", "Role"),
+        ("CORRIDOR_", "Corridor"),
+    ];
+    let parts = parts.map(|(prefix, of)| constants(prefix, of, &[], as_it_is));
+    assert_part("crossguard_msgs/msg/Status.msg", "words", &parts.concat());
+    assert_part(
+        "crossguard_msgs/msg/Status.msg",
+        "unavailability",
+        &all("Unavailability"),
+    );
+    let tasks = of_each_task(|value, name, _| format!("    {value}: \"{name}\",\n"));
+    assert_part(
+        "crossguard_ros/crossguard_ros/node.py",
+        "named tasks",
+        &tasks,
+    );
+}
+
+/// Python declares the tasks without names too.
+fn tasks_of_python(value: impl Fn(u8) -> String, with_meaning: bool) -> String {
+    let mut lines = String::new();
+    for number in 0..16 {
+        let value = value(number);
+        let mut named = TaskType::NAMED.iter();
+        let named = named.find(|(task, ..)| task.value() == number);
+        let name = named.map_or_else(|| format!("TASK{number}"), |(_, name, _)| upper(name));
+        writeln!(lines, "    {name} = {value}").unwrap();
+        if let Some((_, _, meaning)) = named.filter(|_| with_meaning) {
+            writeln!(lines, "    \"\"\"{}\"\"\"", meaning.trim()).unwrap();
+        }
+    }
+    lines
+}
+
+#[test]
+fn python_has_the_named_tasks() {
+    let file = "harness/python/python/crossguard/types.py";
+    assert_words(
+        file,
+        "named tasks",
+        &tasks_of_python(|number| number.to_string(), true),
+    );
+    assert_words(
+        file,
+        "task bits",
+        &tasks_of_python(|number| format!("1 << {number}"), false),
+    );
 }

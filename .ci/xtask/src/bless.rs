@@ -14,18 +14,14 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 14] = [
+const GENERATED: [Generated; 13] = [
     Generated {
-        path: "protocol/src: the words, in other languages",
+        path: "protocol/src: words and named tasks, in other languages",
         by: "cargo test -p crossguard-protocol --test languages",
     },
     Generated {
         path: "protocol/words.md",
         by: "cargo test -p crossguard-protocol --test words",
-    },
-    Generated {
-        path: "protocol/src: words and named tasks, in other languages",
-        by: "cargo test -p crossguard-testkit --test named_tasks",
     },
     Generated {
         path: "codec/src/asn1/generated.rs",
