@@ -5,7 +5,6 @@
 mod after;
 mod explore;
 mod live;
-mod numbers;
 mod play;
 mod shell;
 mod walks;
@@ -13,7 +12,6 @@ mod walks;
 pub use after::Studied;
 pub use explore::GivenRun;
 pub use live::Followed;
-pub use numbers::{NoNumbers, Numbered};
 pub use shell::serve;
 
 use shell::View;
@@ -27,8 +25,6 @@ pub struct Studio {
     pub live: Option<Followed>,
     /// Runs through scenarios, from files.
     pub given: Vec<GivenRun>,
-    /// Results of evaluations and of odds, from files.
-    pub numbers: Vec<Numbered>,
 }
 
 impl Studio {
@@ -39,7 +35,6 @@ impl Studio {
             Box::new(play::Play),
             Box::new(explore::Explore::new(self.given)),
             Box::new(after::After::new(self.run)),
-            Box::new(numbers::Numbers::new(self.numbers)),
         ]
     }
 }

@@ -2,7 +2,7 @@
 //! is on the air when they stand in for people's devices.
 //!
 //! ```text
-//!  SUMO (a process) ──► trace ──► coverage ───────────────────────► matrix ──► table, JSON, CSV, SVG
+//!  SUMO (a process) ──► trace ──► coverage ───────────────────────► matrix ──► table, JSON, CSV
 //!                         └─────► simulation: stations by the rules of `ras` ──┘
 //!                                  radio: air time, carrier sense, EDCA
 //! ```
@@ -14,7 +14,7 @@
 //!   again.
 //! - [`simulation`] is a run on the air of stations with one [`behaviour`], with [`messages`] of real size, on the channel of [`radio`].
 //! - [`matrix`] are all cells of the evaluation, over seeds and cores; [`statistics`] their mean and
-//!   deviation, [`plot`] their pictures, [`paper`] what the paper states, [`statements`] whether a run meets it.
+//!   deviation, [`paper`] what the paper states, [`statements`] whether a run meets it.
 //!
 //! `harness/doc/evaluation.md` says which assumptions reproduce the paper, and which do not.
 
@@ -26,7 +26,6 @@ pub mod grid;
 pub mod matrix;
 pub mod messages;
 pub mod paper;
-pub mod plot;
 pub mod radio;
 mod robot;
 pub mod shipped;

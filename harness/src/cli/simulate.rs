@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering;
 use crossguard_evaluation::coverage::greedy;
 use crossguard_evaluation::matrix;
 use crossguard_evaluation::messages::Sizes;
-use crossguard_evaluation::paper;
+use crossguard_evaluation::paper::{PAPER, PaperSimulation};
 use crossguard_evaluation::statements::{self, Comparison};
 use crossguard_evaluation::sumo::{Plan, Sumo};
 use crossguard_evaluation::trace::{Run, Traces};
@@ -109,6 +109,8 @@ struct SimulateReport<'a, C> {
     documented: bool,
     parameters: &'a Parameters,
     cells: &'a [C],
+    /// What the paper states of its simulation.
+    paper: &'a PaperSimulation,
     /// What the paper states, beside what was measured.
     statements: &'a [Comparison],
 }
@@ -121,15 +123,9 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let go_on = || !interrupted.load(Ordering::Relaxed);
     let cells = matrix::obs(&traces, &matrix.axes(), go_on);
     let parameters = matrix.parameters(&traces, None);
-    let assumptions = parameters.in_brief(matrix.preset.name());
-    // Where files cannot be written, the figures are printed all the same.
-    let mut written = Ok(());
     let was_stopped = interrupted.load(Ordering::Relaxed);
-    if !was_stopped {
-        let charts = [("coverage.svg", paper::coverage_figure(&cells, &assumptions))];
-        written = output::write_charts(&arguments.output, &charts);
-    }
-    written = written.and(output::write_csv(&arguments.output, &cells));
+    // Where files cannot be written, the figures are printed all the same.
+    let written = output::write_csv(&arguments.output, &cells);
     let axes = matrix.axes();
     let statements = if was_stopped {
         Vec::new()
@@ -160,21 +156,9 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     let results = cells.map_err(Failure::input)?;
     let cells = results.cells;
     let parameters = matrix.parameters(&traces, Some(behaviour));
-    let assumptions = parameters.in_brief(matrix.preset.name());
-    // Where files cannot be written, the figures are printed all the same.
-    let mut written = Ok(());
     let was_stopped = interrupted.load(Ordering::Relaxed);
-    if !was_stopped {
-        let charts = [
-            ("mcbr.svg", paper::load_figure(&cells, &assumptions)),
-            (
-                "reduction.svg",
-                paper::reduction_figure(&cells, &assumptions),
-            ),
-        ];
-        written = output::write_charts(&arguments.output, &charts);
-    }
-    written = written.and(output::write_csv(&arguments.output, &cells));
+    // Where files cannot be written, the figures are printed all the same.
+    let mut written = output::write_csv(&arguments.output, &cells);
     let silences = arguments.air.silences.as_deref();
     written = written.and(output::write_silences(silences, &results.silences));
     let axes = matrix.axes();
@@ -216,6 +200,7 @@ fn finish<C: Serialize + output::Row>(
             documented,
             parameters,
             cells,
+            paper: &PAPER,
             statements,
         });
     }

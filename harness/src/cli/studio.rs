@@ -11,7 +11,7 @@ use crossguard_robot::trace::Merged;
 
 use super::interrupts::interrupts_that;
 use super::{Failure, complain, open_logs, print};
-use crate::studio::{self, Followed, GivenRun, Numbered, Studied, Studio};
+use crate::studio::{self, Followed, GivenRun, Studied, Studio};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -28,9 +28,6 @@ pub(super) struct Arguments {
     /// A run through a scenario, as `check --charts` and pages of the studio write it, for the page Explore.
     #[arg(long, value_name = "FILE")]
     replay: Vec<PathBuf>,
-    /// Results for the page Numbers: what `odds --json`, `simulate obs --json` or `simulate cbr --json` printed.
-    #[arg(long, value_name = "FILE")]
-    numbers: Vec<PathBuf>,
     /// The port of the page; 0 for any that is free.
     #[arg(long, value_name = "N", default_value_t = 3100)]
     port: u16,
@@ -48,7 +45,6 @@ Examples:
   crossguard studio ari.jsonl go2.jsonl --no-browser --port 0
   crossguard studio --follow crossing.jsonl --site street    while `crossguard demo --log crossing.jsonl` runs
   crossguard check my.toml --charts found; crossguard studio --replay found/my-I2.json
-  crossguard odds --json > odds.json && crossguard studio --numbers odds.json
 
 Without files, the pages Play and Explore are there: the protocol to play with, and scenarios step by step.
 
@@ -69,13 +65,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let wanted = SocketAddr::new(arguments.address, arguments.port);
     let given = arguments.replay.iter().map(|path| given(path));
     let given = given.collect::<Result<_, _>>()?;
-    let numbers = arguments.numbers.iter().map(|path| numbered(path));
-    let numbers = numbers.collect::<Result<_, _>>()?;
     let shown = Studio {
         run,
         live,
         given,
-        numbers,
     };
     let served = studio::serve(wanted, shown).map_err(|error| {
         Failure::Input(format!(
@@ -87,7 +80,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (arguments.follow, "live/"),
         (is_run, "after/"),
         (!arguments.replay.is_empty(), "explore/"),
-        (!arguments.numbers.is_empty(), "numbers/"),
     ];
     let first = given_to.into_iter().find(|(is_given, _)| *is_given);
     let first = first.map_or("", |(_, page)| page);
@@ -107,14 +99,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     loop {
         std::thread::park();
     }
-}
-
-/// Reads results.
-fn numbered(path: &Path) -> Result<Numbered, Failure> {
-    let cannot =
-        |cause: &dyn std::fmt::Display| Failure::input(format!("{}: {cause}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|cause| cannot(&cause))?;
-    Numbered::of(&path.display().to_string(), &text).map_err(|cause| cannot(&cause))
 }
 
 /// Reads a run, with the text of its scenario: pages read no files.

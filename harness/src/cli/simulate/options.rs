@@ -45,8 +45,7 @@ pub(super) struct Streets {
 impl Output {
     /// Whether what is wanted can be written.
     pub(super) fn check(&self) -> Result<(), Failure> {
-        destinations::files([&self.csv])?;
-        destinations::folders([&self.svg])
+        destinations::files([&self.csv])
     }
 }
 
@@ -304,27 +303,6 @@ impl Parameters {
             behaviour: self.behaviour.as_ref(),
         }
     }
-
-    /// The most important ones in a line.
-    pub(super) fn in_brief(&self, preset: &str) -> String {
-        let vam = self
-            .behaviour
-            .as_ref()
-            .map(|behaviour| match behaviour.vam {
-                VamRule::Etsi => ", VAM by ETSI's triggers".to_owned(),
-                VamRule::Periodic(interval_ms) => format!(", a VAM every {interval_ms} ms"),
-            });
-        let suppression = self
-            .behaviour
-            .as_ref()
-            .map_or("", |it| match it.suppression {
-                Suppression::Strict => ", strict suppression",
-                Suppression::Loose => ", loose suppression",
-            });
-        let (seeds, vam) = (self.seeds, vam.unwrap_or_default());
-        let plural = if seeds == 1 { "" } else { "s" };
-        format!("preset {preset}, {seeds} seed{plural}{vam}{suppression}")
-    }
 }
 
 /// How robots are placed.
@@ -343,9 +321,6 @@ pub(super) struct Output {
     /// Write the results to this file as comma-separated values.
     #[arg(long, value_name = "FILE")]
     pub(super) csv: Option<PathBuf>,
-    /// Draw the figures into this folder, as SVG.
-    #[arg(long, value_name = "FOLDER")]
-    pub(super) svg: Option<PathBuf>,
 }
 
 /// Which announcements of a robot people's devices understand.

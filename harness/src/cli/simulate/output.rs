@@ -5,7 +5,6 @@ use std::path::Path;
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use crossguard_evaluation::matrix::{CbrCell, ObsCell, SilenceInRun};
-use crossguard_evaluation::plot::BarChart;
 use crossguard_evaluation::simulation::Silence;
 use crossguard_evaluation::statements::Comparison;
 use crossguard_evaluation::statistics::Estimate;
@@ -269,20 +268,6 @@ pub(super) fn write_silences(
         file.write_record(record).map_err(failed)?;
     }
     file.flush().map_err(|error| failed(error.into()))
-}
-
-/// Draws charts into the folder that was asked for, if one was.
-pub(super) fn write_charts(output: &Output, charts: &[(&str, BarChart)]) -> Result<(), Failure> {
-    let Some(folder) = &output.svg else {
-        return Ok(());
-    };
-    let failed = |path: &Path, error| Failure::Input(format!("{}: {error}", path.display()));
-    std::fs::create_dir_all(folder).map_err(|error| failed(folder, error))?;
-    for (name, chart) in charts {
-        let path = folder.join(name);
-        std::fs::write(&path, chart.to_svg()).map_err(|error| failed(&path, error))?;
-    }
-    Ok(())
 }
 
 /// A bar that shows how far it is, to people only.

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Draws what `crossguard simulate obs`, `crossguard simulate cbr` and `crossguard odds` print with --json.
+
+    crossguard simulate obs --json > obs.json
+    python3 -m venv venv && venv/bin/pip install matplotlib
+    venv/bin/python harness/evaluation/plot.py obs.json coverage.svg
+
+The name of the picture says its format. What the paper states is marked by dashes.
+"""
+
+import json
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+# The paper's time from a command sent to the command received, in ms: mean and deviation.
+PAPER_TIMES = {"paper: initialPos, 74 ± 15 ms": (74, 15), "paper: Move, 129 ± 102 ms": (129, 102)}
+
+
+def bars(axes, cells, field, scale=1.0, stated=()):
+    """A group for each number of people, a bar for each number of robots and radius; stated are ranges of the paper."""
+    # Without robots there is one value, whatever the radius.
+    values = {(c["robots"], c["radius_m"] if c["robots"] else 0, c["pedestrians"]): c[field] for c in cells}
+    people = sorted({key[2] for key in values})
+    kinds = sorted({key[:2] for key in values if key[0] or field == "mcbr"})
+    width = 0.8 / len(kinds)
+    for at, (robots, radius) in enumerate(kinds):
+        found = [(group, values[robots, radius, it]) for group, it in enumerate(people) if (robots, radius, it) in values]
+        x = [group + (at - (len(kinds) - 1) / 2) * width for group, _ in found]
+        mean, sd = ([scale * value[name] for _, value in found] for name in ("mean", "sd"))
+        drawn = axes.bar(x, mean, 0.9 * width, yerr=sd, capsize=3, label=f"{robots} × robot, {radius:g} m" if robots else "no robot")
+        axes.bar_label(drawn, fmt="%.1f", fontsize=7, padding=2)
+        for robots_of, radius_of, people_of, band, words in stated:
+            if (robots_of, radius_of) != (robots, radius):
+                continue
+            for left, group in zip(x, (group for group, _ in found)):
+                if people_of in (None, people[group]):
+                    size = (0.9 * width, max(band["most"] - band["least"], 0.05))
+                    axes.add_patch(plt.Rectangle((left - 0.45 * width, band["least"]), *size, fill=False, ls="--", label=words))
+                    words = None
+    axes.axhline(0, color="black", lw=0.8)
+    axes.set_xticks(range(len(people)), people)
+    axes.set_xlabel("pedestrians")
+    axes.margins(y=0.1)
+    axes.autoscale_view()
+    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
+
+
+def evaluation(results):
+    """The paper's figures: coverage, or channel load and its reduction."""
+    cells, paper = results["cells"], results["paper"]
+    far = paper["radii_m"][1]
+    if "obs_percent" in cells[0]:
+        figure, axes = plt.subplots(figsize=(10, 5))
+        stated = [
+            (1, far, None, paper["coverage_of_one_percent"], "paper: 5 to 6 % (1 robot, 15 m)"),
+            (9, far, None, paper["coverage_of_nine_percent"], "paper: 17 to 18 % (9 robots, 15 m)"),
+        ]
+        bars(axes, cells, "obs_percent", stated=stated)
+        axes.set(title="Observation coverage ratio", ylabel="coverage in %")
+    else:
+        figure, (load, reduction) = plt.subplots(2, figsize=(10, 9))
+        bars(load, cells, "mcbr", scale=100)
+        load.set(title="Mean channel busy ratio", ylabel="mCBR in %")
+        words = "paper: up to 16.3 % (9 robots, 15 m, 100 people)"
+        bars(reduction, cells, "reduction_percent", stated=[(9, far, 100, paper["reduction_most_percent"], words)])
+        reduction.set(title="Reduction of the mean channel busy ratio", ylabel="reduction in %")
+    seeds = results["parameters"]["seeds"]
+    figure.suptitle(f"preset {results['preset']}, {seeds} seeds; means and deviations", fontsize=9)
+    return figure
+
+
+def odds(results):
+    """Loss rate against probabilities and times, for each choice of settings."""
+    figure, (probability, time) = plt.subplots(2, figsize=(10, 9), sharex=True)
+    middle = lambda bounds: (bounds["lower"] + bounds["upper"]) / 2
+    settings = ("ram_period_ms", "t_ack_ms", "n_ack", "t_safety_ms")
+    varied = [name for name in settings if len({of[name] for of in results["odds"]}) > 1]
+    for of in results["odds"]:
+        curves = {}
+        for at in sorted(of["losses"], key=lambda it: it["loss"]):
+            curves.setdefault((probability, "crossing goes well"), []).append((at["loss"], middle(at["crossing"])))
+            for it in at["milestones"]:
+                name = it["milestone"]
+                curves.setdefault((probability, name), []).append((at["loss"], middle(it["probability"])))
+                if it.get("mean_ms") and name in ("team", "received", "acknowledged"):
+                    curves.setdefault((time, f"{name}, mean"), []).append((at["loss"], middle(it["mean_ms"])))
+        suffix = "".join(f", {name}={of[name]}" for name in varied)
+        for (axes, name), points in curves.items():
+            axes.plot(*zip(*points), marker=".", label=name + suffix)
+    for color, (words, (mean, deviation)) in zip(("gray", "tan"), PAPER_TIMES.items()):
+        time.axhspan(mean - deviation, mean + deviation, alpha=0.3, color=color, label=words)
+    probability.set(title=f"A crossing under loss, followers: {results['followers']}", ylabel="probability")
+    time.set(xlabel="share of messages lost", ylabel="time in ms")
+    for axes in (probability, time):
+        axes.legend(fontsize=8)
+        axes.grid(alpha=0.3)
+    return figure
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    with open(sys.argv[1], encoding="utf-8") as file:
+        results = json.load(file)
+    figure = odds(results) if "odds" in results else evaluation(results)
+    figure.tight_layout()
+    figure.savefig(sys.argv[2])
+
+
+if __name__ == "__main__":
+    main()
