@@ -21,7 +21,6 @@ mod odds;
 mod pki;
 mod printable;
 mod ranges;
-mod records;
 mod report;
 mod run;
 mod screen;
@@ -31,7 +30,6 @@ mod site;
 mod sniff;
 mod studio;
 mod terminal;
-mod timing;
 mod validate;
 mod watch;
 
@@ -84,13 +82,11 @@ enum Command {
     Conform(Box<conform::Arguments>),
     /// Tell whether logs of one or several robots are of something that could have happened.
     Validate(validate::Arguments),
-    /// Write a page about a run: states, map, times, verdicts, sequence chart.
+    /// Write a page about a run: the studio's page After as one file.
     Report(report::Arguments),
     /// Look at logs in a browser: the street, the messages, states and timers at any time of the run.
     Studio(studio::Arguments),
-    /// Take the paper's times from logs: negotiation, execution, and both together.
-    Timing(timing::Arguments),
-    /// Convert logs to what other tools open: MCAP, sequence charts.
+    /// Convert logs to what other tools open: facts as JSON lines, sequence charts.
     Export(export::Arguments),
     /// Print the state diagram of the protocol in Mermaid, drawn from what the transition function does.
     Fsm(fsm::Arguments),
@@ -164,7 +160,6 @@ pub fn main() -> ExitCode {
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Studio(arguments) => studio::run(&arguments),
-        Command::Timing(arguments) => timing::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),

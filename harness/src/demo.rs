@@ -428,7 +428,7 @@ impl Demo<'_> {
         };
         let outcome = Outcome {
             scenario: self.scenario.clone(),
-            maneuvers: self.timing.summaries(None),
+            maneuvers: self.timing.summaries(),
             teams: self.timing.teams(),
             trace_valid: validated.is_ok(),
             trace: validated.as_ref().ok().cloned(),

@@ -9,7 +9,7 @@ mod play;
 mod shell;
 mod walks;
 
-pub use after::Studied;
+pub use after::{Studied, saved};
 pub use explore::GivenRun;
 pub use live::Followed;
 pub use shell::serve;

@@ -78,27 +78,25 @@ fn demo(folder: &Path) -> PathBuf {
 fn an_independent_reader_finds_the_log_in_the_mcap_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    for seed in 1..=8 {
-        let (log, file) = (path("log.jsonl"), path("log.mcap"));
-        log_of(seed, &log);
-        let text = |path: &Path| path.to_str().unwrap().to_owned();
-        let output = command::run(&["export", &text(&log), "--mcap", &text(&file)]);
-        assert!(output.status.success(), "{}", stderr(&output));
-        judge("mcap_judge.py", &[&log, &file], "");
-    }
-    let log = demo(folder.path());
-    let file = path("demo.mcap");
-    let export = command::crossguard(&["export", "--mcap"])
-        .arg(&file)
-        .arg(&log)
-        .output();
-    assert!(export.unwrap().status.success());
-    let text = std::fs::read_to_string(&log).unwrap();
+    let crossing = demo(folder.path());
+    let text = std::fs::read_to_string(&crossing).unwrap();
     for kind in ["CAM", "VAM"] {
         let heard = format!("\"heard\",\"message\":\"{kind}\"");
         assert!(text.contains(&heard), "{heard}");
     }
-    judge("mcap_judge.py", &[&log, &file], "");
+    for seed in 0..=8 {
+        let (mut log, file) = (path("log.jsonl"), path("log.mcap"));
+        match seed {
+            0 => log = crossing.clone(),
+            seed => log_of(seed, &log),
+        }
+        let text = |path: &Path| path.to_str().unwrap().to_owned();
+        let facts = path("facts.jsonl");
+        let output = command::run(&["export", &text(&log), "--facts", &text(&facts)]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        judge("../python/examples/foxglove.py", &[&facts, &file], "");
+        judge("mcap_judge.py", &[&log, &file], "");
+    }
 }
 
 #[test]

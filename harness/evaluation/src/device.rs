@@ -97,7 +97,7 @@ mod tests {
     }
 
     fn hex(octets: &[u8]) -> String {
-        octets.iter().map(|octet| format!("{octet:02x}")).collect()
+        octets.iter().fold(String::new(), |digits, octet| digits + &format!("{octet:02x}"))
     }
 
     fn vector(name: &str) -> &'static str {

@@ -1,8 +1,8 @@
 //! What logs tell, fact by fact: states, places, messages, the corridor, drops.
 //!
 //! ```text
-//!   records ──► Observer ──► facts ──┬──► mcap_file (for Foxglove and ROS 2 tools)
-//!                                    └──► report (for people)
+//!   records ──► Observer ──► facts ──┬──► JSON lines (for tools: `crossguard export --facts`)
+//!                                    └──► playback (for people)
 //! ```
 //!
 //! A log holds inputs, outputs, states and octets. Tools want to know where a robot is and what it
@@ -16,6 +16,8 @@ pub use area::Area;
 pub use cluster::ClusterView;
 pub use view::{FollowerView, View};
 
+use std::fmt::Display;
+
 use area::Areas;
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{
@@ -28,12 +30,19 @@ use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 use crossguard_robot::around::Around;
 use crossguard_robot::sight::{Outline, Sight};
 use crossguard_robot::trace::{Entry, Record};
+use serde::{Serialize, Serializer};
 
 use crate::chart::{Chart, Mark, text_of};
 use crate::sniffer::place;
 
 /// Something that a record tells about its robot.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(
+    tag = "fact",
+    content = "of",
+    rename_all = "camelCase",
+    rename_all_fields = "camelCase"
+)]
 pub enum Fact {
     /// It booted.
     Started {
@@ -85,6 +94,7 @@ pub enum Fact {
     /// One more was dropped or ignored.
     Counted {
         /// The cause that it is counted under.
+        #[serde(flatten)]
         cause: CauseName,
         /// How often by now.
         count: u64,
@@ -94,7 +104,7 @@ pub enum Fact {
 }
 
 /// Where a robot is, by its own RAM.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Placed {
     /// Degrees, north positive.
     pub latitude: f64,
@@ -111,6 +121,7 @@ pub struct Placed {
     /// The box around it.
     pub dimensions: Dimensions,
     /// Its build.
+    #[serde(skip)]
     pub category: RobotCategory,
 }
 
@@ -131,7 +142,8 @@ impl Placed {
 }
 
 /// What became of a message at a robot.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Direction {
     /// It sent it.
     Sent,
@@ -142,7 +154,7 @@ pub enum Direction {
 }
 
 /// A message at a robot.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Message {
     /// What became of it.
     pub direction: Direction,
@@ -155,7 +167,25 @@ pub struct Message {
     /// Why it was sent, or how it was lost; empty where it was heard.
     pub why: String,
     /// The message.
+    #[serde(with = "hex::serde")]
     pub octets: Vec<u8>,
+}
+
+/// As people write it.
+pub(crate) fn shown<S: Serializer>(value: &impl Display, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(value)
+}
+
+/// The same; nothing is an empty text.
+#[expect(clippy::ref_option, reason = "serde gives it so")]
+pub(crate) fn shown_if_any<S: Serializer>(
+    value: &Option<impl Display>,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    match value {
+        Some(value) => to.collect_str(value),
+        None => to.serialize_str(""),
+    }
 }
 
 /// What is known of a robot.

@@ -12,16 +12,14 @@
 //! - [`sim`] runs many robots in virtual time under seeded faults, and judges every step by the properties of
 //!   the model checker.
 //! - [`validate`] says whether logs of one or several robots are of something that could have happened.
-//! - [`facts`] works out of logs where robots are and what they do; [`mcap_file`] writes that for Foxglove,
-//!   [`report`] for people, [`playback`] for the studio; [`verdict`] is what validation says, in words; [`chart`] and [`sequence`] are sequence charts, [`timing`] the table of times.
+//! - [`facts`] works out of logs where robots are and what they do, [`playback`] that at any time, for the studio and for
+//!   reports; [`verdict`] is what validation says, in words; [`chart`] and [`sequence`] are sequence charts, [`timing`] the table of times.
 //! - [`readable`] has messages and packets as JSON; [`sniffer`] says what is in packets.
 
 pub mod chart;
 pub mod facts;
-pub mod mcap_file;
 pub mod playback;
 pub mod readable;
-pub mod report;
 pub mod sequence;
 pub mod signature;
 pub mod sim;

@@ -16,7 +16,7 @@ mod recent;
 mod tracks;
 
 pub use messages::{MessageRow, Rows};
-pub use moment::{Moment, RobotMoment, Stretch};
+pub use moment::{Moment, RobotMoment, SavedRun, Stretch};
 pub use overview::{Overview, StateSpan, Trial};
 pub use recent::Recent;
 

@@ -210,27 +210,15 @@ impl Timing {
         self.maneuvers.entry(key(follower, id)).or_default()
     }
 
-    /// How many times as fast as real the bodies move, by the logs; 1 where none says it, and the fastest where
-    /// they differ.
-    #[must_use]
-    pub fn time_scale(&self) -> f64 {
-        self.speeds
-            .values()
-            .copied()
-            .reduce(f64::max)
-            .unwrap_or(1.0)
-    }
-
     /// The times by kind of maneuver, of completed ones between robots whose clocks can be compared. The robots'
-    /// own time passes `time_scale` times as fast as ours, or as its log says of each robot.
+    /// own time passes as fast as the log says of each robot.
     #[must_use]
-    pub fn summaries(&self, time_scale: Option<f64>) -> Vec<Summary> {
+    pub fn summaries(&self) -> Vec<Summary> {
         let mut samples: BTreeMap<TaskType, Vec<Sample>> = BTreeMap::new();
         for (&key, times) in &self.maneuvers {
             let offset = self.logs(key).map(|logs| self.clocks.offset(logs));
             if let Some(Ok(offset)) = offset
-                && let Some((task, sample)) =
-                    times.complete(offset, time_scale.or(times.speed).unwrap_or(1.0))
+                && let Some((task, sample)) = times.complete(offset, times.speed.unwrap_or(1.0))
             {
                 samples.entry(task).or_default().push(sample);
             }
@@ -291,6 +279,53 @@ impl ManeuverTimes {
             execution: seconds(self.started?, self.completed?) * time_scale,
         };
         Some((self.task?, sample))
+    }
+}
+
+/// The times of a run, for programs.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Times {
+    /// By kind of maneuver.
+    pub maneuvers: Vec<Summary>,
+    /// By size of the team.
+    pub teams: Vec<TeamSummary>,
+    /// How far the clocks of logs are apart between which a maneuver was completed.
+    pub clocks: Vec<ClockDifference>,
+}
+
+/// How far the clocks of a leader's and a follower's log are apart.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct ClockDifference {
+    /// The leader's log.
+    pub leader: String,
+    /// The follower's log.
+    pub follower: String,
+    /// By how much the follower's clock is ahead, if that is known.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub ahead: Option<Offset>,
+    /// Why it is not known; the maneuvers of these logs are left out then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+}
+
+impl Times {
+    /// Those of logs with these names.
+    #[must_use]
+    pub fn of(timing: &Timing, logs: &[String]) -> Self {
+        let name = |log: usize| logs.get(log).map_or("?", String::as_str).to_owned();
+        let clock = |((leader, follower), offset): ((usize, usize), Result<Offset, NoOffset>)| {
+            ClockDifference {
+                leader: name(leader),
+                follower: name(follower),
+                ahead: offset.ok(),
+                error: offset.err().map(|why| why.to_string()),
+            }
+        };
+        Self {
+            maneuvers: timing.summaries(),
+            teams: timing.teams(),
+            clocks: timing.offsets().into_iter().map(clock).collect(),
+        }
     }
 }
 

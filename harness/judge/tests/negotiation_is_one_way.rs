@@ -41,7 +41,7 @@ fn on_one_clock(swarm: &Swarm) -> Vec<Summary> {
         timing.record(0, record.at_us, &record);
     }
     assert!(timing.offsets().is_empty());
-    timing.summaries(None)
+    timing.summaries()
 }
 
 /// The times in two logs, the follower's with a clock that is ahead, from the second `from_us` on.
@@ -114,7 +114,7 @@ fn of_two_logs_the_difference_of_the_clocks_is_taken_off_and_bounded() {
             (offset.offset_us - ahead_us).abs() < 1_000,
             "{ahead_us}: {offset:?}"
         );
-        assert_times(&timing.summaries(None), 40, 40);
+        assert_times(&timing.summaries(), 40, 40);
     }
 }
 
@@ -126,7 +126,7 @@ fn where_one_way_is_slower_the_error_is_within_the_bound() {
     let wrong_by_us = (offset.offset_us - 1_000_000).abs();
     assert!(wrong_by_us > 10_000, "{offset:?}");
     assert!(wrong_by_us <= offset.bound_us, "{offset:?}");
-    let round_trip = timing.summaries(None)[0].round_trip_s.mean;
+    let round_trip = timing.summaries()[0].round_trip_s.mean;
     assert_near(round_trip, 140, "the round trip needs no other clock");
 }
 
@@ -138,7 +138,7 @@ fn a_clock_that_was_put_in_mid_run_is_said_and_not_averaged() {
         timing.offsets()[&(0, 1)],
         Err(NoOffset::Unsteady(_))
     ));
-    assert!(timing.summaries(None).is_empty());
+    assert!(timing.summaries().is_empty());
     let leaders = records.iter().filter(|record| record.robot == LEADER);
     let mut alone = Timing::default();
     for record in leaders {
@@ -146,7 +146,7 @@ fn a_clock_that_was_put_in_mid_run_is_said_and_not_averaged() {
         assert!(!matches!(record.entry, Entry::Dropped { .. }));
     }
     assert!(
-        alone.summaries(None).is_empty(),
+        alone.summaries().is_empty(),
         "the follower's log is missing"
     );
 }

@@ -1,22 +1,25 @@
 //! `crossguard demo`.
 
-use std::io::Write;
+use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
 use crossguard_codec::Identifiers;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Mode;
 use crossguard_judge::chart::Chart;
+use crossguard_judge::timing::{Statistic, Summary};
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::site_file::SiteFile;
-use crossguard_robot::trace::{LogFile, LogLimits, Record};
+use crossguard_robot::trace::{Log, LogFile, LogLimits, Record};
 use crossguard_robot::transport::Faults;
 
 use super::interrupts::interrupts;
 use super::ranges::{any, in_range, speed, whole};
-use super::{Failure, destinations, print, print_json, timing};
+use super::{Failure, destinations, print, print_json};
 use crate::demo::{self, Options, Outcome, Scenario, Seen};
 
 #[derive(clap::Args)]
@@ -64,8 +67,9 @@ pub(super) struct Arguments {
     perceived: Option<PathBuf>,
     #[command(flatten)]
     etsi: super::etsi::EtsiArguments,
-    #[command(flatten)]
-    records: super::records::RecordArguments,
+    /// Write a page about the run: the page After of the studio as one file.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -157,7 +161,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     let followers = followers(arguments, &scenario)?;
-    arguments.records.check()?;
+    destinations::files([&arguments.report])?;
     let interrupted = interrupts();
     let participants = scenario.participants(followers);
     let names: Vec<_> = participants.iter().map(|one| &*one.name).collect();
@@ -223,9 +227,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         report(&outcome)
     };
     let captured = super::finish_capture(options.capture);
-    let title = "Crossguard demo";
-    let site = options.scenario.street();
-    let written = (arguments.records).write(title, site, &log, arguments.json);
+    let written = match &arguments.report {
+        Some(path) => write_page(path, options.scenario.street(), &log, arguments.json),
+        None => Ok(()),
+    };
     told.and(captured).and(written)?;
     if log_file.is_some_and(|file| file.has_failed) || outcome.stopped && outcome.trace_valid {
         Err(Failure::Incomplete)
@@ -234,6 +239,23 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Err(Failure::Wrong)
     }
+}
+
+/// Writes the page of a run on a street; says so unless the output is for a program.
+fn write_page(path: &Path, street: &SiteFile, log: &[u8], is_json: bool) -> Result<(), Failure> {
+    let name = "the log of this run".to_owned();
+    let open = || {
+        let lines = Box::new(Cursor::new(log.to_vec()));
+        let name = name.clone();
+        Ok(vec![Log { name, lines }])
+    };
+    // What it says of the log is what the command says of it, too.
+    let studied = super::report::study(open, vec![name.clone()], Some(street.clone()))?;
+    super::report::write(path, &studied)?;
+    if is_json {
+        return Ok(());
+    }
+    print(format_args!("{}: report", path.display()))
 }
 
 /// The log as it is written: at any time all that has happened is in it.
@@ -308,11 +330,8 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
 
 fn report(outcome: &Outcome) -> Result<(), Failure> {
     print("")?;
-    print(timing::table(&outcome.maneuvers))?;
-    print(format_args!(
-        "{} Here they go over loopback.\n",
-        timing::LEGEND
-    ))?;
+    print(times(&outcome.maneuvers))?;
+    print(format_args!("{LEGEND} Here they go over loopback.\n"))?;
     if outcome.stopped {
         print("Stopped before it was done; this is what there was until then.")?;
     }
@@ -361,4 +380,51 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
             error.as_deref().unwrap_or_default()
         )),
     }
+}
+
+/// What the columns of [`times`] mean.
+const LEGEND: &str = "\
+T_neg: from the leader's first transmission of the command to its reception at the follower, one way; the paper's \
+went\nover IEEE 802.11p. Round trip: from that transmission to the acknowledgement at the leader. T_exec: the motion, \
+in the\nrobots' own time; of a block, how long it was held. T_TMCT = T_neg + T_exec. Mean ± standard deviation.";
+
+/// The times of maneuvers, each beside the paper's.
+fn times(summaries: &[Summary]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header([
+        "maneuver",
+        "completed",
+        "T_neg [s]",
+        "round trip [s]",
+        "T_exec [s]",
+        "T_TMCT [s]",
+    ]);
+    for summary in summaries {
+        table.add_row([
+            summary.task.clone(),
+            summary.trials.to_string(),
+            statistic(summary.t_neg_s, 4),
+            statistic(summary.round_trip_s, 4),
+            statistic(summary.t_exec_s, 2),
+            statistic(summary.t_tmct_s, 3),
+        ]);
+        if let Some(paper) = &summary.paper {
+            table.add_row([
+                "  in the paper".to_owned(),
+                paper.trials.to_string(),
+                statistic(paper.t_neg_s, 3),
+                String::new(),
+                format!("{:.2}", paper.t_exec_s),
+                statistic(paper.t_tmct_s, 3),
+            ]);
+        }
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn statistic(statistic: Statistic, digits: usize) -> String {
+    format!("{:.digits$} ± {:.digits$}", statistic.mean, statistic.sd)
 }

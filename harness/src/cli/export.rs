@@ -1,26 +1,27 @@
 //! `crossguard export`.
 
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
-use crossguard_judge::mcap_file;
+use crossguard_judge::facts::{Fact, Observer};
 use crossguard_judge::sequence::Sequence;
 use crossguard_robot::trace::{Merged, Timed};
+use serde::Serialize;
 
-use super::{Failure, cause, destinations, open_logs, print};
+use super::{Failure, destinations, open_logs, print};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
-#[command(group(ArgGroup::new("to").required(true).multiple(true).args(["mcap", "svg", "mermaid"])))]
+#[command(group(ArgGroup::new("to").required(true).multiple(true).args(["facts", "svg", "mermaid"])))]
 pub(super) struct Arguments {
     /// The logs: of one robot or of several, from one machine or from several.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// Write an MCAP file, for Foxglove and tools of ROS 2.
+    /// Write what the logs tell as JSON lines: states, places, messages, people, drops.
     #[arg(long, value_name = "FILE")]
-    mcap: Option<PathBuf>,
+    facts: Option<PathBuf>,
     /// Write the sequence chart as a picture.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -31,15 +32,24 @@ pub(super) struct Arguments {
 
 const AFTER_HELP: &str = "\
 Logs are what --log of run, demo and fuzz writes. Those of several robots become one recording, in the \
-order of the clocks of their machines. Nothing is judged here: that is what validate is for. In the \
-MCAP file all messages are JSON with their schemas; each robot's topics are /NAME/state, /NAME/message, \
-/NAME/step, /NAME/counters, /NAME/location, /NAME/corridor, /NAME/places, /NAME/people, /NAME/around and /NAME/crossing, and /robots, /tf and /log \
-are those of all.";
+order of the clocks of their machines. Nothing is judged here: that is what validate is for. \
+harness/python/examples/foxglove.py makes an MCAP file for Foxglove of the facts.";
+
+/// A fact of a robot, as a line of a file.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct FactLine<'a> {
+    /// Since 1970.
+    at_us: u64,
+    robot: &'a str,
+    #[serde(flatten)]
+    fact: Fact,
+}
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    destinations::files([&arguments.mcap, &arguments.svg, &arguments.mermaid])?;
-    if let Some(path) = &arguments.mcap {
-        print(write_mcap(merged(&arguments.logs)?, path)?)?;
+    destinations::files([&arguments.facts, &arguments.svg, &arguments.mermaid])?;
+    if let Some(path) = &arguments.facts {
+        write_facts(merged(&arguments.logs)?, path)?;
     }
     if arguments.svg.is_none() && arguments.mermaid.is_none() {
         return Ok(());
@@ -71,19 +81,21 @@ fn merged(logs: &[PathBuf]) -> Result<Merged<'static>, Failure> {
     Merged::new(open_logs(logs)?).map_err(Failure::input)
 }
 
-/// Writes logs as an MCAP file, and says how much there is in it.
-pub(super) fn write_mcap(logs: Merged, path: &Path) -> Result<String, Failure> {
+/// Writes a line for each fact, and says how many there are.
+fn write_facts(mut logs: Merged, path: &Path) -> Result<(), Failure> {
     let file = File::create(path).map_err(|error| cannot(path, &error))?;
-    let written = mcap_file::write(logs, BufWriter::new(file)).map_err(|error| match error {
-        mcap_file::ExportError::Log(error) => Failure::input(error),
-        mcap_file::ExportError::Mcap(error) => cannot(path, &cause(&error)),
-    })?;
-    Ok(format!(
-        "{}: {} messages on {} topics",
-        path.display(),
-        written.values().sum::<u64>(),
-        written.len()
-    ))
+    let (mut file, mut observer, mut count) = (BufWriter::new(file), Observer::default(), 0_u64);
+    while let Some(Timed { at_us, record, .. }) = logs.take().map_err(Failure::input)? {
+        for fact in observer.take(&record) {
+            let robot = &*record.robot;
+            let line = serde_json::to_string(&FactLine { at_us, robot, fact });
+            let line = line.map_err(Failure::input)?;
+            writeln!(file, "{line}").map_err(|error| cannot(path, &error))?;
+            count += 1;
+        }
+    }
+    file.flush().map_err(|error| cannot(path, &error))?;
+    print(format_args!("{}: {count} facts", path.display()))
 }
 
 fn cannot(path: &Path, error: &dyn std::fmt::Display) -> Failure {

@@ -1,6 +1,6 @@
 //! `crossguard fuzz`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::interrupts::interrupts;
 use super::junit::{self, Ending, JunitArguments};
 use super::ranges::{any, number, whole};
-use super::{Failure, destinations, print, print_json, shows_progress};
+use super::{Failure, destinations, open_logs, print, print_json, report, shows_progress};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -100,9 +100,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // Where files cannot be written, the results are told all the same.
     let mut kept = Ok(());
     for failure in &totals.failures {
-        let written = write_failure(&arguments.out, &fuzz, failure);
-        let files = written
-            .map_err(|error| Failure::Input(format!("{}: {error}", arguments.out.display())));
+        let files = write(&arguments.out, &fuzz, failure);
         if !arguments.json {
             tell_failure(&fuzz, failure, files.as_ref().ok())?;
         }
@@ -128,6 +126,24 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         0 => Ok(()),
         _ => Err(Failure::Wrong),
     }
+}
+
+/// Writes what a failed seed did, and the page of it.
+fn write(
+    folder: &Path,
+    fuzz: &Fuzz,
+    failure: &crossguard_judge::sim::Failure,
+) -> Result<(PathBuf, Files), Failure> {
+    let written = write_failure(folder, fuzz, failure);
+    let files =
+        written.map_err(|error| Failure::Input(format!("{}: {error}", folder.display())))?;
+    let logs = std::slice::from_ref(&files.log);
+    let mut studied = report::study(|| open_logs(logs), report::names(logs), None)?;
+    let again = format!("again: {}", fuzz.reproduce(failure.seed));
+    studied.findings = vec![failure.finding.to_string(), again];
+    let page = files.log.with_extension("html");
+    report::write(&page, &studied)?;
+    Ok((page, files))
 }
 
 /// The plan that is asked for, if one is.
@@ -201,25 +217,14 @@ fn watched(fuzz: &Fuzz, is_json: bool) -> Totals {
 fn tell_failure(
     fuzz: &Fuzz,
     failure: &crossguard_judge::sim::Failure,
-    files: Option<&Files>,
+    files: Option<&(PathBuf, Files)>,
 ) -> Result<(), Failure> {
-    let finding = &failure.finding;
-    let at = Duration::from_millis(finding.at_ms).as_secs_f64();
-    print(format_args!(
-        "seed {}: {} broken by {} at {at:.3} s: {}",
-        failure.seed, finding.property, finding.robot, finding.statement
-    ))?;
+    print(format_args!("seed {}: {}", failure.seed, failure.finding))?;
     print(format_args!("  again: {}", fuzz.reproduce(failure.seed)))?;
-    let Some(files) = files else {
+    let Some((page, files)) = files else {
         return Ok(());
     };
-    let files = [
-        &files.html,
-        &files.log,
-        &files.pcap,
-        &files.svg,
-        &files.text,
-    ];
+    let files = [page, &files.log, &files.pcap, &files.svg, &files.text];
     let files: Vec<_> = files.map(|file| file.display().to_string()).into();
     print(format_args!("  written: {}", files.join(", ")))
 }

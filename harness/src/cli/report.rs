@@ -1,14 +1,15 @@
-//! `crossguard report`.
+//! `crossguard report`, and what it shares with `crossguard studio`.
 
 use std::path::{Path, PathBuf};
 
-use crossguard_judge::report::Report;
+use crossguard_judge::playback::{Playback, written_us};
 use crossguard_judge::validate::{self, Invalid, Validated};
 use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::trace::{Log, Merged};
 
 use super::validate::verdict;
 use super::{Failure, open_logs, print};
+use crate::studio::{Studied, saved};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -19,82 +20,72 @@ pub(super) struct Arguments {
     /// The page to write.
     #[arg(short, long, value_name = "FILE", default_value = "report.html")]
     output: PathBuf,
-    /// What stands at the top of the page.
-    #[arg(long, value_name = "TEXT", default_value = "Crossguard run")]
-    title: String,
     /// The site, for kerbs and lanes on the map: a file, or `street` for the street of the demonstrations.
     #[arg(long, value_name = "FILE|street")]
     site: Option<PathBuf>,
-    /// How many times as fast as real the robots' bodies moved, for the table of times, where their logs do
-    /// not say it, or wrongly.
-    #[arg(long, value_name = "N", value_parser = super::ranges::speed)]
-    speed: Option<f64>,
 }
 
 const AFTER_HELP: &str = "\
-Writes one static page that opens from disk without a network: states over time, a map, times, counters, \
-what validation says, and the sequence chart. It is written for logs that are not valid, too; then the \
-exit code is 1, and 3 if records are missing.";
+Writes the page After of the studio as one file, with the run in it; it opens from disk without a network. \
+It is written for logs that are not valid, too; then the exit code is 1, and 3 if records are missing.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     super::destinations::file(&arguments.output)?;
-    let open = || open_logs(&arguments.logs);
-    let names: Vec<_> = arguments
-        .logs
-        .iter()
-        .map(|path| path.display().to_string())
-        .collect();
+    let names = names(&arguments.logs);
     let site = super::site::named(arguments.site.as_deref())?;
-    let page = ReportPage {
-        title: &arguments.title,
-        logs: &names,
-        time_scale: arguments.speed,
-        site: site.as_ref(),
-    };
-    let result = page.write(&arguments.output, open()?, open()?)?;
-    let text = match &result {
+    let studied = study(|| open_logs(&arguments.logs), names, site)?;
+    write(&arguments.output, &studied)?;
+    let text = match &studied.validated {
         Ok(valid) if valid.missing > 0 => "valid, and not all of it is there".to_owned(),
         Ok(_) => "valid".to_owned(),
         Err(invalid) => format!("not valid: {invalid}"),
     };
     print(format_args!("{}: {text}", arguments.output.display()))?;
-    verdict(&result)
+    verdict(&studied.validated)
 }
 
-/// A page to be written.
-pub(super) struct ReportPage<'a> {
-    /// What stands at the top.
-    pub(super) title: &'a str,
-    /// The names of the logs.
-    pub(super) logs: &'a [String],
-    /// How many times as fast as real the robots' bodies moved, where the logs do not say it.
-    pub(super) time_scale: Option<f64>,
-    /// The site, for kerbs and lanes on the map.
-    pub(super) site: Option<&'a SiteFile>,
+/// How logs are called.
+pub(super) fn names(logs: &[PathBuf]) -> Vec<String> {
+    logs.iter().map(|path| path.display().to_string()).collect()
 }
 
-impl ReportPage<'_> {
-    /// Validates logs and writes their page; they are read twice. What validation says.
-    pub(super) fn write(
-        &self,
-        path: &Path,
-        logs: Vec<Log>,
-        again: Vec<Log>,
-    ) -> Result<Result<Validated, Invalid>, Failure> {
-        let result = validate::all(logs);
-        let report = Report {
-            title: self.title,
-            logs: self.logs,
-            verdict: result.as_ref(),
-            finding: None,
-            time_scale: self.time_scale,
-            site: self.site,
-            reproduce: None,
-        };
-        let page = Merged::new(again).and_then(|logs| report.page(logs));
-        let page = page.map_err(Failure::input)?;
-        std::fs::write(path, page)
-            .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
-        Ok(result)
-    }
+/// Reads logs with these names and judges them, both at once. They are opened several times.
+pub(super) fn study(
+    open: impl Fn() -> Result<Vec<Log<'static>>, Failure> + Sync,
+    names: Vec<String>,
+    street: Option<SiteFile>,
+) -> Result<Studied, Failure> {
+    let logs = Merged::new(open()?).map_err(Failure::input)?;
+    let judge = || open().map(validate::all);
+    let (playback, validated) = std::thread::scope(|scope| {
+        let judged = scope.spawn(judge);
+        (Playback::of(logs, street), judged.join())
+    });
+    let validated =
+        validated.unwrap_or_else(|_| Err(Failure::input("the logs cannot be judged")))?;
+    let invalid_us = when(open, &names, &validated);
+    Ok(Studied {
+        playback,
+        logs: names,
+        validated,
+        invalid_us,
+        findings: Vec::new(),
+    })
+}
+
+/// When the record that does not fit was written.
+fn when(
+    open: impl Fn() -> Result<Vec<Log<'static>>, Failure>,
+    names: &[String],
+    validated: &Result<Validated, Invalid>,
+) -> Option<u64> {
+    let invalid = validated.as_ref().err()?;
+    let place = names.iter().position(|name| *name == invalid.log)?;
+    written_us(open().ok()?.swap_remove(place), invalid.line)
+}
+
+/// Writes the page of a run.
+pub(super) fn write(path: &Path, studied: &Studied) -> Result<(), Failure> {
+    std::fs::write(path, saved(studied))
+        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
 }

@@ -4,14 +4,11 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crossguard_judge::playback::{Playback, written_us};
-use crossguard_judge::validate::{self, Invalid, Validated};
 use crossguard_model_check::scenario::Scenario;
-use crossguard_robot::trace::Merged;
 
 use super::interrupts::interrupts_that;
 use super::{Failure, complain, open_logs, print};
-use crate::studio::{self, Followed, GivenRun, Studied, Studio};
+use crate::studio::{self, Followed, GivenRun, Studio};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -60,16 +57,17 @@ fn address(text: &str) -> Result<IpAddr, String> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let has_logs = !arguments.logs.is_empty();
     let is_run = has_logs && !arguments.follow;
-    let run = is_run.then(|| study(arguments)).transpose()?;
+    let study = || {
+        let street = super::site::named(arguments.site.as_deref())?;
+        let logs = &arguments.logs;
+        super::report::study(|| open_logs(logs), super::report::names(logs), street)
+    };
+    let run = is_run.then(study).transpose()?;
     let live = arguments.follow.then(|| followed(arguments)).transpose()?;
     let wanted = SocketAddr::new(arguments.address, arguments.port);
     let given = arguments.replay.iter().map(|path| given(path));
     let given = given.collect::<Result<_, _>>()?;
-    let shown = Studio {
-        run,
-        live,
-        given,
-    };
+    let shown = Studio { run, live, given };
     let served = studio::serve(wanted, shown).map_err(|error| {
         Failure::Input(format!(
             "{wanted}: {error}; --port N takes another port, --port 0 any that is free"
@@ -128,39 +126,4 @@ fn followed(arguments: &Arguments) -> Result<Followed, Failure> {
         logs: arguments.logs.clone(),
         street: super::site::named(arguments.site.as_deref())?,
     })
-}
-
-/// Reads the logs and judges them, both at once.
-fn study(arguments: &Arguments) -> Result<Studied, Failure> {
-    let street = super::site::named(arguments.site.as_deref())?;
-    let logs = Merged::new(open_logs(&arguments.logs)?).map_err(Failure::input)?;
-    let judge = || open_logs(&arguments.logs).map(validate::all);
-    let (playback, validated) = std::thread::scope(|scope| {
-        let judged = scope.spawn(judge);
-        let playback = Playback::of(logs, street);
-        (playback, judged.join())
-    });
-    let validated =
-        validated.unwrap_or_else(|_| Err(Failure::input("the logs cannot be judged")))?;
-    let names = arguments.logs.iter();
-    let names: Vec<_> = names.map(|path| path.display().to_string()).collect();
-    let invalid_us = when(arguments, &names, &validated);
-    Ok(Studied {
-        playback,
-        logs: names,
-        validated,
-        invalid_us,
-    })
-}
-
-/// When the record that does not fit was written.
-fn when(
-    arguments: &Arguments,
-    names: &[String],
-    validated: &Result<Validated, Invalid>,
-) -> Option<u64> {
-    let invalid = validated.as_ref().err()?;
-    let place = names.iter().position(|name| *name == invalid.log)?;
-    let log = crossguard_robot::trace::open(&arguments.logs[place]).ok()?;
-    written_us(log, invalid.line)
 }

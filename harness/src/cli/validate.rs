@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use crossguard_judge::timing::{Times, Timing};
 use crossguard_judge::validate::{self, Fault, Invalid, Validated};
+use crossguard_robot::trace::{Merged, Timed};
 use quick_junit::TestSuite;
 use serde::Serialize;
 
@@ -28,7 +30,10 @@ judges every step by the properties that the model checker verifies, and holds t
 robot was told against the clock of its log. The first record that does \
 not fit is named with its line and the reason. Of a station whose log is not among those given, \
 nothing is known; what was heard from it is counted. I10 is judged among robots that share a log, and so a \
-clock. How long messages were under way is in no log.";
+clock. How long messages were under way is in no log. \
+With --json it has the paper's times as well: negotiation one way (T_neg), execution (T_exec), both together (T_TMCT), \
+and the round trip from command to acknowledgement. Clocks of logs may be apart: the difference is estimated from the \
+messages that went both ways, taken off T_neg, and given with what it can be wrong by.";
 
 /// The results as JSON.
 #[derive(Serialize)]
@@ -36,6 +41,9 @@ struct ValidateReport {
     valid: bool,
     #[serde(flatten)]
     validated: Option<Validated>,
+    /// The paper's times.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times: Option<Times>,
     #[serde(skip_serializing_if = "Option::is_none")]
     log: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -60,7 +68,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return result.map(|_| ()).map_err(Failure::input);
     }
     if arguments.json {
-        print_json(&report(&result))?;
+        let times = result.is_ok().then(|| times(&arguments.logs));
+        print_json(&report(&result, times.transpose()?))?;
     } else {
         tell(&result)?;
     }
@@ -95,15 +104,26 @@ pub(super) fn verdict(result: &Result<Validated, Invalid>) -> Result<(), Failure
     }
 }
 
-fn report(result: &Result<Validated, Invalid>) -> ValidateReport {
+fn report(result: &Result<Validated, Invalid>, times: Option<Times>) -> ValidateReport {
     let invalid = result.as_ref().err();
     ValidateReport {
         valid: result.is_ok(),
         validated: result.as_ref().ok().cloned(),
+        times,
         log: invalid.map(|invalid| invalid.log.clone()),
         line: invalid.map(|invalid| invalid.line),
         error: invalid.map(ToString::to_string),
     }
+}
+
+/// The paper's times, from logs that have been validated.
+fn times(paths: &[PathBuf]) -> Result<Times, Failure> {
+    let mut logs = Merged::new(open_logs(paths)?).map_err(Failure::input)?;
+    let mut timing = Timing::default();
+    while let Some(Timed { log, at_us, record }) = logs.take().map_err(Failure::input)? {
+        timing.record(log, at_us, &record);
+    }
+    Ok(Times::of(&timing, &super::report::names(paths)))
 }
 
 fn tell(result: &Result<Validated, Invalid>) -> Result<(), Failure> {

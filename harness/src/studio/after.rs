@@ -1,16 +1,17 @@
 //! A run after it happened: what its logs say, with what validation says of them.
 
-use crossguard_judge::playback::{Overview, Playback, Stretch};
+use crossguard_judge::playback::{Overview, Playback, SavedRun, Stretch};
 use crossguard_judge::validate::{Invalid, Validated};
 use crossguard_judge::verdict::{self, PropertyVerdict};
 use serde::Serialize;
 
-use super::shell::{Asset, Refusal, Skip, View, value};
+use super::shell::{self, Asset, Refusal, Skip, View, value};
 
-const FILES: [Asset; 4] = [
+const FILES: [Asset; 5] = [
     ("after.css", include_str!("after/after.css")),
     ("after.js", include_str!("after/after.js")),
     ("player.js", include_str!("after/player.js")),
+    ("source.js", include_str!("after/source.js")),
     ("timeline.js", include_str!("after/timeline.js")),
 ];
 
@@ -24,6 +25,8 @@ pub struct Studied {
     pub validated: Result<Validated, Invalid>,
     /// When the first record that does not fit was written, in µs since 1970, where one does not.
     pub invalid_us: Option<u64>,
+    /// What was found to be wrong while it ran.
+    pub findings: Vec<String>,
 }
 
 /// What the page gets first.
@@ -57,10 +60,11 @@ impl Studied {
             Ok(valid) => ("valid", verdict::sentences(valid)),
             Err(invalid) => ("invalid", vec![format!("{invalid}.")]),
         };
+        let is_right = self.findings.is_empty();
         let at = self.invalid_us.map(|at_us| at_us.saturating_sub(began_us));
         Verdict {
-            kind,
-            sentences,
+            kind: if is_right { kind } else { "invalid" },
+            sentences: self.findings.iter().cloned().chain(sentences).collect(),
             at: at.map(|at| at.min(overview.lasted)),
             robot: validated.err().and_then(|invalid| invalid.robot.clone()),
             properties: verdict::properties(validated),
@@ -76,6 +80,25 @@ impl Studied {
             overview,
         }
     }
+}
+
+/// What a saved page has in it.
+#[derive(Serialize)]
+struct SavedPage {
+    opening: Opening,
+    run: SavedRun,
+}
+
+/// The page of a run as one file: it needs no server and no network.
+#[must_use]
+pub fn saved(studied: &Studied) -> String {
+    let (mut opening, run) = (studied.opening(), studied.playback.saved());
+    if run.rows_left_out > 0 {
+        let trouble = format!("{} messages and notes are left out", run.rows_left_out);
+        opening.overview.troubles.push(trouble);
+    }
+    let page = serde_json::to_string(&SavedPage { opening, run });
+    shell::saved(&After(None), &page.unwrap_or_default())
 }
 
 /// The view of a run, if there is one.

@@ -208,6 +208,63 @@ fn page(views: &[Box<dyn View>], view: &dyn View) -> Answer {
     answer("200 OK", HTML, page)
 }
 
+/// The page of a view as one file, with what it shows in it as JSON. It loads nothing, and runs its own scripts alone.
+pub(super) fn saved(view: &dyn View, shown: &str) -> String {
+    let files = SHARED.iter().chain(view.files());
+    let (mut styles, mut imports) = (String::new(), serde_json::Map::new());
+    let own = format!("{}.css", view.name());
+    for (name, text) in files {
+        if name.rsplit('.').next() == Some("js") {
+            let script = text.replace("\"/shell/", "\"").replace("\"./", "\"");
+            imports.insert((*name).to_owned(), data_url(&script).into());
+        } else if *name == "studio.css" || Some(*name) == view.shared_style() || *name == own {
+            styles.push_str(text);
+        }
+    }
+    // Whatever texts say, they do not end the element that they are in.
+    let shown = shown.replace('<', "\\u003c");
+    let imports = serde_json::Value::from(imports);
+    let name = view.name();
+    PAGE.replace("<!-- title -->", "Crossguard run")
+        .replace("<link rel=\"icon\" href=\"/shell/icon.svg\">\n", "")
+        .replace(
+            "<link rel=\"stylesheet\" href=\"/shell/studio.css\">",
+            &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{SAVED}\">\n<style>{styles}</style>"),
+        )
+        .replace(
+            "<!-- links -->",
+            &format!("<script type=\"importmap\">{{\"imports\":{imports}}}</script>"),
+        )
+        .replace("<!-- skip -->\n", "")
+        .replace("  <!-- views -->\n", "")
+        .replace("Crossguard studio</h1>", "Crossguard run</h1>")
+        .replace(
+            "<!-- content -->",
+            &format!(
+                "<div id=\"troubles\" role=\"alert\"></div>\n{}\n<script type=\"application/json\" id=\"saved\">{shown}</script>\n\
+                 <script type=\"module\">import \"{name}.js\";</script>",
+                view.content().trim_end()
+            ),
+        )
+}
+
+/// What a saved page may run and load: what is in it.
+const SAVED: &str = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; base-uri 'none'; \
+    form-action 'none'";
+
+/// A script as an address that has it in itself.
+fn data_url(script: &str) -> String {
+    let mut url = String::from("data:text/javascript;charset=utf-8,");
+    for octet in script.bytes() {
+        if octet.is_ascii_alphanumeric() || b"-_.~()=;,:/+*!".contains(&octet) {
+            url.push(octet.into());
+        } else {
+            let _ = write!(url, "%{octet:02X}");
+        }
+    }
+    url
+}
+
 /// The links to the views, one of which may be the page that they stand on.
 fn links(views: &[Box<dyn View>], here: Option<&dyn View>) -> String {
     let mut links = String::from("<nav aria-label=\"Views\">");

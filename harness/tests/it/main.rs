@@ -20,6 +20,5 @@ mod security;
 mod sim;
 mod simulate;
 mod studio;
-mod timing;
 mod validate;
 mod workers;

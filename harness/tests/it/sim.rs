@@ -213,8 +213,6 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
     assert!(validated.steps > 100);
     let packets = capture::read(&files.pcap).unwrap();
     assert_eq!(packets.map(Result::unwrap).count(), validated.sent);
-    let page = std::fs::read_to_string(&files.html).unwrap();
-    assert!(page.contains("A property was broken") && page.contains(again));
     let words: Vec<_> = again.split(' ').skip(1).collect();
     let output = command::run(&words);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

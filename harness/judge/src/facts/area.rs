@@ -4,15 +4,18 @@ use std::collections::BTreeMap;
 
 use crossguard_codec::{Heard, Identifiers, Position, Target};
 use crossguard_protocol::{Input, ManeuverId, Rmcm, StationId, TaskSet, TaskType};
+use serde::Serialize;
 
-use super::Placed;
+use super::{Placed, shown};
 
 /// A place that a follower goes to or holds, or the way that it escorts along.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Area {
     /// The maneuver.
+    #[serde(serialize_with = "shown")]
     pub id: ManeuverId,
     /// What it is.
+    #[serde(serialize_with = "shown")]
     pub task: TaskType,
     /// Who is to do it.
     pub follower: StationId,

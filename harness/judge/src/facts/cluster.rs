@@ -4,9 +4,10 @@ use crossguard_codec::Heard;
 use crossguard_endpoint::ras::area::Area;
 use crossguard_robot::sight::{Degrees, corners};
 use crossguard_robot::site::{Place, Site};
+use serde::Serialize;
 
 /// A cluster of people that a robot announces.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct ClusterView {
     /// Its id; 0 if it says none.
     pub id: u8,

@@ -3,9 +3,13 @@
 use crossguard_protocol::{
     Corridor, Phase, Place, Robot, Role, SessionId, State, StationId, TaskType,
 };
+use serde::Serialize;
+
+use super::shown_if_any;
 
 /// A robot's part in a session.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct View {
     /// Its station id.
     pub station: StationId,
@@ -16,10 +20,12 @@ pub struct View {
     /// Its role.
     pub role: Role,
     /// The session that it has a part in.
+    #[serde(serialize_with = "shown_if_any")]
     pub session: Option<SessionId>,
     /// The followers of a leader.
     pub followers: Vec<FollowerView>,
     /// What a follower executes.
+    #[serde(serialize_with = "shown_if_any")]
     pub executes: Option<TaskType>,
     /// Whether the pedestrian may cross, as far as this robot says.
     pub corridor_open: bool,
@@ -32,11 +38,13 @@ pub struct View {
 }
 
 /// What a leader knows of a follower.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct FollowerView {
     /// The follower.
     pub station: StationId,
     /// The task of its newest acknowledged command.
+    #[serde(serialize_with = "shown_if_any")]
     pub task: Option<TaskType>,
     /// How far it is with it; empty before its first report.
     pub progress: String,

@@ -19,6 +19,29 @@ const PEOPLE_MAX: usize = 300;
 /// How many rows of messages are given before the time and after it.
 const ROWS: [usize; 2] = [80, 40];
 
+/// How many moments a saved run has between those at which something was said, how many at most, and how many rows.
+const SAVED_STEPS: u64 = 500;
+const SAVED_MOMENTS_MAX: usize = 2_000;
+const SAVED_ROWS_MAX: usize = 20_000;
+
+/// What a page shows of a run that has nobody to ask: the moments at which something was said and others between them,
+/// and all messages and notes, without RAM that repeat what is known.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct SavedRun {
+    moments: Vec<SavedMoment>,
+    rows: Vec<MessageRow>,
+    /// How many there are for which a page has no room.
+    pub rows_left_out: usize,
+}
+
+/// The robots at one time.
+#[derive(Debug, Serialize)]
+struct SavedMoment {
+    at: u64,
+    robots: Vec<RobotMoment>,
+}
+
 /// A stretch of a run, in µs since its first record.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch {
@@ -165,16 +188,35 @@ impl Playback {
         }
     }
 
-    /// The messages and notes of a stretch; RAM that repeat what is known are left out.
+    /// What a page shows of the run that has nobody to ask.
     #[must_use]
-    pub fn rows(&self, span: Stretch) -> Vec<MessageRow> {
-        let absolute = |since: u64| self.from_us.saturating_add(since);
-        let (from_us, to_us) = (absolute(span.from), absolute(span.to));
-        let all = [usize::MAX, 0];
-        let rows = self
-            .messages
-            .around(to_us, self.from_us, (from_us, to_us), all, false);
-        rows.rows
+    pub fn saved(&self) -> SavedRun {
+        let whole = (self.from_us, self.to_us);
+        let mut rows = (self.messages)
+            .around(self.to_us, self.from_us, whole, [usize::MAX, 0], false)
+            .rows;
+        let rows_left_out = rows.len().saturating_sub(SAVED_ROWS_MAX);
+        rows.truncate(SAVED_ROWS_MAX);
+        let lasted = self.since(self.to_us);
+        let step = usize::try_from(lasted / SAVED_STEPS + 1).unwrap_or(usize::MAX);
+        let mut times: Vec<u64> = (0..=lasted).step_by(step).collect();
+        times.extend(rows.iter().map(|row| row.at));
+        times.push(lasted);
+        times.sort_unstable();
+        times.dedup();
+        let step = times.len().div_ceil(SAVED_MOMENTS_MAX).max(1);
+        let causes = self.causes();
+        let moment = |at: u64| SavedMoment {
+            at,
+            robots: (self.robots.iter())
+                .map(|it| self.robot_at(it, self.from_us.saturating_add(at), &causes))
+                .collect(),
+        };
+        SavedRun {
+            moments: times.into_iter().step_by(step).map(moment).collect(),
+            rows,
+            rows_left_out,
+        }
     }
 
     fn robot_at(&self, track: &Track, at_us: u64, causes: &[&CauseName]) -> RobotMoment {

@@ -144,7 +144,7 @@ impl Playback {
                 .map(|cause| [cause.layer.name().to_owned(), cause.reason.to_string()])
                 .collect(),
             trials: self.trials(),
-            times: self.timing.summaries(None),
+            times: self.timing.summaries(),
             notes_on_times: teams
                 .chain(offsets.map(|line| format!("{line}.")))
                 .collect(),

@@ -30,7 +30,7 @@ mod times;
 mod world;
 
 pub use fuzz::{Failure, Fuzz, Planned, Totals};
-pub use report::{Files, write_failure, write_failure_with};
+pub use report::{Files, write_failure};
 pub use script::{Deed, Happening};
 pub use swarm::{Hazard, InsiderDraw, Replay, RobotDraw, Swarm};
 pub use times::{Longest, Measure, Worst};

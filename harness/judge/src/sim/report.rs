@@ -2,22 +2,19 @@
 
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{BufWriter, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::sequence::ChartStep;
 use crossguard_robot::capture::Capture;
-use crossguard_robot::trace::{self, Log, Merged, Record};
+use crossguard_robot::trace::{self, Record};
 
 use super::fuzz::{Failure, Fuzz};
 use super::swarm::Swarm;
-use super::world::{Watch, run_with};
-use crate::report::Report;
+use super::world::{Watch, run};
 use crate::sequence::Sequence;
-use crate::validate;
 
 /// How many steps of the sequence chart are kept: the last ones before what went wrong.
 const CHART_STEPS: usize = 250;
@@ -33,8 +30,6 @@ pub struct Files {
     pub text: PathBuf,
     /// The sequence chart as a picture.
     pub svg: PathBuf,
-    /// The report.
-    pub html: PathBuf,
 }
 
 impl Files {
@@ -45,7 +40,6 @@ impl Files {
             pcap: path("pcap"),
             text: path("txt"),
             svg: path("svg"),
-            html: path("html"),
         }
     }
 }
@@ -55,38 +49,14 @@ impl Files {
 /// # Errors
 /// Those of the files.
 pub fn write_failure(folder: &Path, fuzz: &Fuzz, failure: &Failure) -> std::io::Result<Files> {
-    write_failure_with(folder, fuzz, failure, &Protocol)
-}
-
-/// [`write_failure`] of a run with another transition function in place of the kit's.
-///
-/// # Errors
-/// Those of the files.
-pub fn write_failure_with(
-    folder: &Path,
-    fuzz: &Fuzz,
-    failure: &Failure,
-    rules: &'static dyn Rules,
-) -> std::io::Result<Files> {
     std::fs::create_dir_all(folder)?;
     let files = Files::of(folder, failure.seed);
     let swarm = fuzz.swarm(failure.seed);
     let mut recorder = Recorder::new(&files, &swarm)?;
     // What panicked before does so again; what it did up to there is what is wanted.
-    let _ = catch_unwind(AssertUnwindSafe(|| {
-        run_with(&swarm, rules, Some(&mut recorder))
-    }));
-    let finding = &failure.finding;
-    let title = format!(
-        "{}: {} ({} at {:.3} s)",
-        finding.property,
-        finding.statement,
-        finding.robot,
-        Duration::from_millis(finding.at_ms).as_secs_f64()
-    );
+    let _ = catch_unwind(AssertUnwindSafe(|| run(&swarm, Some(&mut recorder))));
     let again = fuzz.reproduce(failure.seed);
-    recorder.finish(&files, &title, &again)?;
-    write_report(&files, failure.seed, &title, &again)?;
+    recorder.finish(&files, &failure.finding.to_string(), &again)?;
     Ok(files)
 }
 
@@ -139,26 +109,4 @@ impl Watch for Recorder {
     fn packet(&mut self, at: Duration, packet: &[u8]) {
         self.pcap.record_at(at, packet);
     }
-}
-
-fn write_report(files: &Files, seed: u64, title: &str, again: &str) -> std::io::Result<()> {
-    let name = files.log.display().to_string();
-    let open = || -> std::io::Result<Vec<Log<'static>>> {
-        Ok(vec![Log {
-            name: name.clone(),
-            lines: Box::new(BufReader::new(File::open(&files.log)?)),
-        }])
-    };
-    let result = validate::all(open()?);
-    let report = Report {
-        title: &format!("Simulated street, seed {seed}"),
-        logs: std::slice::from_ref(&name),
-        verdict: result.as_ref(),
-        finding: Some(title),
-        time_scale: None,
-        site: None,
-        reproduce: Some(again),
-    };
-    let page = Merged::new(open()?).and_then(|logs| report.page(logs));
-    std::fs::write(&files.html, page.map_err(std::io::Error::other)?)
 }

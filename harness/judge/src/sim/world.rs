@@ -7,6 +7,7 @@ mod radio;
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::fmt;
 use std::rc::Rc;
 use std::time::Duration;
 
@@ -57,6 +58,14 @@ pub struct Finding {
     pub at_ms: u64,
     /// The robot whose step broke it.
     pub robot: String,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let at_s = Duration::from_millis(self.at_ms).as_secs_f64();
+        let (property, statement, robot) = (&self.property, &self.statement, &self.robot);
+        write!(f, "{property}: {statement} ({robot} at {at_s:.3} s)")
+    }
 }
 
 /// What came of a run.

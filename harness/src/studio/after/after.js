@@ -5,15 +5,10 @@ import { StreetMap } from "/shell/map.js";
 import { Messages } from "/shell/messages.js";
 import * as panels from "/shell/panels.js";
 import { Player } from "./player.js";
+import * as source from "./source.js";
 import { Timeline } from "./timeline.js";
 
 const VERDICTS = { valid: "✓ Valid", incomplete: "! Valid, and not all of it is there", invalid: "✗ Not valid" };
-
-async function load(path) {
-  const answer = await fetch(path);
-  if (!answer.ok) throw new Error(await answer.text());
-  return answer.json();
-}
 
 function trouble(...texts) {
   id("troubles").replaceChildren(...texts.map((text) => html("p", { class: "trouble" }, text)));
@@ -22,17 +17,17 @@ function trouble(...texts) {
 // The newest time that was asked for is shown; those in between are left out when the server is slower.
 function shower(draw) {
   let busy = false, next = null;
-  return async function show(query) {
-    if (busy) { next = query; return null; }
+  return async function show(wanted) {
+    if (busy) { next = wanted; return null; }
     busy = true;
     try {
       let moment;
       do {
         next = null;
-        moment = await load(`api/moment?${query}`);
+        moment = await source.moment(wanted);
         draw(moment);
-        query = next;
-      } while (query);
+        wanted = next;
+      } while (wanted);
       return moment;
     } catch (error) {
       trouble(`The server does not answer (${error.message}). Was it ended? Start crossguard studio again, and load this page anew.`);
@@ -57,7 +52,7 @@ function head(opening) {
 }
 
 async function start() {
-  const opening = await load("api/opening");
+  const opening = await source.opening();
   head(opening);
   const seek = (at) => player.seek(at);
   const map = new StreetMap(opening);
@@ -73,7 +68,7 @@ async function start() {
     const [from, to] = player.span;
     if (span !== player.span) { span = player.span; timeline.redraw(); }
     timeline.draw();
-    return show(`at=${at}&from=${from}&to=${to}&repeats=${id("repeats").checked ? 1 : 0}`);
+    return show({ at, from, to, repeats: id("repeats").checked });
   });
   const timeline = new Timeline(opening, player);
   id("times").append(...panels.times(opening.overview));
