@@ -28,228 +28,109 @@ pub enum Span {
     Farewell,
 }
 
-/// Something that the tester does.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[allow(missing_docs, reason = "the table of words says what each is")]
-pub enum Play {
-    Ask,
-    AskForUnsupported,
-    BoAsks,
-    Confirm,
-    ConfirmOtherOffer,
-    ConfirmNobody,
-    ConfirmElsewhere,
-    BoConfirms,
-    CommandMove,
-    CommandBlock,
-    CommandInitialPos,
-    CommandUnsupported,
-    CommandElsewhere,
-    CommandToOther,
-    Repeat,
-    Older,
-    Drop,
-    EndCompleted,
-    EndAborted,
-    EndElsewhere,
-    BareNone,
-    Beat(Beating),
-    Offer,
-    OfferUnfit,
-    OfferElsewhere,
-    OfferOlder,
-    BoSpeaks,
-    BoOffers,
-    Join,
-    BoJoins,
-    Ack,
-    AckOther,
-    AckElsewhere,
-    BoAcks,
-    Reject,
-    ReportExecuting,
-    ReportInPosition,
-    ReportCompleted,
-    ReportFailed,
-    ReportOther,
-    AdaLeaves,
-    BoLeaves,
-    BoClaims,
-    BoIntrudes,
-    BoAsksFirst,
-    BoAsksFirstOnce,
-    BoAsksLater,
-    BoLeadsFirst,
-    BoLeadsFirstOnce,
-    BoLeadsLater,
-    Noise,
-    OwnName,
-    Restart,
-    Detect,
-    DetectTwo,
-    OrderMove,
-    OrderBlock,
-    OrderInitialPos,
-    InPosition,
-    Done,
-    Fail,
-    Clear,
-    Open,
-    Close,
-    TaskCompleted,
-    Leave,
-    LowBattery,
-    LocalFault,
-    Available,
-    Wait(Span),
+/// A table of what the tester does, each with the words for it, which say what it means.
+macro_rules! plays {
+    ($($play:ident $($words:literal)? $(($of:ty) { $($value:path => $said:literal,)* })?;)*) => {
+        /// Something that the tester does.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+        #[allow(missing_docs, reason = "the table of words says what each is")]
+        pub enum Play {
+            $($play $(($of))?,)*
+        }
+
+        /// Each play, and the words for it.
+        const WORDS: &[(Play, &str)] = &[
+            $($((Play::$play, $words),)? $($((Play::$play($value), $said),)*)?)*
+        ];
+    };
 }
 
-/// Each play, the words for it, and what it means.
-const WORDS: &[(Play, &str)] = &[
-    (Play::Ask, "Ada asks for help"),
-    (
-        Play::AskForUnsupported,
-        "Ada asks for a task that nobody can do",
-    ),
-    (Play::BoAsks, "Bo asks for help"),
-    (Play::Confirm, "Ada leads and lists the robot's offer"),
-    (
-        Play::ConfirmOtherOffer,
-        "Ada leads and lists an offer that the robot did not make",
-    ),
-    (Play::ConfirmNobody, "Ada leads and lists Bo alone"),
-    (
-        Play::ConfirmElsewhere,
-        "Ada leads another session and lists the robot's offer in it",
-    ),
-    (
-        Play::BoConfirms,
-        "Bo leads and lists the robot's offer to Ada",
-    ),
-    (Play::CommandMove, "Ada commands a move"),
-    (Play::CommandBlock, "Ada commands a block"),
-    (Play::CommandInitialPos, "Ada commands initialPos"),
-    (
-        Play::CommandUnsupported,
-        "Ada commands a task that the robot did not offer",
-    ),
-    (Play::CommandElsewhere, "Ada commands in another session"),
-    (Play::CommandToOther, "Ada commands Bo"),
-    (Play::Repeat, "Ada repeats her newest command"),
-    (Play::Older, "Ada's command of long before arrives"),
-    (Play::Drop, "Ada lists the robot no more"),
-    (Play::EndCompleted, "Ada ends the session as completed"),
-    (Play::EndAborted, "Ada ends the session as aborted"),
-    (Play::EndElsewhere, "Ada names another session as ended"),
-    (Play::BareNone, "Ada says none, and ends nothing"),
-    (Play::Beat(Beating::Newer), "Ada beats again"),
-    (Play::Beat(Beating::Same), "Ada's heartbeat stands still"),
-    (
-        Play::Beat(Beating::Older),
-        "Ada's heartbeats of long before arrive",
-    ),
-    (Play::Beat(Beating::Mute), "Ada falls silent"),
-    (Play::Offer, "Ada offers"),
-    (Play::OfferUnfit, "Ada offers with a t_safety of 1 ms"),
-    (
-        Play::OfferElsewhere,
-        "Ada offers for a session that does not exist",
-    ),
-    (
-        Play::OfferOlder,
-        "Ada's older offer arrives after the newer one",
-    ),
-    (Play::BoSpeaks, "Bo is there and has no part"),
-    (Play::BoOffers, "Bo offers and is nearer"),
-    (Play::Join, "Ada follows"),
-    (Play::BoJoins, "Bo follows"),
-    (Play::Ack, "Ada acknowledges"),
-    (
-        Play::AckOther,
-        "Ada acknowledges commands that are not outstanding",
-    ),
-    (Play::AckElsewhere, "Ada acknowledges in another session"),
-    (Play::BoAcks, "Bo acknowledges Ada's command"),
-    (Play::Reject, "Ada rejects"),
-    (Play::ReportExecuting, "Ada reports that she executes"),
-    (
-        Play::ReportInPosition,
-        "Ada reports that she is in position",
-    ),
-    (Play::ReportCompleted, "Ada reports that she has completed"),
-    (Play::ReportFailed, "Ada reports that she has failed"),
-    (
-        Play::ReportOther,
-        "Ada reports another command as completed",
-    ),
-    (Play::AdaLeaves, "Ada leaves"),
-    (Play::BoLeaves, "Bo leaves"),
-    (
-        Play::BoClaims,
-        "Bo follows the robot in a session that is over",
-    ),
-    (
-        Play::BoIntrudes,
-        "Bo follows the robot in its session, unasked",
-    ),
-    (
-        Play::BoAsksFirst,
-        "Bo asks for the same place and goes before",
-    ),
-    (
-        Play::BoAsksFirstOnce,
-        "Bo asks for the same place and goes before, without a heartbeat",
-    ),
-    (
-        Play::BoAsksLater,
-        "Bo asks for the same place and goes behind",
-    ),
-    (
-        Play::BoLeadsFirst,
-        "Bo leads at the same place and goes before",
-    ),
-    (
-        Play::BoLeadsFirstOnce,
-        "Bo leads at the same place and goes before, without a heartbeat",
-    ),
-    (
-        Play::BoLeadsLater,
-        "Bo leads at the same place and goes behind",
-    ),
-    (Play::Noise, "packets arrive that mean nothing"),
-    (Play::OwnName, "somebody speaks under the robot's name"),
-    (Play::Restart, "the robot loses power and starts again"),
-    (
-        Play::Detect,
-        "the robot detects a pedestrian and needs one follower",
-    ),
-    (
-        Play::DetectTwo,
-        "the robot detects a pedestrian and needs two followers",
-    ),
-    (Play::OrderMove, "the robot orders Ada to move"),
-    (Play::OrderBlock, "the robot orders Ada to block"),
-    (Play::OrderInitialPos, "the robot orders Ada to initialPos"),
-    (Play::InPosition, "the robot is in position"),
-    (Play::Done, "the robot has done it"),
-    (Play::Fail, "the robot cannot do it"),
-    (Play::Clear, "the robot sees a clear road"),
-    (Play::Open, "the robot lets people cross"),
-    (Play::Close, "the robot holds people back"),
-    (Play::TaskCompleted, "the robot's pedestrian is across"),
-    (Play::Leave, "the robot wants to leave"),
-    (Play::LowBattery, "the robot's battery is low"),
-    (Play::LocalFault, "the robot has a fault"),
-    (Play::Available, "the robot is available again"),
-    (Play::Wait(Span::Offer), "t_offer passes"),
-    (Play::Wait(Span::Help), "t_help passes"),
-    (Play::Wait(Span::Safety), "t_safety passes"),
-    (Play::Wait(Span::Leave), "t_safety and t_leave pass"),
-    (Play::Wait(Span::Lease), "the lease passes"),
-    (Play::Wait(Span::Lost), "the lease and t_lost pass"),
-    (Play::Wait(Span::Repeats), "the repetitions pass"),
-    (Play::Wait(Span::Farewell), "t_farewell passes"),
-];
+plays! {
+    Ask "Ada asks for help";
+    AskForUnsupported "Ada asks for a task that nobody can do";
+    BoAsks "Bo asks for help";
+    Confirm "Ada leads and lists the robot's offer";
+    ConfirmOtherOffer "Ada leads and lists an offer that the robot did not make";
+    ConfirmNobody "Ada leads and lists Bo alone";
+    ConfirmElsewhere "Ada leads another session and lists the robot's offer in it";
+    BoConfirms "Bo leads and lists the robot's offer to Ada";
+    CommandMove "Ada commands a move";
+    CommandBlock "Ada commands a block";
+    CommandInitialPos "Ada commands initialPos";
+    CommandUnsupported "Ada commands a task that the robot did not offer";
+    CommandElsewhere "Ada commands in another session";
+    CommandToOther "Ada commands Bo";
+    Repeat "Ada repeats her newest command";
+    Older "Ada's command of long before arrives";
+    Drop "Ada lists the robot no more";
+    EndCompleted "Ada ends the session as completed";
+    EndAborted "Ada ends the session as aborted";
+    EndElsewhere "Ada names another session as ended";
+    BareNone "Ada says none, and ends nothing";
+    Beat(Beating) {
+        Beating::Newer => "Ada beats again",
+        Beating::Same => "Ada's heartbeat stands still",
+        Beating::Older => "Ada's heartbeats of long before arrive",
+        Beating::Mute => "Ada falls silent",
+    };
+    Offer "Ada offers";
+    OfferUnfit "Ada offers with a t_safety of 1 ms";
+    OfferElsewhere "Ada offers for a session that does not exist";
+    OfferOlder "Ada's older offer arrives after the newer one";
+    BoSpeaks "Bo is there and has no part";
+    BoOffers "Bo offers and is nearer";
+    Join "Ada follows";
+    BoJoins "Bo follows";
+    Ack "Ada acknowledges";
+    AckOther "Ada acknowledges commands that are not outstanding";
+    AckElsewhere "Ada acknowledges in another session";
+    BoAcks "Bo acknowledges Ada's command";
+    Reject "Ada rejects";
+    ReportExecuting "Ada reports that she executes";
+    ReportInPosition "Ada reports that she is in position";
+    ReportCompleted "Ada reports that she has completed";
+    ReportFailed "Ada reports that she has failed";
+    ReportOther "Ada reports another command as completed";
+    AdaLeaves "Ada leaves";
+    BoLeaves "Bo leaves";
+    BoClaims "Bo follows the robot in a session that is over";
+    BoIntrudes "Bo follows the robot in its session, unasked";
+    BoAsksFirst "Bo asks for the same place and goes before";
+    BoAsksFirstOnce "Bo asks for the same place and goes before, without a heartbeat";
+    BoAsksLater "Bo asks for the same place and goes behind";
+    BoLeadsFirst "Bo leads at the same place and goes before";
+    BoLeadsFirstOnce "Bo leads at the same place and goes before, without a heartbeat";
+    BoLeadsLater "Bo leads at the same place and goes behind";
+    Noise "packets arrive that mean nothing";
+    OwnName "somebody speaks under the robot's name";
+    Restart "the robot loses power and starts again";
+    Detect "the robot detects a pedestrian and needs one follower";
+    DetectTwo "the robot detects a pedestrian and needs two followers";
+    OrderMove "the robot orders Ada to move";
+    OrderBlock "the robot orders Ada to block";
+    OrderInitialPos "the robot orders Ada to initialPos";
+    InPosition "the robot is in position";
+    Done "the robot has done it";
+    Fail "the robot cannot do it";
+    Clear "the robot sees a clear road";
+    Open "the robot lets people cross";
+    Close "the robot holds people back";
+    TaskCompleted "the robot's pedestrian is across";
+    Leave "the robot wants to leave";
+    LowBattery "the robot's battery is low";
+    LocalFault "the robot has a fault";
+    Available "the robot is available again";
+    Wait(Span) {
+        Span::Offer => "t_offer passes",
+        Span::Help => "t_help passes",
+        Span::Safety => "t_safety passes",
+        Span::Leave => "t_safety and t_leave pass",
+        Span::Lease => "the lease passes",
+        Span::Lost => "the lease and t_lost pass",
+        Span::Repeats => "the repetitions pass",
+        Span::Farewell => "t_farewell passes",
+    };
+}
 
 /// The part in which the tester does something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

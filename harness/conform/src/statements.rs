@@ -7,6 +7,19 @@
 //!   exchange ──► statement ──► met here, in this situation: kept, or broken and how
 //! ```
 
+/// A table of statements: the name, the rule, who judges it, and what it says.
+macro_rules! statements {
+    ($($name:literal $rule:literal $judge:ident: $says:literal;)*) => {
+        pub(super) const ALL: &[super::Statement] = &[$(super::Statement {
+            name: $name,
+            rule: $rule,
+            says: $says,
+            judge: $judge,
+        }),*];
+    };
+}
+use statements;
+
 mod answers;
 mod contact;
 mod ends;

@@ -12,6 +12,7 @@ use crossguard_conform::subject::Subject as _;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::*;
 use crossguard_testkit::rules::*;
+use crossguard_testkit::weakenings;
 
 /// A robot under rules.
 #[derive(Debug)]
@@ -89,11 +90,9 @@ impl Rules for With {
     }
 }
 
-/// A follower waits for a quarter of the `t_safety` that it told.
-struct WaitsAQuarter;
-
-impl Rules for WaitsAQuarter {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+weakenings! {
+    /// A follower waits for a quarter of the `t_safety` that it told.
+    WaitsAQuarter(robot, config, input) {
         let hears = matches!(input, Input::Ram { .. } | Input::Rmcm(_));
         if !hears || !matches!(robot.phase(), Phase::Following(_)) {
             return robot.step(config, input);
@@ -105,13 +104,9 @@ impl Rules for WaitsAQuarter {
         };
         robot.step(&Config::new(settings).unwrap(), input)
     }
-}
 
-/// A requester does not listen to other requesters.
-struct InsistsOnItsRequest;
-
-impl Rules for InsistsOnItsRequest {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A requester does not listen to other requesters.
+    InsistsOnItsRequest(robot, config, input) {
         if let (Phase::Requesting(_), Input::Ram { ram, .. }) = (robot.phase(), input)
             && matches!(ram.coordination, Coordination::NeedHelp { .. })
         {
@@ -121,13 +116,9 @@ impl Rules for InsistsOnItsRequest {
         }
         robot.step(config, input)
     }
-}
 
-/// A robot in a session sends a RAM for each that it hears.
-struct AnswersEveryRam;
-
-impl Rules for AnswersEveryRam {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A robot in a session sends a RAM for each that it hears.
+    AnswersEveryRam(robot, config, input) {
         let outputs = robot.step(config, input);
         if !matches!(input, Input::Ram { .. }) || robot.session().is_none() {
             return outputs;
@@ -136,6 +127,54 @@ impl Rules for AnswersEveryRam {
         let effects =
             effects.filter(|output| !matches!(output, Output::Ignored(_) | Output::SendRam));
         effects.chain([Output::SendRam]).collect()
+    }
+
+    /// A follower that fell back reports that it executes when its command is repeated.
+    RunsAgainAfterItsFallback(robot, config, input) {
+        let outputs = robot.step(config, input);
+        if let (Phase::Following(following), Input::Rmcm(Rmcm::Command(command))) =
+            (robot.phase(), input)
+            && let Some(job) = following.job
+            && (job.request, job.progress) == (command.request, Progress::SafeIdle)
+        {
+            let progress = serde_json::to_value(Progress::Executing).unwrap();
+            with_state(robot, |state| {
+                state["phase"]["following"]["job"]["progress"] = progress;
+            });
+        }
+        outputs
+    }
+
+    /// A leader commands its guards although people may be on the road.
+    CommandsItsGuardsAway(robot, config, input) {
+        let corridor = |robot: &mut Robot, it: Corridor| {
+            with_state(robot, |state| {
+                state["phase"]["leading"]["corridor"] = serde_json::to_value(it).unwrap();
+            });
+        };
+        let before = match (robot.phase(), input) {
+            (Phase::Leading(leading), Input::Local(Event::CommandManeuver { .. })) => {
+                leading.corridor
+            }
+            _ => return robot.step(config, input),
+        };
+        corridor(robot, Corridor::Clear);
+        let outputs = robot.step(config, input);
+        corridor(robot, before);
+        outputs
+    }
+
+    /// A leader that loses one follower lists none any more.
+    LosesAllForOne(robot, config, input) {
+        let outputs = robot.step(config, input);
+        let mut notices = outputs.notices();
+        let one_is_gone = notices.any(|notice| matches!(notice, Notice::FollowerGone(..)));
+        if one_is_gone && matches!(robot.phase(), Phase::Leading(_)) {
+            with_state(robot, |state| {
+                state["phase"]["leading"]["members"] = serde_json::json!([]);
+            });
+        }
+        outputs
     }
 }
 
@@ -173,66 +212,6 @@ impl Rules for WhileItLeads {
             return robot.step(config, input);
         }
         With(self.0).step(robot, config, input)
-    }
-}
-
-/// A follower that fell back reports that it executes when its command is repeated.
-struct RunsAgainAfterItsFallback;
-
-impl Rules for RunsAgainAfterItsFallback {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        if let (Phase::Following(following), Input::Rmcm(Rmcm::Command(command))) =
-            (robot.phase(), input)
-            && let Some(job) = following.job
-            && (job.request, job.progress) == (command.request, Progress::SafeIdle)
-        {
-            let progress = serde_json::to_value(Progress::Executing).unwrap();
-            with_state(robot, |state| {
-                state["phase"]["following"]["job"]["progress"] = progress;
-            });
-        }
-        outputs
-    }
-}
-
-/// A leader commands its guards although people may be on the road.
-struct CommandsItsGuardsAway;
-
-impl Rules for CommandsItsGuardsAway {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let corridor = |robot: &mut Robot, it: Corridor| {
-            with_state(robot, |state| {
-                state["phase"]["leading"]["corridor"] = serde_json::to_value(it).unwrap();
-            });
-        };
-        let before = match (robot.phase(), input) {
-            (Phase::Leading(leading), Input::Local(Event::CommandManeuver { .. })) => {
-                leading.corridor
-            }
-            _ => return robot.step(config, input),
-        };
-        corridor(robot, Corridor::Clear);
-        let outputs = robot.step(config, input);
-        corridor(robot, before);
-        outputs
-    }
-}
-
-/// A leader that loses one follower lists none any more.
-struct LosesAllForOne;
-
-impl Rules for LosesAllForOne {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        let mut notices = outputs.notices();
-        let one_is_gone = notices.any(|notice| matches!(notice, Notice::FollowerGone(..)));
-        if one_is_gone && matches!(robot.phase(), Phase::Leading(_)) {
-            with_state(robot, |state| {
-                state["phase"]["leading"]["members"] = serde_json::json!([]);
-            });
-        }
-        outputs
     }
 }
 

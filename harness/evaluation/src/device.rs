@@ -97,7 +97,9 @@ mod tests {
     }
 
     fn hex(octets: &[u8]) -> String {
-        octets.iter().fold(String::new(), |digits, octet| digits + &format!("{octet:02x}"))
+        octets.iter().fold(String::new(), |digits, octet| {
+            digits + &format!("{octet:02x}")
+        })
     }
 
     fn vector(name: &str) -> &'static str {

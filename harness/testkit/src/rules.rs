@@ -7,6 +7,19 @@ use crossguard_protocol::{
     Timer,
 };
 
+/// Declares weakenings: what each does in place of a step of the protocol.
+#[macro_export]
+macro_rules! weakenings {
+    ($($(#[$doc:meta])* $vis:vis $name:ident($robot:pat_param, $config:pat_param, $input:pat_param) $body:block)*) => {$(
+        $(#[$doc])*
+        $vis struct $name;
+
+        impl Rules for $name {
+            fn step(&self, $robot: &mut Robot, $config: &Config, $input: Input) -> Outputs $body
+        }
+    )*};
+}
+
 /// Outputs of one kind never reach the robot.
 pub struct Drops(pub fn(&Output) -> bool);
 
@@ -31,11 +44,9 @@ pub const NEVER_STOPS: Drops = Drops(|output| matches!(output, Output::StopManeu
 /// The identity is not locked.
 pub const NEVER_LOCKS_ITS_IDENTITY: Drops = Drops(|output| matches!(output, Output::LockIdentity));
 
-/// When one follower is gone, another one's lease goes too.
-pub struct LosesTwoForOne;
-
-impl Rules for LosesTwoForOne {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+weakenings! {
+    /// When one follower is gone, another one's lease goes too.
+    pub LosesTwoForOne(robot, config, input) {
         let outputs = robot.step(config, input);
         let one_is_gone = outputs
             .notices()
@@ -48,13 +59,9 @@ impl Rules for LosesTwoForOne {
         }
         outputs
     }
-}
 
-/// A follower has no timers.
-pub struct FollowersWaitForEver;
-
-impl Rules for FollowersWaitForEver {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A follower has no timers.
+    pub FollowersWaitForEver(robot, config, input) {
         let is_time = matches!(input, Input::Expired(_) | Input::Elapsed(_));
         if is_time && matches!(robot.phase(), Phase::Following(_)) {
             return [Output::Ignored(Ignored::TimerNotArmed)]
@@ -63,13 +70,9 @@ impl Rules for FollowersWaitForEver {
         }
         robot.step(config, input)
     }
-}
 
-/// Whatever leader lists the robot, for whatever offer, has confirmed it.
-pub struct ConfirmsByStationAlone;
-
-impl Rules for ConfirmsByStationAlone {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+    /// Whatever leader lists the robot, for whatever offer, has confirmed it.
+    pub ConfirmsByStationAlone(robot, config, mut input) {
         let mine = match robot.phase() {
             Phase::Offering(offering) => Some(offering.number),
             Phase::Following(following) => Some(following.offer),
@@ -95,13 +98,9 @@ impl Rules for ConfirmsByStationAlone {
         }
         robot.step(config, input)
     }
-}
 
-/// A request for help counts as a confirmation.
-pub struct NeedsNoConfirmation;
-
-impl Rules for NeedsNoConfirmation {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+    /// A request for help counts as a confirmation.
+    pub NeedsNoConfirmation(robot, config, mut input) {
         if let (Phase::Offering(offering), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
             && let Coordination::NeedHelp {
                 number,
@@ -124,13 +123,9 @@ impl Rules for NeedsNoConfirmation {
         }
         robot.step(config, input)
     }
-}
 
-/// The session that a command names is not looked at.
-pub struct ObeysCommandsOfAnySession;
-
-impl Rules for ObeysCommandsOfAnySession {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+    /// The session that a command names is not looked at.
+    pub ObeysCommandsOfAnySession(robot, config, mut input) {
         if let (Phase::Following(following), Input::Rmcm(Rmcm::Command(command))) =
             (robot.phase(), &mut input)
         {
@@ -138,13 +133,9 @@ impl Rules for ObeysCommandsOfAnySession {
         }
         robot.step(config, input)
     }
-}
 
-/// A repeated command is started like a new one.
-pub struct StartsRepeatedCommands;
-
-impl Rules for StartsRepeatedCommands {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A repeated command is started like a new one.
+    pub StartsRepeatedCommands(robot, config, input) {
         let job = match robot.phase() {
             Phase::Following(following) => following.job,
             _ => None,
@@ -167,13 +158,9 @@ impl Rules for StartsRepeatedCommands {
             _ => outputs,
         }
     }
-}
 
-/// An older command is started like a new one.
-pub struct StartsOlderCommands;
-
-impl Rules for StartsOlderCommands {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// An older command is started like a new one.
+    pub StartsOlderCommands(robot, config, input) {
         match (robot.phase(), input) {
             (Phase::Following(following), Input::Rmcm(Rmcm::Command(command)))
                 if command.session == following.session
@@ -193,13 +180,9 @@ impl Rules for StartsOlderCommands {
             _ => robot.step(config, input),
         }
     }
-}
 
-/// Any acknowledgement is taken for that of the outstanding command.
-pub struct TakesAnyAcknowledgement;
-
-impl Rules for TakesAnyAcknowledgement {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+    /// Any acknowledgement is taken for that of the outstanding command.
+    pub TakesAnyAcknowledgement(robot, config, mut input) {
         if let (Phase::Leading(leading), Input::Rmcm(Rmcm::Answer(answer))) =
             (robot.phase(), &mut input)
             && let Some(outstanding) = leading.member(answer.from).and_then(|m| m.outstanding)
@@ -208,13 +191,9 @@ impl Rules for TakesAnyAcknowledgement {
         }
         robot.step(config, input)
     }
-}
 
-/// Progress in a RAM is taken for that of the newest command, as in the paper.
-pub struct TakesAnyProgress;
-
-impl Rules for TakesAnyProgress {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+    /// Progress in a RAM is taken for that of the newest command, as in the paper.
+    pub TakesAnyProgress(robot, config, mut input) {
         if let (Phase::Leading(leading), Input::Ram { ram, .. }) = (robot.phase(), &mut input)
             && let Coordination::Follower {
                 last: Some(report), ..
@@ -225,13 +204,9 @@ impl Rules for TakesAnyProgress {
         }
         robot.step(config, input)
     }
-}
 
-/// A follower that changes its pseudonym takes that of its leader.
-pub struct TakesItsLeadersPseudonym;
-
-impl Rules for TakesItsLeadersPseudonym {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A follower that changes its pseudonym takes that of its leader.
+    pub TakesItsLeadersPseudonym(robot, config, input) {
         if let (Phase::Following(following), Input::Local(Event::IdentityChanged(..))) =
             (robot.phase(), input)
         {
@@ -242,13 +217,9 @@ impl Rules for TakesItsLeadersPseudonym {
         }
         robot.step(config, input)
     }
-}
 
-/// A leader does not read the progress in its followers' RAM.
-pub struct ReadsNoProgress;
-
-impl Rules for ReadsNoProgress {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+    /// A leader does not read the progress in its followers' RAM.
+    pub ReadsNoProgress(robot, config, mut input) {
         if let Input::Ram { ram, .. } = &mut input
             && let Coordination::Follower { last, .. } = &mut ram.coordination
         {
@@ -256,18 +227,115 @@ impl Rules for ReadsNoProgress {
         }
         robot.step(config, input)
     }
-}
 
-/// A command is repeated once more than it may be.
-pub struct RepeatsOnceTooOften;
-
-impl Rules for RepeatsOnceTooOften {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A command is repeated once more than it may be.
+    pub RepeatsOnceTooOften(robot, config, input) {
         let patient = Settings {
             n_ack: config.settings().n_ack + 1,
             ..config.settings().clone()
         };
         robot.step(&Config::new(patient).unwrap(), input)
+    }
+
+    /// A requester asks for one follower fewer than its pedestrian needs.
+    pub AsksForFewer(robot, config, mut input) {
+        if let Input::Local(Event::PedestrianDetected(request)) = &mut input {
+            request.followers -= 1;
+        }
+        robot.step(config, input)
+    }
+
+    /// Every fallback is to stop where the robot is.
+    pub StopsInPlace(robot, config, input) {
+        let outputs = robot.step(config, input);
+        let stop = |output: &Output| match *output {
+            Output::FallBack(maneuver, _) => {
+                Output::FallBack(maneuver, FallbackPolicy::StopInPlace)
+            }
+            output => output,
+        };
+        outputs.iter().map(stop).collect()
+    }
+
+    /// A leader does not listen to other leaders.
+    pub HearsNoLeader(robot, config, input) {
+        if let (Phase::Leading(_), Input::Ram { ram, .. }) = (robot.phase(), input)
+            && matches!(ram.coordination, Coordination::Leader { .. })
+        {
+            return [Output::Ignored(Ignored::LowerPrecedence)]
+                .into_iter()
+                .collect();
+        }
+        robot.step(config, input)
+    }
+
+    /// A robot has forgotten its duty as soon as somebody asks for help.
+    pub ForgetsItsDuty(robot, config, input) {
+        if let (Phase::Idle, Some(_), Input::Ram { ram, .. }) = (robot.phase(), robot.duty(), input)
+            && matches!(ram.coordination, Coordination::NeedHelp { .. })
+        {
+            let mut forgetful = robot.clone();
+            with_state(&mut forgetful, |state| {
+                state["duty"] = serde_json::Value::Null;
+            });
+            let outputs = forgetful.step(config, input);
+            if outputs.ignored().is_none() {
+                *robot = forgetful;
+                return outputs;
+            }
+        }
+        robot.step(config, input)
+    }
+
+    /// A follower starts before it acknowledges (rule R7, property I6).
+    pub StartsBeforeItAcknowledges(robot, config, input) {
+        let outputs = robot.step(config, input);
+        let is_start = |output: &&Output| matches!(output, Output::StartManeuver(_));
+        let starts = outputs.iter().filter(is_start);
+        let others = outputs.iter().filter(|output| !is_start(output));
+        starts.chain(others).copied().collect()
+    }
+
+    /// What one follower says of itself counts for all followers of the session.
+    pub CountsOneForAll(robot, config, input) {
+        let members: Vec<_> = match robot.phase() {
+            Phase::Leading(leading) => leading.members.iter().map(|it| it.station).collect(),
+            _ => Vec::new(),
+        };
+        let mut outputs: Vec<_> = robot.step(config, input).iter().copied().collect();
+        if let Input::Ram { mut ram, distance } = input
+            && matches!(ram.coordination, Coordination::Follower { .. })
+            && members.contains(&ram.station)
+        {
+            let sender = ram.station;
+            for other in members.into_iter().filter(|other| *other != sender) {
+                ram.station = other;
+                let more = robot.step(config, Input::Ram { ram, distance });
+                if more.ignored().is_none() {
+                    outputs.retain(|output| !matches!(output, Output::Ignored(_)));
+                    outputs.extend(more.iter().copied());
+                }
+            }
+        }
+        outputs.into_iter().collect()
+    }
+
+    /// Any robot that says that it follows in the session is a follower there, with the record of the first.
+    pub AdmitsWhoSaysThatItFollows(robot, config, input) {
+        if let (Some(own), Phase::Leading(leading), Input::Ram { ram, .. }) =
+            (robot.session(), robot.phase(), input)
+            && let Coordination::Follower { session, .. } = ram.coordination
+            && session == own
+            && leading.member(ram.station).is_none()
+        {
+            with_state(robot, |state| {
+                let members = &mut state["phase"]["leading"]["members"];
+                let mut member = members[0].clone();
+                member["station"] = serde_json::to_value(ram.station).unwrap();
+                members.as_array_mut().unwrap().push(member);
+            });
+        }
+        robot.step(config, input)
     }
 }
 
@@ -308,134 +376,5 @@ impl Rules for Overlooks {
         }
         let kept = outputs.iter().copied().filter(|output| !is_open(output));
         kept.collect()
-    }
-}
-
-/// A requester asks for one follower fewer than its pedestrian needs.
-pub struct AsksForFewer;
-
-impl Rules for AsksForFewer {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
-        if let Input::Local(Event::PedestrianDetected(request)) = &mut input {
-            request.followers -= 1;
-        }
-        robot.step(config, input)
-    }
-}
-
-/// Every fallback is to stop where the robot is.
-pub struct StopsInPlace;
-
-impl Rules for StopsInPlace {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        let stop = |output: &Output| match *output {
-            Output::FallBack(maneuver, _) => {
-                Output::FallBack(maneuver, FallbackPolicy::StopInPlace)
-            }
-            output => output,
-        };
-        outputs.iter().map(stop).collect()
-    }
-}
-
-/// A leader does not listen to other leaders.
-pub struct HearsNoLeader;
-
-impl Rules for HearsNoLeader {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Leading(_), Input::Ram { ram, .. }) = (robot.phase(), input)
-            && matches!(ram.coordination, Coordination::Leader { .. })
-        {
-            return [Output::Ignored(Ignored::LowerPrecedence)]
-                .into_iter()
-                .collect();
-        }
-        robot.step(config, input)
-    }
-}
-
-/// A robot has forgotten its duty as soon as somebody asks for help.
-pub struct ForgetsItsDuty;
-
-impl Rules for ForgetsItsDuty {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Phase::Idle, Some(_), Input::Ram { ram, .. }) = (robot.phase(), robot.duty(), input)
-            && matches!(ram.coordination, Coordination::NeedHelp { .. })
-        {
-            let mut forgetful = robot.clone();
-            with_state(&mut forgetful, |state| {
-                state["duty"] = serde_json::Value::Null;
-            });
-            let outputs = forgetful.step(config, input);
-            if outputs.ignored().is_none() {
-                *robot = forgetful;
-                return outputs;
-            }
-        }
-        robot.step(config, input)
-    }
-}
-
-/// A follower starts before it acknowledges (rule R7, property I6).
-pub struct StartsBeforeItAcknowledges;
-
-impl Rules for StartsBeforeItAcknowledges {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        let is_start = |output: &&Output| matches!(output, Output::StartManeuver(_));
-        let starts = outputs.iter().filter(is_start);
-        let others = outputs.iter().filter(|output| !is_start(output));
-        starts.chain(others).copied().collect()
-    }
-}
-
-/// What one follower says of itself counts for all followers of the session.
-pub struct CountsOneForAll;
-
-impl Rules for CountsOneForAll {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let members: Vec<_> = match robot.phase() {
-            Phase::Leading(leading) => leading.members.iter().map(|it| it.station).collect(),
-            _ => Vec::new(),
-        };
-        let mut outputs: Vec<_> = robot.step(config, input).iter().copied().collect();
-        if let Input::Ram { mut ram, distance } = input
-            && matches!(ram.coordination, Coordination::Follower { .. })
-            && members.contains(&ram.station)
-        {
-            let sender = ram.station;
-            for other in members.into_iter().filter(|other| *other != sender) {
-                ram.station = other;
-                let more = robot.step(config, Input::Ram { ram, distance });
-                if more.ignored().is_none() {
-                    outputs.retain(|output| !matches!(output, Output::Ignored(_)));
-                    outputs.extend(more.iter().copied());
-                }
-            }
-        }
-        outputs.into_iter().collect()
-    }
-}
-
-/// Any robot that says that it follows in the session is a follower there, with the record of the first.
-pub struct AdmitsWhoSaysThatItFollows;
-
-impl Rules for AdmitsWhoSaysThatItFollows {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        if let (Some(own), Phase::Leading(leading), Input::Ram { ram, .. }) =
-            (robot.session(), robot.phase(), input)
-            && let Coordination::Follower { session, .. } = ram.coordination
-            && session == own
-            && leading.member(ram.station).is_none()
-        {
-            with_state(robot, |state| {
-                let members = &mut state["phase"]["leading"]["members"];
-                let mut member = members[0].clone();
-                member["station"] = serde_json::to_value(ram.station).unwrap();
-                members.as_array_mut().unwrap().push(member);
-            });
-        }
-        robot.step(config, input)
     }
 }

@@ -118,6 +118,7 @@ enum Where {
 
 /// A kind of alteration: its name, the line that it is made to, what it does with the lines from there
 /// on, where it is noticed, and a part of the reason.
+#[derive(Clone, Copy)]
 struct Alteration {
     name: &'static str,
     line: fn(&Value) -> bool,
@@ -186,177 +187,74 @@ fn next_of(robot: &Value, lines: &[Value], at: usize) -> usize {
     (at + 1..lines.len()).find(same).unwrap_or(lines.len() - 1)
 }
 
-const ALTERATIONS: [Alteration; 22] = [
-    Alteration {
-        name: "settings that break an inequality",
-        line: |line| is(line, "started"),
-        alter: |lines, at| lines[at]["settings"]["t_lease"] = 1_999.into(),
-        refused: Where::There,
-        reason: "was started although the settings break 'lease-within-safety'",
-    },
-    Alteration {
-        name: "another boot counter",
-        line: |line| is(line, "started"),
-        alter: |lines, at| lines[at]["boot"] = 7.into(),
-        refused: Where::AtItsPart,
-        reason: "went into a state that the protocol does not lead to",
-    },
-    Alteration {
-        name: "another event",
-        line: |line| line["input"]["local"].get("pedestrianDetected").is_some(),
-        alter: |lines, at| lines[at]["input"] = json!({"local": "leaveRequested"}),
-        refused: Where::There,
-        reason: "the protocol puts out",
-    },
-    Alteration {
-        name: "more time than has passed",
-        line: |line| is(line, "step") && line["input"].get("elapsed").is_some(),
-        alter: |lines, at| lines[at]["input"]["elapsed"] = 60_000.into(),
-        refused: Where::There,
-        reason: "was told that",
-    },
-    Alteration {
-        name: "an output less",
-        line: is_busy_step,
-        alter: |lines, at| {
+/// A table of alterations: the name, where it is noticed, a part of the reason, the line, and what is done.
+macro_rules! alterations {
+    ($($name:literal $refused:ident $reason:literal: $line:expr => $alter:expr;)*) => {
+        &[$(Alteration { name: $name, line: $line, alter: $alter, refused: Where::$refused, reason: $reason }),*]
+    };
+}
+
+const ALTERATIONS: &[Alteration] = alterations! {
+    "settings that break an inequality" There "was started although the settings break 'lease-within-safety'":
+        |line| is(line, "started") => |lines, at| lines[at]["settings"]["t_lease"] = 1_999.into();
+    "another boot counter" AtItsPart "went into a state that the protocol does not lead to":
+        |line| is(line, "started") => |lines, at| lines[at]["boot"] = 7.into();
+    "another event" There "the protocol puts out":
+        |line| line["input"]["local"].get("pedestrianDetected").is_some() => |lines, at| lines[at]["input"] = json!({"local": "leaveRequested"});
+    "more time than has passed" There "was told that":
+        |line| is(line, "step") && line["input"].get("elapsed").is_some() => |lines, at| lines[at]["input"]["elapsed"] = 60_000.into();
+    "an output less" There "the protocol puts out":
+        is_busy_step => |lines, at| {
             lines[at]["outputs"].as_array_mut().unwrap().pop();
-        },
-        refused: Where::There,
-        reason: "the protocol puts out",
-    },
-    Alteration {
-        name: "an output more",
-        line: is_busy_step,
-        alter: |lines, at| {
+        };
+    "an output more" There "corridor opened":
+        is_busy_step => |lines, at| {
             let outputs = lines[at]["outputs"].as_array_mut().unwrap();
             outputs.push(serde_json::json!({"corridorOpened": 1}));
-        },
-        refused: Where::There,
-        reason: "corridor opened",
-    },
-    Alteration {
-        name: "another state",
-        line: is_busy_step,
-        alter: |lines, at| lines[at]["state"]["next_count"] = 9.into(),
-        refused: Where::There,
-        reason: "went into a state that the protocol does not lead to",
-    },
-    Alteration {
-        name: "another message sent",
-        line: |line| is(line, "sent") && line["trigger"] == "protocol",
-        alter: |lines, at| flip_octet(&mut lines[at]),
-        refused: Where::AsHeard,
-        reason: "",
-    },
-    Alteration {
-        name: "another kind of message sent",
-        line: |line| is(line, "sent") && line["message"] == "RAM",
-        alter: |lines, at| lines[at]["message"] = "RMCM".into(),
-        refused: Where::There,
-        reason: "recorded octets that are not the RMCM it says",
-    },
-    Alteration {
-        name: "another message heard",
-        line: is_heard_in_session,
-        alter: |lines, at| flip_octet(&mut lines[at]),
-        refused: Where::ThereOrNext,
-        reason: "",
-    },
-    Alteration {
-        name: "another sender",
-        line: is_heard_in_session,
-        alter: |lines, at| lines[at]["from"] = 77.into(),
-        refused: Where::There,
-        reason: "recorded octets that are not the RMCM of station",
-    },
-    Alteration {
-        name: "another cause of a loss",
-        line: |line| is(line, "dropped"),
-        alter: |lines, at| lines[at]["cause"] = "rain".into(),
-        refused: Where::AtTheEnd,
-        reason: "times, and its log has it",
-    },
-    Alteration {
-        name: "another count",
-        line: |line| is(line, "stopped"),
-        alter: |lines, at| lines[at]["counters"]["protocol"]["nothing new"] = 999.into(),
-        refused: Where::There,
-        reason: "counted 'protocol: nothing new' 999 times, and its log has it",
-    },
-    Alteration {
-        name: "a step less",
-        line: is_busy_step,
-        alter: |lines, at| {
+        };
+    "another state" There "went into a state that the protocol does not lead to":
+        is_busy_step => |lines, at| lines[at]["state"]["next_count"] = 9.into();
+    "another message sent" AsHeard "":
+        |line| is(line, "sent") && line["trigger"] == "protocol" => |lines, at| flip_octet(&mut lines[at]);
+    "another kind of message sent" There "recorded octets that are not the RMCM it says":
+        |line| is(line, "sent") && line["message"] == "RAM" => |lines, at| lines[at]["message"] = "RMCM".into();
+    "another message heard" ThereOrNext "":
+        is_heard_in_session => |lines, at| flip_octet(&mut lines[at]);
+    "another sender" There "recorded octets that are not the RMCM of station":
+        is_heard_in_session => |lines, at| lines[at]["from"] = 77.into();
+    "another cause of a loss" AtTheEnd "times, and its log has it":
+        |line| is(line, "dropped") => |lines, at| lines[at]["cause"] = "rain".into();
+    "another count" There "counted 'protocol: nothing new' 999 times, and its log has it":
+        |line| is(line, "stopped") => |lines, at| lines[at]["counters"]["protocol"]["nothing new"] = 999.into();
+    "a step less" ThereOrNext "":
+        is_busy_step => |lines, at| {
             lines.remove(at);
-        },
-        refused: Where::ThereOrNext,
-        reason: "",
-    },
-    Alteration {
-        name: "a transmission less",
-        line: |line| is(line, "sent") && line["message"] == "RMCM",
-        alter: |lines, at| {
+        };
+    "a transmission less" AsHeard "":
+        |line| is(line, "sent") && line["message"] == "RMCM" => |lines, at| {
             lines.remove(at);
-        },
-        refused: Where::AsHeard,
-        reason: "",
-    },
-    Alteration {
-        name: "a line twice",
-        line: is_busy_step,
-        alter: |lines, at| {
+        };
+    "a line twice" ThereOrNext "":
+        is_busy_step => |lines, at| {
             let line = lines[at].clone();
             lines.insert(at, line);
-        },
-        refused: Where::ThereOrNext,
-        reason: "",
-    },
-    Alteration {
-        name: "two lines of a robot in each other's place",
-        line: is_busy_step,
-        alter: |lines, at| {
+        };
+    "two lines of a robot in each other's place" ThereOrNext "":
+        is_busy_step => |lines, at| {
             let next = next_of_robot(lines, at);
             lines.swap(at, next);
-        },
-        refused: Where::ThereOrNext,
-        reason: "",
-    },
-    Alteration {
-        name: "an earlier time",
-        line: is_busy_step,
-        alter: |lines, at| lines[at]["atUs"] = 1.into(),
-        refused: Where::There,
-        reason: "has a clock that went back from",
-    },
-    Alteration {
-        name: "all times twenty times as long",
-        line: |line| is(line, "started"),
-        alter: |lines, _| alter_times(lines, |us| us * 20),
-        refused: Where::FromThereOn,
-        reason: "ms at its record before",
-    },
-    Alteration {
-        name: "all times a twentieth",
-        line: |line| is(line, "started"),
-        alter: |lines, _| alter_times(lines, |us| us / 20),
-        refused: Where::FromThereOn,
-        reason: "ms passed since it was started, and it was",
-    },
-    Alteration {
-        name: "a message that had waited for too long",
-        line: is_heard_later,
-        alter: |lines, at| shift_reception(&mut lines[at], 80, 0),
-        refused: Where::There,
-        reason: "ms; delay_max is 50 ms",
-    },
-    Alteration {
-        name: "a message that was taken in at another time than the robot was told",
-        line: is_heard_later,
-        alter: |lines, at| shift_reception(&mut lines[at], 40, 40),
-        refused: Where::There,
-        reason: "µs, and was told of the time until",
-    },
-];
+        };
+    "an earlier time" There "has a clock that went back from":
+        is_busy_step => |lines, at| lines[at]["atUs"] = 1.into();
+    "all times twenty times as long" FromThereOn "ms at its record before":
+        |line| is(line, "started") => |lines, _| alter_times(lines, |us| us * 20);
+    "all times a twentieth" FromThereOn "ms passed since it was started, and it was":
+        |line| is(line, "started") => |lines, _| alter_times(lines, |us| us / 20);
+    "a message that had waited for too long" There "ms; delay_max is 50 ms":
+        is_heard_later => |lines, at| shift_reception(&mut lines[at], 80, 0);
+    "a message that was taken in at another time than the robot was told" There "µs, and was told of the time until":
+        is_heard_later => |lines, at| shift_reception(&mut lines[at], 40, 40);
+};
 
 #[test]
 fn every_kind_of_alteration_is_refused_with_position_and_reason() {
@@ -377,7 +275,7 @@ fn every_kind_of_alteration_is_refused_with_position_and_reason() {
         alter,
         refused,
         reason,
-    } in ALTERATIONS
+    } in ALTERATIONS.iter().copied()
     {
         let at = whole.iter().position(line);
         let at = at.unwrap_or_else(|| panic!("nothing to make it to: {name}"));

@@ -4,86 +4,38 @@ use crossguard_protocol::{
     Answer, Availability, Command, Progress, Rejection, Report, SessionId, TaskSet, Verdict,
 };
 
-use super::{Breach, Met, Statement, afterwards, due, met};
+use super::{Breach, Met, afterwards, due, met, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, Seen, following, offer_of};
 use crate::subject::Local;
 use crate::words;
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "acknowledged-before-executed",
-        rule: "R7",
-        says: "A command is acknowledged by an RMCM before a RAM reports it.",
-        judge: acknowledged_before_executed,
-    },
-    Statement {
-        name: "commands-are-answered",
-        rule: "R7",
-        says: "A new command of the own leader is answered.",
-        judge: commands_are_answered,
-    },
-    Statement {
-        name: "impossible-commands-are-rejected",
-        rule: "R7",
-        says: "A command for a task that was not offered is rejected, with that reason.",
-        judge: impossible_is_rejected,
-    },
-    Statement {
-        name: "repeats-are-acknowledged-again",
-        rule: "R8",
-        says: "A repeated command is answered as before.",
-        judge: repeats_are_answered,
-    },
-    Statement {
-        name: "repeats-start-nothing",
-        rule: "R8",
-        says: "A repeated command is not started again: its progress does not go back, and a body that stands goes on standing.",
-        judge: repeats_start_nothing,
-    },
-    Statement {
-        name: "older-commands-change-nothing",
-        rule: "R8",
-        says: "A command that is older than the newest one is not answered and not started.",
-        judge: older_changes_nothing,
-    },
-    Statement {
-        name: "commands-of-other-sessions-change-nothing",
-        rule: "R1",
-        says: "A command of another session is not answered and not started.",
-        judge: elsewhere_changes_nothing,
-    },
-    Statement {
-        name: "commands-to-others-change-nothing",
-        rule: "R1",
-        says: "A command to another station is not answered and not started.",
-        judge: to_others_changes_nothing,
-    },
-    Statement {
-        name: "fallen-back-stays",
-        rule: "R15",
-        says: "A command that fell back is never reported as running again, whatever is repeated.",
-        judge: fallen_back_stays,
-    },
-    Statement {
-        name: "progress-is-reported",
-        rule: "R11",
-        says: "What the body has done is reported in a RAM that names session, command and progress.",
-        judge: progress_is_reported,
-    },
-    Statement {
-        name: "unavailable-robots-reject",
-        rule: "R24",
-        says: "An unavailable follower rejects a new command, with that reason.",
-        judge: unavailable_rejects,
-    },
-    Statement {
-        name: "robots-on-duty-reject",
-        rule: "R20",
-        says: "A follower that is on duty rejects a new command, with that reason.",
-        judge: on_duty_rejects,
-    },
-];
+statements! {
+    "acknowledged-before-executed" "R7" acknowledged_before_executed:
+        "A command is acknowledged by an RMCM before a RAM reports it.";
+    "commands-are-answered" "R7" commands_are_answered:
+        "A new command of the own leader is answered.";
+    "impossible-commands-are-rejected" "R7" impossible_is_rejected:
+        "A command for a task that was not offered is rejected, with that reason.";
+    "repeats-are-acknowledged-again" "R8" repeats_are_answered:
+        "A repeated command is answered as before.";
+    "repeats-start-nothing" "R8" repeats_start_nothing:
+        "A repeated command is not started again: its progress does not go back, and a body that stands goes on standing.";
+    "older-commands-change-nothing" "R8" older_changes_nothing:
+        "A command that is older than the newest one is not answered and not started.";
+    "commands-of-other-sessions-change-nothing" "R1" elsewhere_changes_nothing:
+        "A command of another session is not answered and not started.";
+    "commands-to-others-change-nothing" "R1" to_others_changes_nothing:
+        "A command to another station is not answered and not started.";
+    "fallen-back-stays" "R15" fallen_back_stays:
+        "A command that fell back is never reported as running again, whatever is repeated.";
+    "progress-is-reported" "R11" progress_is_reported:
+        "What the body has done is reported in a RAM that names session, command and progress.";
+    "unavailable-robots-reject" "R24" unavailable_rejects:
+        "An unavailable follower rejects a new command, with that reason.";
+    "robots-on-duty-reject" "R20" on_duty_rejects:
+        "A follower that is on duty rejects a new command, with that reason.";
+}
 
 /// A body that moves faster than this is under way, in m/s.
 const MOVES_MPS: f64 = 0.5;

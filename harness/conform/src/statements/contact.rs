@@ -2,48 +2,24 @@
 
 use crossguard_protocol::{Coordination, Farewell, Heartbeat, Progress, SessionId};
 
-use super::{Met, Statement, due, met, met_when, news};
+use super::{Met, due, met, met_when, news, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, following, offer_of, session_of};
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "falls-back-not-before-t-safety",
-        rule: "R12",
-        says: "A follower does not fall back before its t_safety is over, counted from the newest heartbeat or command.",
-        judge: not_before_t_safety,
-    },
-    Statement {
-        name: "falls-back-after-t-safety",
-        rule: "R12",
-        says: "A follower falls back when t_safety is over, and no old heartbeat, repeated heartbeat or repeated command keeps it from that.",
-        judge: after_t_safety,
-    },
-    Statement {
-        name: "fallback-is-a-duty",
-        rule: "R14",
-        says: "A follower that falls back says that it is on duty.",
-        judge: fallback_is_a_duty,
-    },
-    Statement {
-        name: "leaves-after-t-leave",
-        rule: "R14",
-        says: "A follower without contact names the session as left when t_safety and t_leave are over, and not before.",
-        judge: leaves_after_t_leave,
-    },
-    Statement {
-        name: "echoes-what-it-heard",
-        rule: "R13",
-        says: "A helper and a follower echo the newest heartbeat that they heard, none that was never sent, and never an older one after it.",
-        judge: echoes_what_it_heard,
-    },
-    Statement {
-        name: "heart-beats-in-time",
-        rule: "R13",
-        says: "The heartbeat of a requester or leader grows in every RAM period, and never by more than the periods that have passed.",
-        judge: heart_beats_in_time,
-    },
-];
+statements! {
+    "falls-back-not-before-t-safety" "R12" not_before_t_safety:
+        "A follower does not fall back before its t_safety is over, counted from the newest heartbeat or command.";
+    "falls-back-after-t-safety" "R12" after_t_safety:
+        "A follower falls back when t_safety is over, and no old heartbeat, repeated heartbeat or repeated command keeps it from that.";
+    "fallback-is-a-duty" "R14" fallback_is_a_duty:
+        "A follower that falls back says that it is on duty.";
+    "leaves-after-t-leave" "R14" leaves_after_t_leave:
+        "A follower without contact names the session as left when t_safety and t_leave are over, and not before.";
+    "echoes-what-it-heard" "R13" echoes_what_it_heard:
+        "A helper and a follower echo the newest heartbeat that they heard, none that was never sent, and never an older one after it.";
+    "heart-beats-in-time" "R13" heart_beats_in_time:
+        "The heartbeat of a requester or leader grows in every RAM period, and never by more than the periods that have passed.";
+}
 
 /// The heartbeats that the leader of a session played in it.
 fn heartbeats(

@@ -2,79 +2,35 @@
 
 use crossguard_protocol::{Availability, Coordination, Ending, Farewell, SessionId, SessionNumber};
 
-use super::{Met, Statement, due, met, met_when, part_unchanged};
+use super::{Met, due, met, met_when, part_unchanged, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, Seen, following, session_of};
 use crate::subject::Local;
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "completed-sessions-free",
-        rule: "R19",
-        says: "A robot whose leader names the session as completed is free: no part, no duty, and its body stands.",
-        judge: completed_frees,
-    },
-    Statement {
-        name: "aborted-sessions-are-a-duty",
-        rule: "R19",
-        says: "A follower that executes when its session ends otherwise, or when it is not listed any more, is on duty.",
-        judge: aborted_is_a_duty,
-    },
-    Statement {
-        name: "own-ends-are-named",
-        rule: "R19",
-        says: "A leader or requester names its session as completed when its pedestrian is across, and as aborted when it leaves.",
-        judge: own_ends_are_named,
-    },
-    Statement {
-        name: "other-ends-change-nothing",
-        rule: "R1",
-        says: "The end of another session changes no part.",
-        judge: other_ends_change_nothing,
-    },
-    Statement {
-        name: "a-bare-none-releases-nobody",
-        rule: "R1",
-        says: "A leader's RAM that says none, and names no session as ended, releases nobody.",
-        judge: bare_none_changes_nothing,
-    },
-    Statement {
-        name: "farewells-are-said-for-t-farewell",
-        rule: "R21",
-        says: "What is left or ended is named in every RAM for t_farewell, and not for longer.",
-        judge: farewells_last,
-    },
-    Statement {
-        name: "leaving-is-named",
-        rule: "R21",
-        says: "A helper or follower that wants to leave names the session as left.",
-        judge: leaving_is_named,
-    },
-    Statement {
-        name: "stale-sessions-are-named",
-        rule: "R21",
-        says: "A robot that hears of a session of its own which is over names it as ended, unless it is naming another one.",
-        judge: stale_is_named,
-    },
-    Statement {
-        name: "a-clear-road-ends-a-duty",
-        rule: "R20",
-        says: "A duty ends when the road is said to be clear, and nothing else ends it.",
-        judge: duty_ends,
-    },
-    Statement {
-        name: "unavailability-is-said",
-        rule: "R24",
-        says: "A robot that becomes unavailable says so in its RAM.",
-        judge: unavailability_is_said,
-    },
-    Statement {
-        name: "unavailability-ends-the-part",
-        rule: "R24",
-        says: "A helper, or a follower that executes nothing, leaves when it becomes unavailable; a requester or leader ends its session.",
-        judge: unavailability_ends_the_part,
-    },
-];
+statements! {
+    "completed-sessions-free" "R19" completed_frees:
+        "A robot whose leader names the session as completed is free: no part, no duty, and its body stands.";
+    "aborted-sessions-are-a-duty" "R19" aborted_is_a_duty:
+        "A follower that executes when its session ends otherwise, or when it is not listed any more, is on duty.";
+    "own-ends-are-named" "R19" own_ends_are_named:
+        "A leader or requester names its session as completed when its pedestrian is across, and as aborted when it leaves.";
+    "other-ends-change-nothing" "R1" other_ends_change_nothing:
+        "The end of another session changes no part.";
+    "a-bare-none-releases-nobody" "R1" bare_none_changes_nothing:
+        "A leader's RAM that says none, and names no session as ended, releases nobody.";
+    "farewells-are-said-for-t-farewell" "R21" farewells_last:
+        "What is left or ended is named in every RAM for t_farewell, and not for longer.";
+    "leaving-is-named" "R21" leaving_is_named:
+        "A helper or follower that wants to leave names the session as left.";
+    "stale-sessions-are-named" "R21" stale_is_named:
+        "A robot that hears of a session of its own which is over names it as ended, unless it is naming another one.";
+    "a-clear-road-ends-a-duty" "R20" duty_ends:
+        "A duty ends when the road is said to be clear, and nothing else ends it.";
+    "unavailability-is-said" "R24" unavailability_is_said:
+        "A robot that becomes unavailable says so in its RAM.";
+    "unavailability-ends-the-part" "R24" unavailability_ends_the_part:
+        "A helper, or a follower that executes nothing, leaves when it becomes unavailable; a requester or leader ends its session.";
+}
 
 /// A body that moves faster than this is under way, in m/s.
 const MOVES_MPS: f64 = 0.5;

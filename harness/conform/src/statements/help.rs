@@ -5,67 +5,31 @@ use crossguard_protocol::{
     StationId, TaskSet, UniqueNumber,
 };
 
-use super::{Met, Statement, due, is_in_contact, met, met_when, news};
+use super::{Met, due, is_in_contact, met, met_when, news, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, offer_of, session_of};
 use crate::subject::Local;
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "free-robots-offer",
-        rule: "R3",
-        says: "A robot that is free and can do one of the tasks offers, with those tasks.",
-        judge: free_robots_offer,
-    },
-    Statement {
-        name: "offers-are-for-what-can-be-done",
-        rule: "R3",
-        says: "A robot that can do none of the tasks does not offer.",
-        judge: impossible_gets_no_offer,
-    },
-    Statement {
-        name: "offers-lapse-after-t-offer",
-        rule: "R3",
-        says: "An offer lapses when t_offer is over since the newest heartbeat of the request, and not before.",
-        judge: offers_lapse,
-    },
-    Statement {
-        name: "offers-go-to-one-requester",
-        rule: "R3",
-        says: "A robot that offers to one requester, or follows, offers to nobody else.",
-        judge: one_requester,
-    },
-    Statement {
-        name: "robots-on-duty-do-not-offer",
-        rule: "R20",
-        says: "A robot that is on duty offers to nobody, and asks nobody.",
-        judge: on_duty_does_not_offer,
-    },
-    Statement {
-        name: "unavailable-robots-do-not-offer",
-        rule: "R24",
-        says: "An unavailable robot offers to nobody.",
-        judge: unavailable_does_not_offer,
-    },
-    Statement {
-        name: "pedestrians-are-asked-for",
-        rule: "R4",
-        says: "A robot that has detected a pedestrian asks for as many followers as it needs.",
-        judge: pedestrians_are_asked_for,
-    },
-    Statement {
-        name: "requests-end-at-t-help",
-        rule: "R5",
-        says: "A request that nobody meets is named as aborted when t_help is over, and not before.",
-        judge: requests_end,
-    },
-    Statement {
-        name: "numbers-never-repeat",
-        rule: "R1",
-        says: "Numbers of sessions and offers only grow, also after the robot lost power.",
-        judge: numbers_grow,
-    },
-];
+statements! {
+    "free-robots-offer" "R3" free_robots_offer:
+        "A robot that is free and can do one of the tasks offers, with those tasks.";
+    "offers-are-for-what-can-be-done" "R3" impossible_gets_no_offer:
+        "A robot that can do none of the tasks does not offer.";
+    "offers-lapse-after-t-offer" "R3" offers_lapse:
+        "An offer lapses when t_offer is over since the newest heartbeat of the request, and not before.";
+    "offers-go-to-one-requester" "R3" one_requester:
+        "A robot that offers to one requester, or follows, offers to nobody else.";
+    "robots-on-duty-do-not-offer" "R20" on_duty_does_not_offer:
+        "A robot that is on duty offers to nobody, and asks nobody.";
+    "unavailable-robots-do-not-offer" "R24" unavailable_does_not_offer:
+        "An unavailable robot offers to nobody.";
+    "pedestrians-are-asked-for" "R4" pedestrians_are_asked_for:
+        "A robot that has detected a pedestrian asks for as many followers as it needs.";
+    "requests-end-at-t-help" "R5" requests_end:
+        "A request that nobody meets is named as aborted when t_help is over, and not before.";
+    "numbers-never-repeat" "R1" numbers_grow:
+        "Numbers of sessions and offers only grow, also after the robot lost power.";
+}
 
 /// A request that was played: when first, by which session, and how long it was played on.
 struct Request {

@@ -3,73 +3,33 @@
 use crossguard_protocol::{Answer, Command, Coordination, Farewell, RequestId, StationId};
 
 use super::select::{begun, listed};
-use super::{Breach, Met, Statement, due, met, met_when};
+use super::{Breach, Met, due, met, met_when, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
 use crate::subject::Local;
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "orders-are-commanded",
-        rule: "R10",
-        says: "What the leader's application orders goes out as a command to a follower that has nothing outstanding.",
-        judge: orders_are_commanded,
-    },
-    Statement {
-        name: "commands-are-repeated-after-t-ack",
-        rule: "R10",
-        says: "A command that is not acknowledged is repeated after t_ack, unchanged.",
-        judge: repeated_after_t_ack,
-    },
-    Statement {
-        name: "commands-are-repeated-n-ack-times",
-        rule: "R10",
-        says: "A command is repeated n_ack times at most.",
-        judge: repeated_n_ack_times,
-    },
-    Statement {
-        name: "the-follower-is-given-up",
-        rule: "R10",
-        says: "A follower that acknowledges nothing is not listed any more, t_ack after the last repetition.",
-        judge: given_up,
-    },
-    Statement {
-        name: "answers-end-the-repetition",
-        rule: "R10",
-        says: "A command that is acknowledged or rejected is not repeated.",
-        judge: answers_end_repetition,
-    },
-    Statement {
-        name: "reports-end-the-repetition",
-        rule: "R11",
-        says: "A RAM that reports the command acknowledges it as well.",
-        judge: reports_end_repetition,
-    },
-    Statement {
-        name: "other-answers-do-not-count",
-        rule: "R9",
-        says: "An answer of another session, for another command, or by another station acknowledges nothing: the command is repeated.",
-        judge: other_answers_do_not_count,
-    },
-    Statement {
-        name: "one-command-is-outstanding",
-        rule: "R9",
-        says: "A follower is commanded anew only when it has answered the command before.",
-        judge: one_is_outstanding,
-    },
-    Statement {
-        name: "silent-followers-are-dropped",
-        rule: "R13",
-        says: "A follower that echoes nothing is listed until its lease and t_lost are over, and not for longer.",
-        judge: silent_is_dropped,
-    },
-    Statement {
-        name: "who-leaves-is-dropped-alone",
-        rule: "R22",
-        says: "A follower that names the session as left is not listed any more, and the others are as before.",
-        judge: who_leaves_is_dropped_alone,
-    },
-];
+statements! {
+    "orders-are-commanded" "R10" orders_are_commanded:
+        "What the leader's application orders goes out as a command to a follower that has nothing outstanding.";
+    "commands-are-repeated-after-t-ack" "R10" repeated_after_t_ack:
+        "A command that is not acknowledged is repeated after t_ack, unchanged.";
+    "commands-are-repeated-n-ack-times" "R10" repeated_n_ack_times:
+        "A command is repeated n_ack times at most.";
+    "the-follower-is-given-up" "R10" given_up:
+        "A follower that acknowledges nothing is not listed any more, t_ack after the last repetition.";
+    "answers-end-the-repetition" "R10" answers_end_repetition:
+        "A command that is acknowledged or rejected is not repeated.";
+    "reports-end-the-repetition" "R11" reports_end_repetition:
+        "A RAM that reports the command acknowledges it as well.";
+    "other-answers-do-not-count" "R9" other_answers_do_not_count:
+        "An answer of another session, for another command, or by another station acknowledges nothing: the command is repeated.";
+    "one-command-is-outstanding" "R9" one_is_outstanding:
+        "A follower is commanded anew only when it has answered the command before.";
+    "silent-followers-are-dropped" "R13" silent_is_dropped:
+        "A follower that echoes nothing is listed until its lease and t_lost are over, and not for longer.";
+    "who-leaves-is-dropped-alone" "R22" who_leaves_is_dropped_alone:
+        "A follower that names the session as left is not listed any more, and the others are as before.";
+}
 
 /// A command of the robot: when it was sent each time, and when it was answered.
 pub(super) struct Sent {

@@ -1,29 +1,17 @@
 //! What means nothing changes nothing.
 
-use super::{Met, Statement, met, met_when, part_unchanged};
+use super::{Met, met, met_when, part_unchanged, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, session_of};
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "noise-changes-nothing",
-        rule: "R26",
-        says: "Packets that mean nothing change no part, and the robot goes on.",
-        judge: noise_changes_nothing,
-    },
-    Statement {
-        name: "the-own-name-means-nothing",
-        rule: "R26",
-        says: "A message under the robot's own station id changes no part.",
-        judge: own_name_changes_nothing,
-    },
-    Statement {
-        name: "nobody-is-answered-in-a-flood",
-        rule: "R26",
-        says: "A robot in a session sends RAM by its period and by what changes, and not for each message that it hears.",
-        judge: no_flood,
-    },
-];
+statements! {
+    "noise-changes-nothing" "R26" noise_changes_nothing:
+        "Packets that mean nothing change no part, and the robot goes on.";
+    "the-own-name-means-nothing" "R26" own_name_changes_nothing:
+        "A message under the robot's own station id changes no part.";
+    "nobody-is-answered-in-a-flood" "R26" no_flood:
+        "A robot in a session sends RAM by its period and by what changes, and not for each message that it hears.";
+}
 
 fn noise_changes_nothing(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     let noise = exchange.seen.iter().filter_map(|seen| match seen.what {

@@ -3,30 +3,18 @@
 use crossguard_protocol::{Coordination, Farewell, Heartbeat, Place, SessionId, Urgency};
 
 use super::lead::sent;
-use super::{Met, Statement, due, met_when, news};
+use super::{Met, due, met_when, news, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, session_of};
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "who-goes-before-is-given-way",
-        rule: "R6",
-        says: "A requester or leader gives way to one at the same place that goes before, once it has heard it beat.",
-        judge: gives_way,
-    },
-    Statement {
-        name: "who-does-not-beat-is-not-given-way",
-        rule: "R6",
-        says: "A rival whose heartbeat does not grow may be a late message, and is not given way.",
-        judge: insists_against_silence,
-    },
-    Statement {
-        name: "who-goes-behind-is-not-given-way",
-        rule: "R6",
-        says: "A requester or leader does not give way to a rival of the same kind that goes behind.",
-        judge: insists_against_later,
-    },
-];
+statements! {
+    "who-goes-before-is-given-way" "R6" gives_way:
+        "A requester or leader gives way to one at the same place that goes before, once it has heard it beat.";
+    "who-does-not-beat-is-not-given-way" "R6" insists_against_silence:
+        "A rival whose heartbeat does not grow may be a late message, and is not given way.";
+    "who-goes-behind-is-not-given-way" "R6" insists_against_later:
+        "A requester or leader does not give way to a rival of the same kind that goes behind.";
+}
 
 /// What somebody claims: how urgent, where, and whether by leading already.
 #[derive(Clone, Copy)]

@@ -2,36 +2,20 @@
 
 use crossguard_protocol::{Coordination, Farewell, OfferNumber, SessionId};
 
-use super::{Met, Statement, due, met, met_when};
+use super::{Met, due, met, met_when, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, following, offer_of, session_of};
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "follows-the-leader-that-listed-it",
-        rule: "R2",
-        says: "A robot follows only after a leader has listed the offer that it made to that session.",
-        judge: follows_only_confirmed,
-    },
-    Statement {
-        name: "takes-the-role",
-        rule: "R2",
-        says: "A robot whose standing offer is listed follows.",
-        judge: takes_the_role,
-    },
-    Statement {
-        name: "not-listed-is-released",
-        rule: "R2",
-        says: "A helper or follower that its leader does not list, or lists for another offer, has no part any more.",
-        judge: not_listed_is_released,
-    },
-    Statement {
-        name: "declines-what-does-not-stand",
-        rule: "R2",
-        says: "A robot that is listed for an offer that has lapsed names the session as left.",
-        judge: declines_what_lapsed,
-    },
-];
+statements! {
+    "follows-the-leader-that-listed-it" "R2" follows_only_confirmed:
+        "A robot follows only after a leader has listed the offer that it made to that session.";
+    "takes-the-role" "R2" takes_the_role:
+        "A robot whose standing offer is listed follows.";
+    "not-listed-is-released" "R2" not_listed_is_released:
+        "A helper or follower that its leader does not list, or lists for another offer, has no part any more.";
+    "declines-what-does-not-stand" "R2" declines_what_lapsed:
+        "A robot that is listed for an offer that has lapsed names the session as left.";
+}
 
 /// The offer that the robot made to a session, the newest by `until_ms`.
 fn offer_to(exchange: &Exchange, session: SessionId, until_ms: u64) -> Option<OfferNumber> {

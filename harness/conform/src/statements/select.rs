@@ -2,42 +2,22 @@
 
 use crossguard_protocol::{Coordination, OfferNumber, SessionId, StationId};
 
-use super::{Met, Statement, met_when};
+use super::{Met, met_when, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, RamSeen, following, session_of};
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "selects-in-time",
-        rule: "R4",
-        says: "A requester with offers enough leads when t_select is over.",
-        judge: selects_in_time,
-    },
-    Statement {
-        name: "leads-chosen-helpers-alone",
-        rule: "R4",
-        says: "A leader lists as many followers as it asked for, each by an offer that was made to its session, and adds nobody.",
-        judge: leads_chosen_helpers_alone,
-    },
-    Statement {
-        name: "the-nearer-is-chosen",
-        rule: "R4",
-        says: "Of two helpers that can do the same, the nearer one is chosen.",
-        judge: nearer_is_chosen,
-    },
-    Statement {
-        name: "unfit-offers-are-not-taken",
-        rule: "R3",
-        says: "A helper whose t_safety does not fit the lease is not confirmed.",
-        judge: unfit_is_not_taken,
-    },
-    Statement {
-        name: "older-offers-replace-nothing",
-        rule: "R3",
-        says: "A helper is confirmed by the newest offer that it made.",
-        judge: newest_offer_is_confirmed,
-    },
-];
+statements! {
+    "selects-in-time" "R4" selects_in_time:
+        "A requester with offers enough leads when t_select is over.";
+    "leads-chosen-helpers-alone" "R4" leads_chosen_helpers_alone:
+        "A leader lists as many followers as it asked for, each by an offer that was made to its session, and adds nobody.";
+    "the-nearer-is-chosen" "R4" nearer_is_chosen:
+        "Of two helpers that can do the same, the nearer one is chosen.";
+    "unfit-offers-are-not-taken" "R3" unfit_is_not_taken:
+        "A helper whose t_safety does not fit the lease is not confirmed.";
+    "older-offers-replace-nothing" "R3" newest_offer_is_confirmed:
+        "A helper is confirmed by the newest offer that it made.";
+}
 
 /// The offers that the tester made to a session: when, by which station, the number, and its `t_safety`.
 fn offers(

@@ -3,43 +3,23 @@
 use crossguard_codec::PublicSignal;
 use crossguard_protocol::{Command, Coordination, Progress, SessionId, StationId};
 
-use super::{Met, Statement, due, met_when, news};
+use super::{Met, due, met_when, news, statements};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
 use crate::subject::Local;
 
-pub(super) const ALL: &[Statement] = &[
-    Statement {
-        name: "go-is-shown-over-guards",
-        rule: "R16",
-        says: "Go is shown only while every follower that was asked for is listed and reports that it guards, from its place where it has one.",
-        judge: go_over_guards,
-    },
-    Statement {
-        name: "go-can-be-shown",
-        rule: "R16",
-        says: "Go is shown when the application asks for it and every follower guards.",
-        judge: go_can_be_shown,
-    },
-    Statement {
-        name: "go-ends-by-itself",
-        rule: "R17",
-        says: "Go is not shown for longer than the lease after a follower's newest echo.",
-        judge: go_ends_by_itself,
-    },
-    Statement {
-        name: "reports-of-other-commands-do-not-count",
-        rule: "R11",
-        says: "A report of another command than the follower's does not end go.",
-        judge: other_reports_do_not_count,
-    },
-    Statement {
-        name: "guards-are-not-commanded-away",
-        rule: "R18",
-        says: "While people may be on the road no guard is commanded to do something else.",
-        judge: guards_are_kept,
-    },
-];
+statements! {
+    "go-is-shown-over-guards" "R16" go_over_guards:
+        "Go is shown only while every follower that was asked for is listed and reports that it guards, from its place where it has one.";
+    "go-can-be-shown" "R16" go_can_be_shown:
+        "Go is shown when the application asks for it and every follower guards.";
+    "go-ends-by-itself" "R17" go_ends_by_itself:
+        "Go is not shown for longer than the lease after a follower's newest echo.";
+    "reports-of-other-commands-do-not-count" "R11" other_reports_do_not_count:
+        "A report of another command than the follower's does not end go.";
+    "guards-are-not-commanded-away" "R18" guards_are_kept:
+        "While people may be on the road no guard is commanded to do something else.";
+}
 
 /// RAM say what is shown twice a second.
 const SAID_MS: u64 = 500;
