@@ -8,6 +8,7 @@ mod check;
 mod choices;
 mod codec;
 mod conform;
+mod csv;
 mod demo;
 mod destinations;
 mod etsi;

@@ -18,7 +18,6 @@ macro_rules! statements {
         }),*];
     };
 }
-use statements;
 
 mod answers;
 mod contact;

@@ -19,7 +19,7 @@ use serde::Serialize;
 use self::options::{Air, Matrix, Output, Parameters, Placement, Streets};
 use super::interrupts::interrupts;
 use super::ranges::whole;
-use super::{Failure, destinations, print, print_json};
+use super::{Failure, csv, destinations, print, print_json};
 
 #[derive(clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -125,7 +125,7 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let parameters = matrix.parameters(&traces, None);
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
-    let written = output::write_csv(&arguments.output, &cells);
+    let written = csv::write(arguments.output.csv.as_deref(), &cells);
     let axes = matrix.axes();
     let statements = if was_stopped {
         Vec::new()
@@ -158,9 +158,9 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     let parameters = matrix.parameters(&traces, Some(behaviour));
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
-    let mut written = output::write_csv(&arguments.output, &cells);
+    let written = csv::write(arguments.output.csv.as_deref(), &cells);
     let silences = arguments.air.silences.as_deref();
-    written = written.and(output::write_silences(silences, &results.silences));
+    let written = written.and(csv::write(silences, &results.silences));
     let axes = matrix.axes();
     let statements = if was_stopped {
         Vec::new()

@@ -68,7 +68,7 @@ const ROWS: [Row; 8] = [
             "\"cells\": []",
             "cells with fewer seeds than asked for are left out",
         ],
-        writes: Some(("csv", ",")),
+        writes: Some(("csv", "")),
     },
     Row {
         command: "sniff --address 127.0.0.1:0",

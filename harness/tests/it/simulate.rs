@@ -7,12 +7,17 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
-fn simulate(arguments: &[&str]) -> Output {
-    command::run(&[&["simulate"], arguments].concat())
+/// Runs it with these words.
+fn simulate(words: &str) -> Output {
+    let words: Vec<_> = ["simulate"]
+        .into_iter()
+        .chain(words.split_whitespace())
+        .collect();
+    command::run(&words)
 }
 
-fn json(arguments: &[&str]) -> Value {
-    let output = simulate(arguments);
+fn json(words: &str) -> Value {
+    let output = simulate(words);
     assert!(
         output.status.success(),
         "{}",
@@ -22,9 +27,9 @@ fn json(arguments: &[&str]) -> Value {
 }
 
 /// The error that a bad usage ends with.
-fn refusal(arguments: &[&str]) -> String {
-    let output = simulate(arguments);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+fn refusal(words: &str) -> String {
+    let output = simulate(words);
+    assert_eq!(output.status.code(), Some(2), "{words}");
     String::from_utf8(output.stderr).unwrap()
 }
 
@@ -33,7 +38,7 @@ fn refusal(arguments: &[&str]) -> String {
 fn coverage_is_what_python_computes_from_the_same_traces() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     for preset in ["kerb", "plain"] {
-        let results = simulate(&["obs", "--json", "--preset", preset]);
+        let results = simulate(&format!("obs --json --preset {preset}"));
         assert!(results.status.success());
         let judged = judge(folder, preset, &results.stdout);
         let Some((code, said)) = judged else {
@@ -44,7 +49,7 @@ fn coverage_is_what_python_computes_from_the_same_traces() {
         assert!(said.starts_with("12 cells agree"), "{said}");
     }
     // A judge that finds everything right is none.
-    let wrong = simulate(&["obs", "--json", "--site", "center", "--pedestrians", "20"]);
+    let wrong = simulate("obs --json --site center --pedestrians 20");
     let wrong = String::from_utf8(wrong.stdout).unwrap();
     let wrong = wrong.replace("\"center\"", "\"south-west\"");
     let (code, said) = judge(folder, "kerb", wrong.as_bytes()).unwrap();
@@ -95,23 +100,15 @@ fn silence_is_what_python_computes_from_the_same_traces() {
             String::from_utf8_lossy(&text).into_owned(),
         ))
     };
-    let cells = [
-        "--pedestrians",
-        "20,50",
-        "--robots",
-        "0,9",
-        "--radius",
-        "15",
-        "--seeds",
-        "3",
-    ];
+    let cells = "--pedestrians 20,50 --robots 0,9 --radius 15 --seeds 3";
     for others in [
-        ["--suppression", "strict"],
-        ["--suppression", "loose"],
-        ["--unseen", "0.3"],
+        "--suppression strict",
+        "--suppression loose",
+        "--unseen 0.3",
     ] {
-        let run = ["cbr", "--json", "--silences", &silences];
-        let output = simulate(&[&run[..], &cells[..], &others[..]].concat());
+        let output = simulate(&format!(
+            "cbr --json --silences {silences} {cells} {others}"
+        ));
         assert!(
             output.status.success(),
             "{}",
@@ -126,7 +123,7 @@ fn silence_is_what_python_computes_from_the_same_traces() {
         assert!(said.starts_with("2 cells and 0 statements agree"), "{said}");
     }
     // A judge that finds everything right is none: the loose rule is not the strict one, and silence counts.
-    let output = simulate(&[&["cbr", "--json", "--suppression", "loose"], &cells[..]].concat());
+    let output = simulate(&format!("cbr --json --suppression loose {cells}"));
     std::fs::write(&results, &output.stdout).unwrap();
     let (code, said) = judge().unwrap();
     assert_eq!(code, Some(1), "{said}");
@@ -136,17 +133,8 @@ fn silence_is_what_python_computes_from_the_same_traces() {
 #[test]
 fn the_strict_rule_leaves_fewer_people_without_an_announcement() {
     let wrongly_silent = |rule: &str| {
-        let cells = [
-            "--pedestrians",
-            "50",
-            "--robots",
-            "9",
-            "--radius",
-            "15",
-            "--seeds",
-            "3",
-        ];
-        let report = json(&[&["cbr", "--json", "--suppression", rule], &cells[..]].concat());
+        let cells = "--pedestrians 50 --robots 9 --radius 15 --seeds 3";
+        let report = json(&format!("cbr --json --suppression {rule} {cells}"));
         assert_eq!(report["parameters"]["behaviour"]["suppression"], rule);
         let percent = |name: &str| report["cells"][0][name]["mean"].as_f64().unwrap();
         percent("wrongly_silent_percent") / percent("passive_percent")
@@ -164,18 +152,18 @@ fn outcome(report: &Value, statement: &str) -> String {
 /// Every statement of the paper stands in a line of its own, and its verdict follows the run.
 #[test]
 fn every_statement_of_the_paper_on_coverage_has_a_verdict() {
-    let report = json(&["obs", "--json"]);
+    let report = json("obs --json");
     assert_eq!(report["documented"], true);
     let statements = report["statements"].as_array().unwrap();
     assert_eq!(statements.len(), 16);
     for line in statements {
         assert_eq!(line["outcome"], "met", "{line}");
     }
-    let plain = json(&["obs", "--json", "--preset", "plain"]);
+    let plain = json("obs --json --preset plain");
     assert_eq!(plain["documented"], false);
     assert_eq!(outcome(&plain, "coverageOfNine"), "notMet");
     assert_eq!(outcome(&plain, "severalAreBetter"), "met");
-    let few = simulate(&["obs", "--robots", "9", "--pedestrians", "20"]);
+    let few = simulate("obs --robots 9 --pedestrians 20");
     let text = String::from_utf8(few.stdout).unwrap();
     let line = text
         .lines()
@@ -186,8 +174,8 @@ fn every_statement_of_the_paper_on_coverage_has_a_verdict() {
 
 #[test]
 fn verdicts_on_channel_load_follow_the_run() {
-    let of = |others: &[&str]| json(&[&["cbr", "--json", "--seeds", "2"], others].concat());
-    let few = of(&[]);
+    let of = |others: &str| json(&format!("cbr --json --seeds 2 {others}"));
+    let few = of("");
     assert_eq!(few["statements"].as_array().unwrap().len(), 25);
     // Ten seeds are documented.
     assert_eq!(few["documented"], false);
@@ -205,13 +193,13 @@ fn verdicts_on_channel_load_follow_the_run() {
     for statement in ["networkStack", "unchangedDevices"] {
         assert_eq!(outcome(&few, statement), "notMet", "{statement}");
     }
-    let loose = of(&["--suppression", "loose"]);
+    let loose = of("--suppression loose");
     assert_eq!(outcome(&loose, "conservativeSilence"), "notMet");
-    let unchanged = of(&["--devices", "cluster-vam", "--pedestrians", "20"]);
+    let unchanged = of("--devices cluster-vam --pedestrians 20");
     assert_eq!(outcome(&unchanged, "unchangedDevices"), "met");
     assert_eq!(outcome(&few, "dataRate"), "assumed");
-    assert_eq!(outcome(&of(&["--signed"]), "lowLoad"), "notMet");
-    let seldom = of(&["--vam", "etsi"]);
+    assert_eq!(outcome(&of("--signed"), "lowLoad"), "notMet");
+    let seldom = of("--vam etsi");
     assert_eq!(outcome(&seldom, "consistentReduction"), "notMet");
     assert_eq!(outcome(&seldom, "largestReduction"), "notMet");
 }
@@ -219,30 +207,21 @@ fn verdicts_on_channel_load_follow_the_run() {
 /// Stations check every 100 ms, so seven VAM a second are five.
 #[test]
 fn the_rate_that_is_printed_is_the_one_that_is_sent() {
-    let cells = [
-        "--pedestrians",
-        "20",
-        "--robots",
-        "0",
-        "--radius",
-        "15",
-        "--seeds",
-        "1",
-    ];
-    let report = json(&[&["cbr", "--json", "--vam", "7"], &cells[..]].concat());
+    let cells = "--pedestrians 20 --robots 0 --radius 15 --seeds 1";
+    let report = json(&format!("cbr --json --vam 7 {cells}"));
     assert_eq!(report["parameters"]["true_rates"]["vam_hz"], 5.0);
     assert_eq!(report["parameters"]["true_rates"]["ram_hz"], Value::Null);
     let sent = report["cells"][0]["messages_per_s"][0]["mean"]
         .as_f64()
         .unwrap();
     assert!((sent / 20.0 - 5.0).abs() < 0.05, "{sent}");
-    let text = simulate(&[&["cbr", "--vam", "7"], &cells[..]].concat()).stdout;
+    let text = simulate(&format!("cbr --vam 7 {cells}")).stdout;
     assert!(String::from_utf8(text).unwrap().contains("vam hz: 5.0"));
 }
 
 #[test]
 fn coverage_has_the_shape_that_scripts_read() {
-    let report = json(&["obs", "--json", "--preset", "plain", "--seeds", "2"]);
+    let report = json("obs --json --preset plain --seeds 2");
     assert_eq!(report["preset"], "plain");
     assert_eq!(report["parameters"]["grid"]["lanes"], 1);
     let cells = report["cells"].as_array().unwrap();
@@ -258,18 +237,8 @@ fn coverage_has_the_shape_that_scripts_read() {
 fn channel_load_has_the_shape_that_scripts_read() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).display().to_string();
-    let arguments = [
-        "cbr",
-        "--json",
-        "--pedestrians",
-        "20",
-        "--radius",
-        "15",
-        "--seeds",
-        "1",
-    ];
-    let outputs = ["--csv", &file("cells.csv")];
-    let report = json(&[&arguments[..], &outputs[..]].concat());
+    let arguments = "cbr --json --pedestrians 20 --radius 15 --seeds 1";
+    let report = json(&format!("{arguments} --csv {}", file("cells.csv")));
     assert_eq!(report["preset"], "kerb");
     assert!(report["parameters"]["behaviour"]["radio"]["sense_dbm"].is_f64());
     let cells = report["cells"].as_array().unwrap();
@@ -282,20 +251,12 @@ fn channel_load_has_the_shape_that_scripts_read() {
     assert_eq!(table.lines().count(), 4);
     assert_eq!(report["paper"]["reduction_most_percent"]["most"], 16.3);
     // The same seeds give the same figures.
-    assert_eq!(json(&arguments)["cells"], report["cells"]);
+    assert_eq!(json(arguments)["cells"], report["cells"]);
 }
 
 #[test]
 fn intersections_are_ranked_by_what_they_add() {
-    let rankings = json(&[
-        "--place",
-        "greedy",
-        "--json",
-        "--pedestrians",
-        "100",
-        "--radius",
-        "15",
-    ]);
+    let rankings = json("--place greedy --json --pedestrians 100 --radius 15");
     let ranking = rankings[0]["ranking"].as_array().unwrap();
     assert_eq!(ranking.len(), 9);
     // The middle of the grid is where most people pass.
@@ -309,65 +270,50 @@ fn intersections_are_ranked_by_what_they_add() {
 
 #[test]
 fn bad_usage_says_what_to_do() {
-    assert!(refusal(&["obs", "--pedestrians", "30"]).contains("--sumo"));
-    assert!(refusal(&["obs", "--robots", "10"]).contains("intersections"));
-    assert!(refusal(&["obs", "--per-intersection", "5"]).contains("from 1 to 4 is wanted"));
-    assert!(refusal(&["obs", "--patrol", "50"]).contains("from 0.1 to 5 is wanted"));
-    let plain = ["obs", "--preset", "plain", "--patrol", "1"];
-    assert!(refusal(&plain).contains("--site"));
-    assert!(refusal(&["obs", "--radius", "500"]).contains("radius"));
-    assert!(refusal(&["obs", "--traces", "nowhere.json.gz"]).contains("nowhere.json.gz"));
-    assert!(refusal(&["cbr", "--vam", "often"]).contains("etsi"));
-    assert!(refusal(&["cbr", "--v2x-share", "2"]).contains("--v2x-share"));
-    assert!(refusal(&["cbr", "--unseen", "2"]).contains("--unseen"));
+    assert!(refusal("obs --pedestrians 30").contains("--sumo"));
+    assert!(refusal("obs --robots 10").contains("intersections"));
+    assert!(refusal("obs --per-intersection 5").contains("from 1 to 4 is wanted"));
+    assert!(refusal("obs --patrol 50").contains("from 0.1 to 5 is wanted"));
+    let plain = "obs --preset plain --patrol 1";
+    assert!(refusal(plain).contains("--site"));
+    assert!(refusal("obs --radius 500").contains("radius"));
+    assert!(refusal("obs --traces nowhere.json.gz").contains("nowhere.json.gz"));
+    assert!(refusal("cbr --vam often").contains("etsi"));
+    assert!(refusal("cbr --v2x-share 2").contains("--v2x-share"));
+    assert!(refusal("cbr --unseen 2").contains("--unseen"));
     // The traces that come along have their own vehicles.
-    assert!(refusal(&["obs", "--vehicles", "50"]).contains("--sumo"));
-    assert!(refusal(&["record"]).contains("pip install eclipse-sumo"));
-    assert!(refusal(&["obs", "--sumo", "nowhere"]).contains("pip install eclipse-sumo"));
+    assert!(refusal("obs --vehicles 50").contains("--sumo"));
+    assert!(refusal("record").contains("pip install eclipse-sumo"));
+    assert!(refusal("obs --sumo nowhere").contains("pip install eclipse-sumo"));
 }
 
 /// Robots that overlap and robots that walk: nobody is counted twice, and more is seen.
 #[test]
 fn several_robots_at_an_intersection_and_robots_on_patrol_are_measured() {
-    let percent = |arguments: &[&str]| {
-        let common = ["obs", "--json", "--pedestrians", "20", "--radius", "15"];
-        let report = json(&[&common[..], arguments].concat());
+    let percent = |arguments: &str| {
+        let report = json(&format!(
+            "obs --json --pedestrians 20 --radius 15 {arguments}"
+        ));
         let cell = report["cells"].as_array().unwrap().last().unwrap().clone();
         (
             report["parameters"].clone(),
             cell["obs_percent"]["mean"].as_f64().unwrap(),
         )
     };
-    let (_, alone) = percent(&["--robots", "9"]);
-    let (parameters, two) = percent(&["--robots", "18", "--per-intersection", "2"]);
+    let (_, alone) = percent("--robots 9");
+    let (parameters, two) = percent("--robots 18 --per-intersection 2");
     assert_eq!(parameters["robots_per_intersection"], 2);
     assert!(two > 1.5 * alone && two < 3.0 * alone, "{alone} {two}");
-    let (_, four) = percent(&["--robots", "36", "--per-intersection", "4"]);
+    let (_, four) = percent("--robots 36 --per-intersection 4");
     // Four zones overlap, so four robots see less than twice as many as two.
     assert!(four > two && four < 1.7 * two, "{two} {four}");
-    let (parameters, walking) = percent(&["--robots", "9", "--patrol", "1"]);
+    let (parameters, walking) = percent("--robots 9 --patrol 1");
     assert_eq!(parameters["patrol_mps"], 1.0);
     assert!(walking > alone && walking < four, "{alone} {walking}");
 
-    let arguments = [
-        "cbr",
-        "--json",
-        "--pedestrians",
-        "20",
-        "--radius",
-        "15",
-        "--seeds",
-        "1",
-    ];
-    let more = [
-        "--robots",
-        "0,18",
-        "--per-intersection",
-        "2",
-        "--patrol",
-        "1",
-    ];
-    let report = json(&[&arguments[..], &more[..]].concat());
+    let arguments = "cbr --json --pedestrians 20 --radius 15 --seeds 1";
+    let more = "--robots 0,18 --per-intersection 2 --patrol 1";
+    let report = json(&format!("{arguments} {more}"));
     let cell = &report["cells"][1];
     assert!(
         cell["passive_percent"]["mean"].as_f64().unwrap() > 15.0,
@@ -395,17 +341,15 @@ fn sumo_records_the_traces_that_come_along() {
     let output = tempfile::tempdir().unwrap();
     let folder = output.path().display().to_string();
     for preset in ["kerb", "plain"] {
-        let what = [
-            "record", "--sumo", &sumo, "--preset", preset, "--output", &folder,
-        ];
-        let how_many = ["--pedestrians", "20", "--seeds", "2"];
-        let recorded = simulate(&[&what[..], &how_many[..]].concat());
+        let recorded = simulate(&format!(
+            "record --sumo {sumo} --preset {preset} --output {folder} --pedestrians 20 --seeds 2"
+        ));
         let said = String::from_utf8_lossy(&recorded.stderr).into_owned();
         assert!(recorded.status.success(), "{said}");
         let file = format!("{folder}/{preset}-20.json.gz");
-        let seeds = ["obs", "--json", "--seeds", "2", "--preset", preset];
-        let again = json(&[&seeds[..], &["--traces", &file]].concat());
-        let shipped = json(&[&seeds[..], &["--pedestrians", "20"]].concat());
+        let seeds = format!("obs --json --seeds 2 --preset {preset}");
+        let again = json(&format!("{seeds} --traces {file}"));
+        let shipped = json(&format!("{seeds} --pedestrians 20"));
         let mobility = |report: &Value| report["parameters"]["grid"]["mobility"].clone();
         if mobility(&again) == mobility(&shipped) {
             assert_eq!(again["cells"], shipped["cells"]);
@@ -425,19 +369,9 @@ fn sumo_makes_fresh_mobility_on_a_larger_grid() {
         println!("skipped sumo_makes_fresh_mobility_on_a_larger_grid: SUMO_BIN is not set");
         return;
     };
-    let size = [
-        "--grid-size",
-        "4",
-        "--pedestrians",
-        "30",
-        "--vehicles",
-        "10",
-        "--duration",
-        "20",
-    ];
-    let others = ["--robots", "0,16", "--radius", "15", "--seeds", "2"];
-    let cbr = ["cbr", "--json", "--sumo", &sumo];
-    let report = json(&[&cbr[..], &size[..], &others[..]].concat());
+    let size = "--grid-size 4 --pedestrians 30 --vehicles 10 --duration 20";
+    let others = "--robots 0,16 --radius 15 --seeds 2";
+    let report = json(&format!("cbr --json --sumo {sumo} {size} {others}"));
     assert_eq!(report["parameters"]["grid"]["nodes_per_side"], 4);
     assert_eq!(report["parameters"]["duration_s"], 20);
     let reduction = &report["cells"][1]["reduction_percent"];

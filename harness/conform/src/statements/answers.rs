@@ -4,7 +4,7 @@ use crossguard_protocol::{
     Answer, Availability, Command, Progress, Rejection, Report, SessionId, TaskSet, Verdict,
 };
 
-use super::{Breach, Met, afterwards, due, met, statements};
+use super::{Breach, Met, afterwards, due, met};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, Seen, following, offer_of};
 use crate::subject::Local;

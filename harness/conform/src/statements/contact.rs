@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Coordination, Farewell, Heartbeat, Progress, SessionId};
 
-use super::{Met, due, met, met_when, news, statements};
+use super::{Met, due, met, met_when, news};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, following, offer_of, session_of};
 

@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Availability, Coordination, Ending, Farewell, SessionId, SessionNumber};
 
-use super::{Met, due, met, met_when, part_unchanged, statements};
+use super::{Met, due, met, met_when, part_unchanged};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, Seen, following, session_of};
 use crate::subject::Local;

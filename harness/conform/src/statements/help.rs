@@ -5,7 +5,7 @@ use crossguard_protocol::{
     StationId, TaskSet, UniqueNumber,
 };
 
-use super::{Met, due, is_in_contact, met, met_when, news, statements};
+use super::{Met, due, is_in_contact, met, met_when, news};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, offer_of, session_of};
 use crate::subject::Local;

@@ -3,7 +3,7 @@
 use crossguard_protocol::{Answer, Command, Coordination, Farewell, RequestId, StationId};
 
 use super::select::{begun, listed};
-use super::{Breach, Met, due, met, met_when, statements};
+use super::{Breach, Met, due, met, met_when};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
 use crate::subject::Local;

@@ -1,6 +1,6 @@
 //! What means nothing changes nothing.
 
-use super::{Met, met, met_when, part_unchanged, statements};
+use super::{Met, met, met_when, part_unchanged};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, session_of};
 

@@ -3,7 +3,7 @@
 use crossguard_protocol::{Coordination, Farewell, Heartbeat, Place, SessionId, Urgency};
 
 use super::lead::sent;
-use super::{Met, due, met_when, news, statements};
+use super::{Met, due, met_when, news};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, session_of};
 

@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Coordination, Farewell, OfferNumber, SessionId};
 
-use super::{Met, due, met, met_when, statements};
+use super::{Met, due, met, met_when};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, following, offer_of, session_of};
 

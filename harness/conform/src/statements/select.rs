@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Coordination, OfferNumber, SessionId, StationId};
 
-use super::{Met, met_when, statements};
+use super::{Met, met_when};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, RamSeen, following, session_of};
 

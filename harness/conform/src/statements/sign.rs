@@ -3,7 +3,7 @@
 use crossguard_codec::PublicSignal;
 use crossguard_protocol::{Command, Coordination, Progress, SessionId, StationId};
 
-use super::{Met, due, met_when, news, statements};
+use super::{Met, due, met_when, news};
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
 use crate::subject::Local;

@@ -1,16 +1,13 @@
 //! How results of `crossguard simulate` are printed and written.
 
-use std::path::Path;
-
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use crossguard_evaluation::matrix::{CbrCell, ObsCell, SilenceInRun};
-use crossguard_evaluation::simulation::Silence;
+use crossguard_evaluation::matrix::{CbrCell, ObsCell};
 use crossguard_evaluation::statements::Comparison;
 use crossguard_evaluation::statistics::Estimate;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::options::{Output, Parameters};
+use super::options::Parameters;
 use super::{Failure, print};
 use crate::cli::shows_progress;
 
@@ -150,124 +147,6 @@ fn print_value(indent: usize, value: &serde_json::Value) -> Result<(), Failure> 
         }
     }
     Ok(())
-}
-
-/// Cells as comma-separated values.
-pub(super) trait Csv {
-    /// Names of the columns.
-    const COLUMNS: &'static [&'static str];
-    /// The columns.
-    fn row(&self) -> Vec<String>;
-}
-
-/// Writes cells to the file that was asked for, if one was.
-pub(super) fn write_csv<C: Csv>(output: &Output, cells: &[C]) -> Result<(), Failure> {
-    let Some(path) = &output.csv else {
-        return Ok(());
-    };
-    let failed = |error: csv::Error| Failure::Input(format!("{}: {error}", path.display()));
-    let mut file = csv::Writer::from_path(path).map_err(failed)?;
-    file.write_record(C::COLUMNS).map_err(failed)?;
-    for cell in cells {
-        file.write_record(cell.row()).map_err(failed)?;
-    }
-    file.flush().map_err(|error| failed(error.into()))
-}
-
-impl Csv for ObsCell {
-    const COLUMNS: &'static [&'static str] = &[
-        "robots",
-        "pedestrians",
-        "radius_m",
-        "obs_percent_mean",
-        "obs_percent_sd",
-        "covered_at_intersections_percent_mean",
-        "travel_s_mean",
-    ];
-
-    fn row(&self) -> Vec<String> {
-        let numbers = [
-            self.radius_m,
-            self.obs_percent.mean,
-            self.obs_percent.sd,
-            self.covered_at_intersections_percent.mean,
-            self.travel_s.mean,
-        ];
-        let counts = [self.robots, self.pedestrians].map(|it| it.to_string());
-        counts
-            .into_iter()
-            .chain(numbers.map(|it| it.to_string()))
-            .collect()
-    }
-}
-
-impl Csv for CbrCell {
-    const COLUMNS: &'static [&'static str] = &[
-        "robots",
-        "pedestrians",
-        "radius_m",
-        "mcbr_mean",
-        "mcbr_sd",
-        "reduction_percent_mean",
-        "reduction_percent_sd",
-        "predicted_percent_mean",
-        "passive_percent_mean",
-        "wrongly_silent_percent_mean",
-        "vam_share_percent_mean",
-        "vam_per_s_mean",
-        "cam_per_s_mean",
-        "ram_per_s_mean",
-        "overlapped_percent_mean",
-    ];
-
-    fn row(&self) -> Vec<String> {
-        let [vam, cam, ram] = self.messages_per_s;
-        let numbers = [
-            self.radius_m,
-            self.mcbr.mean,
-            self.mcbr.sd,
-            self.reduction_percent.mean,
-            self.reduction_percent.sd,
-            self.predicted_percent.mean,
-            self.passive_percent.mean,
-            self.wrongly_silent_percent.mean,
-            self.vam_share_percent.mean,
-            vam.mean,
-            cam.mean,
-            ram.mean,
-            self.overlapped_percent.mean,
-        ];
-        let counts = [self.robots, self.pedestrians].map(|it| it.to_string());
-        counts
-            .into_iter()
-            .chain(numbers.map(|it| it.to_string()))
-            .collect()
-    }
-}
-
-/// Writes when devices were silent to the file that was asked for, if one was.
-pub(super) fn write_silences(
-    path: Option<&Path>,
-    silences: &[SilenceInRun],
-) -> Result<(), Failure> {
-    let Some(path) = path else { return Ok(()) };
-    let failed = |error: csv::Error| Failure::Input(format!("{}: {error}", path.display()));
-    let mut file = csv::Writer::from_path(path).map_err(failed)?;
-    let columns = "robots,pedestrians,radius_m,seed,person,from_ms,to_ms";
-    file.write_record(columns.split(',')).map_err(failed)?;
-    for it in silences {
-        let Silence {
-            person,
-            from_ms,
-            to_ms,
-        } = it.silence;
-        let cell = [it.robots.to_string(), it.pedestrians.to_string()];
-        let rest = [it.radius_m.to_string(), it.seed.to_string()];
-        let silence = [person.to_string(), from_ms.to_string(), to_ms.to_string()];
-        let record = cell.iter().chain(&rest).chain(&silence);
-        file.write_record(record).map_err(failed)?;
-    }
-    file.flush().map_err(|error| failed(error.into()))
 }
 
 /// A bar that shows how far it is, to people only.
