@@ -5,8 +5,8 @@ mod support;
 use crossguard_codec::TaskParameters;
 use crossguard_codec::core::{Source, Uper, ram, rmcm};
 use crossguard_codec::view::laws;
-use crossguard_protocol::laws::arbitrary::{self, Stage};
-use crossguard_protocol::{Config, Coordination, MAX_FOLLOWERS, Millis};
+use crossguard_protocol::laws::arbitrary;
+use crossguard_protocol::{Config, Coordination, MAX_FOLLOWERS, Millis, Role};
 use proptest::prelude::*;
 use support::core::Random;
 use support::views;
@@ -130,11 +130,11 @@ proptest! {
     }
 
     #[test]
-    fn a_valid_robot_can_say_what_it_is(seed: u64, stage in prop::sample::select(&Stage::ALL[..])) {
+    fn a_valid_robot_can_say_what_it_is(seed: u64, role in prop::sample::select(&Role::ALL[..])) {
         let config = Config::default();
         let source = &mut Hinted(Random(seed));
         for _ in 0..16 {
-            let robot = arbitrary::robot(source, &config, stage, (0, MAX_FOLLOWERS));
+            let robot = arbitrary::robot(source, &config, role, (0, MAX_FOLLOWERS));
             laws::a_valid_robot_can_say_what_it_is(&config, &robot);
         }
     }
@@ -155,8 +155,8 @@ fn the_premises_of_the_laws_are_met() {
             u32::from(views.is_ok_and(|_| crossguard_codec::execution_of(&rmcm).is_none()));
         let source = &mut Hinted(Random(seed));
         let config = Config::default();
-        let stage = Stage::ALL[usize::try_from(seed).unwrap() % Stage::ALL.len()];
-        let robot = arbitrary::robot(source, &config, stage, (0, MAX_FOLLOWERS));
+        let role = Role::ALL[usize::try_from(seed).unwrap() % Role::ALL.len()];
+        let robot = arbitrary::robot(source, &config, role, (0, MAX_FOLLOWERS));
         let says = robot.ram();
         let is_new = says.coordination == Coordination::None && says.farewell.is_none();
         valid += u32::from(robot.is_valid(&config) && !is_new);
