@@ -11,7 +11,6 @@
 //! ```
 //!
 //! - [`demo`] is the paper's crossing and its extensions to teams, with simulated bodies.
-//! - [`operator`] reads what a person types to `crossguard run`.
 //! - [`studio`] serves a page on which logs are looked at.
 //! - [`metrics`] serves what Prometheus wants to know of a running robot.
 
@@ -20,7 +19,6 @@ pub mod cli;
 pub mod demo;
 mod http;
 pub mod metrics;
-pub mod operator;
 pub mod studio;
 
 /// The Rust in the README compiles.

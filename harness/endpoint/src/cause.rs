@@ -33,6 +33,8 @@ pub enum Layer {
     Perception,
     /// The robot's own body, where that is another process.
     Body,
+    /// The programs at its operator port.
+    Operator,
     /// The files of the boot counter, of the time and of the revocation list.
     Storage,
     /// The log.
@@ -43,7 +45,7 @@ pub enum Layer {
 
 impl Layer {
     /// All layers, in order.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Simulated,
         Self::Link,
         Self::Inbox,
@@ -55,6 +57,7 @@ impl Layer {
         Self::Protocol,
         Self::Perception,
         Self::Body,
+        Self::Operator,
         Self::Storage,
         Self::Log,
         Self::Output,
@@ -75,6 +78,7 @@ impl Layer {
             Self::Protocol => "protocol",
             Self::Perception => "perception",
             Self::Body => "body",
+            Self::Operator => "operator",
             Self::Storage => "storage",
             Self::Log => "log",
             Self::Output => "output",
@@ -125,6 +129,12 @@ pub enum Cause {
     BodyFault,
     /// The body said something that is no line of the port, or of a maneuver that does not run.
     BodyGarbled,
+    /// A program said something that is no line of the operator port, or never said hello.
+    OperatorGarbled,
+    /// A program did not read what the operator port told it.
+    OperatorSlow,
+    /// More programs wanted to connect to the operator port than can.
+    OperatorsFull,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
     /// The time could not be persisted; a robot that loses power now may trust a clock that was put back.
@@ -153,6 +163,7 @@ impl Cause {
             Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
+            Self::OperatorGarbled | Self::OperatorSlow | Self::OperatorsFull => Layer::Operator,
             Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread => Layer::Storage,
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
@@ -189,7 +200,9 @@ impl Display for Reason {
             Cause::Unplaced => "own position unknown",
             Cause::BodySilent => "silent",
             Cause::BodyFault => "fault",
-            Cause::BodyGarbled => "not understood",
+            Cause::BodyGarbled | Cause::OperatorGarbled => "not understood",
+            Cause::OperatorSlow => "too slow",
+            Cause::OperatorsFull => "too many",
             Cause::EpochNotRenewed => "boot counter not renewed",
             Cause::TimeNotKept => "time not kept",
             Cause::RevokedUnread => "revocation list not read",

@@ -24,7 +24,7 @@ use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
 
 pub use self::external::{Driver, External};
-pub use self::port::{BodyPort, PortAddress, Ported, VERSION as PORT_VERSION};
+pub use self::port::{BodyPort, Ported, VERSION as PORT_VERSION};
 pub use self::simulated::Simulated;
 use crate::site::{Place, Site};
 

@@ -19,8 +19,8 @@
 //! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up; [`observe`] hands it to `tracing`.
 //! - [`boot`] is the counter that makes session numbers unique over power failures, and what a robot that signs
 //!   remembers besides; [`clock`] is whether it trusts its clock.
+//! - [`operator`] reads what a person types, and serves the port by which other programs do; [`port`] has the sockets.
 //! - [`pki`] has the certificates and keys that it signs with, for tests.
-//!
 
 pub mod application;
 pub mod around;
@@ -35,10 +35,12 @@ pub mod lines;
 mod located;
 pub mod machine;
 pub mod observe;
+pub mod operator;
 pub mod perception;
 pub mod pki;
 pub mod plan;
 pub mod plan_file;
+pub mod port;
 pub mod robot_file;
 pub mod runtime;
 pub mod sight;

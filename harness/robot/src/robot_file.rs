@@ -23,6 +23,7 @@ use crate::journal::Journal;
 use crate::located::FileError;
 use crate::plan::Plan;
 use crate::plan_file::PlanFile;
+use crate::port::{NoAddress, PortAddress};
 use crate::runtime::{Clock, Setup};
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
 use crate::site_file::SiteFile;
@@ -69,6 +70,8 @@ pub struct RobotFile {
     pub plan_file: Option<PlanFile>,
     /// Where its body connects, if that is another process.
     pub body_port: Option<BodyPort>,
+    /// Where other programs command and watch it, if they may.
+    pub operator_port: Option<PortAddress>,
     /// Its link.
     pub link: Link,
     /// The protocol's configuration.
@@ -114,6 +117,7 @@ struct RobotTable {
     site_file: Option<PathBuf>,
     plan_file: Option<PathBuf>,
     body: Option<BodyTable>,
+    operator: Option<OperatorTable>,
     link: LinkTable,
     #[serde(default)]
     protocol: Settings,
@@ -160,6 +164,13 @@ const fn one() -> f64 {
 struct SiteTable {
     latitude: f64,
     longitude: f64,
+}
+
+/// Where other programs connect, to command the robot and watch it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OperatorTable {
+    listen: String,
 }
 
 #[derive(Deserialize)]
@@ -262,6 +273,9 @@ pub enum Impossibility {
     /// No body can be reached like that.
     #[error("[body] {0}")]
     Body(#[from] NoBody),
+    /// No program can connect there.
+    #[error("[operator] {0}")]
+    Operator(NoAddress),
     /// There is no such zone.
     #[error("[zone] {0}")]
     Zone(#[from] NoZone),
@@ -481,6 +495,7 @@ impl RobotTable {
             kerbs: kerbs.flatten(),
             plan_file: plan,
             body_port: self.body.map(|body| body.check(folder)).transpose()?,
+            operator_port: self.operator.map(|it| it.check(folder)).transpose()?,
             link: self.link.check()?,
             config: Config::new(self.protocol)?,
             identifiers: self.identifiers,
@@ -492,6 +507,12 @@ impl RobotTable {
             revoked: self.revoked.map(|list| folder.join(list)),
             trust_ros_graph: self.trust_ros_graph,
         })
+    }
+}
+
+impl OperatorTable {
+    fn check(self, folder: &Path) -> Result<PortAddress, Impossibility> {
+        PortAddress::parse(&self.listen, folder).map_err(Impossibility::Operator)
     }
 }
 

@@ -45,7 +45,7 @@ pub use self::clock::Clock;
 use self::clock::{moment_at, unix_us};
 use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
-pub use self::running::{Panicked, Running};
+pub use self::running::{Orders, Panicked, Running};
 use self::sampler::Sampler;
 use crate::application::{Application, Wish};
 use crate::around::Around;
@@ -80,7 +80,7 @@ const BODY_PERIOD: Duration = Duration::from_millis(5);
 const AROUND_PERIOD_US: u64 = 1_000_000;
 
 /// What a running robot can be told from outside.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Order {
     /// Something for its endpoint.
     Wish(Wish),
@@ -107,6 +107,8 @@ pub enum Order {
     Job(JobRole),
     /// Serve this road segment or intersection, or none of a map.
     Serve(Option<MapPlace>),
+    /// Count this, which happened outside of it, and log it with a detail.
+    Count(Cause, &'static str),
     /// Carry the body back to where it began.
     Reset,
     /// Leave whatever session it is in, say farewell, and stop.
@@ -210,7 +212,7 @@ impl Setup {
             }),
         ];
         Running {
-            orders: deliveries,
+            orders: Orders(deliveries),
             waiting,
             threads,
             stop,
@@ -409,6 +411,9 @@ impl Loop {
             Order::Serve(place) => {
                 self.machine.application_mut().serve(place);
                 Stimulus::Time
+            }
+            Order::Count(cause, detail) => {
+                return self.drop(cause, detail.to_owned(), Vec::new());
             }
             Order::Reset => {
                 self.machine.application_mut().reset();

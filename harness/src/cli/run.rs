@@ -20,18 +20,24 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::{MapPlace, Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
+use crossguard_endpoint::station::Mode;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_model_check::timed::{Limits, USUAL_DELAY};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::attachment::Sends;
 use crossguard_robot::boot;
+use crossguard_robot::journal::{RECORDS, WhenFull};
+use crossguard_robot::operator::port::Desk;
+use crossguard_robot::operator::{self, Line, help};
 use crossguard_robot::perception::{Announced, Feed};
+use crossguard_robot::port::{self, Listening};
 use crossguard_robot::robot_file::{Besides, RobotFile};
-use crossguard_robot::runtime::{Order, Running};
+use crossguard_robot::runtime::{Order, Panicked, Running};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use output::{Lines, Outputs};
@@ -40,7 +46,6 @@ use typist::Typist;
 use super::interrupts::interrupts;
 use super::ranges::{any, group, number};
 use super::{Failure, destinations, print};
-use crate::operator::{self, Line, help};
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);
@@ -150,7 +155,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let watch = arguments
         .watch
         .begin(address.clone(), arguments.security.mode().name())?;
-    let outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.screen())?;
+    let mut outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.screen())?;
     let revoked = file.revoked.as_deref();
     let security = arguments.security.of_robot(&file.name, revoked)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
@@ -158,6 +163,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let address = file.body_port.as_ref().map(|port| port.address.to_string());
         Failure::Input(format!("[body] {}: {error}", address.unwrap_or_default()))
     })?;
+    let operators = OpenPort::of(&file, &mut outputs)?;
     // The counter is taken last, when nothing else can go wrong, and before anything is sent.
     let boot = boot::take(&file.boot_file).and_then(|boot| {
         if security.signs() {
@@ -171,7 +177,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     setup.awareness = arguments.etsi.add_to(setup.awareness);
     let station = setup.security.station_id(&setup.identifiers, file.station);
+    let clock = setup.clock;
     let mut running = setup.start();
+    let operators = operators.map(|port| {
+        let desk = Desk {
+            robot: file.name.clone(),
+            station: station.0,
+            boot: counter,
+            trusts_ros_graph: file.trust_ros_graph || arguments.security.mode() != Mode::Enforce,
+            site: file.site,
+            planned: file.plan().map(|plan| plan.request()),
+        };
+        desk.serve(port.port, port.records, running.orders(), clock)
+    });
     if let Some(list) = &file.revoked {
         running.keep_revoked(list.clone());
     }
@@ -188,17 +206,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         described: BTreeMap::new(),
         missing: 0,
     };
-    let name = &file.name;
     console.say(&format!(
-        "{name} is station {station}, boot {counter}, on {address}. Type 'help' for help."
+        "{} is station {station}, boot {counter}, on {address}. Type 'help' for help.",
+        file.name
     ));
     console.say(&longest_times(arguments, &file));
-    if let Some(port) = &file.body_port {
-        console.say(&format!("Its body connects at {}.", port.address));
-    }
-    if let Some(address) = console.watch.metrics {
-        console.say(&format!("Metrics are at http://{address}/metrics."));
-    }
+    console.say_ports();
     // Before the terminal is changed, so that no signal leaves it so.
     let interrupted = interrupts();
     let (screen, heard) = (console.watch.screen(), console.watch.tally());
@@ -206,17 +219,38 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let outcome = console.attend(&running, &outputs.records, &typed, &interrupted);
     running.order(Order::Stop);
     let ended = running.wait();
+    let served = operators.map_or(Ok(()), JoinHandle::join);
     let missing = console.missing;
     drop(console);
     let written = outputs.writings.finish(missing);
     drop(typist);
     super::finish_capture(capture)?;
     outcome?;
-    if let Err(panicked) = ended {
+    if let Err(panicked) = ended.and(served.map_err(|_| Panicked)) {
         super::complain(panicked);
         return Err(Failure::Wrong);
     }
     written
+}
+
+/// The operator port, open, and the records for it.
+struct OpenPort {
+    port: Listening,
+    records: Receiver<Arc<Record>>,
+}
+
+impl OpenPort {
+    /// That of a robot file, if it has one.
+    fn of(file: &RobotFile, outputs: &mut Outputs) -> Result<Option<Self>, Failure> {
+        let Some(address) = &file.operator_port else {
+            return Ok(None);
+        };
+        let port = port::listen(address)
+            .map_err(|error| Failure::Input(format!("[operator] {address}: {error}")))?;
+        let journal = &mut outputs.journal;
+        let records = journal.reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
+        Ok(Some(Self { port, records }))
+    }
 }
 
 /// How long a failure may go unanswered with these settings.
@@ -339,6 +373,21 @@ impl Console<'_> {
                 quits = true;
                 running.order(Order::Stop);
             }
+        }
+    }
+
+    /// Says where others connect to the robot.
+    fn say_ports(&mut self) {
+        if let Some(port) = &self.file.body_port {
+            self.say(&format!("Its body connects at {}.", port.address));
+        }
+        if let Some(address) = &self.file.operator_port {
+            self.say(&format!(
+                "Other programs command and watch it at {address}."
+            ));
+        }
+        if let Some(address) = self.watch.metrics {
+            self.say(&format!("Metrics are at http://{address}/metrics."));
         }
     }
 
@@ -480,7 +529,7 @@ impl Console<'_> {
             _ => self.hold = None,
         }
         match self.pending.pop_front() {
-            Some(Line::Order(tell)) => running.order(tell.into()),
+            Some(Line::Order(order)) => running.order(order),
             Some(Line::Wait(time)) => self.hold = Some(Hold::Time(now + time)),
             Some(Line::Until(state, time)) => self.hold = Some(Hold::State(state, now + time)),
             Some(Line::Status) => {

@@ -240,7 +240,7 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
 }
 
 #[test]
-fn a_body_port_that_cannot_be_is_refused() {
+fn a_port_that_cannot_be_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = ported(folder.path(), "ARI", 1, 47_000, 47_001);
     for (from, to, cause) in [
@@ -258,6 +258,16 @@ fn a_body_port_that_cannot_be_is_refused() {
             "silence_ms = 10",
             "stands_m = nan",
             "[body] stands_m is NaN",
+        ),
+        (
+            "stands_m = nan",
+            "\n[operator]\nlisten = \"unix:\"",
+            "[operator] listen: 'unix:'",
+        ),
+        (
+            "unix:\"",
+            "unix:ARI.toml\"",
+            "ARI.toml is there, and is no socket",
         ),
     ] {
         edit(&file, &[(from, to)]);

@@ -11,7 +11,6 @@
 //! stop of its robot; that ends by the word of a person, and not by a body that connects again.
 
 mod lines;
-mod wire;
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -22,9 +21,8 @@ use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet};
 
 pub use self::lines::VERSION;
 use self::lines::{At, FromBody, Start, ToBody, policy};
-pub use self::wire::PortAddress;
-use self::wire::{Heard, Listening, Stream, listen};
 use super::{Body, BodyAct, Build, Fallback, NotTaken, Pose, Report, state_of};
+use crate::port::{Heard, Listening, PortAddress, Stream, listen};
 use crate::site::{Place, Site};
 
 /// For how long a body is where it said that it is, in seconds.
@@ -132,10 +130,8 @@ impl Ported {
     /// Says a line; a body that does not take it is lost.
     fn say(&mut self, what: &ToBody) -> Result<(), NotTaken> {
         let nobody = || NotTaken("no body is connected".to_owned());
-        let mut line = serde_json::to_string(what).map_err(|error| NotTaken(error.to_string()))?;
-        line.push('\n');
         let (_, stream) = self.stream.as_mut().ok_or_else(nobody)?;
-        let said = stream.say(&line);
+        let said = stream.say(what);
         said.map_err(|error| {
             self.lose();
             NotTaken(error.to_string())
@@ -167,10 +163,8 @@ impl Ported {
         match heard {
             Heard::Connected(_, mut stream) if self.stream.is_some() => {
                 let why = "another body is connected".to_owned();
-                if let Ok(line) = serde_json::to_string(&ToBody::Refused { why }) {
-                    // Who does not hear it sees that the connection ends.
-                    let _ = stream.say(&(line + "\n"));
-                }
+                // Who does not hear it sees that the connection ends.
+                let _ = stream.say(&ToBody::Refused { why });
                 stream.close();
             }
             Heard::Connected(number, stream) => {

@@ -7,13 +7,13 @@
 //! stands_m = 0.3
 //! ```
 
-use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
 use serde::Deserialize;
 
-use crate::body::{BodyPort, PortAddress};
+use crate::body::BodyPort;
+use crate::port::{NoAddress, PortAddress};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -37,10 +37,8 @@ const fn stands_m() -> f64 {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum NoBody {
     /// It is no address of this machine.
-    #[error(
-        "listen: '{0}' is no address of this machine: 'unix:PATH' or one like '127.0.0.1:47600' is wanted"
-    )]
-    Address(String),
+    #[error(transparent)]
+    Address(#[from] NoAddress),
     /// Nobody is silent so fast, or so slowly.
     #[error("silence_ms is {0}: 200 to 5000 is wanted")]
     Silence(u64),
@@ -57,16 +55,8 @@ impl BodyTable {
         if !(0.01..=2.0).contains(&self.stands_m) {
             return Err(NoBody::Stands(self.stands_m));
         }
-        let address = match self.listen.strip_prefix("unix:") {
-            Some(path) if !path.is_empty() => PortAddress::Unix(folder.join(path)),
-            _ => {
-                let parsed = self.listen.parse().ok();
-                let local = parsed.filter(|address: &SocketAddr| address.ip().is_loopback());
-                PortAddress::Tcp(local.ok_or(NoBody::Address(self.listen))?)
-            }
-        };
         Ok(BodyPort {
-            address,
+            address: PortAddress::parse(&self.listen, folder)?,
             silence: Duration::from_millis(self.silence_ms),
             stands_m: self.stands_m,
         })

@@ -27,7 +27,7 @@ impl Running {
     /// signed with a certificate on it. A list that cannot be read any more is counted, and the one before it stays.
     pub fn keep_revoked(&mut self, list: PathBuf) {
         let (list, stop) = (RevokedList::new(list), Arc::clone(&self.stop));
-        let deliveries = self.orders.clone();
+        let deliveries = self.orders.0.clone();
         let watch = move || watch(list, &deliveries, &stop);
         self.threads.push(std::thread::spawn(watch));
     }

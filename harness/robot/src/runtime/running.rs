@@ -8,9 +8,20 @@ use std::thread::JoinHandle;
 use super::reader::Waiting;
 use super::{Delivery, Order};
 
+/// Where a robot takes orders.
+#[derive(Clone)]
+pub struct Orders(pub(super) SyncSender<Delivery>);
+
+impl Orders {
+    /// Tells the robot something. It has no effect on a robot that has stopped.
+    pub fn give(&self, order: Order) {
+        let _ = self.0.send(Delivery::Order(order));
+    }
+}
+
 /// A robot that runs.
 pub struct Running {
-    pub(super) orders: SyncSender<Delivery>,
+    pub(super) orders: Orders,
     pub(super) waiting: Arc<Waiting>,
     pub(super) threads: Vec<JoinHandle<()>>,
     pub(super) stop: Arc<AtomicBool>,
@@ -19,7 +30,13 @@ pub struct Running {
 impl Running {
     /// Tells the robot something. It has no effect on a robot that has stopped.
     pub fn order(&self, order: Order) {
-        let _ = self.orders.send(Delivery::Order(order));
+        self.orders.give(order);
+    }
+
+    /// Where it takes orders, for others than its owner.
+    #[must_use]
+    pub fn orders(&self) -> Orders {
+        self.orders.clone()
     }
 
     /// Whether the robot has stopped, of its own accord or because it was told to.

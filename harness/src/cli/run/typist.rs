@@ -8,6 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
 
+use crossguard_robot::operator;
 use crossguard_robot::tally::Tally;
 use crossterm::event::{Event, read as read_key};
 
@@ -15,7 +16,6 @@ use super::super::screen::{Pressed, Screen};
 use super::super::terminal;
 use super::TYPED;
 use crate::metrics::Shared;
-use crate::operator;
 
 /// How long the end of the program waits for what is still to be shown.
 const PATIENCE: Duration = Duration::from_millis(500);

@@ -1,10 +1,9 @@
-use crossguard_codec::MapPlace;
-
-use crossguard_codec::{PublicSignal, SignalMeans};
+use crossguard_codec::{MapPlace, PublicSignal, SignalMeans, SignalsShown};
 use crossguard_protocol::{Event, TaskNames, TaskSet, TaskType, Urgency};
-use crossguard_robot::site::Place;
 
 use super::*;
+use crate::application::Wish;
+use crate::site::Place;
 
 fn parsed(text: &str) -> Result<Line, String> {
     parse(text, &Site::default()).map_err(|error| error.to_string())
@@ -12,7 +11,7 @@ fn parsed(text: &str) -> Result<Line, String> {
 
 fn told(text: &str) -> Event {
     match parsed(text) {
-        Ok(Line::Order(Tell::Wish(Wish::Tell(event)))) => event,
+        Ok(Line::Order(Order::Wish(Wish::Tell(event)))) => event,
         other => panic!("{text}: {other:?}"),
     }
 }
@@ -32,7 +31,7 @@ fn a_detection_has_defaults_and_takes_what_is_said() {
 
 #[test]
 fn an_order_may_lead_somewhere_at_some_speed() {
-    let Ok(Line::Order(Tell::Wish(Wish::Order {
+    let Ok(Line::Order(Order::Wish(Wish::Order {
         follower,
         task,
         parameters,
@@ -51,7 +50,7 @@ fn an_order_may_lead_somewhere_at_some_speed() {
 #[test]
 fn an_order_may_name_a_place_of_the_map() {
     let place_of = |text| match parsed(text) {
-        Ok(Line::Order(Tell::Wish(Wish::Order { parameters, .. }))) => parameters.map_place,
+        Ok(Line::Order(Order::Wish(Wish::Order { parameters, .. }))) => parameters.map_place,
         other => panic!("{text}: {other:?}"),
     };
     let segment = MapPlace::RoadSegment {
@@ -78,7 +77,7 @@ fn an_order_may_name_a_place_of_the_map() {
 #[test]
 fn what_is_shown_to_whom_and_how_can_be_said() {
     let shown = |text| match parsed(text) {
-        Ok(Line::Order(Tell::Show(signals))) => signals,
+        Ok(Line::Order(Order::Show(signals))) => signals,
         other => panic!("{text}: {other:?}"),
     };
     let expected = |to_vehicles, to_pedestrians, means| SignalsShown {
@@ -177,7 +176,7 @@ fn what_means_nothing_is_answered_with_what_would() {
 #[test]
 fn a_person_whom_the_sensors_have_is_a_line_of_json() {
     let line = parsed(r#" {"id": 7, "position_m": [3.0, -1.5]} "#);
-    let Ok(Line::Order(Tell::Perceived(Some(vru)))) = line else {
+    let Ok(Line::Order(Order::Perceived(Some(vru)))) = line else {
         panic!("{line:?}")
     };
     assert_eq!((vru.id, vru.position_m), (7, [3.0, -1.5]));

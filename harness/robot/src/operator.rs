@@ -1,21 +1,18 @@
-//! What a person types to a running robot. One table of commands, `COMMANDS`, is what the parser, the help and the
+//! What a person types to a running robot, and what programs tell it by the [port]. One table of commands, `COMMANDS`, is what the parser, the help and the
 //! completion of words go by.
 
 mod commands;
+pub mod port;
 mod words;
 
 use std::borrow::Cow;
 use std::time::Duration;
 
-use crossguard_codec::{Battery, JobRole, MapPlace, SignalsShown};
 use crossguard_protocol::{HelpRequest, State, StationId};
 
-use crossguard_endpoint::ras::clustering::PerceivedVru;
-use crossguard_robot::application::Wish;
-use crossguard_robot::perception;
-use crossguard_robot::runtime::Order;
-use crossguard_robot::site::Site;
-use crossguard_robot::wall_clock::ClockQuality;
+use crate::perception;
+use crate::runtime::Order;
+use crate::site::Site;
 
 use commands::{COMMANDS, Command, Scope};
 use words::Kind;
@@ -24,7 +21,7 @@ use words::Kind;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Line {
     /// Tell the robot this.
-    Order(Tell),
+    Order(Order),
     /// Wait so long before the next line.
     Wait(Duration),
     /// Wait until the robot is in this state, but no longer than this.
@@ -37,48 +34,6 @@ pub enum Line {
     Quit,
     /// Nothing but a comment.
     Blank,
-}
-
-/// What the robot is told.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Tell {
-    /// A wish of its application.
-    Wish(Wish),
-    /// The body holds the place from which the maneuver that runs guards.
-    InPosition,
-    /// The maneuver that runs is finished, well or not; or the fallback that runs.
-    Finish(bool),
-    /// The road is clear.
-    Clear,
-    /// Its sensors have this person, at this place on the site; or they work, and have nobody.
-    Perceived(Option<PerceivedVru>),
-    /// Its battery is like this now.
-    Battery(Battery),
-    /// Its wall clock is like this.
-    Clock(ClockQuality),
-    /// It shows this to people.
-    Show(SignalsShown),
-    /// It is there for this job.
-    Job(JobRole),
-    /// It serves this road segment or intersection, or none of a map.
-    Serve(Option<MapPlace>),
-}
-
-impl From<Tell> for Order {
-    fn from(tell: Tell) -> Self {
-        match tell {
-            Tell::Wish(wish) => Self::Wish(wish),
-            Tell::InPosition => Self::InPosition,
-            Tell::Finish(well) => Self::Finish { well },
-            Tell::Clear => Self::Clear,
-            Tell::Perceived(vru) => Self::Perceived(vru),
-            Tell::Battery(battery) => Self::Battery(battery),
-            Tell::Clock(quality) => Self::Clock(quality),
-            Tell::Show(signals) => Self::Show(signals),
-            Tell::Job(job) => Self::Job(job),
-            Tell::Serve(place) => Self::Serve(place),
-        }
-    }
 }
 
 /// Why a line means nothing.
@@ -147,7 +102,7 @@ fn person(text: &str) -> Result<Line, Misunderstood> {
         Ok(observation) if observation.at_s.is_some() => Err(Misunderstood::Person(
             "at_s is for files of --perceived; here 'wait' does it".to_owned(),
         )),
-        Ok(observation) => Ok(Line::Order(Tell::Perceived(observation.vru))),
+        Ok(observation) => Ok(Line::Order(Order::Perceived(observation.vru))),
         Err(error) => Err(Misunderstood::Person(error.to_string())),
     }
 }

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::time::Duration;
 
+use crate::robot_file::{job_named, job_names};
 use crossguard_codec::{JobRole, MapPlace, PublicSignal, SignalMeans};
 use crossguard_protocol::{State, TaskNames, TaskSet, TaskType, Unavailability, Urgency};
-use crossguard_robot::robot_file::{job_named, job_names};
 
 use super::Misunderstood;
 

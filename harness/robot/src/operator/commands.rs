@@ -2,19 +2,20 @@
 
 use std::time::Duration;
 
+use crate::application::Wish;
+use crate::runtime::Order;
+use crate::site::{Place, Site};
+use crate::wall_clock::{ClockQuality, ERROR_MAX_MS};
 use crossguard_codec::{Battery, PublicSignal, SignalMeans, SignalsShown, TaskParameters};
 use crossguard_protocol::{
     Availability, Event, HelpRequest, MAX_FOLLOWERS, StationId, TaskSet, TaskType, Urgency,
 };
-use crossguard_robot::application::Wish;
-use crossguard_robot::site::{Place, Site};
-use crossguard_robot::wall_clock::{ClockQuality, ERROR_MAX_MS};
 
 use super::words::{
     CHARGING, INTERSECTION, Kind, LOST, MAP_PLACE, NONE, SEGMENT, job, map_place, means, nothing,
     number, only, seconds, signal, state, surplus, task, unavailability, urgency, wrong,
 };
-use super::{Line, Misunderstood, Tell};
+use super::{Line, Misunderstood};
 
 /// What the words of a line are about.
 pub(super) struct Scope<'a> {
@@ -109,15 +110,15 @@ pub(super) const COMMANDS: &[Command] = &[
     Command::new(
         "in-position",
         "the body is at the place from which it guards",
-        |words, _| nothing(words).map(|()| Line::Order(Tell::InPosition)),
+        |words, _| nothing(words).map(|()| Line::Order(Order::InPosition)),
     ),
     Command::new(
         "done",
         "the maneuver that runs is finished, or the fallback that runs",
-        |words, _| nothing(words).map(|()| Line::Order(Tell::Finish(true))),
+        |words, _| nothing(words).map(|()| Line::Order(Order::Finish { well: true })),
     ),
     Command::new("fail", "the maneuver that runs cannot be finished", |words, _| {
-        nothing(words).map(|()| Line::Order(Tell::Finish(false)))
+        nothing(words).map(|()| Line::Order(Order::Finish { well: false }))
     }),
     Command::new("open", "open the corridor", |words, _| {
         event(words, Event::OpenCorridor)
@@ -134,7 +135,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "clear",
         "nobody is on the road any more: ends the duty of a robot that fell back or gave up, once its body has \
          finished its fallback",
-        |words, _| nothing(words).map(|()| Line::Order(Tell::Clear)),
+        |words, _| nothing(words).map(|()| Line::Order(Order::Clear)),
     ),
     Command::new("leave", "leave the session", |words, _| {
         event(words, Event::LeaveRequested)
@@ -161,7 +162,7 @@ pub(super) const COMMANDS: &[Command] = &[
     Command::new(
         "job",
         "the job that its RAM says it is there for: none, traffic-guard, escort, patrol, delivery, maintenance, other",
-        |words, _| Ok(Line::Order(Tell::Job(job(only(words, "job", "a job")?)?))),
+        |words, _| Ok(Line::Order(Order::Job(job(only(words, "job", "a job")?)?))),
     )
     .taking("ROLE", &[&[Kind::Job]]),
     Command::new(
@@ -204,7 +205,7 @@ pub(super) const COMMANDS: &[Command] = &[
 
 /// The application tells its robot so.
 fn tell(event: Event) -> Line {
-    Line::Order(Tell::Wish(Wish::Tell(event)))
+    Line::Order(Order::Wish(Wish::Tell(event)))
 }
 
 /// The same, by a command without words.
@@ -257,7 +258,7 @@ fn clock(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
         }
         [.., last] => return Err(surplus(last)),
     };
-    Ok(Line::Order(Tell::Clock(ClockQuality { error_ms })))
+    Ok(Line::Order(Order::Clock(ClockQuality { error_ms })))
 }
 
 fn battery(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
@@ -275,7 +276,7 @@ fn battery(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
     };
     let charge = number(percent).filter(|charge| (0.0..=100.0).contains(charge));
     let charge = charge.ok_or_else(|| wrong(percent, "a charge from 0 to 100 percent"))?;
-    Ok(Line::Order(Tell::Battery(Battery {
+    Ok(Line::Order(Order::Battery(Battery {
         state_of_charge: Some(charge),
         charging,
     })))
@@ -294,7 +295,7 @@ fn serve(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
         [only] => return Err(wrong(only, MAP_PLACE)),
         [.., last] => return Err(surplus(last)),
     };
-    Ok(Line::Order(Tell::Serve(place)))
+    Ok(Line::Order(Order::Serve(place)))
 }
 
 fn request(words: &[&str], site: &Site) -> Result<HelpRequest, Misunderstood> {
@@ -366,7 +367,7 @@ fn order(words: &[&str], scope: &Scope<'_>) -> Result<Line, Misunderstood> {
         map_place,
         ..TaskParameters::default()
     };
-    Ok(Line::Order(Tell::Wish(Wish::Order {
+    Ok(Line::Order(Order::Wish(Wish::Order {
         follower,
         task: task(name)?,
         parameters,
@@ -395,7 +396,7 @@ fn show(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
     let means = rest.iter().try_fold(SignalMeans::default(), |all, word| {
         Ok(all.union(means(word)?))
     })?;
-    Ok(Line::Order(Tell::Show(SignalsShown {
+    Ok(Line::Order(Order::Show(SignalsShown {
         to_vehicles,
         to_pedestrians,
         means,

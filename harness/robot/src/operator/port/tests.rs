@@ -1,0 +1,279 @@
+//! The desk by itself: sockets of one process, records by hand, and no clock.
+
+use std::cell::RefCell;
+use std::io::{BufRead, BufReader, Write as _};
+use std::os::unix::net::UnixStream;
+use std::rc::Rc;
+
+use crossguard_codec::Battery;
+use crossguard_protocol::{
+    Availability, Config, StationId, TaskSet, TaskType, Unavailability, Urgency,
+};
+
+use super::*;
+
+/// What the robot was told.
+#[derive(Clone, Default)]
+struct Told(Rc<RefCell<Vec<Order>>>);
+
+impl Obeys for Told {
+    fn order(&self, order: Order) {
+        self.0.borrow_mut().push(order);
+    }
+}
+
+impl Told {
+    fn take(&self) -> Vec<Order> {
+        self.0.take()
+    }
+}
+
+fn counter() -> (Counter<Told>, Told) {
+    let told = Told::default();
+    let desk = Desk {
+        robot: "Go2".to_owned(),
+        station: 2,
+        boot: 7,
+        trusts_ros_graph: true,
+        site: Site::default(),
+        planned: None,
+    };
+    (Counter::new(desk, told.clone()), told)
+}
+
+/// A client's end of a connection of this number.
+fn connect(counter: &mut Counter<Told>, number: u64) -> BufReader<UnixStream> {
+    let (ours, theirs) = UnixStream::pair().unwrap();
+    let stream = Stream::Unix(ours);
+    stream.prepare().unwrap();
+    counter.hear(Heard::Connected(number, stream), 0);
+    BufReader::new(theirs)
+}
+
+fn say(counter: &mut Counter<Told>, number: u64, line: &str) {
+    counter.hear(Heard::Line(number, line.to_owned()), 0);
+}
+
+const HELLO: &str = r#"{"type": "hello", "crossguard": 1}"#;
+
+fn heard(from: &mut impl BufRead) -> Value {
+    let mut line = String::new();
+    from.read_line(&mut line).unwrap();
+    serde_json::from_str(&line).unwrap()
+}
+
+/// The record of a step.
+fn step(robot: &mut Robot, at_us: u64, event: Event) -> Record {
+    let input = Input::Local(event);
+    let outputs = Box::new(robot.step(&Config::default(), input));
+    let state = Box::new(robot.clone());
+    Record {
+        at_us,
+        robot: "Go2".to_owned(),
+        entry: Entry::Step {
+            input,
+            outputs,
+            state,
+        },
+    }
+}
+
+fn help() -> HelpRequest {
+    HelpRequest {
+        urgency: Urgency::High,
+        followers: 2,
+        tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE]),
+        place: crossguard_protocol::Place::UNKNOWN,
+    }
+}
+
+#[test]
+fn each_line_is_an_order_or_is_refused_and_counted() {
+    let (mut counter, told) = counter();
+    let mut lines = connect(&mut counter, 0);
+    assert_eq!(
+        heard(&mut lines),
+        serde_json::json!({"type": "hello", "crossguard": 1, "robot": "Go2", "station": 2, "boot": 7,
+            "trusts_ros_graph": true})
+    );
+    say(&mut counter, 0, HELLO);
+    let tell = |event| Ok(Some(Order::Wish(Wish::Tell(event))));
+    let stopped = Availability::Unavailable(Unavailability::EmergencyStop);
+    let rows: [(&str, Result<Option<Order>, &str>); 18] = [
+        (
+            r#"{"type": "event", "event": "openCorridor"}"#,
+            tell(Event::OpenCorridor),
+        ),
+        (
+            r#"{"type": "event", "event": {"pedestrianDetected": {"urgency": "high", "followers": 2, "tasks": 3}}}"#,
+            tell(Event::PedestrianDetected(help())),
+        ),
+        (
+            r#"{"type": "event", "event": {"availabilityChanged": {"unavailable": "emergencyStop"}}}"#,
+            tell(Event::AvailabilityChanged(stopped)),
+        ),
+        (
+            r#"{"type": "event", "event": "roadClear"}"#,
+            Ok(Some(Order::Clear)),
+        ),
+        (
+            r#"{"type": "event", "event": {"commandManeuver": {"follower": 5, "task": 1}}}"#,
+            Ok(Some(Order::Wish(Wish::Order {
+                follower: StationId(5),
+                task: TaskType::MOVE,
+                parameters: crossguard_codec::TaskParameters::default(),
+            }))),
+        ),
+        (
+            r#"{"type": "command", "line": "leave"}"#,
+            tell(Event::LeaveRequested),
+        ),
+        (
+            r#"{"type": "command", "line": "battery 40 charging"}"#,
+            Ok(Some(Order::Battery(Battery {
+                state_of_charge: Some(40.0),
+                charging: true,
+            }))),
+        ),
+        (
+            r#"{"type": "command", "line": "quit"}"#,
+            Ok(Some(Order::Stop)),
+        ),
+        (
+            r#"{"type": "person", "nobody": true}"#,
+            Ok(Some(Order::Perceived(None))),
+        ),
+        (HELLO, Ok(None)),
+        (r#"{"type": "command", "line": " "}"#, Ok(None)),
+        (
+            r#"{"type": "command", "line": "wait 5"}"#,
+            Err("'wait 5' is for the console"),
+        ),
+        (
+            r#"{"type": "command", "line": "dance"}"#,
+            Err("no command 'dance'"),
+        ),
+        (r#"{"type": "command"}"#, Err("a command wants a 'line'")),
+        (
+            r#"{"type": "event", "event": "allAnswered"}"#,
+            Err("'allAnswered' is for the kit alone"),
+        ),
+        (
+            r#"{"type": "person", "id": 7, "position_m": [1e9, 0]}"#,
+            Err("position_m is"),
+        ),
+        (r#"{"type": "dance"}"#, Err("a 'type' is wanted")),
+        ("no json", Err("expected ident")),
+    ];
+    for (nth, (line, expected)) in (2..).zip(rows) {
+        say(&mut counter, 0, line);
+        let orders = told.take();
+        match expected {
+            Ok(order) => assert_eq!(orders, Vec::from_iter(order), "{line}"),
+            Err(why) => {
+                assert!(
+                    matches!(orders[..], [Order::Count(Cause::OperatorGarbled, _)]),
+                    "{line}"
+                );
+                let refused = heard(&mut lines);
+                assert_eq!(
+                    (&refused["type"], &refused["line"]),
+                    (&"refused".into(), &nth.into())
+                );
+                assert!(
+                    refused["why"].as_str().unwrap().starts_with(why),
+                    "{refused}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_the_robot_does_is_told_with_its_state_at_every_change_and_as_a_beat() {
+    let (mut counter, _) = counter();
+    let mut robot = Robot::new(StationId(2), 7);
+    let mut lines = connect(&mut counter, 0);
+    heard(&mut lines);
+    say(&mut counter, 0, HELLO);
+    counter.record(&step(&mut robot, 5, Event::OpenCorridor), 5);
+    let ignored = heard(&mut lines);
+    assert_eq!(ignored["type"], "ignored");
+    assert_eq!(
+        (&ignored["event"], &ignored["reason"]),
+        (&"openCorridor".into(), &"notLeading".into())
+    );
+    assert_eq!(heard(&mut lines)["state"], "Idle");
+    counter.record(&step(&mut robot, 9, Event::PedestrianDetected(help())), 9);
+    let act = heard(&mut lines);
+    assert_eq!(
+        (&act["type"], &act["output"]),
+        (&"act".into(), &"lockIdentity".into())
+    );
+    let state = heard(&mut lines);
+    assert_eq!(
+        (&state["state"], &state["role"], &state["session"]["leader"]),
+        (&"HelpRequested".into(), &"requester".into(), &2.into())
+    );
+    assert!(state.get("open_ms").is_none() && state["corridor"] == "clear");
+    // Nothing more is told before it is time.
+    counter.elapse(BEAT_US);
+    counter.elapse(BEAT_US + 9);
+    assert_eq!(heard(&mut lines)["at_us"], BEAT_US + 9);
+}
+
+#[test]
+fn a_client_that_does_not_read_says_no_hello_or_is_one_too_many_loses_its_connection_alone() {
+    let (mut counter, told) = counter();
+    let mut robot = Robot::new(StationId(2), 7);
+    let mut reads = connect(&mut counter, 0);
+    let mut mute = connect(&mut counter, 1);
+    let _sleeps = connect(&mut counter, 2);
+    let mut other_version = connect(&mut counter, 3);
+    say(&mut counter, 0, HELLO);
+    say(&mut counter, 2, HELLO);
+    say(&mut counter, 3, r#"{"type": "hello", "crossguard": 2}"#);
+    heard(&mut other_version);
+    assert_eq!(
+        heard(&mut other_version)["why"],
+        "version 2: 1 is spoken here"
+    );
+    assert_eq!(other_version.read_line(&mut String::new()).unwrap(), 0);
+    assert!(matches!(
+        told.take()[..],
+        [Order::Count(Cause::OperatorGarbled, _)]
+    ));
+    counter.elapse(GREETING_US);
+    heard(&mut mute);
+    assert_eq!(mute.read_line(&mut String::new()).unwrap(), 0);
+    assert!(matches!(
+        told.take()[..],
+        [Order::Count(Cause::OperatorGarbled, _)]
+    ));
+    // What nobody reads fills the socket.
+    let mut at_us = 0;
+    while counter.clients.len() > 1 {
+        at_us += 1;
+        assert!(at_us < 100_000, "it never fills");
+        counter.record(&step(&mut robot, at_us, Event::OpenCorridor), at_us);
+        while heard(&mut reads)["type"] != "ignored" {}
+    }
+    assert!(matches!(
+        told.take()[..],
+        [Order::Count(Cause::OperatorSlow, _)]
+    ));
+    let mut more: Vec<_> = (10..18)
+        .map(|number| connect(&mut counter, number))
+        .collect();
+    let mut last = more.pop().unwrap();
+    assert_eq!(heard(&mut last)["type"], "refused");
+    assert!(matches!(
+        told.take()[..],
+        [Order::Count(Cause::OperatorsFull, _)]
+    ));
+    // One that goes away makes room, and the robot is told nothing.
+    counter.hear(Heard::Closed(10), 0);
+    assert_eq!(heard(&mut connect(&mut counter, 18))["type"], "hello");
+    assert!(told.take().is_empty());
+    writeln!(reads.get_mut(), "still here").unwrap();
+}

@@ -1,0 +1,102 @@
+//! A crossing that another program commands and watches by the operator port, beside programs that spoil it.
+
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::net::UnixStream;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crossguard_testkit::command::*;
+use serde_json::Value;
+
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// Connects to the operator port of a robot, as soon as it is there.
+fn connect(file: &str) -> BufReader<UnixStream> {
+    let socket = Path::new(file).with_extension("sock");
+    let deadline = Instant::now() + PATIENCE;
+    loop {
+        match UnixStream::connect(&socket) {
+            Ok(stream) => return BufReader::new(stream),
+            Err(error) => assert!(Instant::now() < deadline, "{error}"),
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// Reads on until a line is like this.
+fn until(from: &mut impl BufRead, is: impl Fn(&Value) -> bool) -> Value {
+    loop {
+        let mut line = String::new();
+        assert!(from.read_line(&mut line).unwrap() > 0, "the port is closed");
+        let line: Value = serde_json::from_str(&line).unwrap();
+        if is(&line) {
+            return line;
+        }
+    }
+}
+
+#[test]
+fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = two_free_ports();
+    let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
+    let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
+    let listen = "[operator]\nlisten = \"unix:ARI.sock\"\n\n[link]";
+    edit(&ari, &[("[link]", listen)]);
+    let mut robots = [start(&ari), start(&go2)];
+    let mut program = connect(&ari);
+    let hello = until(&mut program, |line| line["type"] == "hello");
+    assert_eq!(
+        (&hello["robot"], &hello["station"]),
+        (&"ARI".into(), &1.into())
+    );
+    writeln!(
+        program.get_mut(),
+        "{{\"type\": \"hello\", \"crossguard\": 1}}"
+    )
+    .unwrap();
+    // One that talks nonsense, one line of which has no end, and one that never reads.
+    let mut spoils = [connect(&ari), connect(&ari)];
+    writeln!(spoils[0].get_mut(), "no json").unwrap();
+    spoils[0].get_mut().write_all(&[b'x'; 10_000]).unwrap();
+    writeln!(
+        spoils[1].get_mut(),
+        "{{\"type\": \"hello\", \"crossguard\": 1}}"
+    )
+    .unwrap();
+    until(&mut program, |line| {
+        line["type"] == "map" && line["kinds"][0]["count"] == 1
+    });
+    writeln!(
+        program.get_mut(),
+        "{{\"type\": \"command\", \"line\": \"detect\"}}"
+    )
+    .unwrap();
+    until(&mut program, |line| line["output"] == "corridorOpened");
+    let open = until(&mut program, |line| line["type"] == "state");
+    assert_eq!(
+        (&open["corridor"], &open["role"]),
+        (&"open".into(), &"leader".into())
+    );
+    assert!(
+        open["open_ms"].as_u64().is_some_and(|left| left > 0),
+        "{open}"
+    );
+    let ended = until(&mut program, |line| line["notice"] == "sessionEnded");
+    assert_eq!(ended["reason"], "taskCompleted");
+    writeln!(
+        program.get_mut(),
+        "{{\"type\": \"command\", \"line\": \"quit\"}}"
+    )
+    .unwrap();
+    until(&mut program, |line| line["type"] == "stopped");
+    type_to(&mut robots[1], "quit\n");
+    for robot in &mut robots {
+        assert_eq!(wait_for(robot, PATIENCE).code(), Some(0));
+    }
+    let log = log_of(&ari);
+    crossguard_judge::validate::one(log.as_bytes()).unwrap();
+    let last = records(&log).pop().unwrap();
+    assert_eq!(last["counters"]["operator"]["not understood"], 1, "{last}");
+    assert!(!Path::new(&ari).with_extension("sock").exists());
+}
