@@ -76,65 +76,6 @@ fn two_teams_that_meet_show_go_together_for_two_periods_at_most() {
     assert_eq!(figures(&report), [("W3", 275, 303)]);
 }
 
-#[test]
-#[ignore = "takes half a minute, and 'crossguard check' checks it too: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
-fn a_pair_with_drifting_clocks_and_delayed_messages_keeps_every_property_and_bound() {
-    let report = run_shipped("timed-pair");
-    let expected = [
-        ("L1", 275, 303),
-        ("L5", 275, 314),
-        ("L5", 440, 496),
-        ("I11, W1", 110, 160),
-        ("W1", 0, 0),
-        ("W6", 110, 160),
-    ];
-    assert_eq!(figures(&report), expected);
-}
-
-#[test]
-#[ignore = "takes half a minute, and 'crossguard check' checks it too: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
-fn a_leader_with_two_followers_keeps_every_property_and_bound() {
-    let report = run_shipped("timed-trio");
-    let expected = [
-        ("L1", 165, 220),
-        ("L5", 220, 275),
-        ("L5", 275, 385),
-        ("I11, W1", 110, 165),
-        ("W1", 0, 0),
-        ("W6", 110, 165),
-    ];
-    assert_eq!(figures(&report), expected);
-}
-
-#[test]
-#[ignore = "takes half a minute: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
-fn a_pair_with_the_timers_in_use_keeps_every_property_and_bound() {
-    let report = run_shipped("timed-in-use");
-    let expected = [
-        ("L1", 3_000, 3_100),
-        ("L5", 2_000, 2_100),
-        ("L5", 7_000, 7_200),
-        ("I11, W1", 1_800, 1_900),
-        ("W1", 0, 0),
-        ("W6", 1_800, 1_900),
-    ];
-    assert_eq!(figures(&report), expected);
-}
-
-#[test]
-#[ignore = "takes a minute: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
-fn three_robots_with_drifting_clocks_and_late_endpoints_keep_every_property() {
-    let report = run_shipped("timed-trio-drift");
-    assert_eq!(figures(&report), [("L1", 165, 215), ("W1", 0, 0)]);
-}
-
-#[test]
-#[ignore = "takes a minute: cargo test --release -p crossguard-model-check --test it -- --ignored timed::"]
-fn three_robots_with_drifting_clocks_and_late_messages_keep_every_property() {
-    let report = run_shipped("timed-trio-delay");
-    assert_eq!(figures(&report), [("L1", 165, 215)]);
-}
-
 /// `timed-trio-drift` has clocks that keep their rates and endpoints that are late; here are clocks that
 /// change their rates at every tick, and endpoints that are not.
 #[test]

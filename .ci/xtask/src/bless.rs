@@ -48,10 +48,6 @@ const GENERATED: [Generated; 13] = [
         by: "cargo test -p crossguard-model-check --test it paper_literal::",
     },
     Generated {
-        path: "model-check/stories/",
-        by: "cargo test -p crossguard-model-check --test it paper_literal::",
-    },
-    Generated {
         path: "harness/conform/src/cases.txt",
         by: "cargo test -p crossguard-conform --test generated",
     },

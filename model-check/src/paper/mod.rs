@@ -6,8 +6,8 @@
 //!
 //! ```text
 //!   robot ──► world ──► model ──► stateright ──► counterexamples ──┬──► report
-//!     └─► road ─┘         ▲                           ▲            ├──► page (doc/paper-literal.md)
-//!                       found: P0 to P14, W1 to W4, W7 texts       └──► story (stories/*.json)
+//!     └─► road ─┘         ▲                           ▲            └──► page (doc/paper-literal.md)
+//!                       found: P0 to P14, W1 to W4, W7 texts
 //! ```
 //!
 //! What the text says, and the model does:
@@ -43,7 +43,6 @@ mod readings;
 mod road;
 mod robot;
 mod shown;
-mod story;
 mod texts;
 mod world;
 
@@ -55,7 +54,6 @@ pub use hazards::{Hazard, HazardKind, Passage};
 pub use page::page;
 pub use readings::{OtherReading, Reading};
 pub use shown::{PaperRobotFrame, PaperRun, runs};
-pub use story::{Happening, Link, Party, Story, StoryMessage, StoryStep, stories};
 pub use texts::{Text, on_the_road};
 
 use crate::cost::Meter;

@@ -55,12 +55,6 @@ impl Authentication {
         Self { names: true, liars }
     }
 
-    /// Whether somebody who speaks in another's name could break the property.
-    #[must_use]
-    pub const fn assumes_names(self) -> bool {
-        self.names
-    }
-
     /// The insiders that can break the property by what they say in their own name.
     #[must_use]
     pub const fn liars(self) -> &'static [Insider] {

@@ -1,7 +1,5 @@
 //! A broken property is shown by a shortest run, which the model takes too.
 
-mod processes;
-
 use crossguard_model_check::check;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::Replay;
@@ -10,7 +8,7 @@ use crossguard_model_check::scenario::Scenario;
 use crossguard_testkit::rules::{NEVER_CLOSES_THE_CORRIDOR, NEVER_STOPS};
 use crossguard_workers::{WorkersReport, check as check_by_workers};
 
-use processes::{by_processes, workers};
+use crate::processes::{by_processes, workers};
 
 /// Asserts that a report shows each broken property by a run that breaks it, as short as the existing check's.
 fn assert_shown(model: &Model, report: &WorkersReport) {

@@ -1,7 +1,5 @@
 //! Workers find what the existing exploration finds, however many they are and wherever they run.
 
-mod processes;
-
 use std::collections::HashSet;
 
 use crossguard_model_check::check;
@@ -10,7 +8,7 @@ use crossguard_model_check::report::ScenarioReport;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_workers::{WorkersReport, check as check_by_workers};
 
-use processes::{by_processes, workers};
+use crate::processes::{by_processes, workers};
 
 /// The scenarios that workers can explore, with at most so many states.
 fn untimed(states_max: usize) -> impl Iterator<Item = &'static str> {

@@ -18,7 +18,6 @@ pub(crate) fn workers(number: usize) -> Options {
 }
 
 /// Hosts on this machine that are free just now.
-#[allow(dead_code, reason = "not every test needs it alone")]
 pub(crate) fn hosts(number: usize) -> Hosts {
     let ports = u16::try_from(number).unwrap();
     let first = free_ports(ports);
@@ -29,7 +28,6 @@ pub(crate) fn hosts(number: usize) -> Hosts {
 }
 
 /// What each of some processes reports, of this number of workers each.
-#[allow(dead_code, reason = "not every test needs it")]
 pub(crate) fn by_processes(
     model: &(dyn Fn() -> Model + Sync),
     processes: usize,
