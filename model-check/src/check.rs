@@ -9,7 +9,6 @@ use std::time::Duration;
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
 use crate::confinement::LyingPart;
-use crate::cost::Meter;
 use crate::exploration::ExplorationLimits;
 pub use crate::exploration::{CheckProgress, Options, Stop};
 use crate::fair::{LeadsTo, leads_to};
@@ -39,7 +38,7 @@ pub fn check(
     options: &Options,
     watch: &mut dyn FnMut(CheckProgress),
 ) -> ScenarioReport {
-    let (meter, limits) = (Meter::start(), options.limits());
+    let limits = options.limits();
     let scenario = model.scenario();
     let progress = CheckProgress {
         expected: scenario.expected.map(|size| size.unique_states),
@@ -104,12 +103,6 @@ pub fn check(
         assumptions: assumed(scenario, options, size.unique_states),
         transitions_taken: model.transitions_taken(),
         seconds: limits.elapsed().as_secs_f64(),
-        // One of the two may have been cut off before it began.
-        cost: meter.read(
-            second
-                .map_or(0, |s| s.unique_states)
-                .max(size.unique_states),
-        ),
     }
 }
 

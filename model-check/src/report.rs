@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cost::Cost;
 use crate::properties::{Claim, PropertyId};
 use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
@@ -25,9 +24,6 @@ pub struct ScenarioReport {
     pub depth: usize,
     /// Seconds that all of it took, by the clock.
     pub seconds: f64,
-    /// What it cost.
-    #[serde(flatten)]
-    pub cost: Cost,
     /// Which engines explored the scenario and judged it: `crossguard`, the kit's own exploration, `stateright`, or
     /// `crossguard-workers`.
     pub engines: Vec<&'static str>,

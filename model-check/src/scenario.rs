@@ -6,27 +6,20 @@
 
 mod file;
 mod lies;
-mod location;
+pub(crate) mod location;
 mod monotone;
 pub(crate) mod setup;
 mod symmetric;
 
 use std::path::{Path, PathBuf};
 
-use crossguard_protocol::{
-    BrokenInequality, Config, HelpRequest, MAX_FOLLOWERS, StationId, TaskNames,
-};
-
-pub use lies::Unliable;
-pub use monotone::Misfit;
-pub(crate) use setup::PSEUDONYM_STEP;
-pub use setup::{Bounds, ChannelSetup, MAX_ROBOTS, RobotSetup, Size};
-pub use symmetric::Asymmetry;
+use crossguard_protocol::{Config, HelpRequest, StationId};
 
 use crate::confinement::LyingPart;
-use crate::network::MAX_DELAYED;
-use crate::properties::{PropertyId, listed};
-use crate::timed::{Timed, TimedImpossibility};
+use crate::properties::PropertyId;
+use crate::timed::Timed;
+pub(crate) use setup::PSEUDONYM_STEP;
+pub use setup::{Bounds, ChannelSetup, MAX_ROBOTS, RobotSetup, Size};
 
 /// How many robots a cooperative scenario may have.
 const MAX_COOPERATIVE_ROBOTS: usize = 3;
@@ -103,61 +96,8 @@ pub enum ScenarioError {
         /// The line, counted from 1.
         line: usize,
         /// What is wrong.
-        cause: Impossibility,
+        cause: String,
     },
-}
-
-/// What is wrong with a scenario.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum Impossibility {
-    /// Too few or too many robots.
-    #[error("{0} robots: between 2 and {MAX_ROBOTS} are possible")]
-    Robots(usize),
-    /// Two robots with the same station id.
-    #[error("two robots have station id {0}")]
-    SameStation(StationId),
-    /// An urgency that is never used.
-    #[error("robot {0} has an urgency but no 'detects = true', so it never asks for help")]
-    UnusedUrgency(StationId),
-    /// No robot can start.
-    #[error("no robot has 'detects = true', so nothing would ever happen")]
-    NobodyDetects,
-    /// The request cannot be met.
-    #[error("a request for {0} followers: between 1 and {MAX_FOLLOWERS} are possible")]
-    Followers(u8),
-    /// An unknown task.
-    #[error("no task '{0}': {names}", names = TaskNames)]
-    Task(String),
-    /// Too many messages delayed.
-    #[error("{0} messages delayed at a time: at most {MAX_DELAYED} are possible")]
-    Delayed(u8),
-    /// Too many robots to tell all their messages apart.
-    #[error("{0} robots in a cooperative scenario: at most {MAX_COOPERATIVE_ROBOTS} are possible")]
-    Cooperative(usize),
-    /// Two robots whose pseudonyms could not be told apart.
-    #[error("station ids {0} and {1} must not differ by a multiple of {PSEUDONYM_STEP}")]
-    SamePseudonyms(StationId, StationId),
-    /// A property that assumes what the scenario does not.
-    #[error("{0} speaks about cooperative scenarios only; this one lacks 'cooperative = true'")]
-    NotCooperative(PropertyId),
-    /// What does not fit a monotone channel.
-    #[error(transparent)]
-    Monotone(#[from] Misfit),
-    /// Robots that are not symmetric.
-    #[error(transparent)]
-    Asymmetry(#[from] Asymmetry),
-    /// An unknown property.
-    #[error("no property '{0}': {list}", list = listed(PropertyId::all_untimed()))]
-    Property(String),
-    /// The protocol's settings contradict each other.
-    #[error(transparent)]
-    Settings(#[from] BrokenInequality),
-    /// What an insider that lies does not fit.
-    #[error(transparent)]
-    Lies(#[from] Unliable),
-    /// What is wrong with the time of a timed scenario.
-    #[error(transparent)]
-    Timed(#[from] TimedImpossibility),
 }
 
 /// A scenario that comes with the kit.

@@ -5,6 +5,8 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::{Claim, PropertyId};
 use crossguard_model_check::scenario::Scenario;
 
+use crate::{timed_weakenings, weakenings};
+
 const PAGE: &str = include_str!("../doc/verification.md");
 const GUIDE: &str = include_str!("../doc/verifying.md");
 
@@ -61,55 +63,22 @@ fn every_large_scenario_stands_there_with_its_size_and_properties() {
     }
 }
 
-const WEAKENINGS: &str = include_str!("weakenings.rs");
-const TIMED_WEAKENINGS: &str = include_str!("timed_weakenings.rs");
-const SHARED_WEAKENINGS: &str = include_str!("../../harness/testkit/src/rules.rs");
-
-fn words(text: &str) -> Vec<&str> {
-    text.split(|c: char| !c.is_alphanumeric() && c != '_')
-        .collect()
-}
-
-/// Asserts that the weakening of a claim is one, and that a test of this file asserts that it breaks the property.
-fn assert_has_weakening(id: PropertyId, claim: &Claim, file: &'static str) {
-    let weakening = claim.weakening;
-    let is_defined = [file, SHARED_WEAKENINGS].iter().any(|file| {
-        let kinds = ["struct", "const", "fn"].iter();
-        kinds
-            .flat_map(|kind| ["(", ";", ":", " "].map(|end| format!("{kind} {weakening}{end}")))
-            .any(|definition| file.contains(&definition))
-    });
-    assert!(
-        is_defined,
-        "no weakening {weakening}, which is to break {id}"
-    );
-    let tests = file.split("#[test]\n").skip(1);
-    let mut tests = tests.map(|test| test.split_once("\n}\n").map_or(test, |(body, _)| body));
-    // What a test asserts to break stands in the last list of its call, or in that of its assertion.
-    let asserted = |test: &'static str| {
-        let timed = test.split_once("assert_eq!(violated, [");
-        let (_, list) = timed.or_else(|| test.rsplit_once("&["))?;
-        list.split_once(']').map(|(list, _)| list)
+/// Asserts that the weakening which a claim names breaks the property in one of these tests.
+fn assert_shown(id: PropertyId, claim: Option<&Claim>, tests: &[(&str, &[PropertyId])]) {
+    let Some(Claim { weakening, .. }) = claim else {
+        return;
     };
-    let breaks = |test: &'static str| {
-        let broken = asserted(test).is_some_and(|list| words(list).contains(&id.name()));
-        broken && words(test).contains(&weakening)
-    };
-    assert!(
-        tests.any(breaks),
-        "no test shows that {weakening} breaks {id}"
-    );
+    let mut tests = tests.iter();
+    let is_shown =
+        tests.any(|(rules, broken)| rules.starts_with(weakening) && broken.contains(&id));
+    assert!(is_shown, "no test shows that {weakening} breaks {id}");
 }
 
 #[test]
 fn every_claim_names_a_weakening_that_a_test_shows_to_break_it() {
     for id in PropertyId::ALL {
-        if let Some(claim) = id.untimed() {
-            assert_has_weakening(id, claim, WEAKENINGS);
-        }
-        if let Some(claim) = id.timed() {
-            assert_has_weakening(id, claim, TIMED_WEAKENINGS);
-        }
+        assert_shown(id, id.untimed(), weakenings::BREAKS);
+        assert_shown(id, id.timed(), timed_weakenings::BREAKS);
     }
 }
 

@@ -3,6 +3,7 @@
 
 use crate::timing::*;
 use crossguard_model_check::node::Rules;
+use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CheckVerdict, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::sequence::{ChartPlace, ChartStep};
@@ -43,6 +44,78 @@ impl Rules for Misconfigured {
         let own = robot.station() == StationId(self.station);
         robot.step(if own { &self.config } else { config }, input)
     }
+}
+
+/// A test for each row: a scenario, a weakening, and all that it breaks there.
+macro_rules! weakenings {
+    ($($(#[$attribute:meta])* fn $name:ident($scenario:expr, $rules:expr, [$($id:ident),*]);)*) => {
+        $($(#[$attribute])* fn $name() {
+            let (violated, _) = violated($scenario, $rules);
+            assert_eq!(violated, [$(stringify!($id)),*]);
+        })*
+
+        /// The weakenings, each with what it breaks.
+        pub(crate) const BREAKS: &[(&str, &[PropertyId])] = &[$((stringify!($rules), &[$(PropertyId::$id),*])),*];
+    };
+}
+
+weakenings! {
+    #[test]
+    fn a_safety_timer_that_is_shorter_than_the_leaders_lease_allows_breaks_the_theorem_alone(sound_pair(), TakesAnyTimers(short_of_safety()), [I10]);
+    #[test]
+    fn a_safety_timer_that_is_too_long_stops_a_follower_too_late(pair(&[NO_FOLLOWER_FAILS]), follows_too_long(), [I16, L5]);
+    #[test]
+    fn a_request_that_stands_too_long_is_noticed(sound_pair(), asks_too_long(), [I16, L1]);
+    // The sign also shows go when the follower has fallen back.
+    #[test]
+    fn a_corridor_that_does_not_close_in_time_is_noticed(pair(&[]), SHOWS_GO_TOO_LONG, [I11, W1]);
+    #[test]
+    fn a_sign_that_shows_go_after_a_fallback_is_noticed(sound_pair(), SHOWS_GO_TOO_LONG, [W1]);
+    #[test]
+    fn robots_that_answer_each_other_in_no_time_would_hold_time_up(sound_pair(), AnswersEveryRam, [I12]);
+    // The laws of single steps once let this pass.
+    #[test]
+    fn a_follower_that_waits_a_quarter_of_t_safety_is_noticed(sound_pair(), RenewsContactBy::new(Millis(45)), [I10, I19, W1, W6]);
+    #[test]
+    fn a_follower_that_waits_less_than_it_promised_is_noticed_where_no_lease_shows_it(pair(&[("t_lease = 90", "t_lease = 60"), NO_FOLLOWER_FAILS, NOBODY_CRASHES]), RenewsContactBy::new(Millis(170)), [I19]);
+    #[test]
+    fn a_leader_that_does_not_tell_of_a_lost_lease_leaves_its_application_unaware(sound_pair(), DoesNotTell(|notice| matches!(notice, Notice::LeaseExpired(_))), [W6]);
+    #[test]
+    fn a_leader_that_does_not_tell_of_a_failed_maneuver_leaves_its_application_unaware(with_a_long_lease(), DoesNotTell(|notice| matches!(notice, Notice::ManeuverFailed(..))), [W6]);
+    #[test]
+    fn a_request_that_ends_untold_lets_a_pedestrian_wait_for_ever(shipped("timed-wait"), DoesNotTell(|notice| matches!(notice, Notice::SessionEnded(..))), [W8]);
+    #[test]
+    fn a_leader_that_yields_late_shows_go_beside_another_for_too_long(shipped("timed-rivals"), YieldsLate, [W3]);
+    // The follower falls back later still.
+    #[test]
+    fn a_sign_that_outlives_the_lease_shows_go_too_long_after_a_hang(hang_with_late_fallback(), NeverClosesTheCorridor(Some(Millis(170))), [W5]);
+}
+
+fn shipped(name: &str) -> Scenario {
+    Scenario::load(name).unwrap()
+}
+
+/// The lease is long enough to stand from one heartbeat to the next.
+fn with_a_long_lease() -> Scenario {
+    let long = [
+        ("t_lease = 90", "t_lease = 150"),
+        ("t_safety = 180", "t_safety = 250"),
+        NOBODY_CRASHES,
+    ];
+    pair(&long)
+}
+
+fn hang_with_late_fallback() -> Scenario {
+    let text = changed(HANG, &[("t_safety = 180", "t_safety = 250")]);
+    Scenario::parse("timed-hang", &text).unwrap()
+}
+
+/// A follower whose safety timer is shorter than the leader's lease allows.
+fn short_of_safety() -> Misconfigured {
+    Misconfigured::new(2, |settings| {
+        settings.t_safety = Millis(120);
+        settings.t_lease = Millis(40);
+    })
 }
 
 /// A requester does not look at the `t_safety` that an offer tells.
@@ -96,22 +169,8 @@ fn a_lease_that_is_longer_than_the_followers_safety_timer_allows_breaks_the_theo
 }
 
 #[test]
-fn a_safety_timer_that_is_shorter_than_the_leaders_lease_allows_breaks_the_theorem_alone() {
-    let follower = Misconfigured::new(2, |settings| {
-        settings.t_safety = Millis(120);
-        settings.t_lease = Millis(40);
-    });
-    let (violated, _) = violated(sound_pair(), TakesAnyTimers(follower));
-    assert_eq!(violated, ["I10"]);
-}
-
-#[test]
 fn an_offer_whose_safety_timer_is_shorter_than_the_lease_allows_is_not_taken() {
-    let follower = Misconfigured::new(2, |settings| {
-        settings.t_safety = Millis(120);
-        settings.t_lease = Millis(40);
-    });
-    let (violated, report) = violated(sound_pair(), follower);
+    let (violated, report) = violated(sound_pair(), short_of_safety());
     assert_eq!(violated, Vec::<String>::new());
     assert_eq!(
         report.verdict("I10-premise"),
@@ -124,21 +183,9 @@ fn follows_too_long() -> Misconfigured {
     Misconfigured::new(2, |settings| settings.t_safety = Millis(300))
 }
 
-#[test]
-fn a_safety_timer_that_is_too_long_stops_a_follower_too_late() {
-    let (violated, _) = violated(pair(&[NO_FOLLOWER_FAILS]), follows_too_long());
-    assert_eq!(violated, ["I16", "L5"]);
-}
-
 /// A requester waits longer for help than the team's settings say.
 fn asks_too_long() -> Misconfigured {
     Misconfigured::new(1, |settings| settings.t_help = Millis(350))
-}
-
-#[test]
-fn a_request_that_stands_too_long_is_noticed() {
-    let (violated, _) = violated(sound_pair(), asks_too_long());
-    assert_eq!(violated, ["I16", "L1"]);
 }
 
 /// The sign is not told that the corridor has closed, and shows go for this long after it opened or was
@@ -164,19 +211,6 @@ impl Rules for NeverClosesTheCorridor {
 const SHOWS_GO_TOO_LONG: NeverClosesTheCorridor = NeverClosesTheCorridor(Some(Millis(300)));
 
 #[test]
-fn a_corridor_that_does_not_close_in_time_is_noticed() {
-    let (violated, _) = violated(pair(&[]), SHOWS_GO_TOO_LONG);
-    // The sign also shows go when the follower has fallen back.
-    assert_eq!(violated, ["I11", "W1"]);
-}
-
-#[test]
-fn a_sign_that_shows_go_after_a_fallback_is_noticed() {
-    let (violated, _) = violated(sound_pair(), SHOWS_GO_TOO_LONG);
-    assert_eq!(violated, ["W1"]);
-}
-
-#[test]
 fn a_corridor_that_is_not_closed_ends_by_itself_in_time() {
     let (violated, report) = violated(pair(&[]), NeverClosesTheCorridor(None));
     assert_eq!(violated, Vec::<String>::new());
@@ -199,12 +233,6 @@ impl Rules for AnswersEveryRam {
             _ => outputs,
         }
     }
-}
-
-#[test]
-fn robots_that_answer_each_other_in_no_time_would_hold_time_up() {
-    let (violated, _) = violated(sound_pair(), AnswersEveryRam);
-    assert_eq!(violated, ["I12"]);
 }
 
 /// A follower renews its contact on news by this much, in place of `t_safety` in full. Joining starts with all
@@ -233,25 +261,6 @@ impl Rules for RenewsContactBy {
     }
 }
 
-/// The laws of single steps once let this pass.
-#[test]
-fn a_follower_that_waits_a_quarter_of_t_safety_is_noticed() {
-    let quarter = RenewsContactBy::new(Millis(45));
-    let (violated, _) = violated(sound_pair(), quarter);
-    assert_eq!(violated, ["I10", "I19", "W1", "W6"]);
-}
-
-#[test]
-fn a_follower_that_waits_less_than_it_promised_is_noticed_where_no_lease_shows_it() {
-    let scenario = pair(&[
-        ("t_lease = 90", "t_lease = 60"),
-        NO_FOLLOWER_FAILS,
-        NOBODY_CRASHES,
-    ]);
-    let (violated, _) = violated(scenario, RenewsContactBy::new(Millis(170)));
-    assert_eq!(violated, ["I19"]);
-}
-
 /// A robot does not tell its application this.
 struct DoesNotTell(fn(Notice) -> bool);
 
@@ -264,33 +273,6 @@ impl Rules for DoesNotTell {
         };
         outputs.iter().copied().filter(is_told).collect()
     }
-}
-
-#[test]
-fn a_leader_that_does_not_tell_of_a_lost_lease_leaves_its_application_unaware() {
-    let rules = DoesNotTell(|notice| matches!(notice, Notice::LeaseExpired(_)));
-    let (violated, _) = violated(sound_pair(), rules);
-    assert_eq!(violated, ["W6"]);
-}
-
-#[test]
-fn a_leader_that_does_not_tell_of_a_failed_maneuver_leaves_its_application_unaware() {
-    let rules = DoesNotTell(|notice| matches!(notice, Notice::ManeuverFailed(..)));
-    let scenario = pair(&[
-        // Long enough to stand from one heartbeat to the next.
-        ("t_lease = 90", "t_lease = 150"),
-        ("t_safety = 180", "t_safety = 250"),
-        NOBODY_CRASHES,
-    ]);
-    let (violated, _) = violated(scenario, rules);
-    assert_eq!(violated, ["W6"]);
-}
-
-#[test]
-fn a_request_that_ends_untold_lets_a_pedestrian_wait_for_ever() {
-    let rules = DoesNotTell(|notice| matches!(notice, Notice::SessionEnded(..)));
-    let (violated, _) = violated(Scenario::load("timed-wait").unwrap(), rules);
-    assert_eq!(violated, ["W8"]);
 }
 
 /// A leader listens to no other leader as long as its own leases are long.
@@ -311,21 +293,4 @@ impl Rules for YieldsLate {
         }
         robot.step(config, input)
     }
-}
-
-#[test]
-fn a_leader_that_yields_late_shows_go_beside_another_for_too_long() {
-    let rivals = Scenario::load("timed-rivals").unwrap();
-    let (violated, _) = violated(rivals, YieldsLate);
-    assert_eq!(violated, ["W3"]);
-}
-
-#[test]
-fn a_sign_that_outlives_the_lease_shows_go_too_long_after_a_hang() {
-    // The follower falls back later still.
-    let text = changed(HANG, &[("t_safety = 180", "t_safety = 250")]);
-    let scenario = Scenario::parse("timed-hang", &text).unwrap();
-    let rules = NeverClosesTheCorridor(Some(Millis(170)));
-    let (violated, _) = violated(scenario, rules);
-    assert_eq!(violated, ["W5"]);
 }

@@ -11,12 +11,19 @@ use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
 use crossguard_testkit::rules::*;
 
-/// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
-fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
-    assert_breaks_in(Scenario::load(scenario).unwrap(), rules, properties);
+/// A scenario, which claims one property alone where that stands behind its name.
+fn load(name: &str) -> Scenario {
+    let Some((name, claimed)) = name.split_once(": ") else {
+        return Scenario::load(name).unwrap();
+    };
+    let mut scenario = Scenario::load(name).unwrap();
+    (scenario.properties, scenario.expected) = (vec![claimed.parse().unwrap()], None);
+    scenario
 }
 
-fn assert_breaks_in(scenario: Scenario, rules: impl Rules + 'static, properties: &[PropertyId]) {
+/// Asserts that these properties break in a scenario when `rules` takes the place of the protocol.
+fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
+    let scenario = load(scenario);
     let model = Model::with_rules(scenario, rules);
     let options = Options {
         until_broken: properties.to_vec(),
@@ -63,75 +70,90 @@ fn assert_breaks_alone(scenario: &str, rules: impl Rules + 'static, properties: 
     }
 }
 
-#[test]
-fn without_offer_numbers_a_rebooted_follower_is_drawn_back() {
-    assert_breaks("pair-reboot", ConfirmsByStationAlone, &[I2, I15]);
+/// A test for each row: a scenario, a weakening, and the properties that it breaks there, alone or among others.
+macro_rules! weakenings {
+    ($($(#[$attribute:meta])* fn $name:ident($scenario:literal, $rules:expr, [$($id:ident),*] $($alone:ident)?);)*) => {
+        $($(#[$attribute])* fn $name() {
+            weakenings!(@ $($alone)? ($scenario, $rules, &[$($id),*]));
+        })*
+
+        /// The weakenings, each with what it breaks.
+        pub(crate) const BREAKS: &[(&str, &[PropertyId])] = &[$((stringify!($rules), &[$($id),*])),*];
+    };
+    (@ alone $row:tt) => { assert_breaks_alone $row };
+    (@ $row:tt) => { assert_breaks $row };
 }
 
-#[test]
-fn without_confirmation_a_robot_follows_a_leader_that_did_not_take_it() {
-    assert_breaks_alone("pair", NeedsNoConfirmation, &[I2]);
-}
-
-#[test]
-fn without_sessions_a_stale_command_is_executed() {
-    assert_breaks("pair-reboot", ObeysCommandsOfAnySession, &[I3]);
-}
-
-#[test]
-fn without_memory_of_requests_a_command_is_executed_twice_and_after_fallback() {
-    assert_breaks("pair", StartsRepeatedCommands, &[I4, I9]);
-}
-
-#[test]
-fn without_the_order_of_requests_an_older_command_is_executed() {
-    assert_breaks("pair", StartsOlderCommands, &[I5]);
-}
-
-#[test]
-fn without_request_numbers_a_late_acknowledgement_counts_for_a_newer_command() {
-    assert_breaks("pair", TakesAnyAcknowledgement, &[I6, I7]);
-}
-
-#[test]
-fn without_request_numbers_in_ram_a_stale_one_completes_a_newer_command() {
-    assert_breaks("pair", TakesAnyProgress, &[I8]);
-}
-
-#[test]
-fn a_corridor_that_is_not_closed_stays_open_over_nobody() {
-    assert_breaks_alone(
-        "pair",
-        NEVER_CLOSES_THE_CORRIDOR,
-        // Who steps on the road then does so unguarded, or sees the guards leave.
-        &[I11, W1, W2],
-    );
-}
-
-#[test]
-fn a_released_robot_that_is_not_stopped_goes_on() {
+weakenings! {
+    #[test]
+    fn without_offer_numbers_a_rebooted_follower_is_drawn_back("pair-reboot", ConfirmsByStationAlone, [I2, I15]);
+    #[test]
+    fn without_confirmation_a_robot_follows_a_leader_that_did_not_take_it("pair", NeedsNoConfirmation, [I2] alone);
+    #[test]
+    fn without_sessions_a_stale_command_is_executed("pair-reboot", ObeysCommandsOfAnySession, [I3]);
+    #[test]
+    fn without_memory_of_requests_a_command_is_executed_twice_and_after_fallback("pair", StartsRepeatedCommands, [I4, I9]);
+    #[test]
+    fn without_the_order_of_requests_an_older_command_is_executed("pair", StartsOlderCommands, [I5]);
+    #[test]
+    fn without_request_numbers_a_late_acknowledgement_counts_for_a_newer_command("pair", TakesAnyAcknowledgement, [I6, I7]);
+    #[test]
+    fn without_request_numbers_in_ram_a_stale_one_completes_a_newer_command("pair", TakesAnyProgress, [I8]);
+    // Who steps on the road then does so unguarded, or sees the guards leave.
+    #[test]
+    fn a_corridor_that_is_not_closed_stays_open_over_nobody("pair", NEVER_CLOSES_THE_CORRIDOR, [I11, W1, W2] alone);
     // What runs then was accepted for another session, if at all.
-    assert_breaks_alone("pair", NEVER_STOPS, &[I6, I14]);
-}
-
-#[test]
-fn an_identity_that_is_not_locked_may_change_in_a_session() {
-    assert_breaks_alone("offer-race", NEVER_LOCKS_ITS_IDENTITY, &[I18]);
-}
-
-#[test]
-fn a_pseudonym_that_is_in_use_makes_a_robot_follow_itself() {
-    assert_breaks_alone("pair", TakesItsLeadersPseudonym, &[I1, I2, I6, I13]);
-}
-
-#[test]
-fn a_follower_that_goes_must_not_touch_the_others() {
-    assert_breaks_alone("trio", LosesTwoForOne, &[I17]);
-}
-
-#[test]
-fn without_timers_a_follower_of_a_crashed_leader_is_stuck() {
-    assert_breaks_alone("leader-crash", FollowersWaitForEver, &[I12, L4, L5, L7]);
+    #[test]
+    fn a_released_robot_that_is_not_stopped_goes_on("pair", NEVER_STOPS, [I6, I14] alone);
+    #[test]
+    fn an_identity_that_is_not_locked_may_change_in_a_session("offer-race", NEVER_LOCKS_ITS_IDENTITY, [I18] alone);
+    #[test]
+    fn a_pseudonym_that_is_in_use_makes_a_robot_follow_itself("pair", TakesItsLeadersPseudonym, [I1, I2, I6, I13] alone);
+    #[test]
+    fn a_follower_that_goes_must_not_touch_the_others("trio", LosesTwoForOne, [I17] alone);
+    #[test]
+    fn without_timers_a_follower_of_a_crashed_leader_is_stuck("leader-crash", FollowersWaitForEver, [I12, L4, L5, L7] alone);
+    // What is sent again and again is no progress.
+    #[test]
+    fn without_a_limit_a_request_that_nobody_hears_never_ends("pair", ASKS_FOR_EVER, [I12, L1] alone);
+    #[test]
+    fn without_repeats_a_lost_command_stays_outstanding("pair", NEVER_REPEATS, [L2] alone);
+    #[test]
+    fn two_requesters_that_do_not_yield_wait_for_ever("offer-race", InsistsOnItsRequest, [I12, L1, L6] alone);
+    #[test]
+    fn without_progress_in_ram_no_task_is_ever_completed("stable", ReadsNoProgress, [L3, L7] alone);
+    #[test]
+    fn one_repeat_too_many_is_noticed_and_is_no_valid_state("pair", RepeatsOnceTooOften, [I13, I16] alone);
+    // To start it again is also not to start a newer one.
+    #[test]
+    fn a_command_that_is_started_again_while_it_runs_is_started_twice("blocker", StartsRepeatedWhileRunning, [I4, I5] alone);
+    #[test]
+    fn silence_that_is_taken_for_an_acknowledgement_is_none("pair", TakesSilenceForAnAnswer, [I6] alone);
+    #[test]
+    fn a_leader_without_timers_waits_for_its_application("offer-race", LeadsWithoutTimers, [I12, L6] alone);
+    #[test]
+    fn a_state_that_no_message_can_tell_is_no_valid_state("pair", ReportsTheLeadersLimit, [I13] alone);
+    #[test]
+    fn a_follower_that_starts_before_it_acknowledges_is_noticed("bilateral", StartsBeforeItAcknowledges, [I6] alone);
+    // Its records are those of the followers that it asked for, and all of them are engaged.
+    #[test]
+    fn a_leader_that_asks_for_too_few_lets_people_cross_unguarded("trio-corridor", AsksForFewer, [W1] alone);
+    #[test]
+    fn a_guard_that_stops_where_it_is_leaves_people_on_the_road_alone("bilateral", StopsInPlace, [W2] alone);
+    #[test]
+    fn a_leader_that_hears_no_other_goes_on_showing_go("two-teams", HearsNoLeader, [W3] alone);
+    #[test]
+    fn a_robot_that_forgets_its_duty_begins_something_new("bilateral", ForgetsItsDuty, [W4] alone);
+    // Nobody is ever idle again, for who cooperates waits for the crossing.
+    #[test]
+    fn without_positions_in_ram_nobody_ever_crosses("crossing", ReadsNoProgress, [L7, W7] alone);
+    #[test]
+    fn an_insider_moves_a_robot_that_obeys_commands_of_any_session("lying-bystander", ObeysCommandsOfAnySession, [C1]);
+    // C3 is broken first, and nothing is explored beyond that.
+    #[test]
+    fn a_follower_that_lies_speaks_for_the_others_where_one_counts_for_all("lying-follower: C2", CountsOneForAll, [C2]);
+    #[test]
+    fn a_corridor_rests_on_a_stranger_where_who_says_so_follows("lying-bystander", AdmitsWhoSaysThatItFollows, [C3]);
 }
 
 /// Timers of these kinds never expire in robots of that kind.
@@ -160,22 +182,11 @@ const ASKS_FOR_EVER: WaitsForEver = WaitsForEver {
     timer: |timer| matches!(timer, Timer::Help | Timer::IdentityLock),
 };
 
-#[test]
-fn without_a_limit_a_request_that_nobody_hears_never_ends() {
-    // What is sent again and again is no progress.
-    assert_breaks_alone("pair", ASKS_FOR_EVER, &[I12, L1]);
-}
-
 /// A command is not repeated. The identity lock of either robot would end the session, and with it the command.
 const NEVER_REPEATS: WaitsForEver = WaitsForEver {
     who: |phase| matches!(phase, Phase::Leading(_) | Phase::Following(_)),
     timer: |timer| matches!(timer, Timer::Acknowledgement(_) | Timer::IdentityLock),
 };
-
-#[test]
-fn without_repeats_a_lost_command_stays_outstanding() {
-    assert_breaks_alone("pair", NEVER_REPEATS, &[L2]);
-}
 
 /// A requester does not listen to others, and does not give up.
 struct InsistsOnItsRequest;
@@ -194,21 +205,6 @@ impl Rules for InsistsOnItsRequest {
         }
         robot.step(config, input)
     }
-}
-
-#[test]
-fn two_requesters_that_do_not_yield_wait_for_ever() {
-    assert_breaks_alone("offer-race", InsistsOnItsRequest, &[I12, L1, L6]);
-}
-
-#[test]
-fn without_progress_in_ram_no_task_is_ever_completed() {
-    assert_breaks_alone("stable", ReadsNoProgress, &[L3, L7]);
-}
-
-#[test]
-fn one_repeat_too_many_is_noticed_and_is_no_valid_state() {
-    assert_breaks_alone("pair", RepeatsOnceTooOften, &[I13, I16]);
 }
 
 /// A command that is repeated while it is executed is started once more.
@@ -234,12 +230,6 @@ impl Rules for StartsRepeatedWhileRunning {
     }
 }
 
-#[test]
-fn a_command_that_is_started_again_while_it_runs_is_started_twice() {
-    // To start it again is also not to start a newer one.
-    assert_breaks_alone("blocker", StartsRepeatedWhileRunning, &[I4, I5]);
-}
-
 /// After the last repetition, silence is taken for an acknowledgement.
 struct TakesSilenceForAnAnswer;
 
@@ -262,11 +252,6 @@ impl Rules for TakesSilenceForAnAnswer {
     }
 }
 
-#[test]
-fn silence_that_is_taken_for_an_acknowledgement_is_none() {
-    assert_breaks_alone("pair", TakesSilenceForAnAnswer, &[I6]);
-}
-
 /// A leader with nothing outstanding has no timers.
 struct LeadsWithoutTimers;
 
@@ -281,11 +266,6 @@ impl Rules for LeadsWithoutTimers {
         }
         robot.step(config, input)
     }
-}
-
-#[test]
-fn a_leader_without_timers_waits_for_its_application() {
-    assert_breaks_alone("offer-race", LeadsWithoutTimers, &[I12, L6]);
 }
 
 /// A follower that fails reports what only its leader can know.
@@ -308,61 +288,6 @@ impl Rules for ReportsTheLeadersLimit {
         }
         outputs
     }
-}
-
-#[test]
-fn a_state_that_no_message_can_tell_is_no_valid_state() {
-    assert_breaks_alone("pair", ReportsTheLeadersLimit, &[I13]);
-}
-
-#[test]
-fn a_follower_that_starts_before_it_acknowledges_is_noticed() {
-    assert_breaks_alone("bilateral", StartsBeforeItAcknowledges, &[I6]);
-}
-
-#[test]
-fn a_leader_that_asks_for_too_few_lets_people_cross_unguarded() {
-    // Its records are those of the followers that it asked for, and all of them are engaged.
-    assert_breaks_alone("trio-corridor", AsksForFewer, &[W1]);
-}
-
-#[test]
-fn a_guard_that_stops_where_it_is_leaves_people_on_the_road_alone() {
-    assert_breaks_alone("bilateral", StopsInPlace, &[W2]);
-}
-
-#[test]
-fn a_leader_that_hears_no_other_goes_on_showing_go() {
-    assert_breaks_alone("two-teams", HearsNoLeader, &[W3]);
-}
-
-#[test]
-fn a_robot_that_forgets_its_duty_begins_something_new() {
-    assert_breaks_alone("bilateral", ForgetsItsDuty, &[W4]);
-}
-
-#[test]
-fn without_positions_in_ram_nobody_ever_crosses() {
-    // Nobody is ever idle again, for who cooperates waits for the crossing.
-    assert_breaks_alone("crossing", ReadsNoProgress, &[L7, W7]);
-}
-
-#[test]
-fn an_insider_moves_a_robot_that_obeys_commands_of_any_session() {
-    assert_breaks("lying-bystander", ObeysCommandsOfAnySession, &[C1]);
-}
-
-#[test]
-fn a_follower_that_lies_speaks_for_the_others_where_one_counts_for_all() {
-    // C3 is broken first, and nothing is explored beyond that.
-    let mut scenario = Scenario::load("lying-follower").unwrap();
-    (scenario.properties, scenario.expected) = (vec![C2], None);
-    assert_breaks_in(scenario, CountsOneForAll, &[C2]);
-}
-
-#[test]
-fn a_corridor_rests_on_a_stranger_where_who_says_so_follows() {
-    assert_breaks("lying-bystander", AdmitsWhoSaysThatItFollows, &[C3]);
 }
 
 /// Removed from the protocol, three of the checks that an open corridor needs went unnoticed once.

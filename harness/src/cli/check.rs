@@ -14,7 +14,6 @@ use std::time::Duration;
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use crossguard_model_check::check::{CheckProgress, Options, Stop};
-use crossguard_model_check::cost::Cost;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
@@ -24,7 +23,7 @@ use crossguard_model_check::subject::Subject;
 use crossguard_model_check::timed::Figure;
 use crossguard_model_check::transitions::Transitions;
 use crossguard_model_check::{export, universe};
-use indicatif::{HumanCount, HumanFloatCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
 pub(super) use replay::read as read_replay;
@@ -359,7 +358,6 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
         }
     ))?;
     print(format_args!("  judged by {}", report.engines.join(" and ")))?;
-    print_cost(&report.cost)?;
     if report.size_as_expected == Some(false) {
         print("  The scenario's file expects a state space of another size.")?;
     }
@@ -418,17 +416,6 @@ fn print_authentication(report: &ScenarioReport) -> Result<(), Failure> {
         print(format_args!("  - {}: {assumed}", ids.join(", ")))?;
     }
     Ok(())
-}
-
-/// Where it is known, and the check was long enough to tell.
-fn print_cost(cost: &Cost) -> Result<(), Failure> {
-    match (cost.states_per_second_per_core, cost.bytes_per_state) {
-        (Some(rate), Some(bytes)) => print(format_args!(
-            "  {} states per second of processor time, {bytes:.0} bytes of memory per state",
-            HumanFloatCount(rate.round())
-        )),
-        _ => Ok(()),
-    }
 }
 
 fn print_figures(figures: &[Figure]) -> Result<(), Failure> {

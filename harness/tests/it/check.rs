@@ -16,9 +16,6 @@ fn check_reports_every_property_of_a_scenario_as_json() {
         assert!(scenario["unique_states"].as_u64().unwrap() > 100_000);
         assert!(scenario["depth"].as_u64().unwrap() > 10);
         assert!(scenario["seconds"].as_f64().unwrap() > 0.0);
-        if cfg!(target_os = "linux") {
-            assert!(scenario["processor_seconds"].as_f64().unwrap() > 0.0);
-        }
         for property in scenario["properties"].as_array().unwrap() {
             let verdict = property["verdict"].as_str().unwrap();
             let expected = if property["kind"] == "premise" {

@@ -12,6 +12,7 @@
 //! SPIN's bytes are what `pan` reports, less its hash table's fixed part.
 
 mod actors;
+mod cost;
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -19,10 +20,11 @@ use std::process::Command;
 use std::time::Instant;
 
 use crossguard_model_check::check::{Options, check};
-use crossguard_model_check::cost::{Meter, Of, processor_time};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
 use stateright::{Checker, Model as _};
+
+use cost::{Meter, Of, processor_time};
 
 /// How many times as fast as SPIN explores its pair `check` explores the trio, by the second and core (issue 20).
 const TIMES_SPIN_MIN: f64 = 2.0;
@@ -164,11 +166,7 @@ fn explore(name: &str, scenario: &str, threads: NonZeroUsize) {
         "actors" => actors::explore(&scenario, limit),
         other => panic!("no exploration {other}"),
     };
-    let cost = meter.read(states);
-    let (seconds, bytes) = cost
-        .processor_seconds
-        .zip(cost.bytes_per_state)
-        .expect("Linux");
+    let (seconds, bytes) = meter.read(states).expect("Linux");
     let elapsed = start.elapsed().as_secs_f64();
     println!("{states} {elapsed} {seconds} {bytes}");
 }

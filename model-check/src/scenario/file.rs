@@ -1,20 +1,20 @@
 //! The file of a scenario: its form, and what is checked before it is one. An error names its line.
 
 use crossguard_protocol::{
-    Config, HelpRequest, Inequality, MAX_FOLLOWERS, Millis, Settings, StationId, TaskSet, TaskType,
-    Urgency,
+    Config, HelpRequest, Inequality, MAX_FOLLOWERS, Millis, Settings, StationId, TaskNames,
+    TaskSet, TaskType, Urgency,
 };
 use serde::Deserialize;
 
-use super::location::Location;
+use super::location::{Location, Wrong};
 use super::symmetric::SymmetryClaim;
 use super::{
-    Bounds, ChannelSetup, Impossibility, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP,
-    RobotSetup, Scenario, ScenarioError, Size, lies, monotone,
+    Bounds, ChannelSetup, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP, RobotSetup, Scenario,
+    ScenarioError, Size, lies, monotone,
 };
 use crate::network::MAX_DELAYED;
-use crate::properties::PropertyId;
-use crate::timed::{Section, TimedImpossibility};
+use crate::properties::{PropertyId, listed};
+use crate::timed::{Section, no_place_for};
 
 /// The file's form of a scenario.
 #[derive(Deserialize)]
@@ -62,7 +62,7 @@ impl Scenario {
         })?;
         parsed
             .check()
-            .map_err(|Located { at, cause }| ScenarioError::Impossible {
+            .map_err(|Wrong { at, cause }| ScenarioError::Impossible {
                 file: file.to_owned(),
                 line: at.line_in(text),
                 cause,
@@ -70,24 +70,12 @@ impl Scenario {
     }
 }
 
-struct Located {
-    at: Location,
-    cause: Impossibility,
-}
-
-fn at(at: Location, cause: impl Into<Impossibility>) -> Located {
-    Located {
-        at,
-        cause: cause.into(),
-    }
-}
-
 impl File {
-    fn check(self) -> Result<Scenario, Located> {
-        use Impossibility as I;
+    fn check(self) -> Result<Scenario, Wrong> {
         let robots = self.robots.len();
         if !(2..=MAX_ROBOTS).contains(&robots) {
-            return Err(at(Location::Key("robots"), I::Robots(robots)));
+            let cause = format!("{robots} robots: between 2 and {MAX_ROBOTS} are possible");
+            return Err(Wrong::key("robots", cause));
         }
         self.check_robots()?;
         let of_runs = |name: &toml::Spanned<String>| {
@@ -96,26 +84,30 @@ impl File {
         };
         let is_of_runs = self.properties.iter().any(of_runs);
         if self.cooperative && is_of_runs && robots > MAX_COOPERATIVE_ROBOTS {
-            return Err(at(Location::Key("cooperative"), I::Cooperative(robots)));
+            let cause = format!(
+                "{robots} robots in a cooperative scenario: at most {MAX_COOPERATIVE_ROBOTS} are possible"
+            );
+            return Err(Wrong::key("cooperative", cause));
         }
         let delayed = self.channel.delayed;
         if usize::from(delayed) > MAX_DELAYED {
-            return Err(at(Location::Key("delayed"), I::Delayed(delayed)));
+            let cause =
+                format!("{delayed} messages delayed at a time: at most {MAX_DELAYED} are possible");
+            return Err(Wrong::key("delayed", cause));
         }
         monotone::check(
             self.channel,
             self.bounds,
             self.cooperative,
             &self.properties,
-        )
-        .map_err(|(wrong, cause)| at(wrong, cause))?;
+        )?;
         let others = [
             ("monotone", self.channel.monotone),
             ("symmetric", !self.symmetric.is_empty()),
             ("timed", self.timed.is_some()),
             ("cooperative", self.cooperative),
         ];
-        lies::check(&self.robots, others).map_err(|(wrong, cause)| at(wrong, cause))?;
+        lies::check(&self.robots, others)?;
         let request = self.request.check()?;
         let mut settings = self.protocol;
         if self.timed.is_none() {
@@ -124,7 +116,7 @@ impl File {
             settings.t_cross = Millis(1);
         }
         let config = Config::new(settings)
-            .map_err(|broken| at(Location::Key(key_of(broken.0)), I::Settings(broken)))?;
+            .map_err(|broken| Wrong::key(key_of(broken.0), broken.to_string()))?;
         let claim = SymmetryClaim {
             robots: &self.robots,
             followers: request.followers,
@@ -132,16 +124,13 @@ impl File {
             is_timed: self.timed.is_some(),
             properties: &self.properties,
         };
-        let symmetric = claim
-            .check(&self.symmetric)
-            .map_err(|(wrong, cause)| at(wrong, cause))?;
+        let symmetric = claim.check(&self.symmetric)?;
         let mut timed = None;
         if let Some(section) = self.timed {
             let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
-            let mut checked = checked.map_err(|(key, cause)| at(Location::Key(key), cause))?;
+            let mut checked = checked?;
             if self.cooperative {
-                let cause = TimedImpossibility::Untimed("cooperative");
-                return Err(at(Location::Key("cooperative"), cause));
+                return Err(no_place_for("cooperative"));
             }
             checked.properties = all_named(&self.properties, timed_property)?;
             timed = Some(checked);
@@ -170,58 +159,78 @@ impl File {
     }
 
     /// Whether the robots can be told apart, and one of them starts a run.
-    fn check_robots(&self) -> Result<(), Located> {
-        use Impossibility as I;
+    fn check_robots(&self) -> Result<(), Wrong> {
         for (i, robot) in self.robots.iter().enumerate() {
             let (one, pseudonym) = (robot.station, |id: StationId| id.0 % PSEUDONYM_STEP);
             for other in self.robots[..i].iter().map(|other| other.station) {
                 if other == one {
-                    return Err(at(Location::Key("robots"), I::SameStation(one)));
+                    return Err(Wrong::key(
+                        "robots",
+                        format!("two robots have station id {one}"),
+                    ));
                 }
                 if pseudonym(other) == pseudonym(one) {
-                    return Err(at(Location::Key("robots"), I::SamePseudonyms(other, one)));
+                    let cause = format!(
+                        "station ids {other} and {one} must not differ by a multiple of {PSEUDONYM_STEP}"
+                    );
+                    return Err(Wrong::key("robots", cause));
                 }
             }
         }
         let never_asks = |robot: &&RobotSetup| robot.urgency.is_some() && !robot.detects;
         if let Some(robot) = self.robots.iter().find(never_asks) {
-            return Err(at(
-                Location::Key("urgency"),
-                I::UnusedUrgency(robot.station),
-            ));
+            let station = robot.station;
+            let cause = format!(
+                "robot {station} has an urgency but no 'detects = true', so it never asks for help"
+            );
+            return Err(Wrong::key("urgency", cause));
         }
         let starts = |robot: &RobotSetup| robot.detects || robot.lies.is_some();
         if !self.robots.iter().any(starts) {
-            return Err(at(Location::Key("robots"), I::NobodyDetects));
+            let cause = "no robot has 'detects = true', so nothing would ever happen";
+            return Err(Wrong::key("robots", cause));
         }
         Ok(())
     }
 }
 
-fn untimed_property(name: &str, is_cooperative: bool) -> Result<PropertyId, Impossibility> {
+fn untimed_property(name: &str, is_cooperative: bool) -> Result<PropertyId, String> {
     let id = name.parse().ok();
     let id = id.filter(|id: &PropertyId| id.untimed().is_some());
-    let id = id.ok_or_else(|| Impossibility::Property(name.to_owned()))?;
+    let id = id.ok_or_else(|| {
+        format!(
+            "no property '{name}': {}",
+            listed(PropertyId::all_untimed())
+        )
+    })?;
     let rule = id.liveness_rule();
     if rule.is_some_and(|rule| rule.needs_cooperation) && !is_cooperative {
-        return Err(Impossibility::NotCooperative(id));
+        return Err(format!(
+            "{id} speaks about cooperative scenarios only; this one lacks 'cooperative = true'"
+        ));
     }
     Ok(id)
 }
 
-fn timed_property(name: &str) -> Result<PropertyId, Impossibility> {
+fn timed_property(name: &str) -> Result<PropertyId, String> {
     let id = name.parse().ok();
     let id = id.filter(|id: &PropertyId| id.timed().is_some());
-    id.ok_or_else(|| TimedImpossibility::Property(name.to_owned()).into())
+    id.ok_or_else(|| {
+        format!(
+            "no timed property '{name}': {}",
+            listed(PropertyId::all_timed())
+        )
+    })
 }
 
 /// The properties of these names.
 fn all_named(
     names: &[toml::Spanned<String>],
-    parse: impl Fn(&str) -> Result<PropertyId, Impossibility>,
-) -> Result<Vec<PropertyId>, Located> {
+    parse: impl Fn(&str) -> Result<PropertyId, String>,
+) -> Result<Vec<PropertyId>, Wrong> {
     let property = |name: &toml::Spanned<String>| {
-        parse(name.get_ref()).map_err(|cause| at(Location::Offset(name.span().start), cause))
+        let at = Location::Offset(name.span().start);
+        parse(name.get_ref()).map_err(|cause| Wrong::new(at, cause))
     };
     names.iter().map(property).collect()
 }
@@ -242,20 +251,24 @@ const fn key_of(inequality: Inequality) -> &'static str {
 }
 
 impl Request {
-    fn check(self) -> Result<HelpRequest, Located> {
+    fn check(self) -> Result<HelpRequest, Wrong> {
         let place = Location::Offset(self.followers.span().start);
         let followers = self.followers.into_inner();
         if followers == 0 || usize::from(followers) > MAX_FOLLOWERS {
-            return Err(at(place, Impossibility::Followers(followers)));
+            let cause = format!(
+                "a request for {followers} followers: between 1 and {MAX_FOLLOWERS} are possible"
+            );
+            return Err(Wrong::new(place, cause));
         }
         let mut tasks = Vec::new();
         for name in self.tasks {
             let place = Location::Offset(name.span().start);
             let name = name.into_inner();
-            match task_of(&name) {
-                Some(task) => tasks.push(task),
-                None => return Err(at(place, Impossibility::Task(name))),
-            }
+            let Some(task) = task_of(&name) else {
+                let cause = format!("no task '{name}': {TaskNames}");
+                return Err(Wrong::new(place, cause));
+            };
+            tasks.push(task);
         }
         Ok(HelpRequest {
             urgency: self.urgency,

@@ -1,11 +1,29 @@
-//! Where in a scenario file something is wrong.
+//! What is wrong with a scenario file, and where.
 
 /// Where in a file something is wrong.
-pub(super) enum Location {
+pub(crate) enum Location {
     /// At this offset.
     Offset(usize),
     /// In the line of this key.
     Key(&'static str),
+}
+
+/// What is wrong, in words, and where.
+pub(crate) struct Wrong {
+    pub(super) at: Location,
+    pub(super) cause: String,
+}
+
+impl Wrong {
+    pub(crate) fn new(at: Location, cause: impl Into<String>) -> Self {
+        let cause = cause.into();
+        Self { at, cause }
+    }
+
+    /// In the line of this key.
+    pub(crate) fn key(key: &'static str, cause: impl Into<String>) -> Self {
+        Self::new(Location::Key(key), cause)
+    }
 }
 
 impl Location {

@@ -2,46 +2,9 @@
 
 use toml::Spanned;
 
-use super::location::Location;
+use super::location::{Location, Wrong};
 use super::setup::{Bounds, ChannelSetup};
 use crate::properties::PropertyId;
-
-/// What does not fit a monotone channel.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum Misfit {
-    /// Delayed messages are counted.
-    #[error(
-        "delayed = {0} and 'monotone = true' exclude each other: on a monotone channel every message \
-         may arrive late; leave 'delayed' out"
-    )]
-    Delayed(u8),
-    /// Loss is decided about.
-    #[error(
-        "'{0}': a monotone channel decides about no loss, a message that never arrives is lost; it \
-         needs 'loss = true' and no 'losses'"
-    )]
-    Loss(&'static str),
-    /// The set of messages would grow for ever.
-    #[error(
-        "'monotone = true' needs '{0} = n' in [bounds]: the channel keeps every message, so without a \
-         bound there is no end of states"
-    )]
-    Unbounded(&'static str),
-    /// A bound for a monotone channel only.
-    #[error("'{0}' bounds runs on a monotone channel only; this one lacks 'monotone = true'")]
-    NotMonotone(&'static str),
-    /// Messages are assumed to arrive.
-    #[error(
-        "'cooperative = true' assumes that messages arrive; on a monotone channel any may never arrive"
-    )]
-    Cooperative,
-    /// A property that does not hold of such a channel.
-    #[error(
-        "{0} does not hold of a monotone channel: old requests that arrive again and again make robots \
-         offer for ever; leave it out"
-    )]
-    Property(PropertyId),
-}
 
 /// Whether a scenario's channel and what is said of it fit together.
 pub(super) fn check(
@@ -49,35 +12,58 @@ pub(super) fn check(
     bounds: Bounds,
     cooperative: bool,
     properties: &[Spanned<String>],
-) -> Result<(), (Location, Misfit)> {
+) -> Result<(), Wrong> {
     let for_monotone = [("heartbeats", bounds.heartbeats), ("offers", bounds.offers)];
     if !channel.monotone {
         let set = for_monotone.into_iter().find(|(_, bound)| bound.is_some());
         return set.map_or(Ok(()), |(key, _)| {
-            Err((Location::Key(key), Misfit::NotMonotone(key)))
+            let cause = format!(
+                "'{key}' bounds runs on a monotone channel only; this one lacks 'monotone = true'"
+            );
+            Err(Wrong::key(key, cause))
         });
     }
     if channel.delayed > 0 {
-        return Err((Location::Key("delayed"), Misfit::Delayed(channel.delayed)));
+        let cause = format!(
+            "delayed = {} and 'monotone = true' exclude each other: on a monotone channel every message \
+             may arrive late; leave 'delayed' out",
+            channel.delayed
+        );
+        return Err(Wrong::key("delayed", cause));
     }
+    let loss = |what: &str| {
+        format!(
+            "'{what}': a monotone channel decides about no loss, a message that never arrives is lost; it \
+             needs 'loss = true' and no 'losses'"
+        )
+    };
     if !channel.loss {
-        return Err((Location::Key("loss ="), Misfit::Loss("loss = false")));
+        return Err(Wrong::key("loss =", loss("loss = false")));
     }
     if bounds.losses.is_some() {
-        return Err((Location::Key("losses"), Misfit::Loss("losses")));
+        return Err(Wrong::key("losses", loss("losses")));
     }
     if let Some((key, _)) = for_monotone.into_iter().find(|(_, bound)| bound.is_none()) {
-        return Err((Location::Key("monotone"), Misfit::Unbounded(key)));
+        let cause = format!(
+            "'monotone = true' needs '{key} = n' in [bounds]: the channel keeps every message, so without a \
+             bound there is no end of states"
+        );
+        return Err(Wrong::key("monotone", cause));
     }
     if cooperative {
-        return Err((Location::Key("cooperative"), Misfit::Cooperative));
+        let cause = "'cooperative = true' assumes that messages arrive; on a monotone channel any may never arrive";
+        return Err(Wrong::key("cooperative", cause));
     }
     for name in properties {
         if let Ok(id) = name.get_ref().parse::<PropertyId>()
             && let Some(rule) = id.liveness_rule()
             && rule.broken_by_old_requests
         {
-            return Err((Location::Offset(name.span().start), Misfit::Property(id)));
+            let cause = format!(
+                "{id} does not hold of a monotone channel: old requests that arrive again and again make robots \
+                 offer for ever; leave it out"
+            );
+            return Err(Wrong::new(Location::Offset(name.span().start), cause));
         }
     }
     Ok(())

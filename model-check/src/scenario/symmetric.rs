@@ -3,51 +3,9 @@
 use crossguard_protocol::StationId;
 use toml::Spanned;
 
-use super::location::Location;
+use super::location::{Location, Wrong};
 use super::setup::{Bounds, RobotSetup};
 use crate::properties::PropertyId;
-
-/// What is wrong with the symmetry that a scenario claims.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum Asymmetry {
-    /// Not the station id of a robot.
-    #[error("no robot has station id {0}, so it cannot be symmetric")]
-    NoRobot(StationId),
-    /// A robot that is named twice.
-    #[error("robot {0} is named twice")]
-    Twice(StationId),
-    /// A single robot.
-    #[error("robot {0} is the only symmetric one: name two robots or more")]
-    Alone(StationId),
-    /// A robot that may detect a pedestrian.
-    #[error("robot {0} detects: the station ids decide which of two requesters goes before")]
-    Detects(StationId),
-    /// A requester may choose.
-    #[error(
-        "followers = {followers}: where a requester may choose, the station ids decide, so \
-         symmetric robots need followers = {needed}, all robots but the requester"
-    )]
-    Chosen {
-        /// How many are asked for.
-        followers: u8,
-        /// How many must be asked for.
-        needed: usize,
-    },
-    /// A robot may change its pseudonym.
-    #[error(
-        "disturbances = {0}: a robot that offers under two pseudonyms gives a requester a choice, and \
-         the station ids decide; symmetric robots need disturbances = 0"
-    )]
-    Pseudonyms(u8),
-    /// A timed scenario.
-    #[error(
-        "symmetric robots have no place in a timed scenario: its model treats every robot as different"
-    )]
-    Timed,
-    /// A property under fairness.
-    #[error("{0} assumes fairness to each robot by itself, which symmetric robots do not show")]
-    Fairness(PropertyId),
-}
 
 /// The part of a scenario that decides whether its robots are symmetric.
 pub(super) struct SymmetryClaim<'a> {
@@ -60,24 +18,25 @@ pub(super) struct SymmetryClaim<'a> {
 
 impl SymmetryClaim<'_> {
     /// The station ids, if the robots are symmetric.
-    pub(super) fn check(
-        &self,
-        stations: &[Spanned<StationId>],
-    ) -> Result<Vec<StationId>, (Location, Asymmetry)> {
+    pub(super) fn check(&self, stations: &[Spanned<StationId>]) -> Result<Vec<StationId>, Wrong> {
         for (i, spanned) in stations.iter().enumerate() {
             let station = *spanned.get_ref();
             let named = stations[..i].iter().map(Spanned::get_ref);
             let robot = self.robots.iter().find(|robot| robot.station == station);
             let cause = match robot {
-                None => Asymmetry::NoRobot(station),
+                None => format!("no robot has station id {station}, so it cannot be symmetric"),
                 Some(_) if named.into_iter().any(|other| *other == station) => {
-                    Asymmetry::Twice(station)
+                    format!("robot {station} is named twice")
                 }
-                Some(robot) if robot.detects => Asymmetry::Detects(station),
-                Some(_) if stations.len() == 1 => Asymmetry::Alone(station),
+                Some(robot) if robot.detects => format!(
+                    "robot {station} detects: the station ids decide which of two requesters goes before"
+                ),
+                Some(_) if stations.len() == 1 => {
+                    format!("robot {station} is the only symmetric one: name two robots or more")
+                }
                 Some(_) => continue,
             };
-            return Err((Location::Offset(spanned.span().start), cause));
+            return Err(Wrong::new(Location::Offset(spanned.span().start), cause));
         }
         if !stations.is_empty() {
             self.check_surroundings()?;
@@ -85,24 +44,35 @@ impl SymmetryClaim<'_> {
         Ok(stations.iter().map(|station| *station.get_ref()).collect())
     }
 
-    fn check_surroundings(&self) -> Result<(), (Location, Asymmetry)> {
+    fn check_surroundings(&self) -> Result<(), Wrong> {
         if self.is_timed {
-            return Err((Location::Key("symmetric"), Asymmetry::Timed));
+            let cause = "symmetric robots have no place in a timed scenario: its model treats every robot as different";
+            return Err(Wrong::key("symmetric", cause));
         }
         let (followers, needed) = (self.followers, self.robots.len() - 1);
         if usize::from(followers) != needed {
-            let cause = Asymmetry::Chosen { followers, needed };
-            return Err((Location::Key("followers"), cause));
+            let cause = format!(
+                "followers = {followers}: where a requester may choose, the station ids decide, so \
+                 symmetric robots need followers = {needed}, all robots but the requester"
+            );
+            return Err(Wrong::key("followers", cause));
         }
         if self.bounds.disturbances > 0 {
-            let cause = Asymmetry::Pseudonyms(self.bounds.disturbances);
-            return Err((Location::Key("disturbances"), cause));
+            let cause = format!(
+                "disturbances = {}: a robot that offers under two pseudonyms gives a requester a choice, and \
+                 the station ids decide; symmetric robots need disturbances = 0",
+                self.bounds.disturbances
+            );
+            return Err(Wrong::key("disturbances", cause));
         }
         for name in self.properties {
             if let Ok(id) = name.get_ref().parse::<PropertyId>()
                 && id.is_of_runs()
             {
-                return Err((Location::Offset(name.span().start), Asymmetry::Fairness(id)));
+                let cause = format!(
+                    "{id} assumes fairness to each robot by itself, which symmetric robots do not show"
+                );
+                return Err(Wrong::new(Location::Offset(name.span().start), cause));
             }
         }
         Ok(())

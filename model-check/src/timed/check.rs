@@ -10,7 +10,6 @@ use super::model::TimedModel;
 use super::section::{Looks, Rates};
 use super::state::{TimedAction, TimedCause, TimedState};
 use crate::check::{KIT, names};
-use crate::cost::Meter;
 use crate::exploration::{CheckProgress, Options};
 use crate::network::Transmission;
 use crate::properties::{Claim, PropertyId};
@@ -27,7 +26,7 @@ pub fn check(
     options: &Options,
     watch: &mut dyn FnMut(CheckProgress),
 ) -> ScenarioReport {
-    let (start, meter) = (Instant::now(), Meter::start());
+    let start = Instant::now();
     let (scenario, timed) = (model.scenario(), model.timed());
     let explored = Explored::of(model, options.threads, &options.limits(), watch);
     let size = Size {
@@ -56,7 +55,6 @@ pub fn check(
         assumptions: assumptions(model),
         transitions_taken: Transitions::default(),
         seconds: start.elapsed().as_secs_f64(),
-        cost: meter.read(size.unique_states),
     }
 }
 

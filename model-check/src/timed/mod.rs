@@ -87,8 +87,8 @@ pub use clock::{Clock, longest};
 pub use limits::Limits;
 pub use measure::Figure;
 pub use model::TimedModel;
-pub(crate) use section::Section;
-pub use section::{Looks, Rates, Timed, TimedImpossibility};
+pub use section::{Looks, Rates, Timed};
+pub(crate) use section::{Section, no_place_for};
 pub use state::{TimedAction, TimedState};
 pub use watch::StopWatch;
 

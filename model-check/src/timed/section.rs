@@ -5,7 +5,8 @@ use serde::Deserialize;
 
 use super::clock::Clock;
 use super::teams::Teams;
-use crate::properties::{PropertyId, listed};
+use crate::properties::PropertyId;
+use crate::scenario::location::Wrong;
 use crate::scenario::setup::{Bounds, ChannelSetup, RobotSetup};
 
 /// The file's form of the section.
@@ -79,99 +80,66 @@ impl Timed {
     }
 }
 
-/// What is wrong with a timed scenario.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum TimedImpossibility {
-    /// The tick is too long or zero.
-    #[error(
-        "a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, since robots take in the time once a tick"
-    )]
-    Tick {
-        /// Of the section.
-        tick: u32,
-        /// Of the settings.
-        delay_max: u32,
-    },
-    /// The delay is no number of ticks, or too many.
-    #[error(
-        "messages under way for up to {delay} ms: between 0 and 8 ticks of {tick} ms are possible"
-    )]
-    Delay {
-        /// Of the section.
-        delay: u32,
-        /// Of the section.
-        tick: u32,
-    },
-    /// The drift does not show.
-    #[error(
-        "a drift of {drift_ppm} ppm is less than 1 ms in a tick of {tick} ms: it would not show"
-    )]
-    Drift {
-        /// Of the settings.
-        drift_ppm: u32,
-        /// Of the section.
-        tick: u32,
-    },
-    /// Endpoints that look each tick are never late.
-    #[error("'late_ms' is for endpoints that look when they like: 'free = true'")]
-    Late,
-    /// Hangs without a length, a length without hangs, or one that is no time of a model.
-    #[error(
-        "hangs of up to {0} ms: between 1 and 60000 ms are possible, with 'hangs' among the bounds"
-    )]
-    Hang(u32),
-    /// No robot detects, or too many do, or the robots of no team come first.
-    #[error(
-        "{0} robots detect: in a timed scenario one does, or two that each begin a team, listed before its other robots"
-    )]
-    Detectors(usize),
-    /// A failure where two teams meet.
-    #[error("'{0}' has no place in a timed scenario with two teams: no robot fails there")]
-    TwoTeams(&'static str),
-    /// What the timed model has no use for.
-    #[error(
-        "'{0}' has no place in a timed scenario: 'delay_ms' bounds for how long messages are under way, messages get lost without number, a run begins with its one detection, and crashes are for good"
-    )]
-    Untimed(&'static str),
-    /// An unknown property.
-    #[error("no timed property '{0}': {list}", list = listed(PropertyId::all_timed()))]
-    Property(String),
+/// Why a key has no place in a timed scenario.
+pub(crate) fn no_place_for(key: &'static str) -> Wrong {
+    let cause = format!(
+        "'{key}' has no place in a timed scenario: 'delay_ms' bounds for how long messages are under way, messages get lost without number, a run begins with its one detection, and crashes are for good"
+    );
+    Wrong::key(key, cause)
 }
 
 impl Section {
-    /// The section's meaning in a scenario, or the key that is wrong and why.
+    /// The section's meaning in a scenario.
     pub(crate) fn check(
         self,
         settings: &Settings,
         robots: &[RobotSetup],
         bounds: Bounds,
         channel: ChannelSetup,
-    ) -> Result<Timed, (&'static str, TimedImpossibility)> {
-        use TimedImpossibility as I;
+    ) -> Result<Timed, Wrong> {
         let (tick, delay, drift_ppm) = (self.tick_ms, self.delay_ms, settings.drift_ppm);
         let delay_max = settings.delay_max.0;
         if !(1..=delay_max).contains(&tick) {
-            return Err(("tick_ms", I::Tick { tick, delay_max }));
+            let cause = format!(
+                "a tick of {tick} ms: between 1 ms and 'delay_max' ({delay_max} ms) are possible, since robots take in the time once a tick"
+            );
+            return Err(Wrong::key("tick_ms", cause));
         }
         let delay_ticks = u8::try_from(delay / tick).unwrap_or(u8::MAX);
         if !delay.is_multiple_of(tick) || delay_ticks > 8 {
-            return Err(("delay_ms", I::Delay { delay, tick }));
+            let cause = format!(
+                "messages under way for up to {delay} ms: between 0 and 8 ticks of {tick} ms are possible"
+            );
+            return Err(Wrong::key("delay_ms", cause));
         }
-        let clock = Clock::new(Millis(tick), drift_ppm)
-            .ok_or(("drift_ppm", I::Drift { drift_ppm, tick }))?;
+        let clock = Clock::new(Millis(tick), drift_ppm).ok_or_else(|| {
+            let cause = format!(
+                "a drift of {drift_ppm} ppm is less than 1 ms in a tick of {tick} ms: it would not show"
+            );
+            Wrong::key("drift_ppm", cause)
+        })?;
         let looks = match (self.free, self.late_ms) {
             (true, late) => Looks::Within(late.map_or(settings.delay_max, Millis)),
             (false, None) => Looks::EachTick,
-            (false, Some(_)) => return Err(("late_ms", I::Late)),
+            (false, Some(_)) => {
+                let cause = "'late_ms' is for endpoints that look when they like: 'free = true'";
+                return Err(Wrong::key("late_ms", cause));
+            }
         };
         let hang = self.hang_ms;
         if hang > 60_000 || (hang > 0) != (bounds.hangs > 0) {
             let key = if hang > 0 { "hang_ms" } else { "hangs" };
-            return Err((key, I::Hang(hang)));
+            let cause = format!(
+                "hangs of up to {hang} ms: between 1 and 60000 ms are possible, with 'hangs' among the bounds"
+            );
+            return Err(Wrong::key(key, cause));
         }
         let teams = Teams::of(robots).ok_or_else(|| {
             let detectors = robots.iter().filter(|robot| robot.detects).count();
-            ("robots", I::Detectors(detectors))
+            let cause = format!(
+                "{detectors} robots detect: in a timed scenario one does, or two that each begin a team, listed before its other robots"
+            );
+            Wrong::key("robots", cause)
         })?;
         let failures = [
             ("crashes", bounds.crashes),
@@ -181,7 +149,10 @@ impl Section {
         if teams.are_two()
             && let Some((key, _)) = failures.into_iter().find(|(_, bound)| *bound > 0)
         {
-            return Err((key, I::TwoTeams(key)));
+            let cause = format!(
+                "'{key}' has no place in a timed scenario with two teams: no robot fails there"
+            );
+            return Err(Wrong::key(key, cause));
         }
         let without_meaning = [
             ("delayed", channel.delayed),
@@ -191,7 +162,7 @@ impl Section {
             ("monotone", channel.monotone.into()),
         ];
         if let Some((key, _)) = without_meaning.into_iter().find(|(_, bound)| *bound > 0) {
-            return Err((key, I::Untimed(key)));
+            return Err(no_place_for(key));
         }
         Ok(Timed {
             clock,

@@ -150,7 +150,6 @@ pub fn check(
         &options.stop,
         processes,
     );
-    let meter = crossguard_model_check::cost::Meter::start();
     let common = Arc::new(Common {
         model: model.clone(),
         judged,
@@ -159,7 +158,7 @@ pub fn check(
         counters: Counters::default(),
     });
     let outcome = processes::run(&common, options, begin, watch)?;
-    Ok(report::of(&common, &outcome, processes, meter, begin))
+    Ok(report::of(&common, &outcome, processes, begin))
 }
 
 /// The properties of the scenario that states and steps show.

@@ -4,7 +4,6 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use crossguard_model_check::check::{assumptions, collision_probability, names};
-use crossguard_model_check::cost::{Cost, Meter};
 use crossguard_model_check::model::portable::charted;
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CutOff, PropertyReport, ScenarioReport};
@@ -71,7 +70,6 @@ pub(crate) fn of(
     common: &Common,
     outcome: &Outcome,
     processes: usize,
-    meter: Meter,
     begin: Instant,
 ) -> WorkersReport {
     let (model, told) = (&common.model, &outcome.told);
@@ -104,12 +102,6 @@ pub(crate) fn of(
             transitions: whole(transitions),
             depth: size.depth,
             seconds: begin.elapsed().as_secs_f64(),
-            // The kernel counts those of this process alone.
-            cost: if processes == 1 {
-                meter.read(size.unique_states)
-            } else {
-                Cost::default()
-            },
             engines: vec!["crossguard-workers"],
             exhaustive: cut_off.is_none(),
             cut_off,
