@@ -1,9 +1,10 @@
 //! The C++ in the README and the C on the front page of the documentation compile, with stand-ins for what a robot
-//! brings along.
+//! brings along. The examples are a whole crossing.
 
 use std::path::Path;
+use std::process::Command;
 
-use crossguard_testkit::c::{Language, compile_to_object};
+use crossguard_testkit::c::{Language, compile, compile_to_object};
 
 /// The first block of code in this language.
 fn block(page: &str, language: &str) -> String {
@@ -46,4 +47,26 @@ fn the_robot_of_the_front_page_compiles() {
         "front_page.c",
         &code,
     );
+}
+
+#[test]
+fn a_whole_crossing_fits_in_sixty_lines() {
+    let readme = include_str!("../README.md");
+    let (c, cpp) = (
+        include_str!("../examples/crossing.c"),
+        include_str!("../examples/crossing.cpp"),
+    );
+    assert!(
+        readme.contains(&format!("```c\n{c}```")),
+        "the README shows it"
+    );
+    for (language, file, code) in [
+        (Language::C, "examples/crossing.c", c),
+        (Language::Cpp, "examples/crossing.cpp", cpp),
+    ] {
+        assert!(code.lines().count() <= 60, "{file}");
+        if let Some(program) = compile("a_whole_crossing", language, file) {
+            assert!(Command::new(program).status().unwrap().success(), "{file}");
+        }
+    }
 }

@@ -1,4 +1,4 @@
-"""One robot of a crossing, in Python: what harness/c/examples/crossing.cpp does.
+"""One robot of a crossing, in Python: what harness/c/tests/robot.c does.
 
 Usage: crossing.py leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
 

@@ -1,5 +1,5 @@
-//! Robots in C and C++ (`harness/c/examples`) and robots of `crossguard run`, as processes of their own,
-//! lead and follow each other through a crossing.
+//! A robot in C (`harness/c/tests/robot.c`) and robots of `crossguard run`, as processes of their own, lead and follow each
+//! other through a crossing.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -88,18 +88,6 @@ fn assert_valid(embedded: &str, rust: &str) {
     }
 }
 
-/// Both roles, beside a robot of `crossguard run` in the other one.
-fn cross(language: Language) {
-    let source = match language {
-        Language::C => "examples/crossing.c",
-        Language::Cpp => "examples/crossing.cpp",
-    };
-    if let Some(program) = compile("crossing", language, source) {
-        leads(&program);
-        follows(&program);
-    }
-}
-
 fn leads(program: &Path) {
     let folder = tempfile::tempdir().unwrap();
     let port = two_free_ports();
@@ -136,10 +124,8 @@ fn follows(program: &Path) {
 
 #[test]
 fn a_robot_in_c_leads_and_follows() {
-    cross(Language::C);
-}
-
-#[test]
-fn a_robot_in_cpp_leads_and_follows_and_its_log_is_valid() {
-    cross(Language::Cpp);
+    if let Some(program) = compile("crossing", Language::C, "tests/robot.c") {
+        leads(&program);
+        follows(&program);
+    }
 }
