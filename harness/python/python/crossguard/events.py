@@ -8,7 +8,6 @@ from typing import TypeAlias
 from ._wire import Positional, Variant
 from .types import Availability, HelpRequest, ManeuverId, TaskType, UniqueNumber
 
-
 # <words>
 
 

@@ -9,7 +9,6 @@ from . import reasons
 from ._wire import Positional
 from .types import ManeuverId, SessionId
 
-
 # <words>
 
 

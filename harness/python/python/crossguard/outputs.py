@@ -16,7 +16,6 @@ from .body import TaskParameters
 from .notices import Notice
 from .types import FallbackPolicy, Maneuver
 
-
 # <words>
 
 

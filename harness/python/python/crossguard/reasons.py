@@ -12,7 +12,6 @@ from typing import TypeAlias
 
 from ._wire import Positional, Variant
 
-
 # <words>
 
 
@@ -440,14 +439,7 @@ CorridorClosure: TypeAlias = NotEngaged | FollowerMissing | SessionEnded | Yield
 
 
 Disengagement: TypeAlias = (
-    NoLease
-    | CommandOutstanding
-    | NotExecuting
-    | NotGuarding
-    | NotInPosition
-    | Completed
-    | Failed
-    | SafeIdle
+    NoLease | CommandOutstanding | NotExecuting | NotGuarding | NotInPosition | Completed | Failed | SafeIdle
 )
 """Why a follower does not hold the corridor."""
 

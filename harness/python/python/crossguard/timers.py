@@ -7,7 +7,6 @@ from typing import TypeAlias
 
 from ._wire import Positional, Variant
 
-
 # <words>
 
 

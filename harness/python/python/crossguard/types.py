@@ -13,7 +13,6 @@ from typing import TypeAlias
 from . import reasons
 from ._wire import Variant
 
-
 # <words>
 
 
