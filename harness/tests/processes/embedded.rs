@@ -1,4 +1,4 @@
-//! A robot in C (`harness/c/tests/robot.c`) and robots of `crossguard run`, as processes of their own, lead and follow each
+//! A robot in C (`harness/c/examples/robot.c`) and robots of `crossguard run`, as processes of their own, lead and follow each
 //! other through a crossing.
 
 use std::fs::File;
@@ -124,7 +124,7 @@ fn follows(program: &Path) {
 
 #[test]
 fn a_robot_in_c_leads_and_follows() {
-    if let Some(program) = compile("crossing", Language::C, "tests/robot.c") {
+    if let Some(program) = compile("crossing", Language::C, "examples/robot.c") {
         leads(&program);
         follows(&program);
     }

@@ -4,7 +4,7 @@
  *
  *     crossguard run --config harness/examples/go2.toml
  *
- * Usage: crossing leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
+ * Usage: robot leader|follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
  *
  * Four things in it keep people alive; when you copy it, keep them and put your own robot behind them:
  *
