@@ -3,7 +3,7 @@
     python mcap_judge.py LOG FILE
 
 reads FILE by the reader of its inventors (PyPI mcap) and holds it against LOG, the JSON lines that it was
-made of by harness/python/examples/foxglove.py: those with Foxglove's names must be messages of Foxglove's own definitions, times must not go back, and what is in the file must be what the
+made of by harness/judge/foxglove.py: those with Foxglove's names must be messages of Foxglove's own definitions, times must not go back, and what is in the file must be what the
 log says, no more and no less. Ends with exit code 0 when it agrees.
 
     mcap (MIT), foxglove-schemas-protobuf (MIT), protobuf (BSD-3-Clause)

@@ -94,7 +94,7 @@ fn an_independent_reader_finds_the_log_in_the_mcap_file() {
         let facts = path("facts.jsonl");
         let output = command::run(&["export", &text(&log), "--facts", &text(&facts)]);
         assert!(output.status.success(), "{}", stderr(&output));
-        judge("../python/examples/foxglove.py", &[&facts, &file], "");
+        judge("../judge/foxglove.py", &[&facts, &file], "");
         judge("mcap_judge.py", &[&log, &file], "");
     }
 }

@@ -33,7 +33,7 @@ pub(super) struct Arguments {
 const AFTER_HELP: &str = "\
 Logs are what --log of run, demo and fuzz writes. Those of several robots become one recording, in the \
 order of the clocks of their machines. Nothing is judged here: that is what validate is for. \
-harness/python/examples/foxglove.py makes an MCAP file for Foxglove of the facts.";
+harness/judge/foxglove.py makes an MCAP file for Foxglove of the facts.";
 
 /// A fact of a robot, as a line of a file.
 #[derive(Serialize)]
