@@ -114,3 +114,45 @@ where
 {
     reader.skip(usize::from(kani::any::<u16>()))
 }
+
+/// Declares the harnesses of containers, each with how often Kani unwinds its loops: all values, and what must be among
+/// them; any octets up to the maximum length, without extension additions; all values, and every cut.
+macro_rules! containers {
+    (
+        comes_back { $($back:ident($value:ty, $value_unwind:literal, $class:expr);)+ }
+        is_canonical { $($canonical:ident($coded:ty, $coded_unwind:literal);)+ }
+        $(cut_short_is_refused { $($cut:ident($whole:ty, $whole_unwind:literal);)+ })?
+    ) => {
+        $crate::harness::harnesses! {
+            $(
+                #[doc = concat!("All values of `", stringify!($value), "`.")]
+                #[unwind($value_unwind)]
+                #[solver(cadical)]
+                #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::never)]
+                fn $back() {
+                    super::values::<$value, { crossguard_codec::core::max_octets::<$value>() }>($class);
+                }
+            )+
+            $(
+                #[doc = concat!("Any octets that are to be a `", stringify!($coded), "`.")]
+                #[unwind($coded_unwind)]
+                #[solver(cadical)]
+                #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::no_additions)]
+                fn $canonical() {
+                    super::octets::<$coded, { crossguard_codec::core::max_octets::<$coded>() }>();
+                }
+            )+
+            $($(
+                #[doc = concat!("All values of `", stringify!($whole), "`, cut anywhere.")]
+                #[unwind($whole_unwind)]
+                #[solver(cadical)]
+                #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::never)]
+                fn $cut() {
+                    super::cuts::<$whole, { crossguard_codec::core::max_octets::<$whole>() }>();
+                }
+            )+)?
+        }
+    };
+}
+
+use containers;

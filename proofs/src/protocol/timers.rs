@@ -27,3 +27,24 @@ const fn peers(stage: Role) -> (usize, usize) {
 pub(super) fn any_within_a_step(config: &Config, stage: Role) -> Robot {
     arbitrary::robot(&mut Symbolic, config, stage, peers(stage))
 }
+
+/// Declares a harness of this for each stage.
+macro_rules! each_stage {
+    ($harness:ident) => {
+        $crate::protocol::timers::each_stage! { $harness:
+            idle(None) requesting(Requester) offering(Helper) following(Follower) leading(Leader)
+        }
+    };
+    ($harness:ident: $($name:ident($role:ident))+) => {
+        $crate::harness::harnesses! { $(
+            #[doc = concat!("A robot with the role *", stringify!($role), "*.")]
+            #[unwind(6)]
+            #[solver(cadical)]
+            fn $name() {
+                $harness(Role::$role);
+            }
+        )+ }
+    };
+}
+
+use each_stage;

@@ -3,8 +3,7 @@
 use crossguard_protocol::laws::{Source, budgets, timers as laws};
 use crossguard_protocol::{Millis, Role};
 
-use super::peers;
-use crate::harness::harnesses;
+use super::{each_stage, peers};
 use crate::protocol::stage::{self, any_valid};
 use crate::{Symbolic, kani};
 
@@ -19,39 +18,4 @@ fn any_running(stage: Role) {
     kani::cover!(!is_any_due, "none is due");
 }
 
-harnesses! {
-    /// A robot without a part in a session.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn idle() {
-        any_running(Role::None);
-    }
-
-    /// A requester.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn requesting() {
-        any_running(Role::Requester);
-    }
-
-    /// A helper.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn offering() {
-        any_running(Role::Helper);
-    }
-
-    /// A follower.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn following() {
-        any_running(Role::Follower);
-    }
-
-    /// A leader.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn leading() {
-        any_running(Role::Leader);
-    }
-}
+each_stage! { any_running }

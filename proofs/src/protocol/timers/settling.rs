@@ -3,8 +3,7 @@
 use crossguard_protocol::laws::timers as laws;
 use crossguard_protocol::{Millis, Role};
 
-use super::any_within_a_step;
-use crate::harness::harnesses;
+use super::{any_within_a_step, each_stage};
 use crate::kani;
 use crate::protocol::stage;
 
@@ -18,39 +17,4 @@ fn any_settling(stage: Role) {
     kani::cover!(!is_valid, "not valid yet");
 }
 
-harnesses! {
-    /// A robot without a part in a session.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn idle() {
-        any_settling(Role::None);
-    }
-
-    /// A requester.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn requesting() {
-        any_settling(Role::Requester);
-    }
-
-    /// A helper.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn offering() {
-        any_settling(Role::Helper);
-    }
-
-    /// A follower.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn following() {
-        any_settling(Role::Follower);
-    }
-
-    /// A leader.
-    #[unwind(6)]
-    #[solver(cadical)]
-    fn leading() {
-        any_settling(Role::Leader);
-    }
-}
+each_stage! { any_settling }
